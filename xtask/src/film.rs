@@ -201,7 +201,7 @@ fn stages(
 }
 
 fn parsed<A: ToolArgs>(line: &str) -> Result<A, String> {
-    parse_words::<A>(line.split_whitespace().map(Into::into)).map(|(args, _)| args).map_err(text)
+    parse_words::<A>(line.split_whitespace().map(Into::into)).map_err(text)
 }
 
 fn text(error: impl std::fmt::Display) -> String {

@@ -6,7 +6,7 @@ use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Provenance, Source, pipe};
 use ugphysics::{Brightness, Velocity};
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers};
 use ugscene::CameraError;
 use ugscene::cli::{EyeArgs, RepeatArgs};
 
@@ -18,7 +18,7 @@ use crate::{Config, DEFAULT_TOLERANCE, Error, Note, PROVENANCE, apply_with};
 /// converted to a wavelength, which is divided by the Doppler factor D and converted back to a hue;
 /// brightness is multiplied by D. Faces carry their velocity, and the camera the eye, so the
 /// options -vel and -ep of uglorentz need not be repeated.
-#[derive(Parser, Debug)]
+#[derive(Clone, Parser, Debug)]
 #[command(name = "ugdoppler", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Velocity of faces that carry none, fractions of c
@@ -89,6 +89,8 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
+
+numbers!(Args { "vel" => vel, "ct" => ct } eye);
 
 const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png

@@ -2,10 +2,12 @@
 
 use ugimage::{LinearFrame, Metadata};
 use ugparse::Scene;
-use ugpicture::{Annotated, Error, Exposure, Image, Layout, Output};
-use ugpipe::{Failure, Words, sha256};
+use ugpicture::{Annotated, Content, Image, Layout, Output, PictureOptions, Rendering};
+use ugpipe::sha256;
 
-use crate::draw::{Drawn, Picture, Stages, Subject};
+use crate::error::Error;
+use crate::note::Note;
+use crate::pipe::{Pipe, Subject};
 
 /// How long the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,9 +34,9 @@ impl MotionBlur {
 /// A frame that can be drawn.
 pub struct Shot {
     /// The frame at its own moment.
-    pub frame: Stages,
+    pub frame: Pipe,
     /// The moments while the shutter is open; none without a shutter.
-    pub moments: Vec<Stages>,
+    pub moments: Vec<Pipe>,
 }
 
 impl Shot {
@@ -51,56 +53,39 @@ impl Shot {
     /// # Errors
     /// The scene or panorama cannot be drawn with these options, or the mean of its moments cannot
     /// have what they ask for.
-    pub fn draw(self, subject: Subject<'_>) -> Result<Drawn, Failure> {
+    pub fn draw(self, subject: Subject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
         if self.moments.is_empty() {
             return self.frame.draw(subject);
         }
-        mean(&self.frame, self.moments, subject)
+        Ok((mean(&self.frame.picture, self.moments, subject)?, Vec::new()))
     }
 }
 
-/// Draws the mean light of several moments, developed and annotated as `frame` says.
-fn mean(frame: &Stages, moments: Vec<Stages>, subject: Subject<'_>) -> Result<Drawn, Failure> {
-    let whole = frame.picture();
+/// Draws the mean light of several moments, developed and annotated as `whole` says.
+fn mean(whole: &PictureOptions, moments: Vec<Pipe>, subject: Subject<'_>) -> Result<Rendering, Error> {
     let has_more = whole.annotations.legend || whole.annotations.outline || whole.annotations.grid;
     if has_more || !whole.channels.is_empty() || matches!(whole.output, Output::Vector(_)) {
-        return Err(Failure::usage(
-            "-blur gives the mean of several moments: leave out -lg, -gr, -dl, -ch and vector formats",
-        ));
+        return Err(Error::Mean);
     }
-    let layout = Layout::new(whole).map_err(|error| Failure::usage(error.words()))?;
-    let picture = layout.of_scene(whole).into_owned();
+    let layout = Layout::new(whole)?;
+    let picture = layout.of_scene(whole);
     let mut sum = Sum::default();
-    for mut stages in moments {
-        stages.picture_mut().size = picture.size;
-        sum.add(&stages.light(subject)?);
+    for mut moment in moments {
+        moment.picture.size = picture.size;
+        sum.add(&moment.light(subject)?);
     }
-    let mut light = sum.mean();
-    if picture.output.is_linear() {
-        return Ok(drawn(Image::Light(light), picture.output, frame));
-    }
-    let development = Exposure::development(picture.exposure, picture.tone, || &light);
-    for [red, green, blue, _] in light.pixels_mut() {
-        [*red, *green, *blue] = development.apply([*red, *green, *blue]);
-    }
-    let is_deep = picture.output.format().is_some_and(|format| format.is_deep());
-    let image = if is_deep { Image::Light(light) } else { Image::Display(light.to_display()) };
+    let (image, development) = Image::developed(sum.mean(), &picture, false);
     // A caption is independent of the scene.
     let scene = Scene::default();
     let annotated = Annotated { scene: &scene, camera: &picture.camera, is_shifted: false, seen: None };
-    let annotations = layout.annotate(annotated, &picture, Some(development), |_, _, _| Err(Error::NoRoom));
-    let image = annotations.map_err(|error| Failure::failed(error.words()))?.composite(image);
-    Ok(drawn(image, picture.output, frame))
-}
-
-fn drawn(image: Image, output: Output, frame: &Stages) -> Drawn {
-    Drawn { picture: Picture::Mean(image, output, frame.compression()), notes: Vec::new() }
+    let annotations = layout.annotate(annotated, &picture, development, |_, _, _| Err(Error::Mean))?;
+    Ok(Rendering::new(Content::Image(annotations.composite(image)), &picture, Vec::new()))
 }
 
 /// What the file says about its making. No single pipe draws it, so it has none of the lines that
 /// can be run; the hash is that of the records of all moments.
-fn metadata(frame: &Stages, moments: &[Stages], subject: Subject<'_>) -> Metadata {
-    let records: Vec<String> = moments.iter().map(|stages| stages.metadata(subject).comment).collect();
+fn metadata(frame: &Pipe, moments: &[Pipe], subject: Subject<'_>) -> Metadata {
+    let records: Vec<String> = moments.iter().map(|pipe| pipe.metadata(subject).comment).collect();
     let Metadata { software, comment } = frame.metadata(subject);
     let commands = comment.lines().filter(|line| !line.contains(" # SHA-256 "));
     let mean = format!(

@@ -12,14 +12,14 @@ use ugpipe::{
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note};
 
 use crate::blur::MotionBlur;
-use crate::draw::{Stages, Subject};
 use crate::film::{Film, Summary, Target};
 use crate::frame_files::valid_since;
 use crate::keys;
-use crate::options::{Given, ProgramOptions};
+use crate::options::{EXACT, Given, PANORAMA, PIPE, ProgramOptions, RAYS};
 use crate::output::{Output, names_of};
+use crate::pipe::Subject;
 use crate::print;
-use crate::program::Method;
+use crate::program::Program;
 use crate::script::Script;
 use crate::timeline::Ease;
 
@@ -200,7 +200,8 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 fn tell(summary: &Summary, context: &Context) {
-    summary.notes.iter().for_each(|note| context.note(&format!("first frame: {note}")));
+    let notes = summary.notes.iter().flat_map(crate::note::Note::words);
+    notes.for_each(|note| context.note(&format!("first frame: {note}")));
     let Summary { n_drawn, n_done, n_elsewhere, .. } = summary;
     if *n_done + *n_elsewhere > 0 {
         let elsewhere = match n_elsewhere {
@@ -283,7 +284,7 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
     // Frames that are wrong are reported when they are drawn.
     let motion = |step: u32| {
         let frame = 1.0 + f64::from(step) / f64::from(FITTED_STEPS) * f64::from(script.n_frames - 1);
-        Some(Stages::new(&script.commands(frame).ok()?, Format::Png).ok()?.motion())
+        script.pipe(frame, Format::Png).ok()?.programs().iter().find_map(Program::motion)
     };
     let motions: Vec<MotionOptions> = (0..=FITTED_STEPS).filter_map(motion).collect();
     ugscene::common_camera(scene, &CameraOptions::default(), [4, 3], &motions)
@@ -293,13 +294,13 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
 impl Args {
     fn script(&self, context: &Context) -> Result<Script, Failure> {
         let exact = Given { name: "xc".to_owned(), values: Vec::new() };
-        let method = match (self.warp, self.rays, self.options.given.contains(&exact)) {
-            (true, ..) => Method::Warp,
-            (false, true, _) => Method::Rays,
-            (false, false, true) => Method::Exact,
-            (false, false, false) => Method::Pipe,
+        let tools = match (self.warp, self.rays, self.options.given.contains(&exact)) {
+            (true, ..) => PANORAMA,
+            (false, true, _) => RAYS,
+            (false, false, true) => EXACT,
+            (false, false, false) => PIPE,
         };
-        let mut script = Script::new(method, self.frames);
+        let mut script = Script::new(tools, self.frames);
         script.ease = self.ease;
         script.is_loop = self.is_loop;
         script.reading = self.common.reading_words();
@@ -315,10 +316,8 @@ impl Args {
     /// The panorama of a file, of which the first frame says which part of the sphere it is, and
     /// stars.
     fn panorama(&self, script: &Script, input: &Input, context: &Context) -> Result<ugwarp::Opened, Failure> {
-        let commands = script.commands(1.0)?;
-        let words = commands.stages.into_iter().flat_map(|(_, words)| words).map(OsString::from);
-        let (args, _) = parse_words::<ugwarp::Args>(words)?;
-        args.open(input, context)
+        let words = script.commands(1.0)?.0.concat();
+        parse_words::<ugwarp::Args>(words.into_iter().map(OsString::from))?.open(input, context)
     }
 
     /// The numbers of the frames to draw.

@@ -4,14 +4,17 @@ use std::path::Path;
 use std::time::SystemTime;
 
 use ugimage::{Format, Frame, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
+use ugpicture::Rendering;
 use ugpipe::{Context, Failure, Progress, Steps, Words};
 use ugsheet::Picture;
 
 use crate::animation::{Palette, Shape};
 use crate::blur::{MotionBlur, Shot};
-use crate::draw::{Drawn, Stages, Subject};
 use crate::encode::{Ffmpeg, Kind, Stream};
+use crate::error::Error;
 use crate::frame_files::{Claim, FrameNames, is_done};
+use crate::note::Note;
+use crate::pipe::{Pipe, Subject};
 use crate::script::Script;
 use crate::work::in_order;
 
@@ -39,7 +42,7 @@ pub struct Film<'s> {
 }
 
 /// What became of the frames.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Frames that were drawn.
     pub n_drawn: u32,
@@ -48,19 +51,34 @@ pub struct Summary {
     /// Frames that another process draws.
     pub n_elsewhere: u32,
     /// Notes of the first frame that was drawn.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// What became of a frame.
 enum Outcome {
-    Drawn(Vec<String>),
+    Drawn(Vec<Note>),
     Done,
     Elsewhere,
 }
 
+impl Summary {
+    fn add(&mut self, outcome: Outcome) {
+        match outcome {
+            Outcome::Drawn(notes) => {
+                if self.n_drawn == 0 {
+                    self.notes = notes;
+                }
+                self.n_drawn += 1;
+            }
+            Outcome::Done => self.n_done += 1,
+            Outcome::Elsewhere => self.n_elsewhere += 1,
+        }
+    }
+}
+
 impl Film<'_> {
-    fn stages(&self, frame: u32) -> Result<Stages, Failure> {
-        Stages::new(&self.script.commands(f64::from(frame))?, self.format)
+    fn pipe(&self, frame: u32) -> Result<Pipe, Failure> {
+        self.script.pipe(f64::from(frame), self.format)
     }
 
     /// The moments whose mean a frame is, in frames; `None` without motion blur.
@@ -71,16 +89,15 @@ impl Film<'_> {
     }
 
     fn shot(&self, frame: u32) -> Result<Shot, Failure> {
-        let stages = |moment: f64| Stages::new(&self.script.light_commands(moment)?, self.format);
-        let moments =
-            self.moments(frame).unwrap_or_default().into_iter().map(stages).collect::<Result<_, _>>()?;
-        Ok(Shot { frame: self.stages(frame)?, moments })
+        let pipe = |moment: f64| self.script.light_pipe(moment, self.format);
+        let moments = self.moments(frame).unwrap_or_default().into_iter().map(pipe);
+        Ok(Shot { moments: moments.collect::<Result<_, _>>()?, frame: self.pipe(frame)? })
     }
 
     fn file(&self, frame: u32) -> Result<Vec<u8>, Failure> {
         let shot = self.shot(frame)?;
         let metadata = shot.metadata(self.subject);
-        Ok(shot.draw(self.subject)?.picture.into_file(&metadata))
+        Ok(shot.draw(self.subject).map_err(failure)?.0.into_file(&metadata))
     }
 
     fn is_done(&self, path: &Path, metadata: &Metadata) -> bool {
@@ -92,7 +109,7 @@ impl Film<'_> {
     /// # Errors
     /// The commands of the first frame are wrong, or the size changes.
     pub fn size(&self) -> Result<[u32; 2], Failure> {
-        let size = |frame| Ok::<_, Failure>(about(frame, self.stages(frame))?.picture().size);
+        let size = |frame| Ok::<_, Failure>(about(frame, self.pipe(frame))?.picture.size);
         let first = size(1)?;
         if size(self.script.n_frames)? != first {
             return Err(Failure::usage("all frames of a film have one size: give one -sz"));
@@ -108,7 +125,7 @@ impl Film<'_> {
     fn check(&self, frames: &[u32]) -> Result<(), Failure> {
         let step = frames.len().div_ceil(MOST_CHECKED).max(1);
         let checked = frames.iter().step_by(step).chain(frames.last());
-        checked.into_iter().try_for_each(|&frame| about(frame, self.stages(frame)).map(|_| ()))
+        checked.into_iter().try_for_each(|&frame| about(frame, self.pipe(frame)).map(|_| ()))
     }
 
     /// At most `most` frames spread evenly over the film, among them the first and the last.
@@ -119,24 +136,40 @@ impl Film<'_> {
         (0..count).map(|row| 1 + (u64::from(row) * u64::from(last) / steps) as u32).collect()
     }
 
-    /// Small pictures of frames spread over the film, without exposure, and their tone curve.
-    fn measured(&self, steps: &Steps<'_>) -> Result<Vec<LinearFrame>, Failure> {
-        let spread = self.spread(MOST_MEASURED);
-        steps.count("measuring", spread.len() as u64);
-        let mut frames = Vec::new();
-        let light = |row: usize| {
-            let frame = spread[row];
-            about(
-                frame,
-                self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).light(self.subject)),
-            )
-        };
-        in_order(spread.len(), light, |_, light| {
-            frames.push(light);
-            steps.done(1);
+    /// Computes something for each of some frames, several at the same time, and consumes it in
+    /// their order.
+    fn each<T: Send>(
+        &self,
+        (step, steps): (&'static str, &Steps<'_>),
+        frames: &[u32],
+        compute: impl Fn(u32) -> Result<T, Failure> + Sync,
+        mut consume: impl FnMut(u32, T) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        steps.count(step, frames.len() as u64);
+        in_order(
+            frames.len(),
+            |row| about(frames[row], compute(frames[row])),
+            |row, computed| {
+                consume(frames[row], computed)?;
+                steps.done(1);
+                Ok(())
+            },
+        )
+    }
+
+    /// Small pictures of frames spread over the film.
+    fn small<T: Send>(
+        &self,
+        step: (&'static str, &Steps<'_>),
+        draw: impl Fn(Pipe) -> Result<T, Error> + Sync,
+    ) -> Result<Vec<T>, Failure> {
+        let mut pictures = Vec::new();
+        let small = |frame| draw(self.pipe(frame)?.small(MEASURED_SIDE)).map_err(failure);
+        self.each(step, &self.spread(MOST_MEASURED), small, |_, picture| {
+            pictures.push(picture);
             Ok(())
         })?;
-        Ok(frames)
+        Ok(pictures)
     }
 
     /// The exposure at which 99 of 100 lit pixels of the film are at or below white, in stops.
@@ -144,28 +177,16 @@ impl Film<'_> {
     /// # Errors
     /// A frame cannot be drawn.
     pub fn exposure(&self, steps: &Steps<'_>) -> Result<f64, Failure> {
-        let tone = self.stages(1)?.picture().tone;
-        let frames = self.measured(steps)?;
-        let pixels: Vec<[f32; 4]> = frames.iter().flat_map(|frame| frame.pixels().to_vec()).collect();
+        let tone = self.pipe(1)?.picture.tone;
+        let frames = self.small(("measuring", steps), |pipe| pipe.light(self.subject))?;
+        let pixels: Vec<[f32; 4]> = frames.iter().flat_map(LinearFrame::pixels).copied().collect();
         Ok(auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), tone))
     }
 
     /// The colours of a GIF.
     fn palette(&self, steps: &Steps<'_>) -> Result<Palette, Failure> {
-        let spread = self.spread(MOST_MEASURED);
-        steps.count("choosing colours", spread.len() as u64);
-        let mut pixels = Vec::new();
-        let small = |row: usize| {
-            let frame = spread[row];
-            let drawn = self.stages(frame).and_then(|stages| stages.small(MEASURED_SIDE).draw(self.subject));
-            about(frame, drawn.and_then(|drawn| drawn.picture.into_frame()))
-        };
-        in_order(spread.len(), small, |_, frame| {
-            pixels.extend_from_slice(frame.pixels());
-            steps.done(1);
-            Ok(())
-        })?;
-        Ok(Palette::new(&pixels))
+        let frames = self.small(("choosing colours", steps), |pipe| pixels(pipe.draw(self.subject)?.0))?;
+        Ok(Palette::new(&frames.iter().flat_map(Frame::pixels).copied().collect::<Vec<_>>()))
     }
 
     /// Writes frames as numbered files. Frames whose files were made by the same commands of the
@@ -180,20 +201,9 @@ impl Film<'_> {
         steps: &Steps<'_>,
     ) -> Result<Summary, Failure> {
         let mut summary = Summary::default();
-        steps.count("drawing", frames.len() as u64);
-        let draw = |row: usize| about(frames[row], self.write_file(frames[row], &names.path(frames[row])));
-        in_order(frames.len(), draw, |_, outcome| {
-            match outcome {
-                Outcome::Drawn(notes) => {
-                    if summary.n_drawn == 0 {
-                        summary.notes = notes;
-                    }
-                    summary.n_drawn += 1;
-                }
-                Outcome::Done => summary.n_done += 1,
-                Outcome::Elsewhere => summary.n_elsewhere += 1,
-            }
-            steps.done(1);
+        let write = |frame| self.write_file(frame, &names.path(frame));
+        self.each(("drawing", steps), frames, write, |_, outcome| {
+            summary.add(outcome);
             Ok(())
         })?;
         Ok(summary)
@@ -210,7 +220,7 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let Drawn { picture, notes } = shot.draw(self.subject)?;
+        let (picture, notes) = shot.draw(self.subject).map_err(failure)?;
         Context::write_now(path, &picture.into_file(&metadata))?;
         Ok(Outcome::Drawn(notes))
     }
@@ -228,42 +238,34 @@ impl Film<'_> {
         mut consume: impl FnMut(&Frame) -> Result<(), Failure>,
     ) -> Result<Summary, Failure> {
         let mut summary = Summary::default();
-        steps.count("drawing", frames.len() as u64);
-        let draw = |row: usize| about(frames[row], self.frame(frames[row], keep));
-        in_order(frames.len(), draw, |_, (frame, notes)| {
-            match notes {
-                Some(notes) => {
-                    if summary.n_drawn == 0 {
-                        summary.notes = notes;
-                    }
-                    summary.n_drawn += 1;
-                }
-                None => summary.n_done += 1,
-            }
-            consume(&frame)?;
-            steps.done(1);
-            Ok(())
-        })?;
+        self.each(
+            ("drawing", steps),
+            frames,
+            |frame| self.frame(frame, keep),
+            |_, (frame, outcome)| {
+                summary.add(outcome);
+                consume(&frame)
+            },
+        )?;
         Ok(summary)
     }
 
-    /// The pixels of a frame, and notes if it was drawn.
-    fn frame(&self, frame: u32, keep: Option<&FrameNames>) -> Result<(Frame, Option<Vec<String>>), Failure> {
+    /// The pixels of a frame, and what became of it.
+    fn frame(&self, frame: u32, keep: Option<&FrameNames>) -> Result<(Frame, Outcome), Failure> {
         let shot = self.shot(frame)?;
-        let Some(names) = keep else {
-            let Drawn { picture, notes } = shot.draw(self.subject)?;
-            return Ok((picture.into_frame()?, Some(notes)));
-        };
-        let path = names.path(frame);
-        let metadata = shot.metadata(self.subject);
-        if self.is_done(&path, &metadata) {
-            let read = std::fs::read(&path);
+        let kept = keep.map(|names| (names.path(frame), shot.metadata(self.subject)));
+        if let Some((path, metadata)) = &kept
+            && self.is_done(path, metadata)
+        {
+            let read = std::fs::read(path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
-            return Ok((read_png(&read).map_err(Failure::failed)?.0, None));
+            return Ok((read_png(&read).map_err(Failure::failed)?.0, Outcome::Done));
         }
-        let Drawn { picture, notes } = shot.draw(self.subject)?;
-        Context::write_now(&path, &picture.clone().into_file(&metadata))?;
-        Ok((picture.into_frame()?, Some(notes)))
+        let (picture, notes) = shot.draw(self.subject).map_err(failure)?;
+        if let Some((path, metadata)) = &kept {
+            Context::write_now(path, &picture.clone().into_file(metadata))?;
+        }
+        Ok((pixels(picture).map_err(failure)?, Outcome::Drawn(notes)))
     }
 
     /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
@@ -272,16 +274,18 @@ impl Film<'_> {
     /// # Errors
     /// A frame cannot be drawn, or the sheet is too large.
     pub fn sheet(&self, frames: &[u32], steps: &Steps<'_>) -> Result<(Frame, Vec<Picture>), Failure> {
-        steps.count("drawing", frames.len() as u64);
-        let draw = |row: usize| about(frames[row], self.file(frames[row]));
         let (mut files, mut pictures) = (Vec::new(), Vec::new());
-        in_order(frames.len(), draw, |row, file| {
-            let (size, history) = read_png_header(&file).map_err(Failure::failed)?;
-            pictures.push(Picture { name: frames[row].to_string(), size, history });
-            files.push(file);
-            steps.done(1);
-            Ok(())
-        })?;
+        self.each(
+            ("drawing", steps),
+            frames,
+            |frame| self.file(frame),
+            |frame, file| {
+                let (size, history) = read_png_header(&file).map_err(Failure::failed)?;
+                pictures.push(Picture { name: frame.to_string(), size, history });
+                files.push(file);
+                Ok(())
+            },
+        )?;
         let frame_of = |idx: usize| {
             let read = read_png(&files[idx]).map(|(frame, _)| frame);
             read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
@@ -334,6 +338,14 @@ impl Film<'_> {
         })?;
         Ok(summary)
     }
+}
+
+fn pixels(picture: Rendering) -> Result<Frame, Error> {
+    picture.into_frame().ok_or(Error::NoPixels)
+}
+
+fn failure(error: Error) -> Failure {
+    if error.is_usage() { Failure::usage(error.words()) } else { Failure::failed(error.words()) }
 }
 
 /// An error with the frame in which it occurred.

@@ -85,10 +85,10 @@ fn numbers_of<'w>(words: impl Iterator<Item = &'w str>) -> Result<Vec<(String, V
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::program::Method;
+    use crate::options::PIPE;
 
     fn read(text: &str) -> Result<Script, String> {
-        let mut script = Script::new(Method::Pipe, 11);
+        let mut script = Script::new(PIPE, 11);
         add(&mut script, "keys", text).map(|()| script)
     }
 
@@ -109,7 +109,7 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_told_with_its_line() {
-        let check = |text: &str, expected: &str| assert_eq!(read(text).unwrap_err(), expected);
+        let check = |text: &str, expected: &str| assert_eq!(read(text).err().as_deref(), Some(expected));
         check("1 -ti 0\n1 -ti 1", "keys:2: frame 1 comes after frame 1: put them in order, each once");
         check("12 -ti 0", "keys:1: a line begins with a frame from 1 to 11, not `12`");
         check("-ti 0", "keys:1: a line begins with a frame from 1 to 11, not `-ti`");
@@ -119,7 +119,7 @@ mod tests {
         check("# nothing", "keys: no frame has an option: write lines such as `1 -ti -10`");
         check("1 -vel 0 0 0\n2 -vel 0 0 1", "keys: `-vel`: speed is 1 c: it must be below 1");
         check("1 -ti 0\n2 -ti 0 1", "keys: `-ti`: its values have different counts of numbers");
-        assert!(read("1 -rd 5").unwrap_err().contains("it is an option of ugphoton"));
-        assert!(read("1 -nonsense 5").unwrap_err().contains("no program has it"));
+        assert!(read("1 -rd 5").err().unwrap().contains("it is an option of ugphoton"));
+        assert!(read("1 -nonsense 5").err().unwrap().contains("no program has it"));
     }
 }

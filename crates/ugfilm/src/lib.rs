@@ -8,39 +8,82 @@
 //! functions of the programs, in one process; its file is byte for byte that of the pipe of its
 //! own, which `--print` shows.
 //!
+//! As a library, a frame is a [`Pipe`] of programs with typed options:
+//!
+//! ```
+//! use ugfilm::{Pipe, Program, Subject};
+//! use ugparse::{Options, Source};
+//!
+//! let text = "c red 1 0 1; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) red; cam -ep 0 0 5;";
+//! let scene = ugparse::parse(&Source::new("triangle.ug", text), &Options::default())?.scene;
+//! for frame in 0..3 {
+//!     let motion = uglorentz::Config { time: f64::from(frame), ..Default::default() };
+//!     let mut pipe = Pipe::new(vec![
+//!         Program::Lorentz(motion),
+//!         Program::Doppler(Default::default()),
+//!         Program::Rainbow(Default::default()),
+//!     ]);
+//!     pipe.picture.size = [40, 30];
+//!     let subject = Subject::Scene(&scene);
+//!     let file = pipe.draw(subject)?.0.into_file(&pipe.metadata(subject));
+//!     assert!(file.starts_with(b"\x89PNG"));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Modules
 //!
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! timeline  program  work  frame_files      numbers over time; programs; threads; numbered files
-//! options                                   the options of the programs, as our own
-//! script                                    the command lines of every frame
-//! animation                                 animated PNG and GIF
-//! keys  draw  encode                        key frames; functions of the programs; film formats
+//! error                                     why there is no frame
+//! program                                   the programs with typed options
+//! pipe                                      one after the other, for one frame
+//! timeline  work  frame_files               numbers over time; threads; numbered files
 //! blur                                      frames while a shutter is open
+//! options                                   the options of the programs, as our own
+//! script                                    the command lines and programs of every frame
+//! animation                                 animated PNG and GIF
+//! keys  encode                              key frames; film formats
 //! film                                      frames, in files or in a film
 //! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
 //! ```
 
-// Every frame is drawn by the options of programs, so there is no library without command lines.
-#![cfg(feature = "cli")]
-
+#[cfg(feature = "cli")]
 mod animation;
+#[cfg(feature = "cli")]
 mod blur;
+#[cfg(feature = "cli")]
 mod cli;
-mod draw;
+#[cfg(feature = "cli")]
 mod encode;
+mod error;
+#[cfg(feature = "cli")]
 mod film;
+#[cfg(feature = "cli")]
 mod frame_files;
+#[cfg(feature = "cli")]
 mod keys;
+mod note;
+#[cfg(feature = "cli")]
 mod options;
+#[cfg(feature = "cli")]
 mod output;
+mod pipe;
+#[cfg(feature = "cli")]
 mod print;
 mod program;
+#[cfg(feature = "cli")]
 mod script;
+#[cfg(feature = "cli")]
 mod timeline;
+#[cfg(feature = "cli")]
 mod work;
 
+#[cfg(feature = "cli")]
 pub use cli::{Args, manual, run};
+pub use error::Error;
+pub use note::Note;
+pub use pipe::{Pipe, Subject};
+pub use program::Program;

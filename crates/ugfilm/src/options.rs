@@ -5,9 +5,64 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::CommonArgs;
+use ugpipe::{CommonArgs, Failure, SetNumbers, ToolArgs, parse_words, set_numbers};
 
 use crate::program::Program;
+
+/// The command line of a program that makes frames.
+pub struct Tool {
+    /// The heading of its options in `--help`.
+    heading: &'static str,
+    command: fn() -> Command,
+    /// Parses its words, of which the first is its name.
+    pub parse: fn(&[String]) -> Result<Typed, Failure>,
+}
+
+/// The options of a program, parsed: with the numbers of a frame by the names of their options they
+/// are the program of this frame.
+pub type Typed = Box<dyn Fn(&[(&str, Vec<f64>)]) -> Result<Program, Failure> + Send + Sync>;
+
+/// The command line of the program of a crate, a variant of [`Program`] with these options.
+macro_rules! tool {
+    ($krate:ident, $variant:ident, $args:ident => $config:expr) => {
+        &Tool {
+            heading: concat!("Options of ", stringify!($krate)),
+            command: $krate::Args::command,
+            parse: |words| typed(words, |$args: &$krate::Args| Ok(Program::$variant($config?))),
+        }
+    };
+}
+
+const LORENTZ: &Tool = tool!(uglorentz, Lorentz, args => args.config());
+const DOPPLER: &Tool = tool!(ugdoppler, Doppler, args => args.config());
+const RAINBOW: &Tool = tool!(ugrainbow, Rainbow, args => args.config(None));
+const PHOTON: &Tool = tool!(ugphoton, Photon, args => args.config(None));
+const WARP: &Tool = tool!(ugwarp, Warp, args => args.config(None));
+
+/// The programs whose options a film has, in the order in which they are listed.
+pub const TOOLS: [&Tool; 5] = [LORENTZ, DOPPLER, RAINBOW, PHOTON, WARP];
+
+/// The pipe of three programs.
+pub const PIPE: &[&Tool] = &[LORENTZ, DOPPLER, RAINBOW];
+/// The pipe without the program that colours vertices: the renderer computes the light of every
+/// sample (`-xc`).
+pub const EXACT: &[&Tool] = &[LORENTZ, RAINBOW];
+/// The ray tracer alone.
+pub const RAYS: &[&Tool] = &[PHOTON];
+/// Views of a panorama.
+pub const PANORAMA: &[&Tool] = &[WARP];
+
+fn typed<A>(words: &[String], program: fn(&A) -> Result<Program, Failure>) -> Result<Typed, Failure>
+where
+    A: ToolArgs + SetNumbers + Clone + Send + Sync + 'static,
+{
+    let args: A = parse_words(words.iter().map(OsString::from))?;
+    Ok(Box::new(move |numbers| {
+        let mut args = args.clone();
+        numbers.iter().try_for_each(|(name, numbers)| set_numbers(&mut args, name, numbers))?;
+        program(&args)
+    }))
+}
 
 /// Options that a film has itself or does without, because they write something else than a
 /// picture or have no effect.
@@ -36,15 +91,27 @@ struct Bare {
     _common: CommonArgs,
 }
 
-/// The options of a program that a film has, too.
-pub fn options_of(program: Program) -> Vec<Arg> {
-    let common = Bare::command();
-    let is_common = |name: &str| common.get_arguments().any(|arg| arg.get_long() == Some(name));
-    let command = program.command();
-    let is_own = |arg: &&Arg| {
-        arg.get_long().is_some_and(|name| !is_common(name) && !LEFT_OUT.contains(&name) && !arg.is_hide_set())
-    };
-    command.get_arguments().filter(is_own).cloned().collect()
+impl Tool {
+    /// Its name.
+    pub fn name(&self) -> &'static str {
+        self.heading.trim_start_matches("Options of ")
+    }
+
+    /// Its options that a film has, too.
+    pub fn options(&self) -> Vec<Arg> {
+        let common = Bare::command();
+        let is_common = |name: &str| common.get_arguments().any(|arg| arg.get_long() == Some(name));
+        let is_own = |arg: &&Arg| {
+            arg.get_long()
+                .is_some_and(|name| !is_common(name) && !LEFT_OUT.contains(&name) && !arg.is_hide_set())
+        };
+        (self.command)().get_arguments().filter(is_own).cloned().collect()
+    }
+
+    /// True if one of these options has this long name.
+    pub fn has(&self, name: &str) -> bool {
+        self.options().iter().any(|arg| arg.get_long() == Some(name))
+    }
 }
 
 /// An option as that of a film: its numbers may be words for the time, so its values and what they
@@ -69,8 +136,8 @@ fn all_names(arg: &Arg) -> impl Iterator<Item = &str> {
 /// The options of all programs; of those with one name the first.
 fn all_options() -> Vec<Arg> {
     let mut options: Vec<Arg> = Vec::new();
-    for program in Program::ALL {
-        for arg in options_of(program) {
+    for tool in TOOLS {
+        for arg in tool.options() {
             if options.iter().any(|other| other.get_long() == arg.get_long()) {
                 continue;
             }
@@ -78,7 +145,7 @@ fn all_options() -> Vec<Arg> {
                 |alias: &str| options.iter().any(|other| all_names(other).any(|name| name == alias));
             // Options of two programs may have the same second name.
             let has_own_names = all_names(&arg).skip(1).all(|alias| !is_taken(alias));
-            let arg = of_film(arg, program.heading());
+            let arg = of_film(arg, tool.heading);
             options.push(if has_own_names { arg } else { arg.visible_alias(Resettable::Reset) });
         }
     }

@@ -1,71 +1,88 @@
-//! The programs that make a frame.
+//! The programs that make a frame, with typed options.
 
-use clap::{Command, CommandFactory};
+use ugparse::{Provenance, Scene};
+use ugpicture::{PictureOptions, Rendering};
+use ugscene::MotionOptions;
 
-/// A program of the family, whose functions are called in this process.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+use crate::error::Error;
+use crate::note::Note;
+
+/// A program of the family with its options, whose functions are called in this process.
+#[derive(Clone, Debug)]
 pub enum Program {
     /// Positions as seen.
-    Lorentz,
+    Lorentz(uglorentz::Config),
     /// Colours as seen.
-    Doppler,
+    Doppler(ugdoppler::Config),
     /// The picture, of a scene as seen.
-    Rainbow,
+    Rainbow(ugrainbow::Config),
     /// The picture, by tracing rays.
-    Photon,
+    Photon(ugphoton::Config),
     /// The view of a panorama.
-    Warp,
+    Warp(ugwarp::Config),
+}
+
+/// What goes from one program to the next.
+pub enum Item<'s> {
+    Scene(Box<Scene>),
+    Panorama(&'s ugwarp::Opened),
+    Picture(Rendering),
 }
 
 impl Program {
-    /// All of them, in the order in which their options are listed.
-    pub const ALL: [Self; 5] = [Self::Lorentz, Self::Doppler, Self::Rainbow, Self::Photon, Self::Warp];
-
-    /// The heading of its options in `--help`.
-    pub fn heading(self) -> &'static str {
+    /// Its name and version, as in the history of a picture.
+    pub fn provenance(&self) -> Provenance<'static> {
         match self {
-            Self::Lorentz => "Options of uglorentz",
-            Self::Doppler => "Options of ugdoppler",
-            Self::Rainbow => "Options of ugrainbow",
-            Self::Photon => "Options of ugphoton",
-            Self::Warp => "Options of ugwarp",
+            Self::Lorentz(_) => uglorentz::PROVENANCE,
+            Self::Doppler(_) => ugdoppler::PROVENANCE,
+            Self::Rainbow(_) => ugrainbow::PROVENANCE,
+            Self::Photon(_) => ugphoton::PROVENANCE,
+            Self::Warp(_) => ugwarp::PROVENANCE,
         }
     }
 
-    /// Its command line.
-    pub fn command(self) -> Command {
+    /// The options of the picture, of a program that draws.
+    pub fn picture(&mut self) -> Option<&mut PictureOptions> {
         match self {
-            Self::Lorentz => uglorentz::Args::command(),
-            Self::Doppler => ugdoppler::Args::command(),
-            Self::Rainbow => ugrainbow::Args::command(),
-            Self::Photon => ugphoton::Args::command(),
-            Self::Warp => ugwarp::Args::command(),
+            Self::Rainbow(config) => Some(&mut config.picture),
+            Self::Photon(config) => Some(&mut config.picture),
+            Self::Warp(config) => Some(&mut config.picture),
+            Self::Lorentz(_) | Self::Doppler(_) => None,
         }
     }
-}
 
-/// How a frame is drawn: the programs of its pipe, the last of which draws.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// The pipe of three programs.
-    Pipe,
-    /// The pipe without the program that colours vertices: the renderer computes the light of every
-    /// sample (`-xc`).
-    Exact,
-    /// The ray tracer alone.
-    Rays,
-    /// Views of a panorama.
-    Warp,
-}
-
-impl Method {
-    /// The programs in the order of the pipe.
-    pub fn programs(self) -> &'static [Program] {
+    /// How bodies and camera move, of a program that reads a scene at rest.
+    pub fn motion(&self) -> Option<MotionOptions> {
         match self {
-            Self::Pipe => &[Program::Lorentz, Program::Doppler, Program::Rainbow],
-            Self::Exact => &[Program::Lorentz, Program::Rainbow],
-            Self::Rays => &[Program::Photon],
-            Self::Warp => &[Program::Warp],
+            Self::Lorentz(config) => Some(config.motion()),
+            Self::Photon(config) => Some(config.motion.clone()),
+            Self::Doppler(_) | Self::Rainbow(_) | Self::Warp(_) => None,
         }
+    }
+
+    /// What it makes of an item, and its warnings and notes.
+    ///
+    /// # Errors
+    /// The program fails, or reads something else.
+    pub fn run<'s>(&self, item: Item<'s>) -> Result<(Item<'s>, Vec<Note>), Error> {
+        let mut picture = match (self, item) {
+            (Self::Lorentz(config), Item::Scene(scene)) => {
+                let (scene, report) = uglorentz::apply(*scene, config)?;
+                return Ok((Item::Scene(scene.into()), vec![Note::Lorentz(report)]));
+            }
+            (Self::Doppler(config), Item::Scene(scene)) => {
+                let (scene, report) = ugdoppler::apply(*scene, config)?;
+                let notes = report.notes.into_iter().map(Note::Doppler).collect();
+                return Ok((Item::Scene(scene.into()), notes));
+            }
+            (Self::Rainbow(config), Item::Scene(scene)) => ugrainbow::render(&scene, config)?,
+            (Self::Photon(config), Item::Scene(scene)) => ugphoton::render(*scene, config)?,
+            (Self::Warp(config), Item::Panorama(panorama)) => ugwarp::render(panorama, config)?,
+            _ => return Err(Error::Subject),
+        };
+        let program = self.provenance().program;
+        let notes = std::mem::take(&mut picture.notes).into_iter();
+        let notes = notes.map(|note| Note::Picture(program, note)).collect();
+        Ok((Item::Picture(picture), notes))
     }
 }

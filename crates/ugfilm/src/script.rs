@@ -1,12 +1,14 @@
 //! The command lines of every frame.
 
 use std::fmt::Write;
+use std::sync::OnceLock;
 
 use ugimage::Format;
+use ugpicture::Output;
 use ugpipe::{Failure, shell_word};
 
-use crate::options::{Given, options_of};
-use crate::program::{Method, Program};
+use crate::options::{Given, TOOLS, Tool, Typed};
+use crate::pipe::Pipe;
 use crate::timeline::{Ease, Quantity, Timeline};
 
 /// Options that more than one program of a pipe must know; all others are given to the first that
@@ -16,11 +18,16 @@ const FOR_ALL: [&str; 2] = ["sz", "va"];
 /// Options that are velocities.
 const VELOCITIES: [&str; 2] = ["vel", "cv"];
 
+/// The option of which every frame has its own text.
+const CAPTION: &str = "cap";
+
+/// Options for what is done to the light of a picture.
+const DONE_TO_LIGHT: &[&str] = &[CAPTION, "ex", "tc"];
+
 /// What is drawn in every frame.
-#[derive(Clone, Debug)]
 pub struct Script {
-    /// How frames are drawn.
-    pub method: Method,
+    /// The programs of the pipe, the last of which draws.
+    tools: &'static [&'static Tool],
     /// How many there are.
     pub n_frames: u32,
     /// How numbers go from one value to the next.
@@ -29,9 +36,9 @@ pub struct Script {
     pub is_loop: bool,
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,
-    /// Names of the programs of the pipe.
-    names: Vec<String>,
     options: Vec<Setting>,
+    /// The options of the programs, parsed once.
+    typed: OnceLock<Vec<Typed>>,
 }
 
 /// An option over the film.
@@ -43,24 +50,20 @@ struct Setting {
     timeline: Timeline,
 }
 
-/// The commands of a frame.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Commands {
-    /// Each with its program; the words begin with its name.
-    pub stages: Vec<(Program, Vec<String>)>,
-}
+/// The commands of a frame: the words of each program, which begin with its name.
+pub struct Commands(pub Vec<Vec<String>>);
 
 impl Script {
     /// A script without options. `n_frames`: 1 or more.
-    pub fn new(method: Method, n_frames: u32) -> Self {
+    pub fn new(tools: &'static [&'static Tool], n_frames: u32) -> Self {
         Self {
-            method,
+            tools,
             n_frames,
             ease: Ease::Linear,
             is_loop: false,
             reading: Vec::new(),
-            names: method.programs().iter().map(|program| program.command().get_name().to_owned()).collect(),
             options: Vec::new(),
+            typed: OnceLock::new(),
         }
     }
 
@@ -84,8 +87,8 @@ impl Script {
         }
         let owners = self.owners(name);
         if owners.is_empty() {
-            let others = Program::ALL.into_iter().filter(|&program| has(program, name));
-            let owners: Vec<String> = others.map(|program| program.command().get_name().to_owned()).collect();
+            let owners: Vec<&str> =
+                TOOLS.iter().filter(|tool| tool.has(name)).map(|tool| tool.name()).collect();
             let why = match owners[..] {
                 [] => "no program has it".to_owned(),
                 _ => format!("it is an option of {}, which draws no frame here", owners.join(" and ")),
@@ -99,6 +102,7 @@ impl Script {
     /// Replaces the values of an option, or adds it.
     pub fn set(&mut self, name: &str, values: Vec<String>) {
         let timeline = Timeline::Fixed(values);
+        self.typed = OnceLock::new();
         if let Some(setting) = self.options.iter_mut().find(|setting| setting.name == name) {
             setting.timeline = timeline;
         } else {
@@ -116,13 +120,12 @@ impl Script {
 
     /// True if no option changes over the film.
     pub fn is_still(&self) -> bool {
-        self.options.iter().all(|setting| matches!(setting.timeline, Timeline::Fixed(_)))
+        !self.options.iter().any(|setting| setting.timeline.is_moving())
     }
 
     /// The programs of the pipe that are given an option.
     fn owners(&self, name: &str) -> Vec<usize> {
-        let programs = self.method.programs().iter().enumerate();
-        let owners = programs.filter(|(_, program)| has(**program, name)).map(|(row, _)| row);
+        let owners = self.tools.iter().enumerate().filter(|(_, tool)| tool.has(name)).map(|(row, _)| row);
         owners.take(if FOR_ALL.contains(&name) { usize::MAX } else { 1 }).collect()
     }
 
@@ -153,7 +156,72 @@ impl Script {
     /// # Errors
     /// As of [`Script::commands`].
     pub fn light_commands(&self, moment: f64) -> Result<Commands, Failure> {
-        self.commands_without(moment, &["cap", "ex", "tc"])
+        self.commands_without(moment, DONE_TO_LIGHT)
+    }
+
+    /// The programs of a frame, and the command lines that its file records.
+    ///
+    /// # Errors
+    /// An option is wrong, or a caption asks for what the frame does not have.
+    pub fn pipe(&self, frame: f64, format: Format) -> Result<Pipe, Failure> {
+        let mut pipe = self.pipe_of(frame, self.commands(frame)?, format)?;
+        if let Some(setting) = self.options.iter().find(|setting| setting.name == CAPTION) {
+            pipe.picture.annotations.caption = self.values(setting, frame)?.concat();
+        }
+        Ok(pipe)
+    }
+
+    /// The programs for the light of a moment.
+    ///
+    /// # Errors
+    /// As of [`Script::pipe`].
+    pub fn light_pipe(&self, moment: f64, format: Format) -> Result<Pipe, Failure> {
+        self.pipe_of(moment, self.light_commands(moment)?, format)
+    }
+
+    /// `commands`: what the history of the picture says.
+    fn pipe_of(&self, frame: f64, mut commands: Commands, format: Format) -> Result<Pipe, Failure> {
+        commands.set_format(format);
+        let programs = self.typed(frame)?.iter().enumerate();
+        let programs = programs.map(|(row, typed)| typed(&self.numbers(row, frame)));
+        let mut pipe = Pipe::new(programs.collect::<Result<_, _>>()?);
+        pipe.lines = commands.0.iter().map(|words| line(words)).collect();
+        pipe.picture.output = match pipe.picture.output {
+            Output::Vector(_) => Output::Vector(format),
+            _ => Output::Color(format),
+        };
+        Ok(pipe)
+    }
+
+    /// The options of the programs, parsed from the commands of the first frame that needs them.
+    fn typed(&self, frame: f64) -> Result<&[Typed], Failure> {
+        if let Some(typed) = self.typed.get() {
+            return Ok(typed);
+        }
+        let commands = self.commands_without(frame, &[CAPTION])?;
+        let typed = self.tools.iter().zip(&commands.0).map(|(tool, words)| (tool.parse)(words));
+        let typed = typed.collect::<Result<_, _>>()?;
+        Ok(self.typed.get_or_init(|| typed))
+    }
+
+    /// The numbers of a frame among the options of a program that change over the film.
+    fn numbers(&self, row: usize, frame: f64) -> Vec<(&str, Vec<f64>)> {
+        let time = self.time(frame);
+        let changes = |setting: &&Setting| {
+            setting.owners.contains(&row) && setting.name != CAPTION && setting.timeline.is_moving()
+        };
+        let settings = self.options.iter().filter(changes);
+        settings.map(|setting| (setting.name.as_str(), setting.timeline.numbers(time, self.ease))).collect()
+    }
+
+    /// The words of the values of an option.
+    fn values(&self, setting: &Setting, frame: f64) -> Result<Vec<String>, Failure> {
+        let time = self.time(frame);
+        let values = setting.timeline.at(time, self.ease);
+        match setting.name.as_str() {
+            CAPTION => values.iter().map(|text| self.filled(text, frame, time)).collect(),
+            _ => Ok(values),
+        }
     }
 
     /// The options for the exposure and tone curve of a frame, in words.
@@ -167,25 +235,16 @@ impl Script {
     }
 
     fn commands_without(&self, frame: f64, left_out: &[&str]) -> Result<Commands, Failure> {
-        let time = self.time(frame);
-        let programs = self.method.programs().iter().zip(&self.names);
-        let mut stages: Vec<(Program, Vec<String>)> = programs
-            .map(|(&program, name)| (program, [name].into_iter().chain(&self.reading).cloned().collect()))
-            .collect();
-        let is_kept = |setting: &&Setting| !left_out.contains(&setting.name.as_str());
-        for Setting { name, owners, timeline } in self.options.iter().filter(is_kept) {
-            let mut values = timeline.at(time, self.ease);
-            if name == "cap" {
-                for text in &mut values {
-                    *text = self.filled(text, frame, time)?;
-                }
-            }
-            for &row in owners {
-                stages[row].1.push(spelling(name));
-                stages[row].1.extend(values.iter().cloned());
+        let begin = |tool: &&Tool| [tool.name().to_owned()].into_iter().chain(self.reading.clone()).collect();
+        let mut commands = Commands(self.tools.iter().map(begin).collect());
+        for setting in self.options.iter().filter(|setting| !left_out.contains(&setting.name.as_str())) {
+            let values = self.values(setting, frame)?;
+            for &row in &setting.owners {
+                commands.0[row].push(spelling(&setting.name));
+                commands.0[row].extend(values.iter().cloned());
             }
         }
-        Ok(Commands { stages })
+        Ok(commands)
     }
 
     /// A caption with the numbers of a frame: `{frame}`, `{beta}`, `{gamma}`, `{t}`, and the names
@@ -231,21 +290,17 @@ impl Script {
 impl Commands {
     /// States the format of the picture, unless it is the default.
     pub fn set_format(&mut self, format: Format) {
-        if let (Some((_, words)), true) = (self.stages.last_mut(), format != Format::Png) {
+        if let (Some(words), true) = (self.0.last_mut(), format != Format::Png) {
             words.extend(["-dt".to_owned(), format.name().to_owned()]);
         }
     }
 
     /// The pipe for a shell. `input`: the scene, `None` for standard input; `output`: the file.
     pub fn line(&self, input: Option<&str>, output: Option<&str>) -> String {
-        let mut line = String::new();
-        for (row, (_, words)) in self.stages.iter().enumerate() {
-            let mut words = words.iter();
-            line += if row > 0 { " | " } else { "" };
-            line.extend(words.next().map(|name| shell_word(name)));
-            line.extend(input.filter(|_| row == 0).map(|name| format!(" {}", shell_word(name))));
-            line.extend(words.map(|word| format!(" {}", shell_word(word))));
-        }
+        let mut first = self.0.first().cloned().unwrap_or_default();
+        first.splice(1..1, input.map(str::to_owned));
+        let lines = std::iter::once(&first).chain(self.0.iter().skip(1)).map(|words| line(words));
+        let mut line = lines.collect::<Vec<String>>().join(" | ");
         if let Some(output) = output {
             // Writing to a string cannot fail.
             let _ = write!(line, " > {}", shell_word(output));
@@ -259,8 +314,9 @@ pub fn quantity(name: &str) -> Quantity {
     if VELOCITIES.contains(&name) { Quantity::Velocity } else { Quantity::Plain }
 }
 
-fn has(program: Program, name: &str) -> bool {
-    options_of(program).iter().any(|arg| arg.get_long() == Some(name))
+/// The words of a command for a shell.
+fn line(words: &[String]) -> String {
+    words.iter().map(|word| shell_word(word)).collect::<Vec<String>>().join(" ")
 }
 
 /// An option as our documentation writes it.

@@ -75,6 +75,11 @@ impl Timeline {
         Ok(Self::Moving { keys, quantity })
     }
 
+    /// True if the numbers change.
+    pub fn is_moving(&self) -> bool {
+        matches!(self, Self::Moving { .. })
+    }
+
     /// The words of the option at a time from 0 to 1.
     pub fn at(&self, time: f64, ease: Ease) -> Vec<String> {
         match self {

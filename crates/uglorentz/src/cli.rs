@@ -7,7 +7,9 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Provenance, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, finite, whole};
+use ugpipe::{
+    CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, count, finite, numbers, whole,
+};
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure};
@@ -17,7 +19,7 @@ use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Piece
 /// Moves every vertex to where it was when its light left it, subdivides edges that are seen as
 /// curves, and writes a flat scene (instances expanded) for ugdoppler, with the velocity of each
 /// face and the eye of the camera.
-#[derive(Debug, Parser)]
+#[derive(Clone, Debug, Parser)]
 #[command(name = "uglorentz", version, after_help = EXAMPLES)]
 pub struct Args {
     #[command(flatten)]
@@ -98,6 +100,11 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
+
+numbers!(Args {
+    "se" => error, "sc" => color_error: percent, "sl" => light_error: percent,
+    "sd" => equal: count(0..=u32::MAX), "sz" => size: count(1..=u32::MAX)
+} motion camera);
 
 const CAMERA: &str = "Camera";
 
@@ -220,8 +227,9 @@ fn percent_or_off(word: &str) -> Result<f64, String> {
     if word == "off" {
         return Ok(f64::INFINITY);
     }
-    match finite(word)? {
-        percent if percent > 0.0 => Ok(percent / 100.0),
-        _ => Err("must be a percentage above 0, or off".to_string()),
-    }
+    finite(word).and_then(percent)
+}
+
+fn percent(percent: f64) -> Result<f64, String> {
+    if percent > 0.0 { Ok(percent / 100.0) } else { Err("must be a percentage above 0, or off".to_string()) }
 }

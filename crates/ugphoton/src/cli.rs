@@ -4,22 +4,22 @@ mod words;
 
 use std::path::Path;
 
+use clap::builder::Resettable;
 use clap::{ArgAction, Parser};
-use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
+use uglight::{ColorShift, Interpolation};
 use ugparse::{HueScale, Provenance, pipe};
 use ugphysics::Brightness;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, kind_named, kinds, picture_format, pixel,
-    refuse_terminal, report_format, with_format, write_picture,
+    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, Report, kind_named, kinds, law,
+    picture_format, pixel, refuse_terminal, report_format, with_format, write_picture,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, one_of, whole};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, count, number, numbers, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::Error;
 use crate::explain::{self, explain};
-use crate::lens::Lens;
 use crate::render::{Drawing, PROVENANCE};
 
 /// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
@@ -76,7 +76,7 @@ pub struct Args {
 
     /// Least part of a pixel's light that is followed
     #[arg(long, visible_alias = "cut-off", value_name = "PART", default_value = "0.01",
-          value_parser = part, help_heading = RAYS)]
+          value_parser = number(part), help_heading = RAYS)]
     rc: f64,
 
     /// Accepted as in 1988, without effect: cells of a spatial subdivision
@@ -101,36 +101,18 @@ pub struct Args {
     ///
     /// Otherwise the shutter is at the pinhole. All light of the picture arrives at the film at one
     /// moment, so it passed the pinhole the earlier the nearer it is to the edge of the film.
-    #[arg(long, value_name = "DISTANCE", value_parser = distance, help_heading = RAYS)]
+    #[arg(long, value_name = "DISTANCE", value_parser = number(distance), help_heading = RAYS)]
     film_shutter: Option<f64>,
 
-    /// Panorama of all directions
-    ///
-    /// Longitude across the picture, latitude down, the view direction in the middle
-    /// (equirectangular). -sz W H with W = 2 H has square degrees.
-    #[arg(long, visible_alias = "panorama", conflicts_with = "fish", help_heading = RAYS)]
-    pan: bool,
-
-    /// Fisheye that shows ANGLE degrees in a circle, as for domes
-    ///
-    /// The distance to the middle of the picture is the angle to the view direction (equidistant).
-    /// A dome needs 180.
-    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = fisheye, help_heading = RAYS)]
-    fish: Option<f64>,
-
-    /// Cube map: six square views from left to right
-    ///
-    /// Right, left, up, down, front, back of the view direction: +X, -X, +Y, -Y, +Z, -Z of cube
-    /// maps, each as seen from inside. -sz W H needs W = 6 H.
-    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"], help_heading = RAYS)]
-    cube: bool,
+    #[command(flatten, next_help_heading = RAYS)]
+    lens: LensArgs,
 
     /// A picture for each of two eyes at this distance
     ///
     /// Side by side, the left eye's on the left; panoramas one above the other, the left eye's
     /// above. Each eye has half of -sz. Both rest in the frame of the camera and see at the same
     /// moment of it. In a panorama each column has eyes across its own direction (ODS).
-    #[arg(long, value_name = "DISTANCE", value_parser = distance, conflicts_with = "cube", help_heading = RAYS)]
+    #[arg(long, value_name = "DISTANCE", value_parser = number(distance), conflicts_with = "cube", help_heading = RAYS)]
     stereo: Option<f64>,
 
     /// Adaptive samples: fewer in pixels of less contrast than this
@@ -138,7 +120,7 @@ pub struct Args {
     /// About a quarter of the N x N samples (-aa) of a pixel are traced first, and the rest only if
     /// they and their neighbours differ by more than this contrast, from 0 to 1. .05 suits most
     /// pictures. Details smaller than the distance of the first samples can be missed.
-    #[arg(long, value_name = "CONTRAST", visible_alias = "adaptive", value_parser = part, help_heading = PICTURE)]
+    #[arg(long, value_name = "CONTRAST", visible_alias = "adaptive", value_parser = number(part), help_heading = PICTURE)]
     ad: Option<f64>,
 
     /// Draw only a part of the picture: column, row, width, height
@@ -178,7 +160,8 @@ pub struct Args {
     /// As text, or with `--format json` as JSON: every surface on the way of its light, its motion,
     /// when and where the light left it, Doppler factors, media, lamps and shadows, and every step
     /// to the bytes of the pixel.
-    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "crop")]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "crop",
+          help_heading = Resettable::Reset)]
     explain: Option<Pixel>,
 
     #[command(flatten)]
@@ -190,6 +173,11 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
+
+numbers!(Args {
+    "rd" => rd: count(0..=64), "rc" => rc: part, "film-shutter" => film_shutter: distance,
+    "stereo" => stereo: distance, "ad" => ad: part
+} motion picture lens);
 
 const COLOR: &str = "Colour";
 const RAYS: &str = "Rays";
@@ -251,12 +239,7 @@ impl Args {
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
             smooth: self.sm,
             repeat: self.repeat.repeats(),
-            lens: match self.fish {
-                Some(degrees) => Lens::Fisheye { angle: degrees.to_radians() },
-                None if self.pan => Lens::Panorama,
-                None if self.cube => Lens::Cube,
-                None => Lens::Pinhole,
-            },
+            lens: self.lens.lens(),
             stereo: self.stereo,
             adaptive: self.ad,
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
@@ -265,12 +248,7 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        let doppler = !self.no_doppler;
-        if self.sp {
-            return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
-        }
-        let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
-        ColorShift::Hues(HueShift { doppler, law })
+        ColorShift::new(self.sp, !self.no_doppler, !self.no_flux, self.br)
     }
 }
 
@@ -321,25 +299,8 @@ fn failure(error: Error) -> Failure {
     }
 }
 
-/// The name of a brightness law.
-fn law(word: &str) -> Result<Brightness, String> {
-    Brightness::from_name(word)
-        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
-}
-
-/// An angle of view, in degrees.
-fn fisheye(word: &str) -> Result<f64, String> {
-    let angle = finite(word)?;
-    if 0.0 < angle && angle <= 360.0 {
-        Ok(angle)
-    } else {
-        Err("a fisheye shows more than 0 and at most 360 degrees".to_owned())
-    }
-}
-
 /// A distance.
-fn distance(word: &str) -> Result<f64, String> {
-    let distance = finite(word)?;
+fn distance(distance: f64) -> Result<f64, String> {
     if distance >= 0.0 { Ok(distance) } else { Err("a distance is 0 or more".to_owned()) }
 }
 
@@ -349,7 +310,6 @@ fn integer(word: &str) -> Result<i32, String> {
 }
 
 /// A part of a whole.
-fn part(word: &str) -> Result<f64, String> {
-    let part = finite(word)?;
+fn part(part: f64) -> Result<f64, String> {
     if (0.0..=1.0).contains(&part) { Ok(part) } else { Err("a part is from 0 to 1".to_owned()) }
 }

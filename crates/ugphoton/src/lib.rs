@@ -79,13 +79,14 @@ pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
 pub use explain::explain;
-pub use render::{Drawing, PROVENANCE, Rendering, light, render, run};
+pub use render::{Drawing, PROVENANCE, light, render, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::{HueScale, Provenance};
 use ugpicture::lens;
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
-    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Tone, metadata,
+    Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering, Tone,
+    metadata,
 };
 pub use ugscene::{Anchor, CameraOptions, MotionOptions};

@@ -2,11 +2,10 @@
 
 use std::borrow::Cow;
 
-use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
+use ugimage::{Development, LinearFrame, Metadata};
 use ugparse::{Diagnostics, Provenance, Scene, Source};
 use ugpicture::{
-    Annotated, Annotations, DepthBuffer, Exposure, Image, Layout, Note, Output, PictureFile, SceneState,
-    metadata,
+    Annotated, Annotations, Content, DepthBuffer, Image, Layout, PictureFile, Rendering, SceneState, metadata,
 };
 use ugpipe::Progress;
 use ugscene::{CameraOptions, PlacedBodies, RestPosition};
@@ -18,30 +17,6 @@ use crate::middles;
 use crate::notes::notes;
 use crate::pixels;
 use crate::scenery::Scenery;
-
-/// A rendered scene.
-#[derive(Clone, Debug)]
-pub struct Rendering {
-    image: Image,
-    output: Output,
-    compression: Compression,
-    /// Samples that were traced. Those that two tiles need are counted twice.
-    pub n_samples: u64,
-    /// What the user should know about it.
-    pub notes: Vec<Note>,
-}
-
-impl Rendering {
-    /// The bytes of a file of the kind that the options ask for.
-    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
-        self.image.into_file(self.output, metadata, self.compression)
-    }
-
-    /// 8-bit pixels for a display.
-    pub fn into_frame(self) -> Frame {
-        self.image.into_frame()
-    }
-}
 
 /// Renders a scene at rest.
 ///
@@ -159,7 +134,6 @@ impl Prepared {
     fn rendering(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
         let (mut rendering, development) = self.developed(frame, progress)?;
-        rendering.n_samples = statistics.n_samples;
         let about_picture = notes(&self.scenery, &self.config, &statistics, development);
         rendering.notes.splice(0..0, about_picture);
         Ok(rendering)
@@ -172,18 +146,11 @@ impl Prepared {
         progress: &dyn Progress,
     ) -> Result<(Rendering, Option<Development>), Error> {
         let Self { config, layout, scenery } = self;
-        let (image, development) = developed(frame, scenery, config);
+        let (image, development) = Image::developed(frame, &config.picture, !scenery.is_uncut);
         progress.step("annotating", 0);
         let annotations = annotate(layout, scenery, config, development)?;
-        let notes = annotations.notes.clone();
-        let rendering = Rendering {
-            image: annotations.composite(image),
-            output: config.picture.output,
-            compression: if config.picture.small { Compression::Small } else { Compression::Fast },
-            n_samples: 0,
-            notes,
-        };
-        Ok((rendering, development))
+        let image = Content::Image(annotations.composite(image));
+        Ok((Rendering::new(image, &config.picture, annotations.notes), development))
     }
 }
 
@@ -212,23 +179,6 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     }
     scene.stage.geometry = placed.seen_stage(&config.motion);
     Ok(scene)
-}
-
-/// The picture for its format, and how its light was developed; `None` if it was not.
-fn developed(mut frame: LinearFrame, scenery: &Scenery<'_>, config: &Config) -> (Image, Option<Development>) {
-    let picture = &config.picture;
-    if picture.output.is_linear() {
-        return (Image::Light(frame), None);
-    }
-    let development =
-        scenery.is_uncut.then(|| Exposure::development(picture.exposure, picture.tone, || &frame));
-    if let Some(development) = development {
-        for [red, green, blue, _] in frame.pixels_mut() {
-            [*red, *green, *blue] = development.apply([*red, *green, *blue]);
-        }
-    }
-    let is_deep = picture.output.format().is_some_and(|format| format.is_deep());
-    (if is_deep { Image::Light(frame) } else { Image::Display(frame.to_display()) }, development)
 }
 
 fn annotate(

@@ -7,13 +7,14 @@ use std::path::Path;
 
 use clap::{ArgAction, Args};
 use ugimage::{Filter, Format, Tone};
-use ugphysics::Hsv;
-use ugpipe::{Context, Failure, Words, finite, one_of, whole};
+use ugphysics::{Brightness, Hsv};
+use ugpipe::{Context, Failure, Words, count, finite, number, numbers, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
 use crate::channel::Channel;
 use crate::exposure::Exposure;
+use crate::lens::Lens;
 use crate::options::{AnnotationOptions, PictureOptions};
 use crate::output::Output;
 use crate::picture_file::PictureFile;
@@ -91,6 +92,10 @@ pub struct PictureArgs {
     ch: Option<Channels>,
 }
 
+numbers!(PictureArgs {
+    "sz" => sz: count(1..=u32::MAX), "aa" => aa: count(1..=16), "bg" => bg, "ex" => ex: stops
+} camera);
+
 impl PictureArgs {
     /// The picture options that these arguments define.
     ///
@@ -117,6 +122,55 @@ impl PictureArgs {
             return Ok(Background::Transparent);
         }
         color("background -bg", self.bg.as_deref().unwrap_or(&[0.0])).map(Background::Color)
+    }
+}
+
+/// The lens of a camera that sees in all directions: flatten it into the arguments of a renderer,
+/// with its heading in `--help`.
+#[derive(Args, Clone, Debug)]
+pub struct LensArgs {
+    /// Panorama of all directions
+    ///
+    /// Longitude across the picture, latitude down, the view direction in the middle
+    /// (equirectangular). -sz W H with W = 2 H has square degrees.
+    #[arg(long, visible_alias = "panorama", conflicts_with = "fish")]
+    pan: bool,
+
+    /// Fisheye: ANGLE degrees in a circle, as for domes
+    ///
+    /// The distance to the middle of the picture is the angle to the view direction (equidistant).
+    /// A dome needs 180.
+    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = number(fisheye))]
+    fish: Option<f64>,
+
+    /// Cube map: six square views from left to right
+    ///
+    /// Right, left, up, down, front, back of the view direction: +X, -X, +Y, -Y, +Z, -Z of cube
+    /// maps, each as seen from inside. -sz W H needs W = 6 H.
+    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"])]
+    cube: bool,
+}
+
+numbers!(LensArgs { "fish" => fish: fisheye });
+
+impl LensArgs {
+    /// The lens that these arguments define.
+    pub fn lens(&self) -> Lens {
+        match self.fish {
+            Some(degrees) => Lens::Fisheye { angle: degrees.to_radians() },
+            None if self.pan => Lens::Panorama,
+            None if self.cube => Lens::Cube,
+            None => Lens::Pinhole,
+        }
+    }
+}
+
+/// An angle of view, in degrees.
+fn fisheye(angle: f64) -> Result<f64, String> {
+    if 0.0 < angle && angle <= 360.0 {
+        Ok(angle)
+    } else {
+        Err("a fisheye shows more than 0 and at most 360 degrees".to_owned())
     }
 }
 
@@ -324,14 +378,26 @@ pub fn color(name: &str, numbers: &[f64]) -> Result<Hsv, Failure> {
     Ok(Hsv { hue, saturation, value })
 }
 
+/// Value parser: the name of a brightness law.
+///
+/// # Errors
+/// There is no such law.
+pub fn law(word: &str) -> Result<Brightness, String> {
+    Brightness::from_name(word)
+        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
+}
+
 /// Stops, or `auto`.
 fn exposure(word: &str) -> Result<Exposure, String> {
-    /// Beyond the exponents of single precision, in which light is kept.
-    const MOST: f64 = 300.0;
     if word == "auto" {
         return Ok(Exposure::Auto);
     }
-    let stops = finite(word).map_err(|error| format!("{error}, nor is it `auto`"))?;
+    finite(word).map_err(|error| format!("{error}, nor is it `auto`")).and_then(stops)
+}
+
+fn stops(stops: f64) -> Result<Exposure, String> {
+    /// Beyond the exponents of single precision, in which light is kept.
+    const MOST: f64 = 300.0;
     if stops.abs() <= MOST {
         Ok(Exposure::Stops(stops))
     } else {

@@ -1,8 +1,14 @@
 //! A rendered picture.
 
-use ugimage::{Compression, Frame, LinearFrame, Metadata, grey_postscript};
+use rayon::prelude::*;
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, grey_postscript};
 
+use crate::exposure::Exposure;
+use crate::options::PictureOptions;
 use crate::output::Output;
+
+/// Pixels that one task develops.
+const CHUNK: usize = 1 << 14;
 
 /// A rendered picture.
 #[derive(Clone, Debug)]
@@ -14,6 +20,28 @@ pub enum Image {
 }
 
 impl Image {
+    /// Light as the format of the picture holds it, and how it was developed. `is_clipped`: its
+    /// samples were clipped one by one, so it is within the range of a display, and is not
+    /// developed.
+    pub fn developed(
+        mut light: LinearFrame,
+        options: &PictureOptions,
+        is_clipped: bool,
+    ) -> (Self, Option<Development>) {
+        if options.output.is_linear() {
+            return (Self::Light(light), None);
+        }
+        let development =
+            (!is_clipped).then(|| Exposure::development(options.exposure, options.tone, || &light));
+        if let Some(development) = development {
+            light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
+                [*red, *green, *blue] = development.apply([*red, *green, *blue]);
+            });
+        }
+        let is_deep = options.output.format().is_some_and(|format| format.is_deep());
+        (if is_deep { Self::Light(light) } else { Self::Display(light.to_display()) }, development)
+    }
+
     /// As 8-bit pixels.
     pub fn into_frame(self) -> Frame {
         match self {

@@ -8,7 +8,8 @@
 //! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
 //! - [`Exposure`]: how light is brought into the range of a display;
-//! - [`Image`]: the picture as light or as 8-bit pixels, and as the bytes of a file
+//! - [`Image`]: the picture as light or as 8-bit pixels, developed for its format;
+//! - [`Rendering`]: the picture or vector figure that a renderer returns, and its file
 //!   ([`PictureFile`]);
 //! - [`Emissions`] and [`Channel`]: when and where light was emitted that is seen at a sample, and
 //!   the channels of an EXR file made of that;
@@ -47,6 +48,7 @@ mod note;
 mod options;
 mod output;
 mod picture_file;
+mod rendering;
 
 pub use annotations::{Annotated, Annotations, Layout, SceneState};
 pub use background::{Backdrop, Background};
@@ -63,4 +65,5 @@ pub use note::Note;
 pub use options::{AnnotationOptions, PictureOptions};
 pub use output::Output;
 pub use picture_file::PictureFile;
+pub use rendering::{Content, Rendering, VectorFigure};
 pub use ugimage::{Filter, Tone};

@@ -1,6 +1,6 @@
 //! The options of a picture, the same for every renderer.
 
-use ugimage::{Filter, Format, Tone};
+use ugimage::{Compression, Filter, Format, Tone};
 use ugphysics::Hsv;
 use ugscene::CameraOptions;
 
@@ -62,6 +62,11 @@ impl PictureOptions {
     /// True if light brighter than white is kept: for a file, an exposure, or a tone curve.
     pub fn keeps_light(&self) -> bool {
         self.output.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
+    }
+
+    /// How hard a PNG file is compressed.
+    pub fn compression(&self) -> Compression {
+        if self.small { Compression::Small } else { Compression::Fast }
     }
 
     /// Refuses a picture that does not fit in memory, before anything is allocated, and options

@@ -136,7 +136,7 @@ impl CommonArgs {
     /// The options for reading as they would be given to another program.
     pub fn reading_words(&self) -> Vec<String> {
         let flags = [
-            (self.lax, "--lax"),
+            (self.lax, "-lax"),
             (self.allow_execute, "--allow-execute"),
             (self.allow_outside, "--allow-outside"),
         ];
@@ -195,18 +195,32 @@ pub fn finite(word: &str) -> Result<f64, String> {
         .ok_or_else(|| "not a finite number".to_owned())
 }
 
+/// Value parser of options that take a number with a condition:
+/// `value_parser = ugpipe::number(ugpipe::view_angle)`.
+pub fn number<T: 'static>(
+    check: fn(f64) -> Result<T, String>,
+) -> impl Fn(&str) -> Result<T, String> + Clone + Send + Sync {
+    move |word| finite(word).and_then(check)
+}
+
 /// Value parser of options that take a whole number: `value_parser = ugpipe::whole(1..=16)`.
 ///
 /// Its message states the range, or only its lower end if the upper one is `u32::MAX`.
 pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
-    move |word| {
-        word.parse().ok().filter(|number| range.contains(number)).ok_or_else(|| {
-            match range.clone().into_inner() {
-                (least, u32::MAX) => format!("must be a whole number, {least} or more"),
-                (least, most) => format!("must be a whole number from {least} to {most}"),
-            }
-        })
-    }
+    move |word| in_range(word.parse().ok(), &range)
+}
+
+/// The condition of [`whole`] for a number that was not parsed.
+pub fn count(range: RangeInclusive<u32>) -> impl Fn(f64) -> Result<u32, String> {
+    // The conversion saturates.
+    move |number| in_range(u32::try_from(number as i64).ok().filter(|_| number.fract() == 0.0), &range)
+}
+
+fn in_range(number: Option<u32>, range: &RangeInclusive<u32>) -> Result<u32, String> {
+    number.filter(|number| range.contains(number)).ok_or_else(|| match range.clone().into_inner() {
+        (least, u32::MAX) => format!("must be a whole number, {least} or more"),
+        (least, most) => format!("must be a whole number from {least} to {most}"),
+    })
 }
 
 /// Value parser of options that take one of several words, which help and completions list:
@@ -238,12 +252,11 @@ impl<T: Clone + Send + Sync + 'static> TypedValueParser for OneOf<T> {
     }
 }
 
-/// Value parser of options that take a view angle, in degrees, above 0 and below 180.
+/// A view angle, in degrees, above 0 and below 180: `value_parser = number(view_angle)`.
 ///
 /// # Errors
-/// The word is not such an angle. clap adds the word and the option to the message.
-pub fn view_angle(word: &str) -> Result<f64, String> {
-    let degrees = finite(word)?;
+/// The number is not such an angle. clap adds it and the option to the message.
+pub fn view_angle(degrees: f64) -> Result<f64, String> {
     if 0.0 < degrees && degrees < 180.0 {
         Ok(degrees)
     } else {
@@ -327,16 +340,14 @@ mod tests {
         }
         check(1..=u32::MAX, "4294967295", Ok(u32::MAX));
         check(1..=u32::MAX, "0", Err("must be a whole number, 1 or more"));
+        let counts = [16.0, 0.0, 17.0, -1.0, 1.5, 1e300].map(count(1..=16));
+        assert_eq!(counts.map(Result::ok), [Some(16), None, None, None, None, None]);
     }
 
     #[test]
     fn view_angles_have_bounds() {
-        assert_eq!(view_angle("179.9"), Ok(179.9));
-        assert!(
-            [view_angle("0"), view_angle("180"), view_angle("-40"), view_angle("nan")]
-                .iter()
-                .all(Result::is_err)
-        );
+        assert_eq!(number(view_angle)("179.9"), Ok(179.9));
+        assert!(["0", "180", "-40", "nan"].map(number(view_angle)).iter().all(Result::is_err));
     }
 
     #[test]

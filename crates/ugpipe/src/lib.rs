@@ -11,7 +11,7 @@
 //!
 //! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
 //!   including negative numbers: `-vel -.9 0 0`. For clap they are ordinary long options
-//!   ([`finite`], [`whole`] and [`vector`] parse their numbers); the second dash is added before
+//!   ([`finite`], [`number`], [`whole`] and [`vector`] parse their numbers); the second dash is added before
 //!   clap parses them. An option with a variable number of values (`num_args = 1..=2`) takes the
 //!   required values and then only numbers, so a file name may follow it; only `num_args` has to be
 //!   declared for that.
@@ -118,6 +118,8 @@ mod manual;
 #[cfg(feature = "cli")]
 mod messages;
 #[cfg(feature = "cli")]
+mod numbers;
+#[cfg(feature = "cli")]
 mod output;
 mod progress;
 #[cfg(feature = "cli")]
@@ -134,7 +136,7 @@ mod text;
 mod usage;
 
 #[cfg(feature = "cli")]
-pub use args::{CommonArgs, ToolArgs, finite, one_of, vector, view_angle, whole};
+pub use args::{CommonArgs, ToolArgs, count, finite, number, one_of, vector, view_angle, whole};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
@@ -147,6 +149,8 @@ pub use help::{DASHES, DOCUMENTATION, EXIT_STATUS};
 pub use input::Input;
 #[cfg(feature = "cli")]
 pub use manual::{Entry, Group, Manual, Value, manual};
+#[cfg(feature = "cli")]
+pub use numbers::{Assign, SetNumbers, set_numbers};
 pub use progress::Progress;
 #[cfg(feature = "cli")]
 pub use provenance::{sha256, shell_word};

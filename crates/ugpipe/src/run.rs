@@ -67,15 +67,15 @@ impl From<clap::Error> for Unparsed {
     }
 }
 
-/// Parses the command line of a program that is not run but whose functions are called, and gives
-/// the command line that it would record. `words`: the name of the program first.
+/// Parses the command line of a program that is not run but whose functions are called. `words`:
+/// the name of the program first.
 ///
 /// # Errors
 /// [`Failure::Usage`] with the message of the program.
-pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<(A, String), Failure> {
+pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<A, Failure> {
     let mut command = argv::prepare(A::command());
     match parse_from(&mut command, words) {
-        Ok((args, matches)) => Ok((args, provenance::command_line(&command, &matches))),
+        Ok((args, _)) => Ok(args),
         Err(Unparsed::StrayNumber(stray)) => Err(Failure::Usage(usage::stray_number(&stray))),
         Err(Unparsed::Clap(error)) => Err(Failure::Usage(usage::message(&command, &error))),
     }

@@ -1,29 +1,27 @@
 //! The command line.
 
-mod values;
 mod words;
 
 use std::path::Path;
 
 use clap::{ArgAction, Parser};
-use uglight::{ColorShift, HueShift, SpectralShift};
+use uglight::ColorShift;
 use ugparse::HueScale;
 use ugparse::{Provenance, Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, color, kind_named, kinds, picture_format,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, color, kind_named, kinds, law, picture_format,
     pixel, refuse_terminal, report_format, with_format, write_picture,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, one_of};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, number, numbers, one_of};
 use ugscene::cli::RepeatArgs;
 
-use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
+use crate::config::{Config, DepthCue, LINE_WIDTH, MAX_LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::{PROVENANCE, run_with};
 use uglight::Interpolation;
-use values::{law, line_width};
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
@@ -102,7 +100,7 @@ pub struct Args {
     lc: Option<Vec<f64>>,
 
     /// Width of edges and wires in pixels
-    #[arg(long, value_name = "W", default_value_t = LINE_WIDTH, value_parser = line_width,
+    #[arg(long, value_name = "W", default_value_t = LINE_WIDTH, value_parser = number(line_width),
           visible_alias = "line-width", help_heading = LINES)]
     lw: f64,
 
@@ -165,6 +163,8 @@ pub struct Args {
     common: CommonArgs,
 }
 
+numbers!(Args { "lc" => lc, "lw" => lw: line_width, "dc" => dc } picture);
+
 const EXAMPLES: &str = "Examples:
   ugrainbow ship.ug > rest.png
   uglorentz -vel .3 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 800 600 > ship.png
@@ -206,12 +206,7 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        let doppler = !self.no_doppler;
-        if self.sp {
-            return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
-        }
-        let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
-        ColorShift::Hues(HueShift { doppler, law })
+        ColorShift::new(self.sp, !self.no_doppler, !self.no_flux, self.br)
     }
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {
@@ -317,6 +312,15 @@ fn failure(error: Error) -> Failure {
         Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
         error if error.is_usage() => Failure::usage(error.words()),
         error => Failure::failed(error.words()),
+    }
+}
+
+/// Width of lines in pixels.
+fn line_width(width: f64) -> Result<f64, String> {
+    if 0.0 < width && width <= MAX_LINE_WIDTH {
+        Ok(width)
+    } else {
+        Err(format!("a line is more than 0 and at most {MAX_LINE_WIDTH} pixels wide"))
     }
 }
 

@@ -107,12 +107,11 @@ mod vector;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
-pub use render::{PROVENANCE, Prepared, Rendering, light, render, run, run_with};
+pub use render::{PROVENANCE, Prepared, light, render, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugparse::{HueScale, Provenance};
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Note, Output,
-    PictureFile, PictureOptions, Tone, metadata,
+    PictureFile, PictureOptions, Rendering, Tone, VectorFigure, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions};
-pub use vector::VectorFigure;

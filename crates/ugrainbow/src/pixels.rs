@@ -3,7 +3,6 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
-use rayon::prelude::*;
 use ugimage::{Development, Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
 use ugpicture::{Backdrop, Emissions, Exposure, Image, PictureOptions, SurfaceSample, channel_planes};
 use ugraster::{Center, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
@@ -12,9 +11,6 @@ use crate::config::Config;
 use crate::front::front;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-
-/// Pixels that one task develops.
-const CHUNK: usize = 1 << 14;
 
 /// The pixels of a picture.
 pub struct Pixels {
@@ -34,16 +30,9 @@ impl Pixels {
         if !is_deep && !setup.is_uncut {
             return Self::display(setup, layers, config);
         }
-        let (mut frame, stats) = light(setup, layers, config);
-        if config.picture.output.is_linear() {
-            return Self { image: Image::Light(frame), stats, development: None };
-        }
-        let development = development(&config.picture, || &frame);
-        frame.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|pixel| {
-            *pixel = developed(&development, *pixel);
-        });
-        let image = if is_deep { Image::Light(frame) } else { Image::Display(frame.to_display()) };
-        Self { image, stats, development: setup.is_uncut.then_some(development) }
+        let (frame, stats) = light(setup, layers, config);
+        let (image, development) = Image::developed(frame, &config.picture, !setup.is_uncut);
+        Self { image, stats, development }
     }
 
     /// Draws 8-bit levels directly, when no exposure, tone curve or channel is requested.

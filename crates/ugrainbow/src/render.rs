@@ -1,8 +1,8 @@
 //! From a scene to a picture.
 
-use ugimage::{Compression, Frame, LinearFrame, Metadata};
+use ugimage::{Frame, LinearFrame};
 use ugparse::{Diagnostics, Parsed, Provenance, Scene, Source};
-use ugpicture::{Image, Layout, Note, Output, PictureFile, metadata};
+use ugpicture::{Content, Layout, Output, PictureFile, Rendering, metadata};
 use ugpipe::Progress;
 
 use crate::annotate::annotate;
@@ -13,41 +13,7 @@ use crate::notes::{DrawStatistics, notes};
 use crate::pixels::{self, Pixels};
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::vector::{self, VectorFigure};
-
-/// A rendered scene.
-#[derive(Clone, Debug)]
-pub struct Rendering {
-    content: Content,
-    output: Output,
-    compression: Compression,
-    /// What the user should know about it.
-    pub notes: Vec<Note>,
-}
-
-#[derive(Clone, Debug)]
-enum Content {
-    Image(Image),
-    Figure(VectorFigure),
-}
-
-impl Rendering {
-    /// The bytes of a file of the kind that the options ask for. `metadata`: see [`metadata`].
-    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
-        match self.content {
-            Content::Image(image) => image.into_file(self.output, metadata, self.compression),
-            Content::Figure(figure) => figure.file(metadata),
-        }
-    }
-
-    /// 8-bit pixels for a display; `None` for a vector figure, which has no pixels.
-    pub fn into_frame(self) -> Option<Frame> {
-        match self.content {
-            Content::Image(image) => Some(image.into_frame()),
-            Content::Figure(_) => None,
-        }
-    }
-}
+use crate::vector;
 
 /// Renders a scene: to pixels for a display, light, or a vector figure.
 ///
@@ -121,10 +87,8 @@ fn render_with(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     progress.step("preparing", 0);
-    let compression = if config.picture.small { Compression::Small } else { Compression::Fast };
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-    let output = config.picture.output;
-    let (setup, statistics, annotations, content) = match output {
+    let (setup, statistics, annotations, content) = match config.picture.output {
         Output::Vector(format) => {
             let drawn = vector::draw(scene, config, format, layout, progress)?;
             (drawn.setup, drawn.statistics, drawn.annotations, Content::Figure(drawn.figure))
@@ -143,7 +107,7 @@ fn render_with(
     };
     let mut notes = notes(&setup, config, &statistics);
     notes.extend(annotations.notes);
-    Ok(Rendering { content, output, compression, notes })
+    Ok(Rendering::new(content, &config.picture, notes))
 }
 
 /// A scene prepared for drawing: its colours and lights are computed, but nothing is projected yet.

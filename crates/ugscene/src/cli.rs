@@ -4,7 +4,7 @@ mod words;
 
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use ugpipe::{Failure, finite, vector, view_angle};
+use ugpipe::{Failure, finite, number, numbers, vector, view_angle};
 
 use crate::{Anchor, CameraOptions, Geometry, MotionOptions};
 
@@ -29,6 +29,8 @@ pub struct EyeArgs {
           allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
     ep: Option<Vec<f64>>,
 }
+
+numbers!(EyeArgs { "ep" => ep });
 
 impl EyeArgs {
     /// Name of the camera.
@@ -68,7 +70,7 @@ pub struct CameraArgs {
     /// are given. A scene that is written contains the horizontal one only; give the vertical one
     /// to the renderer as well.
     #[arg(long, num_args = 1..=2, value_names = ["A", "B"], action = ArgAction::Set,
-          value_parser = view_angle, visible_alias = "view-angle", help_heading = CAMERA)]
+          value_parser = number(view_angle), visible_alias = "view-angle", help_heading = CAMERA)]
     va: Option<Vec<f64>>,
 
     /// Orthographic projection
@@ -78,6 +80,8 @@ pub struct CameraArgs {
     #[arg(long, visible_alias = "orthographic", help_heading = CAMERA)]
     og: bool,
 }
+
+numbers!(CameraArgs { "vc" => vc, "ud" => ud, "va" => va: view_angle } eye);
 
 impl CameraArgs {
     /// The camera options that these arguments define.
@@ -132,6 +136,10 @@ pub struct MotionArgs {
     #[arg(long = "in", visible_aliases = ["keep-in-view", "in-place"])]
     in_place: bool,
 }
+
+numbers!(MotionArgs {
+    "vel" => velocity, "cv" => camera_velocity, "ti" => time, "an" => anchor: |part: f64| Ok(part.to_string())
+});
 
 impl MotionArgs {
     /// The options that these arguments define, with all effects.

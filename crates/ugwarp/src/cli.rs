@@ -8,16 +8,18 @@ use std::path::{Path, PathBuf};
 use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::Format;
-use uglight::{ColorShift, HueShift, SpectralShift};
+use uglight::ColorShift;
 use ugparse::Provenance;
 use ugphysics::{Brightness, Velocity};
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
-    write_picture,
+    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, law, refuse_terminal,
+    with_format, write_picture,
 };
-use ugpicture::lens::Lens;
-use ugpipe::{CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, sha256, vector};
+use ugpipe::{
+    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, number, numbers, one_of, sha256,
+    vector,
+};
 use ugsky::{Basis, Extent, Star};
 
 use crate::arrangement::Arrangement;
@@ -99,7 +101,7 @@ pub struct Args {
     infrared: Option<PathBuf>,
 
     /// Longest wavelength of the infrared panorama, nm [default: 1400]
-    #[arg(long, value_name = "NM", requires = "infrared", value_parser = infrared_end, help_heading = COLOR)]
+    #[arg(long, value_name = "NM", requires = "infrared", value_parser = number(infrared_end), help_heading = COLOR)]
     infrared_to: Option<f64>,
 
     /// Panorama of ultraviolet light
@@ -109,7 +111,7 @@ pub struct Args {
     ultraviolet: Option<PathBuf>,
 
     /// Shortest wavelength of the ultraviolet panorama, nm [default: 200]
-    #[arg(long, value_name = "NM", requires = "ultraviolet", value_parser = ultraviolet_end, help_heading = COLOR)]
+    #[arg(long, value_name = "NM", requires = "ultraviolet", value_parser = number(ultraviolet_end), help_heading = COLOR)]
     ultraviolet_from: Option<f64>,
 
     /// Draw the stars of a list in front of the panorama
@@ -139,26 +141,8 @@ pub struct Args {
     #[arg(long, help_heading = COLOR)]
     no_flux: bool,
 
-    /// Panorama of all directions
-    ///
-    /// Longitude across the picture, latitude down, the view direction in the middle
-    /// (equirectangular). -sz W H with W = 2 H has square degrees.
-    #[arg(long, visible_alias = "panorama", conflicts_with = "fish", help_heading = PICTURE)]
-    pan: bool,
-
-    /// Fisheye: ANGLE degrees in a circle, as for domes
-    ///
-    /// The distance to the middle of the picture is the angle to the view direction (equidistant).
-    /// A dome needs 180.
-    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = fisheye, help_heading = PICTURE)]
-    fish: Option<f64>,
-
-    /// Cube map: six square views from left to right
-    ///
-    /// Right, left, up, down, front, back of the view direction: +X, -X, +Y, -Y, +Z, -Z of cube
-    /// maps, each as seen from inside. -sz W H needs W = 6 H.
-    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"], help_heading = PICTURE)]
-    cube: bool,
+    #[command(flatten, next_help_heading = PICTURE)]
+    lens: LensArgs,
 
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
@@ -181,6 +165,12 @@ pub struct Args {
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
 }
+
+numbers!(Args {
+    "vel" => velocity, "cv" => cv, "part" => part, "basis" => basis: |kelvin: f64| Ok(kelvin.to_string()),
+    "infrared-to" => infrared_to: infrared_end, "ultraviolet-from" => ultraviolet_from: ultraviolet_end,
+    "star-width" => star_width, "white" => white
+} picture lens);
 
 /// Usual wavelengths of pictures of infrared and ultraviolet light, nm.
 const INFRARED_TO: f64 = 1400.0;
@@ -223,12 +213,7 @@ impl Args {
             shift: self.color_shift(),
             basis: self.basis.as_deref().map_or(Ok(Basis::Smooth), basis)?,
             picture: self.picture.options(output, self.annotations.options())?,
-            lens: match self.fish {
-                Some(degrees) => Lens::Fisheye { angle: degrees.to_radians() },
-                None if self.pan => Lens::Panorama,
-                None if self.cube => Lens::Cube,
-                None => Lens::Pinhole,
-            },
+            lens: self.lens.lens(),
             stars: StarOptions {
                 width: self.star_width.unwrap_or(StarOptions::default().width),
                 white: self.white.unwrap_or(StarOptions::default().white),
@@ -247,12 +232,8 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        let doppler = !self.no_doppler;
-        if self.sp || self.basis.is_some() || self.bands().next().is_some() {
-            return ColorShift::Spectra(SpectralShift { doppler, flux: !self.no_flux });
-        }
-        let law = if self.no_flux { Brightness::None } else { self.br.unwrap_or_default() };
-        ColorShift::Hues(HueShift { doppler, law })
+        let is_spectral = self.sp || self.basis.is_some() || self.bands().next().is_some();
+        ColorShift::new(is_spectral, !self.no_doppler, !self.no_flux, self.br)
     }
 
     /// Reads the panorama, or the stars, of the input and of the other files that options name.
@@ -363,12 +344,6 @@ fn failure(error: Error) -> Failure {
     if error.is_usage() { Failure::usage(error.words()) } else { Failure::failed(error.words()) }
 }
 
-/// The name of a brightness law.
-fn law(word: &str) -> Result<Brightness, String> {
-    Brightness::from_name(word)
-        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
-}
-
 /// The name of an arrangement.
 fn arrangement(word: &str) -> Result<Arrangement, String> {
     Arrangement::from_name(word).ok_or_else(|| {
@@ -392,26 +367,14 @@ fn basis(words: &[String]) -> Result<Basis, Failure> {
     }
 }
 
-fn infrared_end(word: &str) -> Result<f64, String> {
-    let nm = finite(word)?;
+fn infrared_end(nm: f64) -> Result<f64, String> {
     if nm > VISIBLE_NM.end { Ok(nm) } else { Err("infrared light has more than 830 nm".to_owned()) }
 }
 
-fn ultraviolet_end(word: &str) -> Result<f64, String> {
-    let nm = finite(word)?;
+fn ultraviolet_end(nm: f64) -> Result<f64, String> {
     if (0.0..VISIBLE_NM.start).contains(&nm) {
         Ok(nm)
     } else {
         Err("ultraviolet light has 0 to 360 nm".to_owned())
-    }
-}
-
-/// An angle of view, in degrees.
-fn fisheye(word: &str) -> Result<f64, String> {
-    let angle = finite(word)?;
-    if 0.0 < angle && angle <= 360.0 {
-        Ok(angle)
-    } else {
-        Err("a fisheye shows more than 0 and at most 360 degrees".to_owned())
     }
 }

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use rayon::prelude::*;
-use ugimage::{Compression, Development, Format, Frame, LinearFrame, Metadata};
+use ugimage::{Development, Format, LinearFrame, Metadata};
 use uglight::{ColorShift, SpectralShift};
 use ugparse::{Diagnostics, Provenance, Scene, Source};
 use ugpicture::{
-    Annotated, Annotations, Background, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Note,
-    Output, PictureFile, SceneState, channel_planes,
+    Annotated, Annotations, Background, Content, DepthBuffer, Error as PictureError, Exposure, Image, Layout,
+    Note, Output, PictureFile, Rendering, SceneState, channel_planes,
 };
 use ugpipe::Progress;
 use ugscene::CameraOptions;
@@ -26,28 +26,6 @@ pub(crate) const VISIBLE_NM: Range<f64> = 360.0..830.0;
 
 /// Least brightness at which clipping is reported; less is invisible in 8 bits.
 const CLIPPED: f32 = 1.001;
-
-/// A picture of a panorama.
-#[derive(Clone, Debug)]
-pub struct Rendering {
-    image: Image,
-    output: Output,
-    compression: Compression,
-    /// What the user should know about it.
-    pub notes: Vec<Note>,
-}
-
-impl Rendering {
-    /// The bytes of a file of the kind that the options ask for.
-    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
-        self.image.into_file(self.output, metadata, self.compression)
-    }
-
-    /// 8-bit pixels for a display.
-    pub fn into_frame(self) -> Frame {
-        self.image.into_frame()
-    }
-}
 
 /// Makes a picture of a panorama, of stars or of both.
 ///
@@ -217,13 +195,10 @@ impl Prepared {
         picture.output == Output::Color(Format::Png) && !picture.annotations.is_any()
     }
 
-    fn compression(&self) -> Compression {
-        if self.config.picture.small { Compression::Small } else { Compression::Fast }
-    }
-
     /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
     fn png(&self, panorama: &Panorama, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
-        let (file, statistics) = self.warp.png(panorama, progress, metadata, self.compression());
+        let (file, statistics) =
+            self.warp.png(panorama, progress, metadata, self.config.picture.compression());
         (file, notes(&self.warp, &self.config, &statistics, None))
     }
 
@@ -237,7 +212,7 @@ impl Prepared {
             None => {
                 let (mut frame, statistics) = seen(sky, warp, config, progress)?;
                 push_channels(&mut frame, warp, config);
-                let (image, development) = developed(frame, warp, config);
+                let (image, development) = Image::developed(frame, &config.picture, !warp.is_uncut());
                 (image, statistics, development)
             }
         };
@@ -245,30 +220,8 @@ impl Prepared {
         let annotations = annotate(layout, warp, config, development)?;
         let mut notes = notes(warp, config, &statistics, development);
         notes.extend(annotations.notes.iter().cloned());
-        Ok(Rendering {
-            image: annotations.composite(image),
-            output: config.picture.output,
-            compression: self.compression(),
-            notes,
-        })
+        Ok(Rendering::new(Content::Image(annotations.composite(image)), &config.picture, notes))
     }
-}
-
-/// The picture for its format, and how its light was developed; `None` if it was not.
-fn developed(mut frame: LinearFrame, warp: &Warp, config: &Config) -> (Image, Option<Development>) {
-    let picture = &config.picture;
-    if picture.output.is_linear() {
-        return (Image::Light(frame), None);
-    }
-    let development =
-        warp.is_uncut().then(|| Exposure::development(picture.exposure, picture.tone, || &frame));
-    if let Some(development) = development {
-        frame.pixels_mut().par_iter_mut().for_each(|[red, green, blue, _]| {
-            [*red, *green, *blue] = development.apply([*red, *green, *blue]);
-        });
-    }
-    let is_deep = picture.output.format().is_some_and(|format| format.is_deep());
-    (if is_deep { Image::Light(frame) } else { Image::Display(frame.to_display()) }, development)
 }
 
 fn annotate(

@@ -23,10 +23,10 @@ mod smooth;
 mod transparency;
 mod work;
 
-use ugimage::figure::{self, Element, Figure, Gradient, Triangle};
-use ugimage::{Development, Format, Metadata};
+use ugimage::figure::{Element, Figure};
+use ugimage::{Development, Format};
 use ugparse::Scene;
-use ugpicture::{Annotations, Exposure, Layout, MAX_PIXELS};
+use ugpicture::{Annotations, Exposure, Layout, MAX_PIXELS, VectorFigure};
 use ugpipe::Progress;
 
 use crate::annotate::annotate;
@@ -54,27 +54,6 @@ const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
 
 /// Most samples of translucent faces by which visibility is decided, which took about two seconds.
 const MOST_FRAGMENTS: f64 = (1 << 25) as f64;
-
-/// A figure with smooth colours in the form that its format supports.
-#[derive(Clone, Debug)]
-pub enum VectorFigure {
-    /// For SVG.
-    Gradients(Figure<Gradient>),
-    /// For PostScript and PDF.
-    Triangles(Figure<Triangle>, Format),
-}
-
-impl VectorFigure {
-    /// The bytes of its file.
-    pub fn file(&self, metadata: &Metadata) -> Vec<u8> {
-        match self {
-            Self::Gradients(figure) => figure::svg(figure, metadata),
-            Self::Triangles(figure, Format::Pdf) => figure::pdf(figure, metadata),
-            Self::Triangles(figure, Format::Ps) => figure::ps(figure, metadata),
-            Self::Triangles(figure, _) => figure::eps(figure, metadata),
-        }
-    }
-}
 
 /// A figure of a scene, and the data for its notes.
 pub struct Drawn<'a> {

@@ -1,0 +1,29 @@
+//! What the programs of a frame say about it.
+
+/// What a program says about a frame.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Note {
+    /// Of `uglorentz`.
+    Lorentz(uglorentz::Report),
+    /// Of `ugdoppler`.
+    Doppler(ugdoppler::Note),
+    /// Of the program of this name, which drew the picture.
+    Picture(&'static str, ugpicture::Note),
+}
+
+#[cfg(feature = "cli")]
+impl Note {
+    /// Sentences that begin with the name of the program.
+    pub fn words(&self) -> Vec<String> {
+        use ugpipe::Words;
+
+        let (program, words) = match self {
+            Self::Lorentz(report) => {
+                (uglorentz::PROVENANCE.program, [report.warnings(), report.notes()].concat())
+            }
+            Self::Doppler(note) => (ugdoppler::PROVENANCE.program, vec![note.words()]),
+            Self::Picture(program, note) => (*program, vec![note.words()]),
+        };
+        words.into_iter().map(|words| format!("{program}: {words}")).collect()
+    }
+}

@@ -1,0 +1,115 @@
+//! The programs of a frame, one after the other.
+
+use ugimage::{LinearFrame, Metadata};
+use ugparse::{Provenance, Scene};
+use ugpicture::{AnnotationOptions, PictureOptions, Rendering};
+
+use crate::error::Error;
+use crate::note::Note;
+use crate::program::{Item, Program};
+
+/// What a film shows.
+#[derive(Clone, Copy)]
+pub enum Subject<'s> {
+    /// A scene at rest.
+    Scene(&'s Scene),
+    /// A panorama, with the words for its origin.
+    Panorama(&'s ugwarp::Opened, &'s str),
+}
+
+/// The programs that draw a frame.
+#[derive(Clone, Debug)]
+pub struct Pipe {
+    programs: Vec<Program>,
+    /// The options of the picture, which replace those of the last program.
+    pub picture: PictureOptions,
+    /// The command lines of the programs for the history of the picture; none are recorded if it is
+    /// empty.
+    pub lines: Vec<String>,
+}
+
+impl Pipe {
+    /// Programs in their order, the last of which draws.
+    pub fn new(mut programs: Vec<Program>) -> Self {
+        let picture = programs.last_mut().and_then(Program::picture).map(std::mem::take);
+        Self { programs, picture: picture.unwrap_or_default(), lines: Vec::new() }
+    }
+
+    /// The programs with their options, but those of the picture.
+    pub fn programs(&self) -> &[Program] {
+        &self.programs
+    }
+
+    /// What the file of the frame says about its making. Of a scene only the comments are used.
+    pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
+        let mut head = match subject {
+            Subject::Scene(scene) => {
+                Scene { head: scene.head.clone(), origin: scene.origin.clone(), ..Scene::default() }
+            }
+            Subject::Panorama(_, origin) => Scene { origin: Some(origin.to_owned()), ..Scene::default() },
+        };
+        let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
+        filters.iter().zip(&self.lines).for_each(|(filter, line)| record(&mut head, filter, line));
+        let command = Some(self.lines.last().map_or("", String::as_str));
+        ugpicture::metadata(&head, Provenance { command, ..last.provenance() })
+    }
+
+    /// Draws the frame. Returns it with the notes of all programs.
+    ///
+    /// # Errors
+    /// The scene or panorama cannot be drawn with these options.
+    pub fn draw(&self, subject: Subject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
+        let mut item = match subject {
+            Subject::Scene(scene) => Item::Scene(Box::new(scene.clone())),
+            Subject::Panorama(panorama, _) => Item::Panorama(panorama),
+        };
+        let mut notes = Vec::new();
+        for (row, program) in self.programs.iter().enumerate() {
+            let mut program = program.clone();
+            if let Some(picture) = program.picture() {
+                picture.clone_from(&self.picture);
+            }
+            let (made, told) = program.run(item)?;
+            notes.extend(told);
+            item = made;
+            if let (Item::Scene(scene), Some(line)) = (&mut item, self.lines.get(row)) {
+                record(scene, &program, line);
+            }
+        }
+        match item {
+            Item::Picture(picture) => Ok((picture, notes)),
+            Item::Scene(_) | Item::Panorama(_) => Err(Error::Subject),
+        }
+    }
+
+    /// The light of the frame, without exposure and annotations.
+    ///
+    /// # Errors
+    /// As of [`Pipe::draw`].
+    pub fn light(&self, subject: Subject<'_>) -> Result<LinearFrame, Error> {
+        let mut pipe = self.clone();
+        pipe.picture.keep_light();
+        pipe.picture.annotations = AnnotationOptions::default();
+        pipe.draw(subject)?.0.into_light().ok_or(Error::NoPixels)
+    }
+
+    /// The same frame in a picture of at most `side` pixels a side, without annotations, which
+    /// would leave no room for the scene.
+    #[must_use]
+    pub fn small(mut self, side: u32) -> Self {
+        let [width, height] = self.picture.size;
+        let longest = width.max(height).max(1);
+        if longest > side {
+            let scaled =
+                |length: u32| ((u64::from(length) * u64::from(side)) / u64::from(longest)).max(1) as u32;
+            self.picture.size = [scaled(width), scaled(height)];
+        }
+        self.picture.channels.clear();
+        self.picture.annotations = AnnotationOptions::default();
+        self
+    }
+}
+
+fn record(scene: &mut Scene, program: &Program, line: &str) {
+    ugscene::record(scene, Provenance { command: Some(line), ..program.provenance() });
+}
