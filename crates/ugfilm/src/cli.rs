@@ -284,7 +284,7 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
     // Frames that are wrong are reported when they are drawn.
     let motion = |step: u32| {
         let frame = 1.0 + f64::from(step) / f64::from(FITTED_STEPS) * f64::from(script.n_frames - 1);
-        script.pipe(frame, Format::Png).ok()?.programs().iter().find_map(Program::motion)
+        script.pipe(frame, &[], Format::Png).ok()?.programs().iter().find_map(Program::motion)
     };
     let motions: Vec<MotionOptions> = (0..=FITTED_STEPS).filter_map(motion).collect();
     ugscene::common_camera(scene, &CameraOptions::default(), [4, 3], &motions)
@@ -316,7 +316,7 @@ impl Args {
     /// The panorama of a file, of which the first frame says which part of the sphere it is, and
     /// stars.
     fn panorama(&self, script: &Script, input: &Input, context: &Context) -> Result<ugwarp::Opened, Failure> {
-        let words = script.commands(1.0)?.0.concat();
+        let words = script.commands(1.0, &[])?.0.concat();
         parse_words::<ugwarp::Args>(words.into_iter().map(OsString::from))?.open(input, context)
     }
 

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::frame_files::{Claim, FrameNames, is_done};
 use crate::note::Note;
 use crate::pipe::{Pipe, Subject};
-use crate::script::Script;
+use crate::script::{DONE_TO_LIGHT, Script};
 use crate::work::in_order;
 
 /// Largest number of frames whose commands are checked before the first frame is drawn.
@@ -78,7 +78,7 @@ impl Summary {
 
 impl Film<'_> {
     fn pipe(&self, frame: u32) -> Result<Pipe, Failure> {
-        self.script.pipe(f64::from(frame), self.format)
+        self.script.pipe(f64::from(frame), &[], self.format)
     }
 
     /// The moments whose mean a frame is, in frames; `None` without motion blur.
@@ -89,7 +89,7 @@ impl Film<'_> {
     }
 
     fn shot(&self, frame: u32) -> Result<Shot, Failure> {
-        let pipe = |moment: f64| self.script.light_pipe(moment, self.format);
+        let pipe = |moment: f64| self.script.pipe(moment, DONE_TO_LIGHT, self.format);
         let moments = self.moments(frame).unwrap_or_default().into_iter().map(pipe);
         Ok(Shot { moments: moments.collect::<Result<_, _>>()?, frame: self.pipe(frame)? })
     }

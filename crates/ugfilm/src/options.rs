@@ -188,3 +188,28 @@ impl FromArgMatches for ProgramOptions {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A new option with numbers is in the list `numbers!` of its arguments.
+    #[test]
+    fn numbers_of_all_options_can_change() {
+        const WORDS: [&str; 10] =
+            ["br", "cam", "cap", "ch", "fl", "from", "infrared", "stars", "tc", "ultraviolet"];
+        let mut n_options = 0;
+        for tool in TOOLS {
+            let typed = (tool.parse)(&[tool.name().to_owned()]).unwrap();
+            for arg in tool.options().iter().filter(|arg| arg.get_action().takes_values()) {
+                let name = arg.get_long().unwrap();
+                let n_values = arg.get_num_args().map_or(1, |range| range.min_values().max(1));
+                let outcome = typed(&[(name, vec![1.0; n_values])]).map_err(|failure| failure.to_string());
+                let is_fixed = outcome.is_err_and(|problem| problem.contains("has no numbers"));
+                assert_eq!(is_fixed, WORDS.contains(&name), "{} {name}", tool.name());
+                n_options += 1;
+            }
+        }
+        assert!(n_options > 60, "{n_options}");
+    }
+}

@@ -7,6 +7,7 @@ use ugpipe::Failure;
 
 use crate::film::Film;
 use crate::frame_files::FrameNames;
+use crate::script::DONE_TO_LIGHT;
 
 /// The commands of these frames, one in a line. Of a frame with motion blur, those of its moments
 /// after a comment. `input`: the scene, `None` for standard input; `names`: the files of frames.
@@ -23,7 +24,7 @@ pub fn script(
     for frame in frames {
         let file = names.path(frame);
         let Some(moments) = film.moments(frame) else {
-            let mut commands = film.script.commands(f64::from(frame))?;
+            let mut commands = film.script.commands(f64::from(frame), &[])?;
             commands.set_format(film.format);
             text += &commands.line(input, Some(&file.display().to_string()));
             text.push('\n');
@@ -40,7 +41,7 @@ pub fn script(
             moments.len()
         );
         for (row, moment) in (1..).zip(moments) {
-            let mut commands = film.script.light_commands(moment)?;
+            let mut commands = film.script.commands(moment, DONE_TO_LIGHT)?;
             commands.set_format(Format::Exr);
             let file = file.with_extension(format!("{row:02}.exr"));
             text += &commands.line(input, Some(&file.display().to_string()));

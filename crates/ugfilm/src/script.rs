@@ -22,7 +22,7 @@ const VELOCITIES: [&str; 2] = ["vel", "cv"];
 const CAPTION: &str = "cap";
 
 /// Options for what is done to the light of a picture.
-const DONE_TO_LIGHT: &[&str] = &[CAPTION, "ex", "tc"];
+pub const DONE_TO_LIGHT: &[&str] = &[CAPTION, "ex", "tc"];
 
 /// What is drawn in every frame.
 pub struct Script {
@@ -143,44 +143,13 @@ impl Script {
         if self.is_loop && time < 0.0 { time.rem_euclid(1.0) } else { time }
     }
 
-    /// The commands of a frame.
-    ///
-    /// # Errors
-    /// A caption asks for what the frame does not have.
-    pub fn commands(&self, frame: f64) -> Result<Commands, Failure> {
-        self.commands_without(frame, &[])
-    }
-
-    /// The commands for the light of a moment: those of a frame without what is done to light.
-    ///
-    /// # Errors
-    /// As of [`Script::commands`].
-    pub fn light_commands(&self, moment: f64) -> Result<Commands, Failure> {
-        self.commands_without(moment, DONE_TO_LIGHT)
-    }
-
-    /// The programs of a frame, and the command lines that its file records.
+    /// The programs of a frame or moment. Their command lines, which its file records, are without
+    /// the options `left_out`.
     ///
     /// # Errors
     /// An option is wrong, or a caption asks for what the frame does not have.
-    pub fn pipe(&self, frame: f64, format: Format) -> Result<Pipe, Failure> {
-        let mut pipe = self.pipe_of(frame, self.commands(frame)?, format)?;
-        if let Some(setting) = self.options.iter().find(|setting| setting.name == CAPTION) {
-            pipe.picture.annotations.caption = self.values(setting, frame)?.concat();
-        }
-        Ok(pipe)
-    }
-
-    /// The programs for the light of a moment.
-    ///
-    /// # Errors
-    /// As of [`Script::pipe`].
-    pub fn light_pipe(&self, moment: f64, format: Format) -> Result<Pipe, Failure> {
-        self.pipe_of(moment, self.light_commands(moment)?, format)
-    }
-
-    /// `commands`: what the history of the picture says.
-    fn pipe_of(&self, frame: f64, mut commands: Commands, format: Format) -> Result<Pipe, Failure> {
+    pub fn pipe(&self, frame: f64, left_out: &[&str], format: Format) -> Result<Pipe, Failure> {
+        let mut commands = self.commands(frame, left_out)?;
         commands.set_format(format);
         let programs = self.typed(frame)?.iter().enumerate();
         let programs = programs.map(|(row, typed)| typed(&self.numbers(row, frame)));
@@ -190,6 +159,9 @@ impl Script {
             Output::Vector(_) => Output::Vector(format),
             _ => Output::Color(format),
         };
+        if let Some(setting) = self.settings(left_out).find(|setting| setting.name == CAPTION) {
+            pipe.picture.annotations.caption = self.values(setting, frame)?.concat();
+        }
         Ok(pipe)
     }
 
@@ -198,7 +170,7 @@ impl Script {
         if let Some(typed) = self.typed.get() {
             return Ok(typed);
         }
-        let commands = self.commands_without(frame, &[CAPTION])?;
+        let commands = self.commands(frame, &[CAPTION])?;
         let typed = self.tools.iter().zip(&commands.0).map(|(tool, words)| (tool.parse)(words));
         let typed = typed.collect::<Result<_, _>>()?;
         Ok(self.typed.get_or_init(|| typed))
@@ -206,12 +178,10 @@ impl Script {
 
     /// The numbers of a frame among the options of a program that change over the film.
     fn numbers(&self, row: usize, frame: f64) -> Vec<(&str, Vec<f64>)> {
-        let time = self.time(frame);
-        let changes = |setting: &&Setting| {
-            setting.owners.contains(&row) && setting.name != CAPTION && setting.timeline.is_moving()
-        };
-        let settings = self.options.iter().filter(changes);
-        settings.map(|setting| (setting.name.as_str(), setting.timeline.numbers(time, self.ease))).collect()
+        let changes = |setting: &&Setting| setting.owners.contains(&row) && setting.timeline.is_moving();
+        let numbers = |setting: &Setting| setting.timeline.numbers(self.time(frame), self.ease);
+        let settings = self.settings(&[CAPTION]).filter(changes);
+        settings.map(|setting| (setting.name.as_str(), numbers(setting))).collect()
     }
 
     /// The words of the values of an option.
@@ -234,10 +204,14 @@ impl Script {
         format!(", developed with {}", options.join(" "))
     }
 
-    fn commands_without(&self, frame: f64, left_out: &[&str]) -> Result<Commands, Failure> {
+    /// The commands of a frame or moment without the options `left_out`.
+    ///
+    /// # Errors
+    /// A caption asks for what the frame does not have.
+    pub fn commands(&self, frame: f64, left_out: &[&str]) -> Result<Commands, Failure> {
         let begin = |tool: &&Tool| [tool.name().to_owned()].into_iter().chain(self.reading.clone()).collect();
         let mut commands = Commands(self.tools.iter().map(begin).collect());
-        for setting in self.options.iter().filter(|setting| !left_out.contains(&setting.name.as_str())) {
+        for setting in self.settings(left_out) {
             let values = self.values(setting, frame)?;
             for &row in &setting.owners {
                 commands.0[row].push(spelling(&setting.name));
@@ -245,6 +219,10 @@ impl Script {
             }
         }
         Ok(commands)
+    }
+
+    fn settings(&self, left_out: &[&str]) -> impl Iterator<Item = &Setting> {
+        self.options.iter().filter(|setting| !left_out.contains(&setting.name.as_str()))
     }
 
     /// A caption with the numbers of a frame: `{frame}`, `{beta}`, `{gamma}`, `{t}`, and the names
