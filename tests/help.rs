@@ -2,9 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;
 
+use ugpipe::Manual;
+use ugpipe::remedies::program_with_option;
 use ugtests::documents::{Page, prepare, resized, written_files};
 use ugtests::programs;
 
@@ -118,6 +121,25 @@ fn names_in_help_are_accepted() {
             }
         }
     }
+}
+
+/// "`-vel` is an option of uglorentz": the program has this option.
+#[test]
+fn remedies_name_programs_that_have_the_option() {
+    let manuals = manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet);
+    let names = |manual: &Manual| -> BTreeSet<String> {
+        let names = manual.options().flat_map(|option| option.names.iter());
+        names.map(|name| name.trim_start_matches('-').to_owned()).collect()
+    };
+    let all: BTreeSet<String> = manuals.iter().flat_map(names).collect();
+    let mut n_named = 0;
+    for name in all {
+        let Some(program) = program_with_option(&name) else { continue };
+        let owner = manuals.iter().find(|manual| manual.name == program).unwrap();
+        assert!(names(owner).contains(&name), "{name} is no option of {program}");
+        n_named += 1;
+    }
+    assert!(n_named >= 30, "{n_named}");
 }
 
 #[test]
