@@ -25,8 +25,8 @@ use crate::mesh;
 /// Runs of each program alternately; the median counts.
 const ROUNDS: usize = 21;
 
-/// What is measured. Independent rays are compared with Embree's single rays.
-const ROWS: [&str; 4] = ["building", "single rays", "independent rays", "packets"];
+/// What is measured.
+const ROWS: [&str; 3] = ["building", "single rays", "packets"];
 
 const WIDTH: usize = 1280;
 const HEIGHT: usize = 720;
@@ -59,7 +59,7 @@ pub fn write(
     for &size in sizes {
         let (positions, triangles) = rounded_mesh(size);
         let mut embree = Embree::start(&positions, &triangles, &dir, threads)?;
-        let mut rounds = [const { Vec::new() }; 4];
+        let mut rounds = [const { Vec::new() }; 3];
         let mut bvh = pool.install(|| Bvh::new(&positions, &triangles));
         check_same(&pool, &bvh, &mut embree)?;
         for _ in 0..ROUNDS {
@@ -70,10 +70,8 @@ pub fn write(
             rounds[0].push([ours, embree.run("build")?.0]);
             let (_, ours) = measured(|| black_box(pool.install(|| trace(&bvh, trace_single))))?;
             rounds[1].push([ours, embree.run("single")?.0]);
-            let (_, ours) = measured(|| black_box(pool.install(|| trace(&bvh, trace_each))))?;
-            rounds[2].push([ours, embree.run("single")?.0]);
             let (_, ours) = measured(|| black_box(pool.install(|| trace(&bvh, trace_packet))))?;
-            rounds[3].push([ours, embree.run("packet")?.0]);
+            rounds[2].push([ours, embree.run("packet")?.0]);
         }
         let n_bytes = bvh.n_bytes() as f64 / triangles.len() as f64;
         let head = format!("| {} | {n_bytes:.0} |", triangles.len());
@@ -134,18 +132,14 @@ fn rounded_mesh(size: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (positions, triangles)
 }
 
-/// Fails if single rays, independent rays and packets have different hits, or others than Embree.
+/// Fails if single rays and packets have different hits, or others than Embree.
 /// Embree's rays are rounded, so a few at the outline may differ.
 fn check_same(pool: &rayon::ThreadPool, bvh: &Bvh, embree: &mut Embree) -> Result<(), Box<dyn Error>> {
     let ours = pool.install(|| trace(bvh, trace_single));
-    let each = pool.install(|| trace(bvh, trace_each));
     let packets = pool.install(|| trace(bvh, trace_packet));
     let theirs = [embree.run("single")?.1, embree.run("packet")?.1];
-    if ours != each
-        || ours != packets
-        || theirs.iter().any(|theirs| theirs.abs_diff(ours) > WIDTH * HEIGHT / 1000)
-    {
-        let hits = format!("{ours} of single rays, {each} of independent rays, {packets} of packets");
+    if ours != packets || theirs.iter().any(|theirs| theirs.abs_diff(ours) > WIDTH * HEIGHT / 1000) {
+        let hits = format!("{ours} of single rays, {packets} of packets");
         return Err(format!("hits: {hits}, {theirs:?} of Embree").into());
     }
     Ok(())
@@ -199,16 +193,6 @@ fn trace_single(bvh: &Bvh, camera: &Camera, column: usize, row: usize) -> usize 
             bvh.closest(&Ray { origin: EYE, direction }, 0.0..f64::INFINITY).is_some()
         })
         .count()
-}
-
-fn trace_each(bvh: &Bvh, camera: &Camera, column: usize, row: usize) -> usize {
-    let rays: [Ray; SIDE * SIDE] = std::array::from_fn(|idx| {
-        let direction = camera.direction(column + idx % SIDE, row + idx / SIDE);
-        Ray { origin: EYE, direction }
-    });
-    let mut hits = [None; SIDE * SIDE];
-    bvh.closest_each(&rays, 0.0..f64::INFINITY, &mut hits);
-    hits.iter().flatten().count()
 }
 
 fn trace_packet(bvh: &Bvh, camera: &Camera, column: usize, row: usize) -> usize {

@@ -79,10 +79,10 @@ pub struct Depths {
 }
 
 /// Padding beyond which all boxes are hit.
-pub const MAX_PADDING: f64 = 1024.0;
+const MAX_PADDING: f64 = 1024.0;
 
 /// Greatest |reciprocal of a slope| for tests of boxes.
-pub const MAX_RECIPROCAL: f64 = power_of_two(40);
+const MAX_RECIPROCAL: f64 = power_of_two(40);
 
 impl BoxRay {
     /// `direction`: that of the ray. Returns `None` if the ray misses the cube.
@@ -155,7 +155,7 @@ impl BoxRay {
 
 /// 1 for negative numbers and −0.
 #[inline(always)]
-pub fn is_backward(slope: f32) -> usize {
+fn is_backward(slope: f32) -> usize {
     (slope.to_bits() >> 31) as usize
 }
 

@@ -4,34 +4,11 @@ use std::ops::{ControlFlow, Range};
 
 use fearless_simd::{Simd, dispatch};
 
-use crate::box_ray::{BoxRay, Line, Slabs};
+use crate::box_ray::BoxRay;
 use crate::nodes::{IS_BLOCK, SimdRay, WIDTH};
 use crate::shear::{Crossing, Shear, Simple};
 use crate::stack::{Entry, N_FIRST, Stack};
-use crate::{Bvh, Hit, Ray, Triangle, Work};
-
-/// Counts work, or does not.
-pub trait Count {
-    fn node(&mut self) {}
-    fn block(&mut self) {}
-    fn triangle(&mut self) {}
-}
-
-impl Count for () {}
-
-impl Count for Work {
-    fn node(&mut self) {
-        self.nodes += 1;
-    }
-
-    fn block(&mut self) {
-        self.blocks += 1;
-    }
-
-    fn triangle(&mut self) {
-        self.triangles += 1;
-    }
-}
+use crate::{Bvh, Hit, Ray, Triangle};
 
 /// Replaces a hit by a nearer one. Returns true if it did.
 #[inline(always)]
@@ -78,11 +55,11 @@ impl Prepared {
 }
 
 #[inline(always)]
-pub fn closest(bvh: &Bvh, ray: &Prepared, count: &mut impl Count) -> Option<Hit> {
+pub fn closest(bvh: &Bvh, ray: &Prepared) -> Option<Hit> {
     let mut walk = Walk::new(ray.depths.end);
     let mut hit = None;
     loop {
-        match dispatch!(bvh.level, simd => walk_on::<_, false>(simd, bvh, ray, &mut walk, &mut hit, count)) {
+        match dispatch!(bvh.level, simd => walk_on::<_, false>(simd, bvh, ray, &mut walk, &mut hit)) {
             Stop::Empty if !walk.stack.refill() => return hit,
             Stop::Empty => {}
             stop => walk.resume(bvh, ray, stop, &mut hit, false),
@@ -107,55 +84,11 @@ pub fn visit(bvh: &Bvh, ray: &Prepared, visit: &mut impl FnMut(Hit) -> ControlFl
 
 /// Not generic, so compiled once.
 fn walk_to_hit(bvh: &Bvh, ray: &Prepared, walk: &mut Walk, hit: &mut Option<Hit>) -> Stop {
-    dispatch!(bvh.level, simd => walk_on::<_, true>(simd, bvh, ray, walk, hit, &mut ()))
-}
-
-/// A ray of which each part is loaded where it is used.
-pub trait Source {
-    fn slabs(&self) -> Slabs;
-    fn line(&self) -> Line;
-    fn shear(&self) -> Shear;
-    fn range(&self) -> &Range<f64>;
-    /// The least τ of hits.
-    fn start(&self) -> f32;
-    /// Greatest τ of hits up to z.
-    fn limit(&self, z: f64) -> f32;
-}
-
-impl Source for Prepared {
-    #[inline(always)]
-    fn slabs(&self) -> Slabs {
-        self.box_ray.slabs
-    }
-
-    #[inline(always)]
-    fn line(&self) -> Line {
-        self.box_ray.line
-    }
-
-    #[inline(always)]
-    fn shear(&self) -> Shear {
-        self.shear
-    }
-
-    #[inline(always)]
-    fn range(&self) -> &Range<f64> {
-        &self.range
-    }
-
-    #[inline(always)]
-    fn start(&self) -> f32 {
-        self.depths.start
-    }
-
-    #[inline(always)]
-    fn limit(&self, z: f64) -> f32 {
-        self.box_ray.limit(z)
-    }
+    dispatch!(bvh.level, simd => walk_on::<_, true>(simd, bvh, ray, walk, hit))
 }
 
 /// The state of a search.
-pub struct Walk {
+struct Walk {
     stack: Stack,
     /// Triangles of the next block that are to be tested.
     triangles: u32,
@@ -165,7 +98,7 @@ pub struct Walk {
 
 /// Why a search stops. Rare cases are handled by its caller, as functions called in its loop would
 /// keep the ray out of vector registers.
-pub enum Stop {
+enum Stop {
     /// The array of the stack is empty.
     Empty,
     /// The array of the stack has no room for the children of this node.
@@ -179,15 +112,8 @@ pub enum Stop {
 impl Walk {
     /// Starts at the root, for hits up to a τ.
     #[inline(always)]
-    pub fn new(end: f32) -> Self {
+    fn new(end: f32) -> Self {
         Self { stack: Stack::with_root(), triangles: u32::MAX, end }
-    }
-
-    /// Restarts at the root, for hits up to a τ.
-    #[inline(always)]
-    pub fn begin(&mut self, end: f32) {
-        self.stack.begin();
-        (self.triangles, self.end) = (u32::MAX, end);
     }
 
     /// Handles the case a search stopped for, so that it can continue. `each`: as of [`walk_on`].
@@ -221,17 +147,18 @@ impl Walk {
 
 /// Continues a search until it stops. With `EACH` it stops at every hit, otherwise it keeps the
 /// nearest.
+///
+/// Parts of the ray are copied where they are used: by reference, single rays took a fifth more time.
 #[inline(always)]
-pub fn walk_on<S: Simd, const EACH: bool>(
+fn walk_on<S: Simd, const EACH: bool>(
     simd: S,
     bvh: &Bvh,
-    ray: &impl Source,
+    ray: &Prepared,
     walk: &mut Walk,
     nearest_hit: &mut Option<Hit>,
-    count: &mut impl Count,
 ) -> Stop {
-    let simd_ray = SimdRay::new(simd, &ray.slabs());
-    let start = ray.start();
+    let simd_ray = SimdRay::new(simd, &{ ray.box_ray.slabs });
+    let start = ray.depths.start;
     let mut end = walk.end;
     let mut n = walk.stack.n;
     let mut child = 0;
@@ -251,7 +178,6 @@ pub fn walk_on<S: Simd, const EACH: bool>(
         }
         if child & IS_BLOCK == 0 {
             let node = &bvh.nodes[child as usize];
-            count.node();
             let (near, mut mask) = node.intersect(simd, &simd_ray, start, end);
             is_popped = mask == 0;
             if is_popped {
@@ -282,22 +208,20 @@ pub fn walk_on<S: Simd, const EACH: bool>(
         }
         is_popped = true;
         let block = &bvh.blocks[(child & !IS_BLOCK) as usize];
-        count.block();
-        let mut mask = block.candidates(simd, &ray.line()) & walk.triangles;
+        let mut mask = block.candidates(simd, &{ ray.box_ray.line }) & walk.triangles;
         walk.triangles = u32::MAX;
         while mask != 0 {
             let triangle = bvh.triangles[block.first as usize + lowest(mask)];
             mask &= mask - 1;
-            count.triangle();
-            match ray.shear().intersect_simply(bvh.corners(&triangle)) {
+            match { ray.shear }.intersect_simply(bvh.corners(&triangle)) {
                 Simple::Miss => {}
                 Simple::Crossing(crossing) => {
-                    if keep_nearest_in(ray.range(), nearest_hit, &crossing, triangle.index) {
+                    if keep_nearest_in(&ray.range, nearest_hit, &crossing, triangle.index) {
                         if EACH {
                             walk.stack.n = n;
                             return Stop::Hit(child, mask);
                         }
-                        end = end.min(ray.limit(crossing.z));
+                        end = end.min(ray.box_ray.limit(crossing.z));
                     }
                 }
                 Simple::Unsafe => {

@@ -41,7 +41,6 @@
 mod box_ray;
 mod build;
 mod closest;
-mod each;
 mod frame;
 mod nodes;
 mod packet;
@@ -102,17 +101,6 @@ pub struct Hit {
     pub v: f64,
 }
 
-/// Numbers of tests that a search made, for measuring how cost grows with the number of triangles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Work {
-    /// Nodes visited, of up to eight boxes each.
-    pub nodes: u64,
-    /// Blocks tested in single precision, of up to eight triangles each.
-    pub blocks: u64,
-    /// Triangles tested in double precision.
-    pub triangles: u64,
-}
-
 impl Bvh {
     /// Builds the hierarchy, on all threads of the current rayon pool.
     ///
@@ -139,12 +127,7 @@ impl Bvh {
     /// The nearest hit with `range.start` < t < `range.end`. Ties go to the lowest triangle index.
     #[inline(always)]
     pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Hit> {
-        closest::closest(self, &Prepared::new(self, ray, range)?, &mut ())
-    }
-
-    /// Like [`Bvh::closest`], and counts what is done.
-    pub fn closest_counted(&self, ray: &Ray, range: Range<f64>, work: &mut Work) -> Option<Hit> {
-        closest::closest(self, &Prepared::new(self, ray, range)?, work)
+        closest::closest(self, &Prepared::new(self, ray, range)?)
     }
 
     /// Calls `visit` for hits with `range.start` < t < `range.end`, in any order, until it returns
@@ -171,14 +154,6 @@ impl Bvh {
         hits: &mut [Option<Hit>],
     ) {
         packet::closest(self, origin, directions, &range, hits);
-    }
-
-    /// The nearest hit of each of several rays, as [`Bvh::closest`] returns it. The rays need not be
-    /// close to each other. This is faster than one call for each, as eight are prepared at once.
-    ///
-    /// `hits[i]` becomes that of `rays[i]`; the shorter slice counts.
-    pub fn closest_each(&self, rays: &[Ray], range: Range<f64>, hits: &mut [Option<Hit>]) {
-        each::closest(self, rays, &range, hits);
     }
 
     #[inline(always)]

@@ -10,7 +10,6 @@
 //! operand is greater than 5; planes have errors of u / 2 and their sums with 2 p of 2 u; and a hit
 //! is within ε = 2⁻³⁰ + 2⁻⁵⁰ (d + 2) of the box. Together that is less than 2 p.
 
-use std::array;
 use std::ops::Range;
 
 use fearless_simd::prelude::*;
@@ -23,7 +22,7 @@ use crate::frame::power_of_two;
 use crate::nodes::{Block, IS_BLOCK, Node, WIDTH};
 use crate::shear::Shear;
 use crate::stack::{Entry, Stack};
-use crate::{Bvh, Hit, Ray, Triangle, each};
+use crate::{Bvh, Hit, Ray, Triangle};
 
 /// Rays of a packet.
 const LEN: usize = 64;
@@ -41,9 +40,9 @@ pub fn closest(bvh: &Bvh, origin: DVec3, directions: &[DVec3], range: &Range<f64
         hits.fill(None);
         let is_done = dispatch!(bvh.level, simd => closest_on(simd, bvh, origin, directions, range, hits));
         if !is_done {
-            let rays: [Ray; LEN] =
-                array::from_fn(|idx| Ray { origin, direction: directions[idx.min(n - 1)] });
-            each::closest(bvh, &rays[..n], range, hits);
+            for (&direction, hit) in directions.iter().zip(hits) {
+                *hit = bvh.closest(&Ray { origin, direction }, range.clone());
+            }
         }
     }
 }

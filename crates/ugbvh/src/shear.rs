@@ -3,7 +3,7 @@
 use crate::frame::{Frame, exponent, power_of_two};
 
 /// Greatest distance of an origin from the centre, in sizes of the mesh.
-pub const MAX_DISTANCE: f64 = power_of_two(300);
+const MAX_DISTANCE: f64 = power_of_two(300);
 
 /// A ray, ready for tests of triangles.
 ///

@@ -51,12 +51,6 @@ impl Stack {
         Self { n: 1, ..Self::empty() }
     }
 
-    /// Like [`Stack::with_root`], for a stack whose array alone was used.
-    #[inline(always)]
-    pub fn begin(&mut self) {
-        (self.first[0], self.n) = (Entry(0), 1);
-    }
-
     #[inline(always)]
     pub fn push(&mut self, entry: Entry) {
         if self.n == N_FIRST {

@@ -1,62 +1,14 @@
 //! Several rays at once, against single ones.
 
-use std::ops::Range;
-
-use fearless_simd::Level;
 use glam::{DVec3, dvec3};
 use ugrandom::Random;
 
-use super::{Mesh, rays, soup, sphere};
+use super::{ALL, Mesh, check, soup, sphere};
 use crate::frame::power_of_two;
-use crate::{Bvh, Hit, Ray};
-
-/// Anything: results of a search replace it.
-const OLD: Option<Hit> = Some(Hit { t: 0.0, triangle: 0, u: 0.0, v: 0.0 });
-
-/// Checks independent rays against single ones. Returns the number of hits.
-fn check_each(bvh: &Bvh, rays: &[Ray], range: &Range<f64>) -> usize {
-    let mut hits = vec![OLD; rays.len()];
-    bvh.closest_each(rays, range.clone(), &mut hits);
-    for (ray, hit) in rays.iter().zip(&hits) {
-        assert_eq!(*hit, bvh.closest(ray, range.clone()), "{ray:?} {range:?}");
-    }
-    hits.iter().flatten().count()
-}
+use crate::{Hit, Ray};
 
 #[test]
-fn independent_rays_have_the_hits_of_single_rays() {
-    let mut random = Random(8);
-    let mut meshes = vec![sphere(12, 24), sphere(4, 5), soup(&mut random, 300), soup(&mut random, 7)];
-    for (scale, offset) in [(1e-300, 0.0), (1e-160, 1e4), (1e40, 1.0), (1e280, 1e12)] {
-        meshes.push(sphere(8, 12).mapped(scale, dvec3(1.0, -2.0, 0.5) * (offset * scale)));
-    }
-    meshes.push(Mesh { positions: vec![DVec3::ZERO], triangles: vec![[0; 3]] });
-    let mut n_hits = 0;
-    for mesh in meshes {
-        let mut bvh = mesh.build();
-        let mut rays = rays(&mut random, &mesh, 1500);
-        for (at, bad) in [DVec3::NAN, DVec3::ZERO, DVec3::INFINITY, DVec3::X * 1e305].into_iter().enumerate()
-        {
-            rays[10 * at].direction = bad;
-            rays[10 * at + 1].origin = bad;
-        }
-        let whole = 0.0..f64::INFINITY;
-        n_hits += check_each(&bvh, &rays, &whole);
-        for (start, end) in [(-1.0, 2.5), (0.5, 1e300), (f64::NEG_INFINITY, 1.0), (1.0, 1.0), (0.0, f64::NAN)]
-        {
-            check_each(&bvh, &rays[..200], &(start..end));
-        }
-        for n in 0..20 {
-            check_each(&bvh, &rays[n..2 * n], &whole);
-        }
-        bvh.level = Level::baseline();
-        check_each(&bvh, &rays[..200], &whole);
-    }
-    assert!(n_hits > 4000, "{n_hits}");
-}
-
-#[test]
-fn deep_hierarchies_have_the_hits_of_single_rays() {
+fn deep_hierarchies_have_all_hits() {
     // Around 0, ten triangles of each size, in a hierarchy deeper than the array of a stack.
     let mut mesh = Mesh { positions: Vec::new(), triangles: Vec::new() };
     for exponent in -120..0 {
@@ -78,7 +30,7 @@ fn deep_hierarchies_have_the_hits_of_single_rays() {
             Ray { origin: dvec3(x, y, -1.0), direction: dvec3(0.1 * x, 0.1 * y, 1.0) }
         })
         .collect();
-    let n_hits = check_each(&bvh, &rays, &(0.0..f64::INFINITY));
+    let n_hits: usize = rays.iter().map(|ray| check(&bvh, &mesh, ray, &ALL)).sum();
     assert!(n_hits > 200, "{n_hits}");
     let mut n_crossings = 0;
     let through_all = Ray { origin: dvec3(0.0, 0.0, 2.0), direction: DVec3::NEG_Z };
