@@ -9,6 +9,8 @@ mod circles;
 mod dependencies;
 #[path = "tidy/literals.rs"]
 mod literals;
+#[path = "tidy/modules.rs"]
+mod modules;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -454,6 +456,31 @@ fn text_is_clean() {
     assert_none(&findings);
 }
 
+/// The source files of a crate, by their paths below `src`, and their text.
+fn sources(folder: &Path) -> BTreeMap<String, String> {
+    let src = folder.join("src");
+    let below = |path: PathBuf| {
+        let name = path.strip_prefix(&src).unwrap().to_string_lossy().replace('\\', "/");
+        (name, read(&path))
+    };
+    files(&src).into_iter().filter(|path| has_ending(path, &["rs"])).map(below).collect()
+}
+
+#[test]
+fn every_source_file_is_in_a_module() {
+    let others = [root().join("tests"), root().join("xtask")];
+    let mut findings = Vec::new();
+    for folder in crates().into_values().chain(others) {
+        let sources = sources(&folder);
+        assert!(!sources.is_empty(), "{}", folder.display());
+        let message = |path: &String| {
+            format!("{}: no `mod` leads here: declare or delete it", place(&folder.join("src").join(path), 0))
+        };
+        findings.extend(modules::undeclared(&sources).into_iter().map(message));
+    }
+    assert_none(&findings);
+}
+
 #[test]
 fn no_crate_has_a_circle_of_imports() {
     /// Crates in which files of one folder, not folders, still use each other in a circle. A crate
@@ -461,13 +488,7 @@ fn no_crate_has_a_circle_of_imports() {
     const WITH_CIRCLES: [&str; 3] = ["uglorentz", "ugparse", "ugspectrum"];
     let mut findings = Vec::new();
     for (krate, folder) in crates().into_iter().filter(|(krate, _)| krate != "ugconformance") {
-        let src = folder.join("src");
-        let below = |path: PathBuf| {
-            let name = path.strip_prefix(&src).unwrap().to_string_lossy().replace('\\', "/");
-            (name, read(&path))
-        };
-        let sources = files(&src).into_iter().filter(|path| has_ending(path, &["rs"])).map(below).collect();
-        let found = circles::circles(&krate, &sources);
+        let found = circles::circles(&krate, &sources(&folder));
         match (WITH_CIRCLES.contains(&krate.as_str()), found.is_empty()) {
             (true, true) => findings.push(format!(
                 "crates/{krate} has no circle of imports any more: take it off WITH_CIRCLES in tests/tidy.rs"
