@@ -87,7 +87,7 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M8",
-        file: "crates/ugphysics/src/irradiance.rs",
+        file: "conformance/src/answer/light.rs",
         right: "power * (doppler * doppler)",
         wrong: "power * (doppler * doppler * doppler * doppler * doppler)",
         found_by: "T25",
@@ -119,9 +119,9 @@ const MISTAKES: [Mistake; 17] = [
     },
     Mistake {
         name: "M12",
-        file: "crates/ugphysics/src/apparent.rs",
-        right: "elongated(n, v).normalize_or_zero()",
-        wrong: "(n - (1.0 - 1.0 / v.gamma()) * n.dot(v.direction()) * v.direction()).normalize_or_zero()",
+        file: "conformance/src/answer/positions.rs",
+        right: "elongated(normal, velocity(u)?)",
+        wrong: "contracted(normal, velocity(u)?)",
         found_by: "T35",
     },
     Mistake {

@@ -1,7 +1,7 @@
 //! Questions about changes of frame: factors, directions, velocities, accelerated motion.
 
 use glam::{DMat3, DVec3, Vec4Swizzles};
-use ugphysics::{Event, HyperbolicMotion, Lorentz, Wave, aberrate, compose};
+use ugphysics::{Event, HyperbolicMotion, Lorentz, WaveVector, aberrate, compose};
 
 use super::numbers::{Answer, along_x, angle, at, exactly, list, vectors, velocity};
 use super::positions::retarded;
@@ -38,8 +38,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("headlight", |given| {
         let [speed] = exactly(given)?;
-        let sideways = Wave { frequency: 1.0, direction: DVec3::Y };
-        Some(vec![angle(sideways.out_of_frame(along_x(speed)?).direction, DVec3::X)])
+        let sideways = WaveVector::in_vacuum(1.0, DVec3::Y);
+        Some(vec![angle(sideways.out_of_frame(along_x(speed)?).k, DVec3::X)])
     }),
     ("field_of_view", |given| {
         let [speed] = exactly(given)?;
@@ -58,7 +58,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("solid_angle_ratio", |given| {
         let [speed, theta] = exactly(given)?;
-        let light = Wave { frequency: 1.0, direction: -at(theta) };
+        let light = WaveVector::in_vacuum(1.0, -at(theta));
         let doppler = light.in_frame(along_x(speed)?).frequency;
         Some(vec![1.0 / (doppler * doppler)])
     }),
@@ -84,7 +84,7 @@ pub const KINDS: &[(&str, Answer)] = &[
         let (source, camera) = (velocity(u)?, velocity(w)?);
         let (t_sent, sent) = retarded(x - t * u, source);
         let in_camera = Lorentz::boost(camera).inverse().apply(Event { t: t_sent, x: sent });
-        let light = Wave { frequency: 1.0, direction: -sent.normalize() };
+        let light = WaveVector::in_vacuum(1.0, -sent.normalize());
         let doppler = light.in_frame(camera).frequency / light.in_frame(source).frequency;
         Some(vec![in_camera.x.length(), doppler])
     }),

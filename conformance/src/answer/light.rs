@@ -1,7 +1,9 @@
 //! Questions about frequencies, brightness, lamps and mirrors.
 
+use std::f64::consts::PI;
+
 use glam::DVec3;
-use ugphysics::{Brightness, Velocity, Wave, doppler_at, doppler_factor, irradiance, reflect, rest_position};
+use ugphysics::{Brightness, Medium, Velocity, WaveVector, doppler_at, doppler_factor, rest_position};
 
 use super::numbers::{Answer, along_x, angle, at, exactly, list, vectors, velocity};
 use super::positions::retarded;
@@ -15,7 +17,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("doppler_in_body", |given| {
         let [n, u] = vectors(given)?;
-        let sent = Wave { frequency: 1.0, direction: n.normalize_or_zero() };
+        let sent = WaveVector::in_vacuum(1.0, n.normalize_or_zero());
         Some(vec![sent.out_of_frame(velocity(u)?).frequency])
     }),
     ("doppler_now", |given| {
@@ -30,7 +32,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("doppler_of_frames", |given| {
         let [n, u, v] = vectors(given)?;
-        let received = Wave { frequency: 1.0, direction: n.normalize_or_zero() };
+        let received = WaveVector::in_vacuum(1.0, n.normalize_or_zero());
         let sent = received.in_frame(velocity(v)?).in_frame(velocity(u)?);
         Some(vec![1.0 / sent.frequency])
     }),
@@ -95,17 +97,36 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("mirror_angle", |given| {
         let [in_deg, speed] = exactly(given)?;
         let d = at(in_deg);
-        let light = Wave { frequency: 1.0, direction: DVec3::new(-d.x, d.y, 0.0) };
-        let back = reflect(light, DVec3::X, along_x(speed)?);
-        Some(vec![angle(back.direction, DVec3::X), back.frequency])
+        let light = WaveVector::in_vacuum(1.0, DVec3::new(-d.x, d.y, 0.0));
+        let back = reflected(light, DVec3::X, along_x(speed)?)?;
+        Some(vec![angle(back.k, DVec3::X), back.frequency])
     }),
     ("mirror", |given| {
         let [n, u, normal] = vectors(given)?;
-        let light = Wave { frequency: 1.0, direction: n.normalize_or_zero() };
-        let back = reflect(light, normal, velocity(u)?);
-        Some(list(back.direction, &[back.frequency]))
+        let light = WaveVector::in_vacuum(1.0, n.normalize_or_zero());
+        let back = reflected(light, normal.normalize_or_zero(), velocity(u)?)?;
+        Some(list(back.k / back.frequency, &[back.frequency]))
     }),
 ];
+
+/// The light behind a surface at rest, in a medium at rest of this refractive index.  Eq. (P37)
+pub fn behind(index: f64, light: WaveVector, normal: DVec3) -> Option<WaveVector> {
+    let medium = Medium { index, velocity: Velocity::ZERO };
+    medium.wave_beside(light, normal * light.k.dot(normal).signum())
+}
+
+/// The light reflected by a mirror that moves with `v`.  Eq. (P23)
+fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> Option<WaveVector> {
+    let there = light.in_frame(v);
+    let normal = rest_normal * -there.k.dot(rest_normal).signum();
+    Some(Medium::VACUUM.wave_beside(there, normal)?.out_of_frame(v))
+}
+
+/// Irradiance by a lamp of power `power`, seen at `distance` with the Doppler factor D.  Eq. (P33)
+fn irradiance(power: f64, distance: f64, doppler: f64) -> f64 {
+    let lamp_distance = distance / doppler;
+    power * (doppler * doppler) / (4.0 * PI * lamp_distance * lamp_distance)
+}
 
 /// D of a source that moves along +x and whose light propagates at `theta` from the motion.
 fn doppler(given: &[f64]) -> Option<f64> {

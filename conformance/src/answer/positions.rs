@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use ugphysics::{
-    Velocity, Wave, apparent_velocity, contracted, contracted_normal, doppler_factor, flight_time,
-    rest_position, seen_position,
+    Velocity, WaveVector, contracted, doppler_factor, elongated, flight_time, rest_position, seen_position,
 };
 
 use super::numbers::{Answer, along_x, angle, at, exactly, list, vectors, velocity};
@@ -40,8 +39,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("terrell", |given| {
         let [speed, theta] = exactly(given)?;
-        let light = Wave { frequency: 1.0, direction: at(theta) };
-        Some(vec![angle(light.in_frame(along_x(speed)?).direction, DVec3::X) - theta])
+        let light = WaveVector::in_vacuum(1.0, at(theta));
+        Some(vec![angle(light.in_frame(along_x(speed)?).k, DVec3::X) - theta])
     }),
     ("cube_abeam", |given| {
         let [speed] = exactly(given)?;
@@ -69,7 +68,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("contracted_normal", |given| {
         let [normal, u] = vectors(given)?;
-        Some(list(contracted_normal(normal, velocity(u)?), &[]))
+        Some(list(elongated(normal, velocity(u)?).normalize_or_zero(), &[]))
     }),
 ];
 
@@ -81,7 +80,8 @@ pub fn retarded(p: DVec3, v: Velocity) -> (f64, DVec3) {
 
 fn seen_velocity(given: &[f64], theta: f64) -> Option<DVec3> {
     let [speed] = exactly(given)?;
-    Some(apparent_velocity(at(theta), along_x(speed)?))
+    let v = along_x(speed)?;
+    Some(v.proper() * doppler_factor(at(theta), v))
 }
 
 /// The apparent length of a rod on the line of motion, from 1 to 2 on the given side of the eye.

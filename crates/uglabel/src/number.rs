@@ -104,7 +104,7 @@ mod tests {
         for (beta, text) in rows {
             assert_eq!(speed(Velocity::from_beta(DVec3::new(0.0, beta, 0.0)).unwrap()), text);
         }
-        assert_eq!(speed(Velocity::from_gamma(DVec3::X, 1e7).unwrap()), "1 − 5×10⁻¹⁵");
+        assert_eq!(speed(Velocity::from_rapidity(DVec3::X, libm::acosh(1e7)).unwrap()), "1 − 5×10⁻¹⁵");
     }
 
     #[test]

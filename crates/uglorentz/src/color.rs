@@ -139,7 +139,7 @@ mod tests {
         let mut n_finite = [0, 0];
         for k in 1..400_u32 {
             for gamma in [2.0, 99.0, 101.0, 1e4, 1e6, 6e7] {
-                let v = Velocity::from_gamma(DVec3::Y, gamma).unwrap();
+                let v = Velocity::from_rapidity(DVec3::Y, libm::acosh(gamma)).unwrap();
                 let motion = RelativeMotion::new(v, Geometry::default());
                 // Around the point that is seen straight ahead, at every scale down to 1/γ.
                 let scale = libm::pow(gamma, -f64::from(k % 7) / 6.0);

@@ -8,7 +8,7 @@ use ugphoton::{
     Anchor, Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Note, Output,
     PictureOptions, RayOptions, Shutter, light, render,
 };
-use ugphysics::{Hsv, Velocity, Wave};
+use ugphysics::{Hsv, Velocity, WaveVector};
 use ugpipe::Words;
 
 fn scene(text: &str) -> ugparse::Scene {
@@ -417,8 +417,8 @@ fn moving_glass_absorbs_light_along_its_path() {
         let frame = Velocity::from_beta(velocity).unwrap();
         // The cosine to the normal of the slab, in its frame, of light that moves in a direction.
         let cosine = |direction: DVec3| {
-            let wave = Wave { frequency: 1.0, direction: direction.normalize() };
-            wave.in_frame(frame).direction.z.abs()
+            let wave = WaveVector::in_vacuum(1.0, direction.normalize()).in_frame(frame);
+            wave.k.z.abs() / wave.frequency
         };
         let toward = DVec3::new(0.3, 0.1, -1.0);
         let glass = absorbing_slab(-2.0, velocity);

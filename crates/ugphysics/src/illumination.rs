@@ -27,36 +27,6 @@ pub struct IncidentLight {
     pub rest_distance: f64,
 }
 
-impl IncidentLight {
-    /// Irradiance (power per area) on a surface that faces a point source of power `power`,
-    /// isotropic in its own frame: P D_l⁴/(4πr²) = P D_l²/(4πr''²).  Eq. (P14)
-    ///
-    /// ```
-    /// use glam::DVec3;
-    /// use ugphysics::{Velocity, illumination};
-    ///
-    /// // A surface at rest at the eye. A light approaches it with 0.5 c, so D = √3.
-    /// let v = Velocity::from_beta(DVec3::new(-0.5, 0.0, 0.0))?;
-    /// let light = illumination(DVec3::ZERO, 0.0, Velocity::ZERO, DVec3::new(1.0, 0.0, 0.0), v);
-    /// let light = light.ok_or("the light is not at the surface")?;
-    /// assert!((light.distance - 3.0f64.sqrt()).abs() < 1e-15);
-    /// assert!((light.irradiance(1.0) * 4.0 * std::f64::consts::PI - 3.0).abs() < 1e-14);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn irradiance(&self, power: f64) -> f64 {
-        crate::irradiance(power, self.distance, self.doppler)
-    }
-
-    /// Spectral irradiance at wavelength λ, from the spectral power `power` of the source (both per
-    /// unit of wavelength) at the emitted wavelength λ D_l: P_λ D_l⁵/(4πr²) = P_λ D_l³/(4πr''²).
-    /// Eq. (P14)
-    #[must_use]
-    pub fn spectral_irradiance(&self, power: f64) -> f64 {
-        self.doppler * self.irradiance(power)
-    }
-}
-
 /// The light of a point source at rest at `light` in S'' that arrives at the surface point at rest
 /// at `p_rest` in S', at the event (−|p'| + `delay`, p') of S'. `None` if the source is at the
 /// surface point at that moment, or so close that no direction can be computed.  Eq. (P14)

@@ -56,7 +56,6 @@
 
 mod aberration;
 mod ambient;
-mod apparent;
 mod color;
 mod doppler;
 mod error_free;
@@ -64,10 +63,8 @@ mod fresnel;
 mod hue;
 mod hyperbolic;
 mod illumination;
-mod irradiance;
 mod lorentz;
 mod medium;
-mod optics;
 mod retarded_position;
 mod vector;
 mod velocity;
@@ -75,7 +72,6 @@ mod xyz;
 
 pub use aberration::aberrate;
 pub use ambient::{SkyRing, ambient_illumination};
-pub use apparent::{apparent_velocity, contracted_normal};
 pub use color::{Hsv, luminance, srgb_decode, srgb_encode};
 pub use doppler::{Brightness, doppler_at, doppler_factor};
 pub use fresnel::reflectance;
@@ -85,10 +81,8 @@ pub use hue::{
 };
 pub use hyperbolic::HyperbolicMotion;
 pub use illumination::{IncidentLight, illumination, illumination_from_afar};
-pub use irradiance::irradiance;
 pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use medium::{Medium, WaveVector};
-pub use optics::{Slab, Wave, light_in_glass, reflect, refract};
 pub use retarded_position::{
     Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,
 };

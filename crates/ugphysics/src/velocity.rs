@@ -113,34 +113,6 @@ impl Velocity {
         Velocity::along(direction, libm::cosh(rapidity), libm::sinh(rapidity.abs()))
     }
 
-    /// The velocity with Lorentz factor γ ≥ 1 along `direction`, a vector of any length. γ = 1 is
-    /// at rest and needs no direction.
-    ///
-    /// # Errors
-    /// [`VelocityError::NotFinite`], [`VelocityError::NoDirection`],
-    /// [`VelocityError::GammaBelowOne`], or [`VelocityError::RapidityTooLarge`].
-    ///
-    /// ```
-    /// use glam::DVec3;
-    /// use ugphysics::Velocity;
-    ///
-    /// let v = Velocity::from_gamma(DVec3::new(0.0, 0.0, 7.0), 1.25)?;
-    /// assert_eq!(v.beta(), DVec3::new(0.0, 0.0, 0.6));
-    /// # Ok::<(), ugphysics::VelocityError>(())
-    /// ```
-    pub fn from_gamma(direction: DVec3, gamma: f64) -> Result<Velocity, VelocityError> {
-        if !gamma.is_finite() {
-            return Err(VelocityError::NotFinite);
-        }
-        if gamma < 1.0 {
-            return Err(VelocityError::GammaBelowOne { gamma });
-        }
-        if gamma > libm::cosh(Velocity::MAX_RAPIDITY) {
-            return Err(VelocityError::RapidityTooLarge { rapidity: libm::acosh(gamma) });
-        }
-        Velocity::along(direction, gamma, ((gamma - 1.0) * (gamma + 1.0)).sqrt())
-    }
-
     /// The velocity whose proper velocity is `proper` = γ**β**.
     ///
     /// # Errors
@@ -279,7 +251,7 @@ impl Neg for Velocity {
 /// Why a velocity is invalid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum VelocityError {
-    /// A component, a direction, a rapidity or a γ is NaN or infinite.
+    /// A component, a direction or a rapidity is NaN or infinite.
     NotFinite,
     /// The speed is not below the speed of light.
     NotBelowLight {
@@ -288,14 +260,9 @@ pub enum VelocityError {
     },
     /// The direction is the zero vector, and the speed is not 0.
     NoDirection,
-    /// γ is below 1.
-    GammaBelowOne {
-        /// The given γ.
-        gamma: f64,
-    },
     /// The rapidity is above [`Velocity::MAX_RAPIDITY`] in absolute value.
     RapidityTooLarge {
-        /// The given rapidity, or the rapidity of the given γ.
+        /// The given rapidity.
         rapidity: f64,
     },
 }
@@ -312,9 +279,6 @@ impl fmt::Display for VelocityError {
             ),
             VelocityError::NoDirection => {
                 write!(f, "direction is the zero vector: give a nonzero direction, or speed 0")
-            }
-            VelocityError::GammaBelowOne { gamma } => {
-                write!(f, "gamma is {gamma}: it must be 1 (at rest) or above")
             }
             VelocityError::RapidityTooLarge { rapidity } => {
                 write!(f, "rapidity is {rapidity}: it must be at most {}", Velocity::MAX_RAPIDITY)

@@ -8,7 +8,7 @@ mod report;
 
 use glam::DVec3;
 use ugphoton::{ColorShift, Config, MotionOptions, RayOptions, SpectralShift};
-use ugphysics::{Velocity, Wave, reflect, srgb_decode, xyz_to_linear_srgb};
+use ugphysics::{Velocity, WaveVector, srgb_decode, xyz_to_linear_srgb};
 use ugspectrum::Spectrum;
 
 use drawing::{HEAD, by_spectra, config, drawn, seen, seen_with, square, value};
@@ -74,9 +74,6 @@ fn moving_mirrors_turn_rays() {
         let found = seen(&format!("{HEAD}{mirror}{}", lamp(0.0)), toward).x;
         assert!((found / srgb_decode(factor) - 1.0).abs() < 1e-6, "{beta}: {found}");
         assert_eq!(seen(&format!("{HEAD}{mirror}{}", lamp(3e-3)), toward).x, 0.0);
-        let light = Wave { frequency: 1.0, direction: -back };
-        let out = reflect(light, DVec3::Z, Velocity::from_beta(DVec3::Z * beta).unwrap());
-        assert!((out.direction + toward).length() < 1e-9 && (out.frequency - factor).abs() < 1e-8);
     }
 }
 
@@ -322,13 +319,13 @@ fn doppler_factors_multiply_along_a_path() {
     let rays = RayOptions { depth: 2, ..RayOptions::default() };
     // The eye looks at the left mirror. Back in time: out of it, at the right mirror, to the wall.
     let velocity = |beta: f64| Velocity::from_beta(DVec3::X * beta).unwrap();
-    let backwards = |wave: Wave, normal: DVec3, beta: f64| {
+    let backwards = |wave: WaveVector, normal: DVec3, beta: f64| {
         // Reflection is its own reverse: the light before it, from the light after it.
         let there = wave.in_frame(velocity(beta));
-        let before = there.direction - 2.0 * there.direction.dot(normal) * normal;
-        Wave { direction: before, ..there }.out_of_frame(velocity(beta))
+        let before = there.k - 2.0 * there.k.dot(normal) * normal;
+        WaveVector { k: before, ..there }.out_of_frame(velocity(beta))
     };
-    let at_eye = Wave { frequency: 1.0, direction: -toward };
+    let at_eye = WaveVector::in_vacuum(1.0, -toward);
     let between = backwards(at_eye, DVec3::X, 0.1);
     let at_wall = backwards(between, DVec3::X, -0.2);
     let found =

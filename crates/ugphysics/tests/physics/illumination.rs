@@ -14,6 +14,11 @@ fn light_on(p: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> IncidentL
     illumination(p, 0.0, v, light, v_light).expect("the light is away from the surface")
 }
 
+/// Irradiance by a lamp of power 1 (P33).
+fn irradiance(light: IncidentLight) -> f64 {
+    light.doppler * light.doppler / (4.0 * PI * light.rest_distance * light.rest_distance)
+}
+
 /// Surface point, its velocity, light, its velocity: across, along and against each other, slow and
 /// fast.
 fn settings() -> Vec<(DVec3, Velocity, DVec3, Velocity)> {
@@ -40,11 +45,10 @@ fn t25_irradiance_of_a_moving_lamp() {
         let light = light_on(DVec3::ZERO, Velocity::ZERO, rest_distance * DVec3::X, along_x(-speed));
         near("r", light.distance, 2.0, 1e-14);
         near("D", light.doppler, doppler, 1e-14);
-        near("E", light.irradiance(1.0), power_per_area, 1e-9);
+        near("E", irradiance(light), power_per_area, 1e-9);
         let by_r =
             Brightness::Bolometric.factor(light.doppler) / (4.0 * PI * light.distance * light.distance);
-        near("E by r", light.irradiance(1.0), by_r, 1e-14);
-        near("per wavelength", light.spectral_irradiance(1.0), by_r * light.doppler, 1e-13);
+        near("E by r", irradiance(light), by_r, 1e-14);
     }
 }
 
@@ -185,7 +189,7 @@ fn power_through_a_sphere() {
             let n = DVec3::new(cos, (1.0 - cos * cos).sqrt(), 0.0);
             let doppler = doppler_factor(n, v_light);
             let light = IncidentLight { toward: -n, doppler, distance: 1.0, rest_distance: 1.0 / doppler };
-            light.irradiance(1.0) * 2.0 * PI * 2.0 / f64::from(steps)
+            irradiance(light) * 2.0 * PI * 2.0 / f64::from(steps)
         })
         .sum();
     near("power", sum, (1.0 + speed * speed / 3.0) / (1.0 - speed * speed), 1e-5);

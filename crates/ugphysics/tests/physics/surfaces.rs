@@ -4,16 +4,23 @@
 use glam::DVec3;
 use proptest::prelude::*;
 use ugphysics::{
-    Event, HyperbolicMotion, Lorentz, Slab, Velocity, Wave, apparent_velocity, contracted, contracted_normal,
-    doppler_at, irradiance, light_in_glass, reflect, refract, seen_position,
+    Event, HyperbolicMotion, Lorentz, Medium, Velocity, WaveVector, contracted, doppler_at, elongated,
+    seen_position,
 };
 
 use crate::{along_x, angle_deg, at_angle, beta, near, near_vector};
 
 const TEN_DIGITS: f64 = 1e-9;
 
-fn wave(direction: DVec3) -> Wave {
-    Wave { frequency: 1.0, direction }
+fn wave(direction: DVec3) -> WaveVector {
+    WaveVector::in_vacuum(1.0, direction)
+}
+
+/// Light in vacuum after a mirror that moves with `v`.
+fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> WaveVector {
+    let there = light.in_frame(v);
+    let normal = rest_normal * -there.k.dot(rest_normal).signum();
+    Medium::VACUUM.wave_beside(there, normal).expect("a mirror reflects").out_of_frame(v)
 }
 
 #[test]
@@ -25,15 +32,15 @@ fn t27_moving_mirrors() {
         (30.0, -0.5, 77.58795377, 0.5119661283),
     ] {
         let d = at_angle(in_deg);
-        let back = reflect(wave(DVec3::new(-d.x, d.y, 0.0)), DVec3::X, along_x(speed));
-        near("angle", angle_deg(back.direction, DVec3::X), out_deg, TEN_DIGITS);
+        let back = reflected(wave(DVec3::new(-d.x, d.y, 0.0)), DVec3::X, along_x(speed));
+        near("angle", angle_deg(back.k, DVec3::X), out_deg, TEN_DIGITS);
         near("frequency", back.frequency, frequency, TEN_DIGITS);
     }
     // After reflection the light still travels in the mirror's direction of motion.
-    let back = reflect(wave(-at_angle(-60.0)), DVec3::X, along_x(-0.3));
-    near("cos", -back.direction.x, 0.06962025316, TEN_DIGITS);
-    let sliding = reflect(wave(DVec3::new(-0.6, 0.0, 0.8)), DVec3::X, beta(0.0, 0.9, 0.3));
-    near_vector("sliding", sliding.direction, DVec3::new(0.6, 0.0, 0.8), 1e-14);
+    let back = reflected(wave(-at_angle(-60.0)), DVec3::X, along_x(-0.3));
+    near("cos", -back.k.x / back.frequency, 0.06962025316, TEN_DIGITS);
+    let sliding = reflected(wave(DVec3::new(-0.6, 0.0, 0.8)), DVec3::X, beta(0.0, 0.9, 0.3));
+    near_vector("sliding", sliding.k, DVec3::new(0.6, 0.0, 0.8), 1e-14);
     near("sliding", sliding.frequency, 1.0, 1e-14);
 }
 
@@ -42,20 +49,11 @@ fn t28_moving_glass() {
     for (index, speed, light) in
         [(1.5, 0.1, 0.71875), (1.5, 0.9, 0.9791666667), (1.5, -0.9, -0.5833333333), (1.33, 0.5, 0.9098360656)]
     {
-        let found = light_in_glass(DVec3::X, index, along_x(speed)).unwrap();
-        near("speed", found.beta().x, light, TEN_DIGITS);
+        let glass = Medium { index, velocity: along_x(speed) };
+        let light_in_glass = WaveVector { frequency: 1.0, k: index * DVec3::X };
+        let step = glass.step(light_in_glass.out_of_frame(glass.velocity));
+        near("speed", step.x.x / step.t, light, TEN_DIGITS);
     }
-    assert!(light_in_glass(DVec3::X, 1.0, along_x(0.5)).is_none());
-    let slab = Slab { normal: DVec3::X, thickness: 1.0, index: 1.5 };
-    for (speed, t, x) in [(0.5, 2.309401077, 2.020725942), (-0.5, 1.154700538, 0.2886751346)] {
-        let exit = slab.exit(DVec3::X, along_x(speed));
-        near("t", exit.t, t, TEN_DIGITS);
-        near("x", exit.x.x, x, TEN_DIGITS);
-    }
-    // Total internal reflection beyond asin(1/1.5).
-    assert!(
-        refract(at_angle(41.9), DVec3::X, 1.5).is_none() && refract(at_angle(41.8), DVec3::X, 1.5).is_some()
-    );
 }
 
 #[test]
@@ -94,25 +92,23 @@ proptest! {
         let vector = Lorentz::boost(v).inverse().apply(Event { t: 1.0, x: n });
         let scale = v.gamma() * v.gamma();
         near("frequency", there.frequency / vector.t, 1.0, 1e-14 * scale);
-        near_vector("direction", there.direction, vector.x / vector.t, 1e-14 * scale);
+        near_vector("direction", there.k / there.frequency, vector.x / vector.t, 1e-14 * scale);
         let back = there.out_of_frame(v);
         near("there and back", back.frequency, 1.0, 1e-13 * scale);
     }
 
-    /// Light sent back along its path is reflected to the original wave.
+    /// Light that is reflected twice by the same mirror is the original wave.
     #[test]
-    fn reflection_is_reversible(v in velocities(), n in directions(), normal in directions()) {
+    fn reflection_is_its_own_inverse(v in velocities(), n in directions(), normal in directions()) {
         let scale = v.gamma() * v.gamma();
-        let once = reflect(wave(n), normal, v);
+        let once = reflected(wave(n), normal, v);
         let frequencies = once.frequency;
-        // Reflection is its own inverse.
-        let twice = reflect(once, normal, v);
+        let twice = reflected(once, normal, v);
         near("frequency", twice.frequency, 1.0, 1e-12 * scale * frequencies.max(1.0 / frequencies));
-        near("direction", twice.direction.dot(n), 1.0, 1e-12 * scale);
+        near("direction", twice.k.dot(n) / twice.frequency, 1.0, 1e-12 * scale);
     }
 
-    /// The seen position moves with the apparent velocity, and photons of a lamp are counted
-    /// equally in both frames.
+    /// The seen position moves with the apparent velocity γD**v** (P31).
     #[test]
     fn what_is_seen_moves_with_the_apparent_velocity(v in velocities(), d in directions()) {
         let p_rest = 3.0 * d;
@@ -120,20 +116,17 @@ proptest! {
         let at = |t: f64| seen_position(p_rest + v.proper() * t, v);
         let p = at(0.0);
         let moved = (at(step) - at(-step)) / (2.0 * step);
-        let apparent = apparent_velocity(-p, v);
-        prop_assert!((moved - apparent).length() <= 1e-6 * (1.0 + apparent.length()) * v.gamma() * v.gamma());
         let doppler = doppler_at(p, v);
-        let photons_there = 1.0 / (4.0 * core::f64::consts::PI * p_rest.length_squared());
-        near("irradiance", irradiance(1.0, p.length(), doppler) / (photons_there * doppler * doppler), 1.0, 1e-11);
+        let apparent = v.proper() * doppler;
+        prop_assert!((moved - apparent).length() <= 1e-6 * (1.0 + apparent.length()) * v.gamma() * v.gamma());
     }
 
-    /// Lines in a contracted plane are perpendicular to its contracted normal.
+    /// Lines in a contracted plane are perpendicular to its normal (P34).
     #[test]
     fn contracted_normals_stay_perpendicular(v in velocities(), normal in directions()) {
         let line = normal.any_orthonormal_vector();
         let other = normal.cross(line);
-        let seen = contracted_normal(normal, v);
+        let seen = elongated(normal, v).normalize();
         prop_assert!(seen.dot(contracted(line, v)).abs() < 1e-13 && seen.dot(contracted(other, v)).abs() < 1e-13);
-        prop_assert!((seen.length() - 1.0).abs() < 1e-14);
     }
 }
