@@ -111,19 +111,15 @@ impl Format {
             Self::Svg => svg::encode(frame, metadata),
             Self::Ppm => ppm::encode(frame, metadata),
             Self::Png16 | Self::Exr | Self::Pfm | Self::Hdr => {
-                self.encode_linear_with(&frame.into(), metadata, compression)
+                self.encode_linear(&frame.into(), metadata, compression)
             }
         }
     }
 
-    /// Linear light as a file of this format. Unless the format [is linear](Format::is_linear),
-    /// light outside 0…1 is clipped: apply a [`Development`](crate::Development) first.
-    pub fn encode_linear(self, frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
-        self.encode_linear_with(frame, metadata, Compression::Fast)
-    }
-
-    /// Like [`Format::encode_linear`], with the given compression for PNG files.
-    pub fn encode_linear_with(
+    /// Linear light as a file of this format, with the given compression for PNG files. Unless the
+    /// format [is linear](Format::is_linear), light outside 0…1 is clipped: apply a
+    /// [`Development`](crate::Development) first.
+    pub fn encode_linear(
         self,
         frame: &LinearFrame,
         metadata: &Metadata,

@@ -219,7 +219,7 @@ mod tests {
         let pixel = |idx: u32| [idx as f32 * 0.25, 1.5, 0.0, 1.0];
         let frame = LinearFrame::new([8, 4], true, (0..32).map(pixel).collect());
         for format in [Format::Exr, Format::Hdr] {
-            let file = format.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
+            let file = format.encode_linear(&frame, &Metadata::default(), Compression::Fast);
             let (size, pixels) = read(&file).unwrap();
             let Pixels::Light(pixels) = pixels else { panic!("light") };
             assert_eq!(size, [8, 4]);
@@ -240,7 +240,7 @@ mod tests {
             let alpha = if is_opaque { 1.0 } else { 0.25 };
             let pixel = |idx: u32| [0.002 + 1e-5 * idx as f32, 0.5 + 1e-4 * idx as f32, 1.0, alpha];
             let frame = LinearFrame::new([8, 4], is_opaque, (0..32).map(pixel).collect());
-            let file = Format::Png16.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
+            let file = Format::Png16.encode_linear(&frame, &Metadata::default(), Compression::Fast);
             let (size, pixels) = read_picture(&file, MAX_PIXELS).unwrap();
             let Pixels::Light(pixels) = pixels else { panic!("light") };
             assert_eq!(size, [8, 4]);
@@ -263,7 +263,7 @@ mod tests {
         assert!(read(hdr).unwrap_err().to_string().contains("truncated"));
         // The size in the header of a small file, changed.
         let frame = LinearFrame::new([8, 4], true, vec![[0.25, 1.5, 0.0, 1.0]; 32]);
-        let mut exr = Format::Exr.encode_linear_with(&frame, &Metadata::default(), Compression::Fast);
+        let mut exr = Format::Exr.encode_linear(&frame, &Metadata::default(), Compression::Fast);
         let corner = |x: u32| [x.to_le_bytes(), 3_u32.to_le_bytes()].concat();
         while let Some(at) = exr.windows(8).position(|bytes| bytes == corner(7)) {
             exr[at..at + 8].copy_from_slice(&corner(0xf_ffff));
@@ -280,7 +280,7 @@ mod tests {
     fn plain_pictures_are_read() {
         let frame = LinearFrame::new([2048, 1024], true, vec![[0.0, 0.0, 0.0, 1.0]; 2048 * 1024]);
         for format in [Format::Exr, Format::Hdr, Format::Png, Format::Png16] {
-            let file = format.encode_linear_with(&frame, &Metadata::default(), Compression::Small);
+            let file = format.encode_linear(&frame, &Metadata::default(), Compression::Small);
             assert_eq!(read(&file).unwrap().0, [2048, 1024], "{format:?}");
         }
     }

@@ -75,11 +75,6 @@ impl Drawing {
         self.area(vec![to, side(0.42 * head), side(-0.42 * head)], color);
     }
 
-    /// Adds all shapes of another drawing.
-    pub fn extend(&mut self, other: Self) {
-        self.shapes.extend(other.shapes);
-    }
-
     /// The shapes as elements of a vector figure.
     pub fn elements<S>(&self) -> Vec<Element<S>> {
         let mut elements = Vec::new();

@@ -17,7 +17,6 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::panic;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver};
 use std::sync::{Mutex, PoisonError};
 use std::thread::{self, ScopedJoinHandle};
@@ -30,16 +29,6 @@ const RANGES_PER_THREAD: usize = 8;
 /// Number of threads.
 pub fn n_threads() -> usize {
     rayon::current_num_threads()
-}
-
-/// Calls `work` for ranges that together are all rows `0..n_rows`, on all threads.
-pub fn for_ranges(n_rows: usize, least: usize, work: impl Fn(Range<usize>) + Sync) {
-    let ranges = Ranges::new(n_rows, least);
-    match ranges.n_ranges {
-        0 => {}
-        1 => work(0..n_rows),
-        n_ranges => run_all(n_ranges, &|idx| work(ranges.range(idx))),
-    }
 }
 
 /// Changes each row of a table. `change` is passed the row's index too.
@@ -183,17 +172,6 @@ pub fn positions(n_rows: usize, least: usize, test: impl Fn(usize) -> bool + Syn
     collect(n_rows, least, |range, rows| rows.extend(range.filter(|&row| test(row))))
 }
 
-/// True if `test` holds for a row. Ends early once one is found.
-pub fn any(n_rows: usize, least: usize, test: impl Fn(usize) -> bool + Sync) -> bool {
-    let found = AtomicBool::new(false);
-    for_ranges(n_rows, least, |mut range| {
-        if !found.load(Ordering::Relaxed) && range.any(&test) {
-            found.store(true, Ordering::Relaxed);
-        }
-    });
-    found.into_inner()
-}
-
 /// Rows cut into ranges of nearly one length.
 #[derive(Clone, Copy)]
 struct Ranges {
@@ -292,7 +270,6 @@ mod tests {
                     assert!(twice.into_iter().eq((0..2 * n_rows).map(|idx| idx / 2)));
                     let thirds: Vec<usize> = (0..n_rows).step_by(3).collect();
                     assert_eq!(positions(n_rows, 16, |row| row % 3 == 0), thirds);
-                    assert_eq!(any(n_rows, 16, |row| row == 10_006), n_rows == 10_007);
                     let mut jobs = squares.clone();
                     for_jobs(&mut jobs, |idx, job| *job += idx);
                     assert!(jobs.iter().enumerate().all(|(idx, job)| *job == squares[idx] + idx));

@@ -72,11 +72,6 @@ pub struct UniqueNames {
 }
 
 impl UniqueNames {
-    /// Marks `name` as used; returns false if it was used before.
-    pub fn take(&mut self, name: &str) -> bool {
-        self.taken.insert(name.to_string())
-    }
-
     /// Returns `name`, or the first unused of `name_2`, `name_3`, …, and marks it as used.
     pub fn fresh(&mut self, name: &str) -> String {
         let mut candidate = name.to_string();

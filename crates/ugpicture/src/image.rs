@@ -57,7 +57,7 @@ impl Image {
                 format.encode_with(&frame, metadata, compression)
             }
             (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
-                format.encode_linear_with(&frame, metadata, compression)
+                format.encode_linear(&frame, metadata, compression)
             }
             (Output::Grey, image) => grey_postscript(&image.into_frame(), metadata),
         }

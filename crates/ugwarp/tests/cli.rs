@@ -112,7 +112,7 @@ fn what_is_no_panorama_is_refused() {
 fn light_that_is_not_finite_is_bounded() {
     let mut frame = LinearFrame::new([64, 32], true, vec![[0.5, 0.5, 0.5, 1.0]; 64 * 32]);
     let file = |frame: &LinearFrame| {
-        Format::Exr.encode_linear_with(frame, &Metadata::default(), ugimage::Compression::Fast)
+        Format::Exr.encode_linear(frame, &Metadata::default(), ugimage::Compression::Fast)
     };
     let options = ["-sz", "8", "8", "-dt", "pfm", "--no-doppler", "--no-flux"];
     let plain = fed(&options, &file(&frame));

@@ -100,5 +100,5 @@ fn light(random: &mut Random, size: [u32; 2], part: impl Fn(&mut Random) -> f32)
     let pixels = (0..size[0] * size[1]).map(|_| pixel(random)).collect();
     let frame = LinearFrame::new(size, true, pixels);
     let format = *random.pick(&[Format::Hdr, Format::Exr, Format::Exr]);
-    format.encode_linear_with(&frame, &Metadata::default(), Compression::Fast)
+    format.encode_linear(&frame, &Metadata::default(), Compression::Fast)
 }
