@@ -237,9 +237,10 @@ fn adaptive_samples_draw_boundaries() {
     let drawn = |adaptive: Option<f64>, samples: u32| {
         let mut config = picture([120, 90]);
         (config.picture.samples, config.adaptive) = (samples, adaptive);
-        let notes = render(scene(&hard_room()), &config).unwrap().notes.join(" ");
-        let percent = notes.split_once("traced ").map_or("100", |(_, rest)| rest.split_once(' ').unwrap().0);
-        (light(scene(&hard_room()), &config).unwrap(), percent.parse::<f64>().unwrap() / 100.0)
+        let notes = render(scene(&hard_room()), &config).unwrap().notes;
+        let percent = |note: &Note| if let Note::Adaptive(percent) = note { Some(*percent) } else { None };
+        let part = notes.iter().find_map(percent).unwrap_or(100.0) / 100.0;
+        (light(scene(&hard_room()), &config).unwrap(), part)
     };
     for samples in [4, 8] {
         let (full, _) = drawn(None, samples);
