@@ -28,7 +28,7 @@ pub enum Engine {
 
 pub const ENGINES: [Engine; 4] = [Engine::Pipe, Engine::LitPipe, Engine::Exact, Engine::Rays];
 
-/// Those that draw with lamps in motion.
+/// Renderers that draw with lamps in motion.
 pub const WITH_MOVING_LAMPS: [Engine; 2] = [Engine::LitPipe, Engine::Rays];
 
 /// Linear light seen in a direction from the origin, in a picture of one sample.

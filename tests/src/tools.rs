@@ -94,7 +94,7 @@ pub const ZSH: Tool =
 pub const FISH: Tool =
     Tool { program: "fish", option: "--version", package: "fish", checks: "fish completes options" };
 
-/// Those that are enough for a check in `cargo test`: all but [`QEMU`].
+/// Tools for the checks in `cargo test`: all but [`QEMU`].
 pub const TOOLS: [Tool; 10] =
     [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
 

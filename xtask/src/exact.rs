@@ -140,7 +140,7 @@ impl View {
     }
 }
 
-/// Of the pixels that are not black in both pictures, the fraction whose channels differ by at most
+/// The fraction of the pixels that are not black in both pictures whose channels differ by at most
 /// a level.
 fn fraction_correct(picture: &Picture, exact: &Picture) -> f64 {
     let pairs = picture.pixels().zip(exact.pixels()).map(|(a, b)| (a.0, b.0));

@@ -84,7 +84,7 @@ struct Triangle {
 pub struct Ray {
     /// The point of parameter 0.
     pub origin: DVec3,
-    /// Of any length but zero and infinity.
+    /// The direction, of any length but zero and infinity.
     pub direction: DVec3,
 }
 

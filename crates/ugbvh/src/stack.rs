@@ -29,10 +29,10 @@ impl Entry {
 /// Aligned, so that clearing it takes no store across cache lines: those took a tenth of the time.
 #[repr(align(64))]
 pub struct Stack {
-    /// Of these, `n`.
+    /// The top of the stack: `n` entries of this array.
     pub first: [Entry; N_FIRST],
     pub n: usize,
-    /// Those below them.
+    /// The entries below.
     others: Vec<Entry>,
 }
 

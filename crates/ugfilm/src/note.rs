@@ -3,11 +3,11 @@
 /// What a program says about a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
-    /// Of `uglorentz`.
+    /// From `uglorentz`.
     Lorentz(uglorentz::Report),
-    /// Of `ugdoppler`.
+    /// From `ugdoppler`.
     Doppler(ugdoppler::Note),
-    /// Of the program of this name, which drew the picture.
+    /// From the program of this name, which drew the picture.
     Picture(&'static str, ugpicture::Note),
 }
 

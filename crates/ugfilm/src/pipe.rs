@@ -85,7 +85,7 @@ impl Pipe {
     /// The light of the frame, without exposure and annotations.
     ///
     /// # Errors
-    /// As of [`Pipe::draw`].
+    /// See [`Pipe::draw`].
     pub fn light(&self, subject: Subject<'_>) -> Result<LinearFrame, Error> {
         let mut pipe = self.clone();
         pipe.picture.keep_light();

@@ -70,7 +70,7 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
 /// to be sRGB.
 ///
 /// # Errors
-/// As of [`read_png`].
+/// See [`read_png`].
 pub(crate) fn read_png_light(file: &[u8]) -> Result<Vec<[f32; 4]>, ReadError> {
     let mut decoder = decoder(file)?;
     decoder.set_transformations(Transformations::EXPAND);

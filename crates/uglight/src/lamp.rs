@@ -39,7 +39,7 @@ impl FallOff {
     /// above 0. The level is largest at the surface of the lamp; for a point it is limited to 10¹²
     /// times the intensity, so no light is infinite.
     pub fn new(reference: f64, radius: f64) -> Self {
-        /// Of the reference distance.
+        /// Least distance, in units of the reference distance.
         const LEAST: f64 = 1e-6;
         Self { reference, least: radius.max(LEAST * reference) }
     }

@@ -144,7 +144,7 @@ impl SpectralLamp {
 }
 
 impl SpectralColor {
-    /// That of a colour statement, or of white.
+    /// The spectrum of a colour statement, or of white.
     #[must_use]
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         let (spectrum, is_exact) = match color {

@@ -25,7 +25,7 @@ pub(crate) const MAX_GENERATION: u32 = 32;
 /// Error bounds.
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
-    /// Of each body.
+    /// The tolerance of each body.
     tolerances: Vec<Tolerance>,
     pub near_lamps: NearLamps,
     view_volume: ViewVolume,
@@ -91,7 +91,7 @@ impl Marks {
 pub(crate) struct Verdict {
     /// The edges that bend.
     pub bends: [bool; 4],
-    /// Those whose errors are visible in this piece, and if there are none, the inside.
+    /// Edges whose errors are visible in this piece; the inside, if there are none.
     pub shows: Marks,
 }
 

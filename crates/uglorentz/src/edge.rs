@@ -93,7 +93,7 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &T
 pub(crate) enum Shown {
     /// All.
     All,
-    /// Of depth, the component normal to a piece: the number is [`slant`].
+    /// An error of depth, the component normal to a piece: the number is [`slant`].
     OnPiece(f64),
     /// The outline, since its piece is seen as a line.
     Outline,

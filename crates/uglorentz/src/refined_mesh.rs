@@ -28,7 +28,7 @@ pub(crate) struct Recipe {
 
 /// The vertices of the scene and those added by subdivision.
 pub(crate) struct RefinedMesh<'a> {
-    /// Of each body.
+    /// The motion of each body.
     pub motions: &'a [RelativeMotion],
     /// All vertices, those of the scene first.
     pub points: Vec<Point>,

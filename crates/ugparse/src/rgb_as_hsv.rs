@@ -62,9 +62,9 @@ pub(crate) fn warning(text: &[u8], scopes: &[Scope<'_>]) -> Option<Diagnostic> {
 struct Doubtful {
     name: String,
     span: Span,
-    /// As it is read.
+    /// The colour as it is read.
     hsv: Hsv,
-    /// As it may be meant, 0 to 1.
+    /// Red, green and blue that may be meant, 0 to 1.
     rgb: [f64; 3],
 }
 

@@ -34,7 +34,7 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 /// less memory. The bytes do not depend on the number of threads.
 ///
 /// # Errors
-/// Those of `out`, which may have received a part of the text.
+/// Errors that `out` returns; it may have received a part of the text.
 pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
     Tables { scene, chunked_writer: ChunkedWriter::new(out), comments: &scene.comments }.send()
 }

@@ -62,7 +62,7 @@ pub enum Error {
     Crop {
         /// Its left column, upper row, width and height.
         crop: [u32; 4],
-        /// Of the picture.
+        /// Columns and rows of the picture.
         size: [u32; 2],
     },
     /// More lights than can be computed at so many samples.
@@ -71,9 +71,9 @@ pub enum Error {
         MOST_LIGHTINGS.ilog2()
     )]
     TooManyLights {
-        /// Of the scene.
+        /// Lights in the scene.
         n_lights: usize,
-        /// Of the picture.
+        /// Samples in the picture.
         n_samples: u64,
     },
     /// Rays through the eye need perspective.

@@ -9,7 +9,7 @@ use ugscene::RestFrames;
 /// picture its origin is at the eye.  Eq. (P21), (P25)
 #[derive(Clone, Debug)]
 pub struct RestFrame {
-    /// Of the bodies, in the frame of the camera.
+    /// The velocity of its bodies, in the frame of the camera.
     pub velocity: Velocity,
     /// One of the bodies.
     pub body: BodyId,
@@ -23,7 +23,7 @@ pub struct RestFrame {
 }
 
 impl RestFrame {
-    /// That of a body.
+    /// The rest frame of a body.
     pub fn new(frames: &RestFrames, body: BodyId) -> Self {
         let velocity = frames.velocity(body);
         let turn = DMat3::from_quat(frames.scene_from_axes(body));
@@ -39,7 +39,7 @@ impl RestFrame {
         }
     }
 
-    /// Of an event or a step in the frame of the camera.
+    /// Transforms an event or a step from the frame of the camera.
     #[inline]
     pub fn to_rest(&self, Event { t, x }: Event) -> Event {
         if self.is_at_rest {

@@ -57,7 +57,7 @@ pub struct MovingBox {
 }
 
 impl MovingBox {
-    /// That of no body, which no ray crosses.
+    /// The box of an empty body, which no ray crosses.
     pub const EMPTY: Self =
         Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, velocity: DVec3::ZERO, slack: 0.0 };
 

@@ -29,7 +29,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// Of a part with these least and greatest coordinates in its rest frame.
+    /// The outline of a part with these least and greatest coordinates in its rest frame.
     pub fn new((low, high): (DVec3, DVec3), frame: &RestFrame) -> Self {
         let center = low / 2.0 + high / 2.0;
         let [of_radius, of_distance] = MARGIN;

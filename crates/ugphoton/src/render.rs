@@ -116,7 +116,7 @@ impl Drawing {
 
 /// A scene prepared for drawing.
 struct Prepared {
-    /// Of the rows of the scene, without those of annotations.
+    /// Options of the part of the picture that shows the scene, without rows for annotations.
     config: Config,
     layout: Layout,
     scenery: Scenery<'static>,

@@ -30,13 +30,13 @@ pub struct Shader<'a> {
     scenery: &'a Scenery<'a>,
     diffuse: Vec<Irradiance>,
     highlights: Vec<Irradiance>,
-    /// Of shadow rays, by lamp and part.
+    /// Corridors of shadow rays, by lamp and part.
     corridors: Vec<Corridor>,
     /// The light of lamps at the last point, for explanations; `None` if it is not wanted.
     pub received: Option<Vec<LampLight>>,
 }
 
-/// Those of other lamps and parts are forgotten.
+/// Corridors that are kept; others are dropped.
 const N_CORRIDORS: usize = 256;
 
 /// The light of a lamp at a point of a surface.
@@ -231,7 +231,7 @@ impl Crossing {
 }
 
 /// The part of the light that solids do not absorb along a straight shadow ray from 0 to `end`.
-/// Of solids within each other the innermost absorbs, as along the paths of the light that is seen.
+/// Where solids are nested, the innermost absorbs, as along the paths of the light that is seen.
 /// Eq. (P38)
 fn left_by_solids(mut crossings: Vec<Crossing>, end: f64) -> f64 {
     crossings.sort_by(|a, b| a.s.total_cmp(&b.s));

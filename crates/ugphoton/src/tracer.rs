@@ -31,7 +31,7 @@ impl Arriving {
 pub struct Tracer<'a> {
     scenery: &'a Scenery<'a>,
     shader: Shader<'a>,
-    /// Of the path so far.
+    /// Filters on the path so far.
     filters: Vec<Filter>,
     /// Memory for faces at the same place.
     layers: Vec<Intersection>,

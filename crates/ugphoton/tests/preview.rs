@@ -58,7 +58,7 @@ fn a_preview_is_the_picture_at_fewer_pixels() {
     }
 }
 
-/// Of several samples of a pixel, and on another background.
+/// Previews with several samples a pixel, and on another background.
 #[test]
 fn samples_of_previews_count_as_whole_pixels() {
     let mut config = config([48, 32], None);

@@ -97,7 +97,7 @@ struct Field {
 }
 
 impl Field {
-    /// Of light `own` in the frame of its medium, polarised along a unit vector there.
+    /// Fields of light `own` in the frame of its medium, polarised along a unit vector there.
     ///
     /// In the medium **H** = **B** = **k** × **E**/f and **D** = N² **E**; (**E**, **B**) and
     /// (**D**, **H**) change between frames as electric and magnetic fields do.

@@ -65,7 +65,7 @@ pub enum Error {
     Pixel {
         /// Its column and row.
         pixel: [u32; 2],
-        /// Of the picture.
+        /// Columns and rows of the picture.
         size: [u32; 2],
     },
     /// Text with a character that the font lacks.

@@ -94,7 +94,7 @@ impl Context {
     /// Reads an additional input file.
     ///
     /// # Errors
-    /// As of [`Context::input`].
+    /// See [`Context::input`].
     pub fn input_file(&self, path: &Path) -> Result<Input, Failure> {
         within(MAX_INPUT, input::read(Some(path), MAX_INPUT + 1)?)
     }
@@ -139,7 +139,7 @@ impl Context {
     /// Reads at most `limit` bytes of a regular file in the current folder or below.
     ///
     /// # Errors
-    /// As of [`Context::read_named`].
+    /// See [`Context::read_named`].
     pub fn read_here(&self, path: &Path, limit: u64) -> io::Result<Vec<u8>> {
         files::read_file(path, &Place::Below(PathBuf::from(".")), limit)
     }
@@ -159,7 +159,7 @@ impl Context {
     /// outside is replaced by U+FFFD.
     ///
     /// # Errors
-    /// As of [`Context::write`].
+    /// See [`Context::write`].
     pub fn write_text(&mut self, text: &str) -> Result<(), Failure> {
         self.write(printable_lines(text).as_bytes())
     }
@@ -167,7 +167,7 @@ impl Context {
     /// Writes a report as JSON. What a terminal would obey in names from outside is escaped.
     ///
     /// # Errors
-    /// As of [`Context::write`].
+    /// See [`Context::write`].
     pub fn write_json(&mut self, json: &str) -> Result<(), Failure> {
         self.write(printable_json(json).as_bytes())
     }
@@ -176,7 +176,7 @@ impl Context {
     /// from outside is replaced by U+FFFD.
     ///
     /// # Errors
-    /// As of [`Context::write`].
+    /// See [`Context::write`].
     pub fn print(&self, text: &str) -> Result<(), Failure> {
         let mut stdout = Output::new(None);
         stdout.write_with(|out| out.write_all(printable_lines(text).as_bytes()))
@@ -240,7 +240,7 @@ impl Context {
     /// writing.
     ///
     /// # Errors
-    /// As of [`Context::write`]; failures of `fill`.
+    /// See [`Context::write`]; failures of `fill`.
     pub fn write_stream(
         &mut self,
         fill: impl FnOnce(&mut dyn Write, &Steps<'_>) -> Result<io::Result<()>, Failure>,

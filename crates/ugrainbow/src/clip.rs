@@ -11,7 +11,7 @@ use ugraster::Corner;
 pub struct ClipCounts {
     /// Faces and lines at least partly between the clipping planes.
     pub in_front: usize,
-    /// Those of them that are in the picture.
+    /// Faces and lines of these that are in the picture.
     pub in_picture: usize,
 }
 

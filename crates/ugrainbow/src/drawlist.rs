@@ -34,7 +34,7 @@ pub struct DrawList<'a, const N: usize> {
 struct Corners<'a, const N: usize> {
     painter: Painter<'a>,
     pack: Pack<N>,
-    /// Of every vertex; NaN outside the clipping planes.
+    /// The projection of every vertex; NaN outside the clipping planes.
     points: Vec<Point>,
     /// The light level of all faces without one of their own, if it is the same for all; see
     /// [`Painter::even_level`].
@@ -165,7 +165,7 @@ fn points(painter: &Painter<'_>) -> Vec<Point> {
 struct Chunk<'a, const N: usize> {
     corners: &'a Corners<'a, N>,
     painter: &'a Painter<'a>,
-    /// Of the current face.
+    /// Row of the current face.
     item: u32,
     list: PolygonList<N>,
     clip_counts: ClipCounts,

@@ -50,7 +50,7 @@ impl StoredGradients {
         Self { sides, per_area: (*per_area).into() }
     }
 
-    /// Those of one triangle.
+    /// Gradients of one triangle.
     #[inline(always)]
     pub fn only(&self, triangle: usize) -> Gradients<f64> {
         let [[a, b], [c, d]] = &self.sides;

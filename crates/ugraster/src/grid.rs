@@ -80,7 +80,7 @@ impl SampleGrid {
     }
 
     /// The columns of tiles from that of the first of some columns of samples to that of the last.
-    /// Those beyond 2¹⁶ count as one.
+    /// Columns beyond 2¹⁶ count as one.
     pub(crate) fn tile_columns_of(&self, [first, end]: [u32; 2]) -> [u16; 2] {
         let samples = self.tile_columns() * self.samples;
         [first, end.saturating_sub(1).max(first)]

@@ -86,7 +86,7 @@ impl Composite {
 pub enum KeepFragments {
     #[default]
     None,
-    /// Those of the samples at the centres of pixels.
+    /// Samples at the centres of pixels.
     Centers,
     All,
 }

@@ -252,7 +252,7 @@ struct BlockSpans {
     outlines: StoredOutlines,
     /// The first row of samples, and one past the last.
     rows: [[i32; BLOCK]; 2],
-    /// Of the first row of each triangle, of the second, and so on.
+    /// Spans of the first row of each triangle, of the second, and so on.
     first_spans: [RowSpans; FIRST_ROWS],
     /// The triangles that have samples: triangle i is bit i.
     has_samples: u64,

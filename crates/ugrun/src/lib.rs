@@ -17,7 +17,7 @@ pub fn fed(command: &mut Command, input: impl AsRef<[u8]>) -> Output {
 /// sets them.
 ///
 /// # Panics
-/// As of [`fed`].
+/// See [`fed`].
 #[track_caller]
 pub fn fed_as_it_is(command: &mut Command, input: impl AsRef<[u8]>) -> Output {
     command.stdin(Stdio::piped());

@@ -41,7 +41,7 @@ pub(crate) struct Frame {
 /// A place of the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Place {
-    /// Of the view axis, to the right and up from the origin.
+    /// Displacement of the view axis, to the right and up from the origin.
     pub offset: [f64; 2],
     /// From the origin, along the view.
     pub distance: f64,

@@ -16,12 +16,12 @@ pub struct RelativeMotion {
 }
 
 impl RelativeMotion {
-    /// Of a body with `velocity` in the frame of the camera, which is the frame of the scene.
+    /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the scene.
     pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
         RelativeMotion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
     }
 
-    /// Of a body with `velocity` in the frame of the camera; `in_scene`, `camera`: velocities of the
+    /// The motion of a body with `velocity` in the frame of the camera; `in_scene`, `camera`: velocities of the
     /// body and the camera in the frame of the scene.
     pub(crate) fn composed(
         velocity: Velocity,

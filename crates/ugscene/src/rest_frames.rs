@@ -15,12 +15,12 @@ pub struct RestFrames {
     scene_from_axes: Vec<DQuat>,
     /// For each body, see [`RestFrames::lamp_shift`]; empty if all are 0.
     lamp_shifts: Vec<DVec3>,
-    /// Of the camera, in the frame the scene was written in.
+    /// Velocity of the camera, in the frame the scene was written in.
     camera: Velocity,
 }
 
 impl RestFrames {
-    /// Those of the bodies of `scene`.
+    /// The rest frames of the bodies of `scene`.
     pub fn new(scene: &Scene) -> Self {
         let velocity = |motion: Motion| match motion {
             Motion::Inertial(velocity) => velocity,

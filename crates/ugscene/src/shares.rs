@@ -11,7 +11,7 @@ use crate::corner_angle;
 pub enum Shares {
     /// Its own, or that of all its faces.
     One(Option<ColorId>),
-    /// Those of its faces, in their order, each once and with its share by the angles of the faces,
+    /// The colours of its faces, in their order, each once and with its share by the angles of the faces,
     /// or those of a mixture (`c_mix`). Shares add up to 1.
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
@@ -99,7 +99,7 @@ pub fn face_vertices(scene: &Scene, n_vertices: usize) -> Vec<bool> {
 
 /// The colours at a vertex.
 enum Sum {
-    /// That of the vertex itself.
+    /// The colour of the vertex itself.
     Own(ColorId),
     Nothing,
     One(Option<ColorId>),

@@ -355,12 +355,12 @@ fn lanes_of<S: Simd>(vectors: Vectors<S>) -> [[f32; EACH]; 3] {
 /// Directions in the sky, and how they change with those seen.
 struct OnSky<S: Simd> {
     seen: Vectors<S>,
-    /// Of the lengths on the film.
+    /// Inverse of the lengths on the film.
     inverse: f32x16<S>,
     ahead: Vectors<S>,
     doppler: f32x16<S>,
     turned: Vectors<S>,
-    /// Of the longitude.
+    /// Sine of the longitude.
     sin: f32x16<S>,
     cos: f32x16<S>,
     /// To the north.

@@ -26,9 +26,9 @@ pub struct Sampler<'a> {
 /// Weights of neighbouring texels, which are 0 after the end of a run.
 #[derive(Clone, Copy)]
 struct Weights {
-    /// Those of the kernel.
+    /// Weights by the kernel.
     kernel: [f32; CHUNK],
-    /// Those of its positive part, (1 − q)², times the coordinates s = a·d and t = b·d, which away
+    /// Weights by its positive part, (1 − q)², times the coordinates s = a·d and t = b·d, which away
     /// from poles are divided by the cosine of the latitude, as in windows.
     across: [f32; CHUNK],
     along: [f32; CHUNK],

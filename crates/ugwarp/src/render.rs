@@ -165,7 +165,7 @@ fn render_with(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result
 
 /// All that a picture needs but the light of the sky.
 struct Prepared {
-    /// Of the picture without its annotations.
+    /// Options of the picture without its annotations.
     config: Config,
     layout: Layout,
     warp: Warp,

@@ -396,7 +396,7 @@ struct Drawing<'a, F> {
     finish: F,
     /// Buffers of all threads.
     buffers: Mutex<Vec<(Sampler<'a>, Vec<Seen>)>>,
-    /// Of the bands that are drawn.
+    /// Statistics of the bands that are drawn.
     statistics: Mutex<Statistics>,
 }
 

@@ -22,9 +22,9 @@ pub struct Recipe {
 pub enum Lamps {
     /// All kinds.
     All,
-    /// Those with a velocity, and ambient ones.
+    /// Lamps with a velocity, and ambient ones.
     Stated,
-    /// Those that rest with what they light.
+    /// Lamps that rest with what they light.
     Unstated,
 }
 

@@ -93,7 +93,7 @@ impl Picture {
         self
     }
 
-    /// Of a single pixel.
+    /// A picture of a single pixel.
     #[must_use]
     pub fn of_pixel(self) -> Self {
         Self { size: [1, 1], ..self }

@@ -46,7 +46,7 @@ pub struct RestChange {
 }
 
 impl RestChange {
-    /// Of a point.
+    /// Transforms a point.
     pub fn place(&self, place: DVec3) -> DVec3 {
         self.turn * place + self.shift
     }

@@ -37,7 +37,7 @@ fn write_explanation(
 /// A line: a title, and a text.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors that `out` returns.
 pub fn row(out: &mut String, title: &str, text: impl fmt::Display) -> fmt::Result {
     writeln!(out, "{title:<14}{text}")
 }
@@ -72,7 +72,7 @@ pub fn angles([camera, rest]: [f64; 2]) -> String {
 /// The line about the law of colours. `seen`: as they are seen; `None` for colours at rest.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors that `out` returns.
 pub fn write_colors(out: &mut String, seen: Option<&SeenColors>, doppler: f64) -> fmt::Result {
     let Some(seen) = seen else {
         return row(out, "colours", "at rest: neither shifted nor changed in brightness");
@@ -112,7 +112,7 @@ pub fn level(level: &[f64; 3]) -> String {
 /// The lines about the colour of a sample: its numbers, and the wavelength at rest and as seen.
 ///
 /// # Errors
-/// Those of `out`.
+/// Errors that `out` returns.
 pub fn write_color(out: &mut String, color: &SampleColor) -> fmt::Result {
     match color {
         SampleColor::Light { xyz, chromaticity } => {

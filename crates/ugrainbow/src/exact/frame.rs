@@ -17,7 +17,7 @@ pub struct RestFrameRays {
     /// Rotates rest coordinates to the axes of the scene, in which lights and normals are given.
     /// Eq. (P25)
     pub scene_from_axes: DMat3,
-    /// Of lamps for the body, see [`ugscene::RestFrames::lamp_shift`].
+    /// Displacement of lamps for the body, see [`ugscene::RestFrames::lamp_shift`].
     pub lamp_shift: DVec3,
     /// Rotates apparent coordinates to the axes of the camera's frame.
     camera_from_axes: DMat3,

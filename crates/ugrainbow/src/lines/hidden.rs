@@ -89,7 +89,7 @@ pub struct Occluders {
 }
 
 impl Occluders {
-    /// Those of some polygons, given as their contours, that lie near one of the lines whose boxes
+    /// The edges of some polygons, given as their contours, that lie near one of the lines whose boxes
     /// are given. `size`: of the picture, in samples.
     pub fn new(
         outlines: impl Iterator<Item = Vec<Vec<DepthPoint>>>,

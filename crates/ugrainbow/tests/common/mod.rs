@@ -22,7 +22,7 @@ pub fn draw(text: &str, config: &Config) -> Frame {
     render(&scene(text), config).unwrap().into_frame().unwrap()
 }
 
-/// Of a square picture.
+/// Options of a square picture.
 pub fn config(side: u32, samples: u32) -> Config {
     Config {
         picture: PictureOptions { size: [side, side], samples, ..PictureOptions::default() },

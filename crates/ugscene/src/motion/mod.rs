@@ -194,7 +194,7 @@ fn seen_by(camera: Velocity, in_scene: Velocity, geometry: Geometry) -> Result<R
 /// One default camera for several pictures of a scene at rest, with these motions.
 ///
 /// # Errors
-/// As of [`DefaultCamera::new`].
+/// See [`DefaultCamera::new`].
 pub fn common_camera(
     scene: &Scene,
     options: &CameraOptions,
