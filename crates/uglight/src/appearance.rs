@@ -84,10 +84,15 @@ impl<'a> Appearance<'a> {
         HueColor { hue, wavelength_nm, saturation, value, factor: rest.factor }
     }
 
-    /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light.
-    /// Eq. (P14)
+    /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light. Under
+    /// a law that names a quantity it is given as light, since the light of lamps adds up.  Eq. (P14)
     pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
-        let seen = self.shift.seen_lit(self.hue_color(rest), 1.0 / stretch, light, lamps);
+        let (base, doppler) = (self.hue_color(rest), 1.0 / stretch);
+        if self.shift.law.acts_on_light() {
+            let parts = light.chunks(1).map(|part| self.shift.seen_lit(base, doppler, part, lamps).light());
+            return Swatch { light: Some(parts.sum()), ..*rest };
+        }
+        let seen = self.shift.seen_lit(base, doppler, light, lamps);
         let tint = match self.palette.interpolation() {
             Interpolation::Hue => seen.hue,
             Interpolation::Wavelength => seen.wavelength_nm,

@@ -136,7 +136,9 @@ pub enum Interpolated {
 impl PackedLayout {
     /// The one with the fewest interpolants.
     pub fn new(palette: &Palette, lighting: &Lighting) -> Self {
-        match (palette.has_light(), lighting.is_colored() || lighting.acts_on_light()) {
+        // The exact mode adds the light of coloured lamps as such.
+        let adds_light = lighting.is_colored() && lighting.acts_on_light();
+        match (palette.has_light() || adds_light, lighting.is_colored() || lighting.acts_on_light()) {
             (false, false) => Self::Plain,
             (false, true) => Self::Colored,
             (true, false) => Self::Mixed,
