@@ -17,11 +17,14 @@ use ugpicture::cli::{
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, number, numbers, one_of};
 use ugscene::cli::RepeatArgs;
 
-use crate::config::{Config, DepthCue, LINE_WIDTH, MAX_LINE_WIDTH, Wireframe};
+use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::{PROVENANCE, run_with};
 use uglight::Interpolation;
+
+/// Greatest width of lines in pixels.
+const MAX_LINE_WIDTH: f64 = 100.0;
 
 /// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
 const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";

@@ -126,6 +126,3 @@ impl DrawMode {
         self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
     }
 }
-
-/// The greatest [`Config::line_width`].
-pub const MAX_LINE_WIDTH: f64 = 100.0;
