@@ -9,11 +9,11 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Samples};
 use uglight::{ColorShift, SpectralShift};
 use uglorentz::Pieces;
-use ugparse::{Options, Scene, Source};
+use ugparse::{Options, Source};
 use ugphoton::RayOptions;
 use ugrainbow::{Channel, Output, PictureOptions};
 use ugrandom::Random;
-use ugscene::MotionOptions;
+use ugscene::{MotionOptions, Scene};
 
 const SIZE: [u32; 2] = [64, 48];
 
@@ -92,7 +92,7 @@ fn lights(random: &mut Random, unit: f64, shift: ColorShift) -> String {
 }
 
 fn read(text: &[u8]) -> Scene {
-    let parsed = ugscene::read(&Source::new("world.ug", text), &Options::default(), None);
+    let parsed = ugparse::read(&Source::new("world.ug", text), &Options::default(), None);
     parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
 }
 

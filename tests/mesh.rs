@@ -6,8 +6,9 @@ use std::fmt::Write;
 
 use glam::DVec3;
 use ugmesh::{Format, Input, Target};
-use ugparse::{Options, Scene, Source};
+use ugparse::{Options, Source};
 use ugpipe::Words;
+use ugscene::Scene;
 use ugtests::picture::{Picture, decode};
 
 /// A body with a knob, so that no side looks like another: vertices on rings around y, which is up
@@ -76,7 +77,7 @@ fn converted(mesh: &[u8], format: Format, target: Target, stage: bool) -> Vec<u8
 }
 
 fn scene(text: &[u8]) -> Scene {
-    let parsed = ugscene::read(&Source::new("blob.ug", text), &Options::default(), None);
+    let parsed = ugparse::read(&Source::new("blob.ug", text), &Options::default(), None);
     parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
 }
 

@@ -169,7 +169,7 @@ fn outline_errors_are_within_the_bound() {
                 ..uglorentz::Config::default()
             };
             let seen = uglorentz::apply(scene.clone(), &config).unwrap().0;
-            let row = |face: &ugparse::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
+            let row = |face: &ugscene::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
             let origins: Vec<usize> = seen.faces.iter().map(row).collect();
             let errors = outline::errors(&seen, &origins, eye, &oracle, &camera);
             println!("{name} {bound}: {errors:?}");

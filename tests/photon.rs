@@ -7,11 +7,10 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Samples};
 use uglight::{ColorShift, HueShift, SpectralShift};
 use uglorentz::Pieces;
-use ugparse::Scene;
 use ugphoton::RayOptions;
 use ugphysics::Brightness;
 use ugrainbow::{Channel, Output, PictureOptions};
-use ugscene::MotionOptions;
+use ugscene::{MotionOptions, Scene};
 use ugtests::scenes;
 
 const SIZE: [u32; 2] = [200, 150];
@@ -42,7 +41,7 @@ fn by_pipe(scene: &Scene, motion: Motion, shift: ColorShift) -> LinearFrame {
     };
     let (mut seen, _) = uglorentz::apply(scene.clone(), &config).unwrap();
     // Lights keep their place in the frames of what they light.
-    seen.comments.clear();
+    seen.remarks.comments.clear();
     let config = ugrainbow::Config { picture: picture(), exact: Some(shift), ..ugrainbow::Config::default() };
     ugrainbow::light(&seen, &config).unwrap()
 }
@@ -108,7 +107,7 @@ fn check(name: &str, motion: Motion, shift: ColorShift) {
     scene.wires.clear();
     // Moving lights and surfaces are for rays alone.
     scene.lights.retain(|light| light.motion.body().is_none());
-    scene.illums.iter().for_each(|illum| assert!(matches!(illum, ugparse::Illum::Level(_)), "{name}"));
+    scene.illums.iter().for_each(|illum| assert!(matches!(illum, ugscene::Illum::Level(_)), "{name}"));
     let (pipe, rays) = (by_pipe(&scene, motion, shift), by_rays(&scene, motion, shift));
     let (of_pipe, of_rays) = (ids(&pipe), ids(&rays));
     assert!(of_pipe.iter().filter(|&&id| id > 0).count() > 100, "{name} {motion:?}: an empty picture");

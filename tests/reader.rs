@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 use std::fmt::Debug;
 
 use proptest::prelude::*;
-use ugparse::{BodyId, ColorId, ColorValue, LightKind, NameId, Projection, Scene, VertexId};
 use ugphysics::Velocity;
+use ugscene::{BodyId, ColorId, ColorValue, LightKind, NameId, Projection, Scene, VertexId};
 use ugtests::scenes;
 use ugtests::slow_reader::{self, Camera, Face, Flat, Light, Paint, Triple, Vertex, Wire};
 
@@ -83,11 +83,11 @@ fn flat(scene: &Scene) -> Flat {
         wires: wires.collect(),
         lights: lights.collect(),
         cameras: cameras.collect(),
-        escapes: scene.escapes.clone(),
+        escapes: scene.remarks.escapes.clone(),
     }
 }
 
-fn camera_options(camera: &ugparse::Camera) -> BTreeMap<String, Vec<f64>> {
+fn camera_options(camera: &ugscene::Camera) -> BTreeMap<String, Vec<f64>> {
     let projection = camera.projection.map(|projection| match projection {
         Projection::Orthographic => "-og",
         Projection::Perspective => "-ps",
@@ -738,7 +738,7 @@ fn threads_do_not_change_a_long_scene() {
     assert!(text.len() > 4_000_000, "{} bytes", text.len());
     let on = |n_threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
-        pool.install(|| scenes::parse(text.as_bytes()))
+        pool.install(|| ugparse::write(&scenes::parse(text.as_bytes())))
     };
     let one = on(1);
     for n_threads in [2, 3] {

@@ -5,11 +5,11 @@
 
 use glam::DVec3;
 use ugimage::LinearFrame;
-use ugparse::Scene;
 use ugphoton::{
     CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions, SpectralShift,
 };
 use ugphysics::{Velocity, srgb_encode};
+use ugscene::Scene;
 use ugwarp::{Basis, Extent, Panorama, Texels};
 
 /// A room of 6 x 6 x 6 with the eye off its middle, lit alike everywhere.

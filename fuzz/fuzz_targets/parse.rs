@@ -1,9 +1,7 @@
 //! No input causes a panic, and every diagnostic can be rendered.
 #![no_main]
 
-use ugparse::{
-    Diagnostics, Limit, Limits, Options, Request, RequestError, RequestKind, Source, include, parse,
-};
+use ugparse::{Diagnostics, Limit, Limits, Options, Request, RequestError, RequestKind, Source, include, parse};
 
 libfuzzer_sys::fuzz_target!(|text: &[u8]| {
     // The length of the input selects the options. Rendering of diagnostics takes most of the time,

@@ -1,12 +1,12 @@
 //! Compares every sample with the oracle and the formulas.
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId};
 use ugphysics::{
     Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, srgb_decode,
     wavelength_to_hue, xyz_to_linear_srgb,
 };
 use ugrainbow::{ColorShift, HueShift, SpectralShift};
+use ugscene::{Face, Scene, VertexId};
 use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::scenes;
@@ -50,7 +50,7 @@ fn triangles(mut scene: Scene) -> Scene {
         let positions: Vec<Vec<DVec3>> = rings.iter().map(positions).collect();
         let corners = rings.concat();
         let is_flat =
-            ugparse::newell_normal(positions[0].iter().copied()).try_normalize().is_some_and(|normal| {
+            ugscene::newell_normal(positions[0].iter().copied()).try_normalize().is_some_and(|normal| {
                 positions.concat().iter().all(|p| normal.dot(*p - positions[0][0]).abs() < 1e-12)
             });
         if is_flat {

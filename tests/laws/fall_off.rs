@@ -162,7 +162,7 @@ fn instances_scale_the_reference_distance() {
         let text = format!("def lamp; l 1 0 0 5 0.1 2; end; i (lamp {steps});");
         let scene = scenes::parse(text.as_bytes());
         match scene.lights[0].kind {
-            ugparse::LightKind::Local { reference: Some(reference), .. } => reference,
+            ugscene::LightKind::Local { reference: Some(reference), .. } => reference,
             other => panic!("{other:?}"),
         }
     };

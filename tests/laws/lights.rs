@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use ugdoppler::Config;
-use ugparse::{ColorValue, Scene, Tint};
 use ugphysics::{Brightness, Velocity, srgb_decode};
 use ugrandom::Random;
+use ugscene::{ColorValue, Scene, Tint};
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
 use ugtests::scenes;
@@ -148,7 +148,7 @@ fn lamplight_lags() {
     let text = format!("{floor} l 0.5 0 20 3 0 <{speed} 0 0>; cam -ep 0 0 5;");
     let config = Config { law: Brightness::None, doppler: false, ..lit() };
     let scene = scenes::parse(&doppler(text.as_bytes(), &config));
-    let bright = |vertex: &ugparse::Vertex| {
+    let bright = |vertex: &ugscene::Vertex| {
         let color = vertex.color.expect("a colour");
         match scene.colors[color.index()].value {
             ColorValue::Hsv { value, .. } => value,
@@ -200,7 +200,7 @@ fn the_camera_does_not_change_what_falls_on_a_surface() {
                 ..uglorentz::Config::default()
             };
             let scene = scenes::parse(&doppler(&lorentz(text.as_bytes(), &lorentz_config), &config));
-            let value = |color: ugparse::ColorId| match scene.colors[color.index()].value {
+            let value = |color: ugscene::ColorId| match scene.colors[color.index()].value {
                 ColorValue::Hsv { value, .. } => value,
                 other => panic!("{other:?}"),
             };
@@ -232,7 +232,7 @@ fn no_lights_no_change() {
 /// Red, green and blue of every vertex, by name.
 fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
     let scene = scenes::parse(text);
-    let of = |vertex: &ugparse::Vertex| {
+    let of = |vertex: &ugscene::Vertex| {
         let color = vertex.color.map(|color| &scene.colors[color.index()]);
         let rgb = color.map_or([1.0; 3], |color| uglight::hsv(&scene, color).to_rgb());
         (scene.names.get(vertex.name).to_string(), rgb)
@@ -290,7 +290,7 @@ fn full_daylight_shows_colours_as_they_are() {
     let colors = |light: bool| -> Vec<[f64; 3]> {
         let config = Config { spectral: true, light, ..lit() };
         let scene = scenes::parse(&doppler(format!("{SEEN} {text} l 1 -1 0 0;").as_bytes(), &config));
-        let of = |vertex: &ugparse::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
+        let of = |vertex: &ugscene::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
         {
             ColorValue::Xyz(xyz) => xyz,
             other => panic!("{other:?}"),

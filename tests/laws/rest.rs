@@ -1,8 +1,8 @@
 //! At rest the pipe draws the same picture as `ugrainbow` alone.
 
 use glam::DVec3;
-use ugparse::BodyId;
 use ugrainbow::HueScale;
+use ugscene::BodyId;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::scenes;

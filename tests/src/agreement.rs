@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use ugparse::{Color, ColorId, ColorValue, Face, Light, LightKind, LightMotion, Scene};
+use ugscene::{Color, ColorId, ColorValue, Face, Light, LightKind, LightMotion, Scene};
 
 use crate::oracle::{Oracle, Pinhole};
 use crate::picture::Picture;
@@ -62,7 +62,7 @@ pub fn face_of(pixel: [u8; 4]) -> Shown {
 pub fn recolored(mut scene: Scene) -> Scene {
     scene.colors.clear();
     scene.wires.clear();
-    scene.comments.clear();
+    scene.remarks.comments.clear();
     scene.lights = vec![Light {
         name: None,
         intensity: 1.0,

@@ -12,8 +12,8 @@ use std::ops::Range;
 
 use glam::{DMat4, DVec2, DVec3, DVec4};
 use rayon::prelude::*;
-use ugparse::{Camera, Face, Scene};
 use ugphysics::Velocity;
+use ugscene::{Camera, Face, Scene};
 
 /// A pinhole camera with square pixels: `-ep`, `-vc`, `-ud` and the horizontal angle of `-va`.
 #[derive(Clone, Debug)]

@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
-use ugparse::Scene;
+use ugscene::Scene;
 
 use crate::oracle::{Oracle, Outline, Pinhole};
 
@@ -46,7 +46,7 @@ pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle, camer
         let Some(outline) = outlines[face] else { return Errors::default() };
         let contours = seen.face_contours(&seen.faces[row]);
         let ends = contours.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
-        let position = |id: &ugparse::VertexId| seen.vertices[id.index()].position - eye;
+        let position = |id: &ugscene::VertexId| seen.vertices[id.index()].position - eye;
         ends.map(|(a, b)| of_chord(&outline, [position(a), position(b)], camera))
             .fold(Errors::default(), Errors::and)
     };

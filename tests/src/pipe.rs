@@ -2,7 +2,8 @@
 //! between them.
 
 use glam::DVec3;
-use ugparse::{Options, Provenance, Scene, Source};
+use ugparse::{Options, Source};
+use ugscene::{Provenance, Scene};
 
 use crate::picture::{Picture, decode};
 
@@ -93,7 +94,7 @@ pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
 #[track_caller]
 fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Vec<u8> {
     let (mut scene, _) = lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
-    ugscene::record(&mut scene, Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
+    scene.remarks.record(Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
     ugparse::write(&scene)
 }
 
@@ -126,14 +127,14 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
     let applied = ugdoppler::apply(read(text, None), config);
     let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
-    ugscene::record(&mut scene, Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
+    scene.remarks.record(Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
     ugparse::write(&scene)
 }
 
 /// A scene as programs read it. `camera`: the option `-cam`.
 #[track_caller]
 fn read(text: &[u8], camera: Option<&str>) -> Scene {
-    let parsed = ugscene::read(&Source::new("<stdin>", text), &Options::default(), camera);
+    let parsed = ugparse::read(&Source::new("<stdin>", text), &Options::default(), camera);
     parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
 }
 

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ugparse::{Scene, Source};
+use ugparse::Source;
+use ugscene::Scene;
 
 /// The root of the repository.
 pub fn root() -> &'static Path {

@@ -2,9 +2,9 @@
 //! spectrum, and lighting at rest.
 
 use glam::DVec3;
-use ugparse::{ColorId, ColorValue, Face, LightKind, Scene, Tint, VertexId};
 use ugphysics::{Hsv, attenuation, hue_to_wavelength, srgb_decode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugrainbow::{ColorShift, HueShift};
+use ugscene::{ColorId, ColorValue, Face, LightKind, Scene, Tint, VertexId};
 
 use crate::oracle::Hit;
 
@@ -28,7 +28,7 @@ impl<'a> Shading<'a> {
                 around[corner.index()].extend(face.color);
             }
         }
-        let color = |(vertex, around): (&ugparse::Vertex, &Vec<ColorId>)| {
+        let color = |(vertex, around): (&ugscene::Vertex, &Vec<ColorId>)| {
             vertex.color.or_else(|| around.first().copied().filter(|a| around.iter().all(|b| a == b)))
         };
         Self { scene, eye, colors: scene.vertices.iter().zip(&around).map(color).collect() }
@@ -124,7 +124,7 @@ impl<'a> Shading<'a> {
         if lights.is_empty() || lights.iter().any(|light| light.color.is_some()) {
             return None;
         }
-        let level = |light: &ugparse::Light| {
+        let level = |light: &ugscene::Light| {
             let toward = match light.kind {
                 LightKind::Ambient => return light.intensity,
                 LightKind::Directional(toward) => toward,

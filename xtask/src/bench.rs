@@ -170,7 +170,7 @@ fn draw(file: &str) -> Kernel {
     })
 }
 
-fn scene(file: &str) -> Result<ugparse::Scene, Box<dyn Error>> {
+fn scene(file: &str) -> Result<ugscene::Scene, Box<dyn Error>> {
     Ok(ugparse::parse(&source(file)?, &ugparse::Options::default())?.scene)
 }
 

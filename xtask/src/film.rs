@@ -9,8 +9,9 @@ use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use rayon::ThreadPoolBuilder;
-use ugparse::{Options, Scene, Source, parse};
+use ugparse::{Options, Source, parse};
 use ugpipe::{ToolArgs, parse_words};
+use ugscene::Scene;
 
 use crate::bench::{build, machine, path_with_programs, stderr_of, target_dir};
 use crate::mesh;
@@ -188,7 +189,7 @@ fn stages(
     end();
     let rendering = ugrainbow::render(&colored, &drawing.map_err(text)?)?;
     end();
-    let bytes = rendering.into_file(&ugrainbow::metadata(&colored, ugrainbow::PROVENANCE));
+    let bytes = rendering.into_file(&ugrainbow::metadata(&colored.remarks, ugrainbow::PROVENANCE));
     end();
     std::fs::write(file, bytes)?;
     end();

@@ -15,9 +15,10 @@ use std::time::Instant;
 
 use glam::DVec3;
 use rayon::ThreadPoolBuilder;
-use ugparse::{ColorValue, Options, Scene, Source, Tint};
+use ugparse::{Options, Source};
 use ugphysics::Hsv;
 use ugrainbow::{Config, Prepared};
+use ugscene::{ColorValue, Scene, Tint};
 
 use crate::bench::{build, machine, program, target_dir};
 use crate::mesh;

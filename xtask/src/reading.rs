@@ -12,7 +12,8 @@ use std::process::Command;
 use std::time::Instant;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
-use ugparse::{Options, Scene, Source};
+use ugparse::{Options, Source};
+use ugscene::Scene;
 
 use crate::bench::{machine, target_dir};
 use crate::mesh;

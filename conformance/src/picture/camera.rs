@@ -1,7 +1,7 @@
 //! Maps pixels to viewing directions.
 
 use glam::DVec3;
-use ugparse::Camera;
+use ugscene::Camera;
 
 /// A pinhole camera at the origin with a flat film and square pixels.
 pub struct Pinhole {

@@ -11,7 +11,7 @@ const SHIP: &str = "(ugstage 1 geometry as-seen eye 0 0 0) c green 0.5 120;
 /// What `ugdoppler -gw` writes, without its history.
 fn colored(text: &str) -> Result<Vec<u8>, Box<dyn Error>> {
     let source = Source::new("ship.ug", text);
-    let scene = ugscene::read(&source, &Options::default(), None)?.scene;
+    let scene = ugparse::read(&source, &Options::default(), None)?.scene;
     let (scene, _) = apply(scene, &Config { wavelengths: true, ..Config::default() })?;
     Ok(ugparse::write(&scene))
 }

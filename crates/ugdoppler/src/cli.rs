@@ -4,11 +4,11 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
 use glam::DVec3;
-use ugparse::{Diagnostic, Diagnostics, Origins, Provenance, Source, pipe};
+use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers};
-use ugscene::CameraError;
 use ugscene::cli::{EyeArgs, RepeatArgs};
+use ugscene::{CameraError, Provenance};
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, Note, PROVENANCE, apply_with};
 
@@ -188,11 +188,11 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &reading)?;
     let steps = context.steps();
     steps.step("reading", 0);
-    let parsed = ugscene::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
+    let parsed = ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
     let applied = apply_with(parsed.scene, &config, &steps);
     let (mut scene, report) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    ugscene::record(&mut scene, Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.render(true));
     }

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use uglight::{HueShift, SpectralShift};
-use ugparse::HueScale;
 use ugphysics::{Brightness, Velocity};
+use ugscene::HueScale;
 
 /// What to compute. [`Config::default`] is what the program does without options.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,7 @@
 //! Why a scene has no colours as seen.
 
 use thiserror::Error;
-use ugparse::VertexId;
-use ugscene::{CameraError, StageError};
+use ugscene::{CameraError, StageError, VertexId};
 
 /// Why a scene has no colours as seen.
 #[derive(Clone, Debug, Error, PartialEq)]

@@ -2,8 +2,8 @@
 
 use rustc_hash::FxHashMap;
 use uglight::{HueColor, HueShift, VertexColor};
-use ugparse::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz, srgb_decode, srgb_encode};
+use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
 use crate::Config;
 use crate::digits::digits;

@@ -3,8 +3,9 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{Irradiance, Lamp, SurfaceElement, lamps};
-use ugparse::{Face, Light, LightKind, LightMotion, Scene, VertexId};
-use ugscene::{RestFrames, seen_normal, shading_normal};
+use ugscene::{
+    Face, Light, LightKind, LightMotion, RestFrames, Scene, VertexId, seen_normal, shading_normal,
+};
 
 /// Normals that differ by less than this in every component count as equal, so that the pieces of a
 /// face that was cut share their vertices. The error of the irradiance is at most as large.
@@ -98,8 +99,8 @@ pub(crate) fn replace_lights(scene: &mut Scene) {
         color: None,
         motion: LightMotion::WithWhatItLights,
     }];
-    for comment in &mut scene.comments {
-        if let ugparse::Item::Light(row) = &mut comment.at {
+    for comment in &mut scene.remarks.comments {
+        if let ugscene::Item::Light(row) = &mut comment.at {
             comment.trailing = false;
             *row = 0;
         }

@@ -46,10 +46,12 @@ mod xyz_statements;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{HueColor, HueShift, SpectralColor, VertexColor, hsv, hsv_and_factor, spectral_lamps};
-use ugparse::{Camera, ColorId, Provenance, Scene};
 use ugphysics::Hsv;
 use ugpipe::Progress;
-use ugscene::{CameraError, CameraOptions, DefaultCamera, Geometry, RelativeMotion, RestFrames, Shares};
+use ugscene::{
+    Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Geometry, Provenance, RelativeMotion,
+    RestFrames, Scene, Shares,
+};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};

@@ -1,8 +1,8 @@
 //! What the output says was done to it.
 
 use glam::DVec3;
-use ugparse::{ColorScale, ColorStage, GeometryStage, Scene, SeenColors, SeenGeometry, Stage};
 use ugphysics::Velocity;
+use ugscene::{ColorScale, ColorStage, GeometryStage, Scene, SeenColors, SeenGeometry, Stage};
 
 use crate::Config;
 

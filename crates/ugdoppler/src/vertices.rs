@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::Scene;
 use ugphysics::doppler_at;
-use ugscene::RestFrames;
+use ugscene::{RestFrames, Scene};
 
 /// True for vertices that a face or wire uses.
 pub(crate) fn used(scene: &Scene) -> Vec<bool> {

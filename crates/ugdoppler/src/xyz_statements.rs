@@ -3,9 +3,8 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use uglight::{SpectralColor, SpectralShift};
-use ugparse::{Color, ColorId, ColorValue, Scene, UniqueNames};
 use ugphysics::xyz_to_linear_srgb;
-use ugscene::Shares;
+use ugscene::{Color, ColorId, ColorValue, Scene, Shares, UniqueNames};
 use ugspectrum::DopplerGrid;
 
 use crate::Config;

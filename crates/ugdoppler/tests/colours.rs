@@ -3,9 +3,10 @@
 
 use glam::DVec3;
 use ugdoppler::{Config, apply};
-use ugparse::{ColorValue, Options, Scene, Source};
+use ugparse::{Options, Source};
 use ugphysics::{Brightness, Velocity, hue_to_wavelength};
 use ugpipe::Words;
+use ugscene::{ColorValue, Scene};
 
 /// One green triangle, far away to the right, above and behind; and one grey.
 const SCENE: &str = "c green 0.5 120; c grey 0.4; c_rgb rose 1 0.5 0.5;

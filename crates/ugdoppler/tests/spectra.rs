@@ -3,9 +3,10 @@
 
 use glam::DVec3;
 use ugdoppler::{Config, apply};
-use ugparse::{ColorValue, Options, Scene, Source, Tint};
+use ugparse::{Options, Source};
 use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 use ugpipe::Words;
+use ugscene::{ColorValue, Scene, Tint};
 use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {

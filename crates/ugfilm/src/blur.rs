@@ -1,9 +1,9 @@
 //! Motion blur: the mean light of a frame while a shutter is open.
 
 use ugimage::{LinearFrame, Metadata};
-use ugparse::Scene;
 use ugpicture::{Annotated, Content, Image, Layout, Output, PictureOptions, Rendering};
 use ugpipe::sha256;
+use ugscene::Scene;
 
 use crate::error::Error;
 use crate::note::Note;

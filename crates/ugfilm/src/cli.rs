@@ -5,23 +5,22 @@ use std::hash::{DefaultHasher, Hasher};
 
 use clap::Parser;
 use ugimage::Format;
-use ugparse::{Scene, pipe};
+use ugparse::pipe;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, parse_words, sha256, whole,
 };
-use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note};
+use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
 use crate::blur::MotionBlur;
 use crate::film::{Film, Summary, Target};
 use crate::frame_files::valid_since;
-use crate::keys;
 use crate::options::{EXACT, Given, PANORAMA, PIPE, ProgramOptions, RAYS};
 use crate::output::{Output, names_of};
 use crate::pipe::Subject;
-use crate::print;
 use crate::program::Program;
 use crate::script::Script;
 use crate::timeline::Ease;
+use crate::{keys, print};
 
 /// Draws the frames of a film or a figure sequence
 ///
@@ -236,7 +235,7 @@ impl Read {
         let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;
         let included = (hash(&source.text) != own).then(|| sha256(&source.text));
         let camera = script.fixed("cam");
-        let parsed = ugscene::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
+        let parsed = ugparse::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.render(true));
         }

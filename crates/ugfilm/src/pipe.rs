@@ -1,8 +1,8 @@
 //! The programs of a frame, one after the other.
 
 use ugimage::{LinearFrame, Metadata};
-use ugparse::{Provenance, Scene};
 use ugpicture::{AnnotationOptions, PictureOptions, Rendering};
+use ugscene::{Provenance, Remarks, Scene};
 
 use crate::error::Error;
 use crate::note::Note;
@@ -42,16 +42,18 @@ impl Pipe {
 
     /// What the file of the frame says about its making. Of a scene only the comments are used.
     pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
-        let mut head = match subject {
-            Subject::Scene(scene) => {
-                Scene { head: scene.head.clone(), origin: scene.origin.clone(), ..Scene::default() }
+        let mut remarks = match subject {
+            Subject::Scene(Scene { remarks: Remarks { head, origin, .. }, .. }) => {
+                Remarks { head: head.clone(), origin: origin.clone(), ..Remarks::default() }
             }
-            Subject::Panorama(_, origin) => Scene { origin: Some(origin.to_owned()), ..Scene::default() },
+            Subject::Panorama(_, origin) => Remarks { origin: Some(origin.to_owned()), ..Remarks::default() },
         };
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
-        filters.iter().zip(&self.lines).for_each(|(filter, line)| record(&mut head, filter, line));
+        filters.iter().zip(&self.lines).for_each(|(filter, line)| {
+            remarks.record(Provenance { command: Some(line), ..filter.provenance() })
+        });
         let command = Some(self.lines.last().map_or("", String::as_str));
-        ugpicture::metadata(&head, Provenance { command, ..last.provenance() })
+        ugpicture::metadata(&remarks, Provenance { command, ..last.provenance() })
     }
 
     /// Draws the frame. Returns it with the notes of all programs.
@@ -73,7 +75,7 @@ impl Pipe {
             notes.extend(told);
             item = made;
             if let (Item::Scene(scene), Some(line)) = (&mut item, self.lines.get(row)) {
-                record(scene, &program, line);
+                scene.remarks.record(Provenance { command: Some(line), ..program.provenance() });
             }
         }
         match item {
@@ -108,8 +110,4 @@ impl Pipe {
         self.picture.annotations = AnnotationOptions::default();
         self
     }
-}
-
-fn record(scene: &mut Scene, program: &Program, line: &str) {
-    ugscene::record(scene, Provenance { command: Some(line), ..program.provenance() });
 }

@@ -1,8 +1,7 @@
 //! The programs that make a frame, with typed options.
 
-use ugparse::{Provenance, Scene};
 use ugpicture::{PictureOptions, Rendering};
-use ugscene::MotionOptions;
+use ugscene::{MotionOptions, Provenance, Scene};
 
 use crate::error::Error;
 use crate::note::Note;

@@ -1,8 +1,7 @@
 //! What a colour statement stands for: a hue, light, or a spectrum.
 
-use ugparse::{Color, ColorId, ColorValue, Scene, Tint};
 use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
-use ugscene::Note;
+use ugscene::{Color, ColorId, ColorValue, Note, Scene, Tint};
 use ugspectrum::Spectrum;
 
 /// A colour statement as hue in degrees, saturation and value.

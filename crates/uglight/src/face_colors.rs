@@ -1,6 +1,6 @@
 //! The colours of the corners of a face, ready to interpolate.
 
-use ugparse::{Face, Scene};
+use ugscene::{Face, Scene};
 
 use crate::{Palette, SurfaceAttributes, Swatch};
 

@@ -1,9 +1,8 @@
 //! What lamps, at rest and in motion, contribute to the light on a point of a surface.  Eq. (P14)
 
 use glam::DVec3;
-use ugparse::BodyId;
 use ugphysics::{SkyRing, ambient_illumination, compose, illumination, illumination_from_afar};
-use ugscene::RestFrames;
+use ugscene::{BodyId, RestFrames};
 
 use crate::{Lamp, LampPlace};
 

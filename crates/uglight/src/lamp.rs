@@ -1,9 +1,8 @@
 //! The lights of a scene, with their colours and places ready to compute with.
 
 use glam::DVec3;
-use ugparse::{ColorValue, Light, LightKind, LightMotion, Scene};
-
 use ugphysics::{length, srgb_decode, unit_or_zero};
+use ugscene::{ColorValue, Light, LightKind, LightMotion, Scene};
 
 use crate::{hsv, light};
 

@@ -33,7 +33,7 @@
 //!
 //! [`Hsv`]: ugphysics::Hsv
 //! [`Spectrum`]: ugspectrum::Spectrum
-//! [`Scene`]: ugparse::Scene
+//! [`Scene`]: ugscene::Scene
 
 mod appearance;
 mod color;

@@ -1,6 +1,6 @@
 //! Names of lights, for explanations.
 
-use ugparse::{LightKind, Scene};
+use ugscene::{LightKind, Scene};
 
 /// What the lights of a scene are called, in their order: as in their statement, else by their kind
 /// and their number among those of this kind, such as `local 2`. In a scene without lights, the
@@ -10,7 +10,7 @@ pub fn light_names(scene: &Scene) -> Vec<String> {
         return ["ambient 1", "directional 1"].map(str::to_owned).to_vec();
     }
     let mut counts = [0_usize; 3];
-    let name = |light: &ugparse::Light| {
+    let name = |light: &ugscene::Light| {
         let (kind, count) = match light.kind {
             LightKind::Ambient => ("ambient", &mut counts[0]),
             LightKind::Directional(_) => ("directional", &mut counts[1]),

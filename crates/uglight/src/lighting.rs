@@ -1,8 +1,8 @@
 //! Irradiance by lamps that rest with what they light.
 
 use glam::DVec3;
-use ugparse::{LightKind, Scene};
 use ugphysics::Brightness;
+use ugscene::{LightKind, Scene};
 
 use crate::{Irradiance, Lamp, LampPlace, lamps, light_names};
 

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use glam::DVec3;
-use ugparse::Scene;
+use ugscene::Scene;
 use ugspectrum::{DopplerGrid, DopplerTable};
 
 use crate::{Lamp, SpectralColor, SpectralLamp, lamps, spectral_lamps};

@@ -1,10 +1,10 @@
 //! The colours of a scene, converted for interpolation.
 
 use glam::DVec3;
-use ugparse::{Color, ColorId, ColorValue, Scene, Tint};
 use ugphysics::{
     Brightness, Hsv, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
 };
+use ugscene::{Color, ColorId, ColorValue, Scene, Tint};
 
 /// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

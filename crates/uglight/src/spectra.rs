@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{ColorId, Scene};
 use ugphysics::xyz_to_linear_srgb;
-use ugscene::Shares;
+use ugscene::{ColorId, Scene, Shares};
 use ugspectrum::{DopplerGrid, Spectrum};
 
 use crate::lit_tables::LitTables;

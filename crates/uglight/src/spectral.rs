@@ -1,7 +1,7 @@
 //! Colours as spectra, as seen in motion.
 
 use glam::DVec3;
-use ugparse::{ColorId, Scene};
+use ugscene::{ColorId, Scene};
 use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
 
 use crate::{Irradiance, spectrum};
@@ -120,7 +120,7 @@ pub struct SpectralLamp {
 #[must_use]
 pub fn spectral_lamps(scene: &Scene) -> Vec<SpectralLamp> {
     let of_color = |color: Option<ColorId>| SpectralColor::new(scene, color).spectrum;
-    let lamp = |light: &ugparse::Light| SpectralLamp {
+    let lamp = |light: &ugscene::Light| SpectralLamp {
         light: LightSpectrum::new(&of_color(light.color)),
         intensity: light.intensity,
     };

@@ -2,9 +2,8 @@
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use ugparse::{BodyId, ColorId, Scene, VertexId};
 use ugphysics::{Velocity, aberrate};
-use ugscene::{RestFrames, Shares, rest_positions, vertex_shares};
+use ugscene::{BodyId, ColorId, RestFrames, Scene, Shares, VertexId, rest_positions, vertex_shares};
 
 use crate::{Palette, Swatch, VertexColor, vertex_colors};
 

@@ -1,9 +1,8 @@
 //! The colour of a vertex: its own, or the mean of those of its faces (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugparse::{ColorId, Scene};
 use ugphysics::{Hsv, srgb_decode, srgb_encode};
-use ugscene::{Shares, vertex_shares};
+use ugscene::{ColorId, Scene, Shares, vertex_shares};
 
 use crate::{hsv, is_light, light};
 

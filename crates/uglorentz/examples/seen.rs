@@ -8,7 +8,7 @@ const TILE: &str = "v a -1 1 0; v b 1 1 0; v c 1 1 2; v d -1 1 2; f (a b c d);";
 
 fn main() -> Result<(), Box<dyn Error>> {
     let source = ugparse::Source::new("tile.ug", TILE);
-    let parsed = ugscene::read(&source, &ugparse::Options::default(), None)?;
+    let parsed = ugparse::read(&source, &ugparse::Options::default(), None)?;
     let velocity = Some(DVec3::new(0.9, 0.0, 0.0));
     let config = uglorentz::Config { velocity, ..uglorentz::Config::default() };
     let (seen, _) = uglorentz::apply(parsed.scene, &config)?;

@@ -21,7 +21,7 @@
 
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
-use ugparse::Scene;
+use ugscene::Scene;
 
 use crate::criterion::{Bounds, Criterion, MAX_GENERATION, Marks, Verdict};
 use crate::evenness::Evenness;
@@ -218,9 +218,8 @@ fn halve_marked(mesh: &mut RefinedMesh, line: &Polyline, marks: &[bool], least: 
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use ugparse::BodyId;
     use ugphysics::Velocity;
-    use ugscene::Geometry;
+    use ugscene::{BodyId, Geometry};
 
     use super::*;
     use crate::cull::ViewVolume;

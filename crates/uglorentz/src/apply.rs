@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{BodyId, Item, Scene, Vertex};
 use ugpipe::Progress;
-use ugscene::{CameraOptions, Geometry, PlacedBodies};
+use ugscene::{BodyId, CameraOptions, Geometry, Item, PlacedBodies, Scene, Vertex};
 
 use crate::criterion::Bounds;
 use crate::cull::ViewVolume;
@@ -126,7 +125,7 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
         return;
     }
     let first_pieces = outcome.put_into(scene);
-    for comment in &mut scene.comments {
+    for comment in &mut scene.remarks.comments {
         if let Item::Face(row) = &mut comment.at {
             *row = first_pieces[*row as usize];
         }

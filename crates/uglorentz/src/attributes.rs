@@ -3,9 +3,10 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::VertexColor;
-use ugparse::{Color, ColorId, ColorValue, Mix, Mixtures, Scene, Tint, Vertex};
 use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, unit_or_zero};
-use ugscene::{Shares, face_vertices, vertex_shares};
+use ugscene::{
+    Color, ColorId, ColorValue, Mix, Mixtures, Scene, Shares, Tint, Vertex, face_vertices, vertex_shares,
+};
 
 use crate::refined_mesh::Recipe;
 use crate::relative_motion::{Point, RelativeMotion};

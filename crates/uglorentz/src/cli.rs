@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
-use ugparse::{Origins, Provenance, Source, pipe};
+use ugparse::{Origins, Source, pipe};
 use ugpipe::{
     CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, count, finite, numbers, whole,
 };
+use ugscene::Provenance;
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
 use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure};
@@ -131,11 +132,11 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &reading)?;
     let steps = context.steps();
     steps.step("reading", 0);
-    let parsed = ugscene::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
+    let parsed = ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
     let (mut scene, report) = crate::apply_with_progress(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    ugscene::record(&mut scene, Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.render(true));
     }

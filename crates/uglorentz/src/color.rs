@@ -124,9 +124,8 @@ impl<'a> Chord<'a> {
 
 #[cfg(test)]
 mod tests {
-    use ugparse::BodyId;
     use ugphysics::Velocity;
-    use ugscene::Geometry;
+    use ugscene::{BodyId, Geometry};
 
     use super::*;
 

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Scene, VertexId};
+use ugscene::{Face, Scene, VertexId};
 
 use crate::cull::ViewVolume;
 use crate::edge::{self, Shown, Tolerance};

@@ -7,9 +7,8 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Item, Scene, VertexId, Wire};
 use ugphysics::elongated;
-use ugscene::{HalfSpace, View};
+use ugscene::{Face, HalfSpace, Item, Scene, VertexId, View, Wire};
 
 use crate::relative_motion::{Point, RelativeMotion};
 
@@ -124,7 +123,7 @@ fn remove(scene: &mut Scene, points: &mut Vec<Point>, kept_faces: &[bool]) {
     };
     scene.faces.iter_mut().for_each(|Face { contours, .. }| *contours = copy(contours.clone()));
     scene.wires.iter_mut().for_each(|Wire { contours, .. }| *contours = copy(contours.clone()));
-    scene.comments.retain_mut(|comment| match &mut comment.at {
+    scene.remarks.comments.retain_mut(|comment| match &mut comment.at {
         Item::Vertex(row) => follow(row, &kept_vertices, &new_vertices),
         Item::Face(row) => follow(row, kept_faces, &new_faces),
         _ => true,

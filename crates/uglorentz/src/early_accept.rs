@@ -104,9 +104,8 @@ fn color_of(motion: &RelativeMotion, change: f64, least: f64, reach2: f64, neare
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use ugparse::BodyId;
     use ugphysics::Velocity;
-    use ugscene::Geometry;
+    use ugscene::{BodyId, Geometry};
 
     use super::*;
 

@@ -280,9 +280,8 @@ impl<'a> Edge<'a> {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use ugparse::BodyId;
     use ugphysics::Velocity;
-    use ugscene::Geometry;
+    use ugscene::{BodyId, Geometry};
 
     use super::*;
 

@@ -5,7 +5,7 @@
 //! subdivided inside, which would take unlimited pieces close to the eye.
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId};
+use ugscene::{Face, Scene, VertexId};
 
 use crate::DEFAULT_ERROR;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -29,7 +29,7 @@ pub(crate) fn is_edge_on(
 ) -> bool {
     let corners = || scene.contours.corners(face.contours.clone()).iter().map(|&corner| rest(corner));
     let Some(outline) = scene.face_contours(face).next() else { return false };
-    let normal = ugparse::unit_normal(outline.iter().map(|&corner| rest(corner)));
+    let normal = ugscene::unit_normal(outline.iter().map(|&corner| rest(corner)));
     if normal == DVec3::ZERO {
         return false;
     }
@@ -53,7 +53,7 @@ pub(crate) fn is_seen_as_line(motion: &RelativeMotion, corners: &[&Point], angle
         return false;
     }
     let rest = || corners.iter().map(|corner| motion.boosted_rest(corner.rest));
-    let normal = ugparse::unit_normal(rest());
+    let normal = ugscene::unit_normal(rest());
     if normal == DVec3::ZERO {
         return false;
     }

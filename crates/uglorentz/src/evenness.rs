@@ -1,6 +1,6 @@
 //! Faces whose corners look alike: only these are cut without regard to their triangles.
 
-use ugparse::{Face, Scene};
+use ugscene::{Face, Scene};
 
 /// Tells faces whose corners differ in colour or normal.
 #[derive(Clone, Debug, Default)]

@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId};
-use ugscene::{Measurement, VtkPolygons};
+use ugscene::{Face, Measurement, Scene, VertexId, VtkPolygons};
 
 /// File format of measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,7 +64,7 @@ fn write_csv(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
 fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
     let faces = all_polygons(scene);
     text.push_str("ply\nformat ascii 1.0\n");
-    for line in ugscene::history(scene) {
+    for line in scene.remarks.history() {
         writeln!(text, "comment {line}")?;
     }
     writeln!(text, "element vertex {}", rows.len())?;
@@ -94,7 +93,7 @@ fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
 
 fn write_vtp(text: &mut String, scene: &Scene, rows: &[Measurement]) {
     let mut mesh = VtkPolygons {
-        history: ugscene::history(scene),
+        history: scene.remarks.history(),
         points: scene.vertices.iter().map(|vertex| vertex.position).collect(),
         polygons: all_polygons(scene),
         ..VtkPolygons::default()

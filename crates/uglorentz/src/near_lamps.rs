@@ -7,9 +7,8 @@
 
 use glam::DVec3;
 use uglight::{FallOff, LampPlace, lamps};
-use ugparse::{BodyId, Scene};
 use ugphysics::{Velocity, illumination};
-use ugscene::RestFrames;
+use ugscene::{BodyId, RestFrames, Scene};
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};

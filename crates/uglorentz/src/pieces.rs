@@ -1,7 +1,7 @@
 //! The pieces of faces and wires.
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId};
+use ugscene::{Face, Scene, VertexId};
 
 /// A piece of a face that can be subdivided: corners by vertex row, in the orientation of the face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
-use ugparse::BodyId;
+use ugscene::BodyId;
 
 use crate::relative_motion::{Point, RelativeMotion};
 

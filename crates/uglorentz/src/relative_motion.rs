@@ -1,10 +1,9 @@
 //! Points of bodies, at rest and as seen.
 
 use glam::DVec3;
-use ugparse::BodyId;
 use ugphysics::doppler_at;
 pub(crate) use ugscene::RelativeMotion;
-use ugscene::RestPosition;
+use ugscene::{BodyId, RestPosition};
 
 /// A point of a body. Both positions are relative to the eye.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, Scene, VertexId, Wire};
+use ugscene::{Face, Scene, VertexId, Wire};
 
 use crate::criterion::Bounds;
 use crate::edge::{self, Shown};

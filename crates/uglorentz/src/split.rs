@@ -127,9 +127,8 @@ fn is_second_diagonal_better(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: 
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use ugparse::BodyId;
     use ugphysics::Velocity;
-    use ugscene::Geometry;
+    use ugscene::{BodyId, Geometry};
 
     use super::*;
     use crate::cull::ViewVolume;

@@ -3,7 +3,7 @@
 //! triangles first.
 
 use rustc_hash::FxHashMap;
-use ugparse::Scene;
+use ugscene::Scene;
 
 use crate::adaptive::MAX_PIECES;
 use crate::evenness::Evenness;
@@ -23,7 +23,7 @@ pub(crate) fn cut(
     if n <= 1 {
         return Ok(Outcome::default());
     }
-    let rest = |vertex: ugparse::VertexId| mesh.point(vertex.0).rest;
+    let rest = |vertex: ugscene::VertexId| mesh.point(vertex.0).rest;
     let mut shapes: Vec<Piece> = Vec::new();
     let mut lines: Vec<Polyline> = Vec::new();
     for (idx, face) in scene.faces.iter().enumerate() {

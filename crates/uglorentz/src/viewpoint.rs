@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::Scene;
-use ugscene::{CameraOptions, View};
+use ugscene::{CameraOptions, Scene, View};
 
 use crate::Error;
 use crate::apply::vertex_name;

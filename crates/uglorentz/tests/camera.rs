@@ -8,11 +8,10 @@ use std::fmt::Write;
 use common::{find, parse, place, seen};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
-use ugparse::{BodyId, LightKind, LightMotion, Scene};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
 use ugpipe::Words;
 use ugrandom::Random;
-use ugscene::{Geometry, RestFrames, rest_positions};
+use ugscene::{BodyId, Geometry, LightKind, LightMotion, RestFrames, Scene, rest_positions};
 
 /// Bodies of one triangle each.
 struct Fleet {
@@ -339,7 +338,7 @@ fn velocities_take_precedence_as_without_a_moving_camera() {
         def pair; i (tile) <0 0.2 0>; i (tile); end;
         i (pair) <0 0 0.3>; i (pair); i (tile);";
     let betas = |scene: &Scene| -> Vec<DVec3> {
-        let of = |face: &ugparse::Face| scene.bodies.stated_velocity(face.body).unwrap_or_default().beta();
+        let of = |face: &ugscene::Face| scene.bodies.stated_velocity(face.body).unwrap_or_default().beta();
         scene.faces.iter().map(of).collect()
     };
     let camera = DVec3::new(0.0, 0.0, 0.3);

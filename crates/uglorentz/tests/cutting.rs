@@ -9,11 +9,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use common::{edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
 use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
-use ugparse::{Item, Scene, VertexId};
 use ugphysics::{Velocity, doppler_at, seen_position};
 use ugpipe::Words;
 use ugrandom::Random;
-use ugscene::{Geometry, RestFrames};
+use ugscene::{Geometry, Item, RestFrames, Scene, VertexId};
 
 type Mesh = (Vec<DVec3>, Vec<Vec<usize>>);
 
@@ -378,7 +377,7 @@ fn comments_and_attributes_go_with_their_faces() {
     let scene = seen(text, &moving(DVec3::X * 0.9));
     let named = |row: u32| scene.names.get(scene.faces[row as usize].name.unwrap());
     let mut found = Vec::new();
-    for comment in &scene.comments {
+    for comment in &scene.remarks.comments {
         let at = match comment.at {
             Item::Face(row) => {
                 assert!(comment.trailing || row == 0 || named(row - 1) != named(row), "not the first piece");
@@ -394,7 +393,7 @@ fn comments_and_attributes_go_with_their_faces() {
         assert_eq!(scene.light_level(face), (named(row as u32) == "up").then_some(0.5));
         assert!(face.color.is_some() && scene.bodies.stated_velocity(face.body).unwrap().beta().x == 0.9);
     }
-    assert_eq!(scene.head, [" head ", " uglorentz 0.1.0: uglorentz "]);
+    assert_eq!(scene.remarks.head, [" head ", " uglorentz 0.1.0: uglorentz "]);
 }
 
 #[test]

@@ -6,10 +6,9 @@ mod common;
 use common::{edges, find, moving, parse, place, run, seen, text, try_run};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
-use ugparse::{LightKind, Scene};
 use ugphysics::{Velocity, contracted, flight_time, seen_position};
 use ugrandom::Random;
-use ugscene::Geometry;
+use ugscene::{Geometry, LightKind, Scene};
 
 const SPEEDS: [f64; 8] = [1e-9, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 0.999_999];
 
@@ -76,13 +75,13 @@ fn nothing_changes_at_rest() {
     let (text, _) = cloud(&mut random, 20);
     let text = format!("{{ mine }} {text} c red 0.5 0 1; f big (v0 v1 v2) (v3 v4 v5) red; w (v0 v9);");
     // Bent faces become triangles when they are read.
-    let before = ugscene::read(&ugparse::Source::new("t.ug", &*text), &ugparse::Options::default(), None);
+    let before = ugparse::read(&ugparse::Source::new("t.ug", &*text), &ugparse::Options::default(), None);
     let before = before.unwrap().scene;
     for config in
         [Config::default(), moving(DVec3::ZERO), Config { eye: Some(DVec3::ONE / 3.0), ..Config::default() }]
     {
         let mut after = seen(&text, &config);
-        assert_eq!(after.head.remove(1), " uglorentz 0.1.0: uglorentz ");
+        assert_eq!(after.remarks.head.remove(1), " uglorentz 0.1.0: uglorentz ");
         assert_eq!(after.cameras.pop().unwrap().eye, Some(config.eye.unwrap_or(DVec3::ZERO)));
         assert_eq!(ugparse::write(&after), ugparse::write(&before));
     }
@@ -236,7 +235,7 @@ fn bodies_with_their_own_velocities() {
     assert!((place(&scene, find(&scene, "lone")) - seen_position(DVec3::splat(7.0), v)).length() < 1e-13);
     // -vel 0 stops them; who had a velocity says so.
     let scene = seen(text, &moving(DVec3::ZERO));
-    let said: Vec<bool> = scene.faces.iter().map(|f| f.body != ugparse::BodyId::UNSTATED).collect();
+    let said: Vec<bool> = scene.faces.iter().map(|f| f.body != ugscene::BodyId::UNSTATED).collect();
     assert_eq!(said, [false, true, true]);
     assert_eq!(scene.vertices[0].position, DVec3::new(1.0, 2.0, 3.0));
 }

@@ -1,8 +1,9 @@
 //! What a scene as seen has for other programs: normals of its seen shape, and its camera.
 
 use glam::DVec3;
-use ugparse::{Camera, Projection, Scene};
-use ugscene::{CameraOptions, Geometry, RestFrames, RestPosition, SeenPosition, View};
+use ugscene::{
+    Camera, CameraOptions, Geometry, Projection, RestFrames, RestPosition, Scene, SeenPosition, View,
+};
 
 /// Replaces the normals of moving bodies, which scenes store for the shapes at rest, by those of
 /// the shapes as seen.

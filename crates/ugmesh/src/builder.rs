@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{
+use ugpipe::printable;
+use ugscene::{
     BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, UniqueNames, Vertex, VertexId, unit_normal,
 };
-use ugpipe::printable;
 
 use crate::error::Problem;
 
@@ -170,7 +170,7 @@ impl Builder {
         let text = text.trim().replace('{', "(").replace('}', ")").replace('\t', " ");
         let text = text.lines().map(printable).collect::<Vec<_>>().join("\n");
         if !text.is_empty() {
-            self.scene.head.push(format!(" {text} "));
+            self.scene.remarks.head.push(format!(" {text} "));
         }
     }
 

@@ -6,8 +6,9 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Parser, ValueEnum};
-use ugparse::{Provenance, pipe};
+use ugparse::pipe;
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words};
+use ugscene::Provenance;
 
 use crate::{Axis, Config, Error, Format, Input, PROVENANCE, Size, Target};
 

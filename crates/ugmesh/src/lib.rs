@@ -5,7 +5,7 @@
 //! ```
 //!
 //! Reads OBJ with its materials, PLY, STL, OFF, glTF and UniGrafix; writes UniGrafix, OBJ, PLY and
-//! glTF. Every conversion goes through a [`ugparse::Scene`]:
+//! glTF. Every conversion goes through a [`ugscene::Scene`]:
 //!
 //! ```text
 //! bytes ─read→ Builder → Scene (z up) ─place→ Scene ─write→ PolygonMesh → bytes
@@ -39,7 +39,8 @@ mod write;
 
 use std::io;
 
-use ugparse::{Diagnostics, Options, Origin, Provenance, Scene, Source};
+use ugparse::{Diagnostics, Options, Origin, Source};
+use ugscene::{Provenance, Scene};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
@@ -165,7 +166,7 @@ pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
     if config.stage && config.target == Target::Ug {
         staging::add(&mut scene);
     }
-    ugscene::record(&mut scene, input.provenance);
+    scene.remarks.record(input.provenance);
     let (bytes, notes) = write::write(scene, config.target, is_placed)?;
     Ok(Converted { bytes, notes, warnings, diagnostics })
 }
@@ -182,8 +183,8 @@ fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error>
     let (read, origin) =
         ugparse::with_origin(input.origin.as_ref(), &input.bytes, || reader(input, &mut builder));
     read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
-    let (scene, warnings) = builder.finish();
-    let scene = Scene { origin, ..scene };
+    let (mut scene, warnings) = builder.finish();
+    scene.remarks.origin = origin;
     Ok(Loaded { scene, warnings, diagnostics: None })
 }
 

@@ -1,7 +1,7 @@
 //! Placing a mesh: up axis, scale and centre.
 
 use glam::DVec3;
-use ugparse::Scene;
+use ugscene::Scene;
 
 use crate::{Axis, Error};
 

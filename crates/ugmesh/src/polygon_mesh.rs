@@ -4,7 +4,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::hsv;
-use ugparse::{ColorId, ColorValue, Contours, NameId, Scene, VertexId};
+use ugscene::{ColorId, ColorValue, Contours, NameId, Scene, VertexId};
 
 /// The polygons that a format supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
-use ugparse::{Camera, Light, LightKind, LightMotion, Projection, Scene};
-use ugscene::{CameraOptions, MotionOptions};
+use ugscene::{Camera, CameraOptions, Light, LightKind, LightMotion, MotionOptions, Projection, Scene};
 
 /// Adds the camera and the lights with which a scene without them is drawn.
 pub(crate) fn add(scene: &mut Scene) {

@@ -4,8 +4,8 @@ mod common;
 
 use common::{Corner, convert, parse, seen, statements, to_mesh, to_scene};
 use ugmesh::{Axis, Config, Input, PROVENANCE, Target};
-use ugparse::{ColorValue, Provenance};
 use ugpipe::Words;
+use ugscene::{ColorValue, Provenance};
 
 /// Colours that 8 bits represent exactly, coordinates that 32 bits represent exactly, corners with
 /// and without their own colours.
@@ -133,7 +133,7 @@ fn holes_are_cut() {
         let faces = faces(target);
         assert_eq!(faces.len(), n_faces, "{target:?}");
         let area = |face: &Vec<Corner>| {
-            ugparse::newell_normal(face.iter().map(|corner| corner.position.into())).z / 2.0
+            ugscene::newell_normal(face.iter().map(|corner| corner.position.into())).z / 2.0
         };
         let areas: Vec<f64> = faces.iter().map(area).collect();
         assert!(areas.iter().all(|&area| area > 0.0), "{areas:?}");
@@ -222,7 +222,7 @@ fn history_and_licence_are_kept() {
         let mesh = convert(target, "a.ug", SCENE.as_bytes());
         let scene = parse(&convert(Target::Ug, "<stdin>", &mesh));
         let line = concat!(" ugmesh ", env!("CARGO_PKG_VERSION"), ": ugmesh -dt x ");
-        assert_eq!(scene.head, [" a licence ", line, line], "{target:?}");
+        assert_eq!(scene.remarks.head, [" a licence ", line, line], "{target:?}");
     }
 }
 
@@ -285,7 +285,7 @@ fn names_of_faces_and_colours_are_kept() {
     assert_eq!(back.warnings, [""; 0], "colours are those of the vertices");
     let faces = |bytes: &[u8]| -> Vec<String> {
         let scene = parse(bytes);
-        let name = |face: &ugparse::Face| face.name.map_or("", |name| scene.names.get(name)).to_string();
+        let name = |face: &ugscene::Face| face.name.map_or("", |name| scene.names.get(name)).to_string();
         scene.faces.iter().map(name).collect()
     };
     assert_eq!(faces(&back.bytes), ["hull", "", "hull", "hull"]);

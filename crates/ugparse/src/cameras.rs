@@ -1,38 +1,27 @@
 //! Selects one of several cameras.
 
+use ugscene::{Item, Scene};
+
 use crate::suggest::nearest;
-use crate::{Camera, Diagnostic, Diagnostics, Item, Parsed, Scene, Source, Span};
+use crate::{Diagnostic, Diagnostics, Parsed, Source, Span};
 
-impl Scene {
-    /// Row of the selected camera: the first without a name, else the first.
-    pub fn camera_row(&self) -> Option<usize> {
-        let unnamed = self.cameras.iter().position(|camera| camera.name.is_none());
-        unnamed.or((!self.cameras.is_empty()).then_some(0))
-    }
-
-    /// The selected camera, see [`Scene::camera_row`].
-    pub fn camera(&self) -> Option<&Camera> {
-        self.camera_row().map(|row| &self.cameras[row])
-    }
-
-    /// Selects the camera of row `chosen`: removes its name, and moves it before others without
-    /// one. `spans`: of all cameras.
-    fn select_camera(&mut self, chosen: usize, spans: &mut [Span]) {
-        self.cameras[chosen].name = None;
-        let Some(first) = self.camera_row().filter(|&first| first < chosen) else { return };
-        self.cameras[first..=chosen].rotate_right(1);
-        spans[first..=chosen].rotate_right(1);
-        for comment in &mut self.comments {
-            if let Item::Camera(row) = &mut comment.at {
-                *row = match *row as usize {
-                    old if old == chosen => first as u32,
-                    old if (first..chosen).contains(&old) => *row + 1,
-                    _ => *row,
-                };
-            }
+/// Selects the camera of row `chosen`: removes its name, and moves it before others without
+/// one. `spans`: of all cameras.
+fn select_camera(scene: &mut Scene, chosen: usize, spans: &mut [Span]) {
+    scene.cameras[chosen].name = None;
+    let Some(first) = scene.camera_row().filter(|&first| first < chosen) else { return };
+    scene.cameras[first..=chosen].rotate_right(1);
+    spans[first..=chosen].rotate_right(1);
+    for comment in &mut scene.remarks.comments {
+        if let Item::Camera(row) = &mut comment.at {
+            *row = match *row as usize {
+                old if old == chosen => first as u32,
+                old if (first..chosen).contains(&old) => *row + 1,
+                _ => *row,
+            };
         }
-        self.comments.sort_by_key(|comment| comment.at);
     }
+    scene.remarks.comments.sort_by_key(|comment| comment.at);
 }
 
 impl Parsed {
@@ -46,7 +35,7 @@ impl Parsed {
         let names: Vec<Option<&str>> = names.collect();
         match names.iter().position(|&other| other == Some(name)) {
             Some(row) => {
-                self.scene.select_camera(row, &mut self.origins.cameras);
+                select_camera(&mut self.scene, row, &mut self.origins.cameras);
                 Ok(())
             }
             None => Err(Diagnostics::one(source, self.no_camera(name, &names))),

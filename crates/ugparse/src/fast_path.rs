@@ -4,10 +4,9 @@
 //! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
+use ugscene::{BodyId, ColorId, Face, VertexId};
 
-use crate::body::BodyId;
 use crate::numbered::Name;
-use crate::scene::{ColorId, Face, VertexId};
 use crate::scope::Scope;
 use crate::source::Span;
 use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, short_decimal};

@@ -16,16 +16,16 @@
 //! location in the text.
 //!
 //! ```
-//! let source = ugparse::Source::new(
+//! let source = crate::Source::new(
 //!     "tile.ug",
 //!     "{ four tiles }
 //!      def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f (a b c d); end;
 //!      a floor (tile) 4 -tx 1.1;",
 //! );
-//! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
+//! let scene = crate::parse(&source, &crate::Options::default())?.scene;
 //! assert_eq!(scene.faces.len(), 4);
 //! assert_eq!(scene.names.get(scene.vertices[4].name), "floor#1:a");
-//! # Ok::<(), ugparse::Diagnostics>(())
+//! # Ok::<(), crate::Diagnostics>(())
 //! ```
 //!
 //! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a
@@ -34,35 +34,31 @@
 //! The feature `cli` adds the program of the same name, and the module `pipe`, with which all
 //! programs read scenes and the files these include. Libraries leave it out.
 
-mod body;
 mod cameras;
 mod chunked_writer;
 #[cfg(feature = "cli")]
 mod cli;
-mod contours;
 mod diagnostic;
 mod expand;
 mod fast_path;
 mod flatness;
 mod foreign;
 mod grammar;
-mod history;
 mod include;
 mod named;
-mod names;
 mod numbered;
 mod options;
 mod origin;
 mod parallel_reader;
 #[cfg(feature = "cli")]
 pub mod pipe;
+mod read;
 mod reader;
 mod resolve;
+mod rest_shapes;
 mod rgb_as_hsv;
-mod scene;
 mod scope;
 mod source;
-mod stage;
 mod stage_statement;
 mod statement;
 mod suggest;
@@ -72,26 +68,22 @@ mod transform;
 mod wording;
 mod writer;
 
-pub use body::{Bodies, Body, BodyId, Motion};
 #[cfg(feature = "cli")]
 pub use cli::{main, manual};
-pub use contours::Contours;
 pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
 pub use expand::Origins;
-pub use flatness::{BENT, BentFace, FLAT, thickness};
+pub use flatness::FLAT;
 pub use foreign::{Foreign, foreign_data};
-pub use history::{Provenance, has_history, history, recipe, record};
 pub use include::{Request, RequestError, RequestKind, include};
-pub use names::{NameId, Names, UniqueNames};
 pub use options::{Limit, Limits, Options};
-pub use origin::{Origin, with_origin};
-pub use scene::*;
+pub use origin::{Origin, has_history, with_origin};
+pub use read::read;
+pub use rest_shapes::rest_shapes_warning;
 pub use source::{Source, Span};
-pub use stage::{
-    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
-};
 pub use tidy::tidy;
 pub use writer::{write, write_to};
+
+use ugscene::{BentFace, Scene, Stage};
 
 /// A parsed scene.
 #[derive(Clone, Debug)]
@@ -113,7 +105,7 @@ pub struct Parsed {
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
     let (parsed, origin) = with_origin(source.origin.as_ref(), &source.text, || parse_text(source, options));
     let mut parsed = parsed?;
-    parsed.scene.origin = origin;
+    parsed.scene.remarks.origin = origin;
     Ok(parsed)
 }
 
@@ -138,7 +130,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
 
     let (scene, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
-    let bent = flatness::bent_faces(&scene);
+    let bent = ugscene::bent_faces(&scene);
     findings.extend(flatness::warning(source, &origins, &bent));
     Ok(Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) })
 }

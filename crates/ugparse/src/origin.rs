@@ -2,6 +2,10 @@
 
 use std::thread;
 
+use ugscene::recorded;
+
+use crate::token;
+
 /// The input of the first program of a pipe.
 #[derive(Clone, Debug)]
 pub enum Origin {
@@ -25,13 +29,6 @@ impl Origin {
             Self::Pending { name, sha256 } => format!("SHA-256 {} {name}", sha256(bytes)),
         }
     }
-
-    /// Hash and name of recorded words.
-    pub(crate) fn parts(words: &str) -> Option<(&str, &str)> {
-        let (hash, name) = words.strip_prefix("SHA-256 ")?.split_once(' ')?;
-        let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
-        (is_hash && !name.contains('\n')).then_some((hash, name))
-    }
 }
 
 /// Does some work with an input, on this thread, and computes the words for its origin meanwhile.
@@ -52,4 +49,36 @@ pub fn with_origin<T>(
         let words = hashing.ok().and_then(|thread| thread.join().ok());
         (done, Some(words.unwrap_or_else(|| origin.words(bytes))))
     })
+}
+
+/// True if a text begins with comments of which one was recorded by a program.
+pub fn has_history(text: &[u8]) -> bool {
+    let mut rest = text.trim_ascii_start();
+    while let Ok((after, comment)) = token::comment(rest) {
+        if str::from_utf8(comment).is_ok_and(|comment| recorded(comment).is_some()) {
+            return true;
+        }
+        rest = after.trim_ascii_start();
+    }
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use ugscene::{Provenance, Scene};
+
+    use super::*;
+
+    #[test]
+    fn recorded_texts_have_a_history() {
+        let mut scene = Scene::default();
+        scene.remarks.head.push(" A licence: free for all ".to_string());
+        assert!(!has_history(&crate::write(&scene)) && !has_history(b"{"));
+        scene.remarks.record(Provenance {
+            program: "ugdoppler",
+            version: "0.1.0",
+            command: Some("ugdoppler"),
+        });
+        assert!(has_history(&crate::write(&scene)));
+    }
 }

@@ -7,13 +7,11 @@
 //! other error, a part fails; then the whole text is parsed again on one thread, which gives the
 //! diagnostics.
 
+use ugscene::{BodyId, ColorId, Contours, Illum, IllumId, LightMotion, NameId, SurfaceId, VertexId};
+
 use crate::Options;
-use crate::body::BodyId;
-use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
-use crate::names::NameId;
 use crate::reader::{Document, read, read_part};
-use crate::scene::{ColorId, Illum, IllumId, LightMotion, SurfaceId, VertexId};
 use crate::scope::{DefaultColor, NO_ROW, Rows, Scope, shifted};
 
 /// The least size of a part in bytes.

@@ -3,7 +3,7 @@
 
 use ugpipe::{CommonArgs, Context, Failure};
 
-use crate::history::has_history;
+use crate::origin::has_history;
 use crate::{Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, RequestKind, Source};
 
 /// The parsing options among the common options of a program.

@@ -1,6 +1,8 @@
 //! Parses a text into scopes, statement by statement. After an error it continues behind the next
 //! `;`.
 
+use ugscene::{LampShift, Stage};
+
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
 use crate::grammar::{Grammar, NAME};
@@ -8,7 +10,6 @@ use crate::include::RequestKind;
 use crate::options::{Limit, Options};
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::stage::{LampShift, Stage};
 use crate::statement::References;
 use crate::token::{
     Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,

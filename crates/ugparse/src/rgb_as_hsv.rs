@@ -5,9 +5,9 @@
 //! green and blue; or if it is a grey with a hue, brighter than white, in whole numbers up to 255.
 
 use ugphysics::Hsv;
+use ugscene::{ColorValue, Tint};
 
 use crate::diagnostic::Diagnostic;
-use crate::scene::{ColorValue, Tint};
 use crate::scope::Scope;
 use crate::source::Span;
 

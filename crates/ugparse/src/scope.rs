@@ -9,16 +9,13 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::Velocity;
-
-use crate::body::{Bodies, Body, BodyId, Motion};
-use crate::contours::Contours;
-use crate::named::Named;
-use crate::names::{NameId, Names};
-use crate::numbered::{Name, NumberedNames};
-use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, LightMotion, Mix, SurfaceId,
-    SurfaceProperties, Vertex, VertexId, Wire,
+use ugscene::{
+    Bodies, Body, BodyId, Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light,
+    LightKind, LightMotion, Mix, Motion, NameId, Names, SurfaceId, SurfaceProperties, Vertex, VertexId, Wire,
 };
+
+use crate::named::Named;
+use crate::numbered::{Name, NumberedNames};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,

@@ -7,13 +7,13 @@
 
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity};
+use ugscene::{
+    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
+};
 
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
 use crate::source::Span;
-use crate::stage::{
-    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
-};
 use crate::suggest::nearest;
 use crate::token::{Input, found, is_blank, number};
 use crate::wording::{shorten, word_help};

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::Velocity;
+use ugscene::{Camera, SurfaceProperties};
 
-use crate::scene::{Camera, SurfaceProperties};
 use crate::source::Span;
 use crate::transform::Transform;
 
@@ -71,7 +71,7 @@ pub(crate) enum IllumStatement {
 pub(crate) struct ColorStatement {
     pub name: Option<Span>,
     /// The rows of a spectrum refer to `samples`.
-    pub value: crate::scene::ColorValue,
+    pub value: ugscene::ColorValue,
     pub samples: Vec<[f64; 2]>,
     pub translucency: f64,
 }

@@ -7,12 +7,11 @@ use crate::diagnostic::Diagnostics;
 use crate::grammar::KEYWORDS;
 use crate::parallel_reader::read_document;
 use crate::source::Source;
-use crate::stage_statement;
 use crate::token::{
     Input, comment, escape, found, integer, is_blank, line_end, number, skip_statement, word,
 };
 use crate::writer::push_number;
-use crate::{Options, check_length, refuse_errors};
+use crate::{Options, check_length, refuse_errors, stage_statement};
 
 /// Indentation per enclosing scope.
 const INDENT: &str = "  ";
@@ -31,13 +30,13 @@ const INDENT: &str = "  ";
 /// line moves with the last of them.
 ///
 /// ```
-/// let source = ugparse::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx 1e0);");
-/// let text = ugparse::tidy(&source, &ugparse::Options::default())?;
+/// let source = crate::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx 1e0);");
+/// let text = crate::tidy(&source, &crate::Options::default())?;
 /// assert_eq!(
 ///     String::from_utf8_lossy(&text),
 ///     "def tile;\n  v a 0 0.5 1; {corner}\nend;\ni (tile -tx 1);\n"
 /// );
-/// # Ok::<(), ugparse::Diagnostics>(())
+/// # Ok::<(), crate::Diagnostics>(())
 /// ```
 ///
 /// # Errors

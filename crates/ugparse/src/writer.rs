@@ -5,15 +5,12 @@ use std::io::{self, Write};
 
 use glam::DVec3;
 use ugphysics::Velocity;
-
-use crate::body::BodyId;
-use crate::chunked_writer::ChunkedWriter;
-use crate::contours::Contours;
-use crate::names::NameId;
-use crate::scene::{
-    Camera, Color, ColorId, ColorValue, Comment, Illum, Item, Light, LightKind, Projection, Scene,
-    SurfaceProperties,
+use ugscene::{
+    BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, NameId,
+    Projection, Scene, SurfaceProperties,
 };
+
+use crate::chunked_writer::ChunkedWriter;
 use crate::stage_statement;
 
 /// Number of rows per piece of text.
@@ -36,7 +33,7 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 /// # Errors
 /// Errors that `out` returns; it may have received a part of the text.
 pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
-    Tables { scene, chunked_writer: ChunkedWriter::new(out), comments: &scene.comments }.send()
+    Tables { scene, chunked_writer: ChunkedWriter::new(out), comments: &scene.remarks.comments }.send()
 }
 
 /// Writes the tables of a scene.
@@ -50,16 +47,16 @@ struct Tables<'s, 'o> {
 impl<'s> Tables<'s, '_> {
     fn send(mut self) -> io::Result<()> {
         let scene = self.scene;
-        for text in &scene.head {
+        for text in &scene.remarks.head {
             self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
         self.stage();
-        self.rows(&scene.escapes, Item::Escape, |w, text| {
+        self.rows(&scene.remarks.escapes, Item::Escape, |w, text| {
             w.text("(");
             w.text(text);
             w.text(")");
         })?;
-        self.rows(&scene.unknown, Item::Unknown, |w, text| w.text(text))?;
+        self.rows(&scene.remarks.unknown, Item::Unknown, |w, text| w.text(text))?;
         self.rows(&scene.colors, Item::Color, Writer::color)?;
         self.rows(&scene.mixes, Item::Mix, |w, mix| {
             w.text("c_mix");

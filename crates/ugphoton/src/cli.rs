@@ -7,7 +7,7 @@ use std::path::Path;
 use clap::builder::Resettable;
 use clap::{ArgAction, Parser};
 use uglight::{ColorShift, Interpolation};
-use ugparse::{HueScale, Provenance, pipe};
+use ugparse::pipe;
 use ugphysics::Brightness;
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -16,6 +16,7 @@ use ugpicture::cli::{
 };
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, count, number, numbers, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs};
+use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::Error;

@@ -1,9 +1,8 @@
 //! The options of the ray tracer.
 
 use uglight::{ColorShift, Interpolation};
-use ugparse::HueScale;
 use ugpicture::{Exposure, PictureOptions};
-use ugscene::MotionOptions;
+use ugscene::{HueScale, MotionOptions};
 
 use crate::error::Error;
 use crate::lens::Lens;

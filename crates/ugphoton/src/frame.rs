@@ -1,9 +1,8 @@
 //! The rest frame of bodies that move alike, and the way there.
 
 use glam::{DMat3, DVec3};
-use ugparse::BodyId;
 use ugphysics::{Event, Velocity, WaveVector};
-use ugscene::RestFrames;
+use ugscene::{BodyId, RestFrames};
 
 /// The rest frame of bodies of one velocity. Its axes are those of the scene; at the moment of the
 /// picture its origin is at the eye.  Eq. (P21), (P25)

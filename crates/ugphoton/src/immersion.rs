@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use ugparse::{Illum, Scene};
 use ugphysics::Event;
+use ugscene::{Illum, Scene};
 
 use crate::path::{Media, Ray, Solid};
 use crate::world::{Faces, World};

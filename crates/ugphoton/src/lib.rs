@@ -82,7 +82,6 @@ pub use explain::explain;
 pub use render::{Drawing, PROVENANCE, light, render, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
-pub use ugparse::{HueScale, Provenance};
 use ugpicture::lens;
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
@@ -90,3 +89,4 @@ pub use ugpicture::{
     metadata,
 };
 pub use ugscene::{Anchor, CameraOptions, MotionOptions};
+pub use ugscene::{HueScale, Provenance};

@@ -1,8 +1,8 @@
 //! What is seen at the middles of pixels: for channels, legends and outlines.
 
 use rayon::prelude::*;
-use ugparse::BodyId;
 use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
+use ugscene::BodyId;
 
 use crate::frame::RestFrame;
 use crate::path::Ray;

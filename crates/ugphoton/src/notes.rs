@@ -2,8 +2,8 @@
 
 use ugimage::{Development, Tone};
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace};
-use ugparse::{Face, SurfaceProperties};
 use ugpicture::{Exposure, Note};
+use ugscene::{Face, SurfaceProperties};
 
 use crate::config::Config;
 use crate::pixels::Statistics;

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugparse::SurfaceId;
 use ugphysics::{Event, Medium, WaveVector};
+use ugscene::SurfaceId;
 
 use crate::frame::RestFrame;
 

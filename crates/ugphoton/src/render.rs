@@ -3,20 +3,19 @@
 use std::borrow::Cow;
 
 use ugimage::{Development, LinearFrame, Metadata};
-use ugparse::{Diagnostics, Provenance, Scene, Source};
+use ugparse::{Diagnostics, Source};
 use ugpicture::{
     Annotated, Annotations, Content, DepthBuffer, Image, Layout, PictureFile, Rendering, SceneState, metadata,
 };
 use ugpipe::Progress;
-use ugscene::{CameraOptions, PlacedBodies, RestPosition};
+use ugscene::{CameraOptions, PlacedBodies, Provenance, RestPosition, Scene};
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::lens::Lens;
-use crate::middles;
 use crate::notes::notes;
-use crate::pixels;
 use crate::scenery::Scenery;
+use crate::{middles, pixels};
 
 /// Renders a scene at rest.
 ///
@@ -81,9 +80,9 @@ impl Drawing {
     ) -> Result<Self, Error> {
         let layout = Layout::new(&config.picture)?;
         progress.step("reading", 0);
-        let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+        let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
         config.check()?;
-        let metadata = metadata(&parsed.scene, provenance);
+        let metadata = metadata(&parsed.scene.remarks, provenance);
         let prepared = Prepared::new(parsed.scene, config, layout, progress)?;
         Ok(Self { prepared, metadata, warnings: parsed.warnings })
     }

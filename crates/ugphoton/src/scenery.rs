@@ -8,10 +8,11 @@ use uglight::{
     Appearance, ColorShift, DEFAULT_AMBIENT, DEFAULT_FROM_EYE, HueShift, Interpolation, Lamp, LampPlace,
     Palette, Spectra, SpectralLamp, SurfaceAttributes, lamps, spectral_lamps,
 };
-use ugparse::{ColorId, ColorValue, Face, HueScale, LightKind, Scene, SurfaceProperties, VertexId};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
-use ugscene::{Geometry, View};
+use ugscene::{
+    ColorId, ColorValue, Face, Geometry, HueScale, LightKind, Scene, SurfaceProperties, VertexId, View,
+};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -236,7 +237,7 @@ impl<'a> Scenery<'a> {
     }
 
     /// Reflection properties.
-    pub fn properties(&self, surface: ugparse::SurfaceId) -> &SurfaceProperties {
+    pub fn properties(&self, surface: ugscene::SurfaceId) -> &SurfaceProperties {
         &self.scene.surfaces[surface.index()]
     }
 }
@@ -278,7 +279,7 @@ impl Lights {
             };
         }
         let lamps = lamps(scene, view.eye);
-        let radius = |light: &ugparse::Light| match light.kind {
+        let radius = |light: &ugscene::Light| match light.kind {
             LightKind::Local { radius, .. } => radius,
             _ => 0.0,
         };

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use uglight::Swatch;
-use ugparse::{Face, SurfaceId, VertexId};
 use ugphysics::{Event, WaveVector};
+use ugscene::{Face, SurfaceId, VertexId};
 
 use crate::path::{Ray, Start};
 use crate::scenery::Scenery;
@@ -90,8 +90,8 @@ impl SurfacePoint {
     /// The surface of the face, if it has one.
     pub fn surface(&self, scenery: &Scenery<'_>) -> Option<SurfaceId> {
         match scenery.scene.illums[scenery.scene.faces[self.face as usize].illum?.index()] {
-            ugparse::Illum::Surface(surface) => Some(surface),
-            ugparse::Illum::Level(_) => None,
+            ugscene::Illum::Surface(surface) => Some(surface),
+            ugscene::Illum::Level(_) => None,
         }
     }
 }

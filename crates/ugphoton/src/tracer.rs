@@ -325,7 +325,7 @@ impl<'a> Tracer<'a> {
         &mut self,
         path: &Path<'_>,
         point: &SurfacePoint,
-        surface: ugparse::SurfaceId,
+        surface: ugscene::SurfaceId,
     ) -> Option<Refracted> {
         let solid = Solid { part: point.part, surface };
         let (media, is_inside_unknown) = if point.is_outside {

@@ -5,9 +5,8 @@ use std::ops::{ControlFlow, Range};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
-use ugparse::{BodyId, Face, Scene, VertexId, unit_normal};
 use ugphysics::Event;
-use ugscene::RestFrames;
+use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, unit_normal};
 
 use crate::corridor::Corridor;
 use crate::frame::RestFrame;

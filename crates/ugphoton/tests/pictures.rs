@@ -11,7 +11,7 @@ use ugphoton::{
 use ugphysics::{Hsv, Velocity, WaveVector};
 use ugpipe::Words;
 
-fn scene(text: &str) -> ugparse::Scene {
+fn scene(text: &str) -> ugscene::Scene {
     let source = ugparse::Source::new("test.ug", text);
     ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
 }

@@ -1,9 +1,8 @@
 //! Emission events of the light seen in the picture.
 
 use glam::{DQuat, DVec3};
-use ugparse::{BodyId, Scene};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
-use ugscene::{Geometry, RestFrames, View};
+use ugscene::{BodyId, Geometry, RestFrames, Scene, View};
 
 use crate::depth_buffer::SurfaceSample;
 

@@ -8,14 +8,14 @@ use std::io::{Read, Write};
 /// The PNG file of the scene of a text.
 pub fn png(text: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
     let source = ugparse::Source::new("scene", text);
-    let scene = ugscene::read(&source, &ugparse::Options::default(), None)?.scene;
+    let scene = ugparse::read(&source, &ugparse::Options::default(), None)?.scene;
     let velocity = Some(glam::DVec3::new(0.3, -0.2, 0.0));
     let lorentz = uglorentz::Config { velocity, in_place: true, ..Default::default() };
     let (seen, _) = uglorentz::apply(scene, &lorentz)?;
     let (colored, _) = ugdoppler::apply(seen, &ugdoppler::Config { iris: true, ..Default::default() })?;
     let picture = ugrainbow::PictureOptions { size: [160, 120], ..Default::default() };
     let rendering = ugrainbow::render(&colored, &ugrainbow::Config { picture, ..Default::default() })?;
-    Ok(rendering.into_file(&ugrainbow::metadata(&colored, ugrainbow::PROVENANCE)))
+    Ok(rendering.into_file(&ugrainbow::metadata(&colored.remarks, ugrainbow::PROVENANCE)))
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use clap::{ArgAction, Parser};
 use uglight::ColorShift;
-use ugparse::HueScale;
-use ugparse::{Provenance, Source, pipe};
+use uglight::Interpolation;
+use ugparse::{Source, pipe};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -16,12 +16,12 @@ use ugpicture::cli::{
 };
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, number, numbers, one_of};
 use ugscene::cli::RepeatArgs;
+use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::{PROVENANCE, run_with};
-use uglight::Interpolation;
 
 /// Greatest width of lines in pixels.
 const MAX_LINE_WIDTH: f64 = 100.0;

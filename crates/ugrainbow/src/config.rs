@@ -1,10 +1,10 @@
 //! The options of the renderer.
 
 use uglight::{ColorShift, Interpolation};
-use ugparse::{HueScale, Scene};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::PictureOptions;
 use ugraster::DepthFade;
+use ugscene::{HueScale, Scene};
 
 /// Everything besides the scene that affects the bytes of a picture.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! Depth cueing with a range found from the visible depths.
 
-use ugparse::Scene;
 use ugraster::Center;
+use ugscene::Scene;
 
 use crate::config::Config;
 use crate::error::Error;

@@ -3,15 +3,15 @@
 use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, VertexId};
+use uglight::{Common, Swatch};
 use ugraster::{
     BLOCK, Bounds, Corner, CornerTable, Point, PolygonLayer, PolygonList, ShapeRef, TriangleBlock,
 };
+use ugscene::{Face, VertexId};
 
 use crate::clip::{ClipCounts, Vertex, clip_polygon};
 use crate::packing::Pack;
 use crate::painter::Painter;
-use uglight::{Common, Swatch};
 
 /// Faces and triangles classified together: several blocks of triangles, so that one block is filled while
 /// another is classified.
@@ -157,7 +157,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
 /// The positions of all vertices in the picture, compiled once for all layouts.
 fn points(painter: &Painter<'_>) -> Vec<Point> {
     let scene = painter.scene;
-    let point = |vertex: &ugparse::Vertex| painter.point(painter.place(vertex.position));
+    let point = |vertex: &ugscene::Vertex| painter.point(painter.place(vertex.position));
     scene.vertices.par_iter().map(point).collect()
 }
 

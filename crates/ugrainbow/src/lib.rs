@@ -109,9 +109,9 @@ pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
 pub use render::{PROVENANCE, Prepared, light, render, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
-pub use ugparse::{HueScale, Provenance};
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Note, Output,
     PictureFile, PictureOptions, Rendering, Tone, VectorFigure, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions};
+pub use ugscene::{HueScale, Provenance};

@@ -2,9 +2,9 @@
 
 use ugimage::{Development, Tone};
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
-use ugparse::Scene;
 use ugpicture::{Background, Exposure, Note};
 use ugraster::{DepthFade, SampleStats};
+use ugscene::Scene;
 
 use crate::clip::ClipCounts;
 use crate::config::{Config, DepthCue};

@@ -1,14 +1,13 @@
 //! Colour and light of the corners of faces and wires.
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId, Wire, unit_normal};
-use ugraster::{Corner, Point, SampleGrid};
-
-use crate::clip::Vertex;
 use uglight::Spectra;
 use uglight::SurfaceAttributes;
 use uglight::{Common, Lighting, Palette, Swatch};
-use ugscene::{CameraPoint, Slab, Triangle, View};
+use ugraster::{Corner, Point, SampleGrid};
+use ugscene::{CameraPoint, Face, Scene, Slab, Triangle, VertexId, View, Wire, unit_normal};
+
+use crate::clip::Vertex;
 
 /// Everything from which faces and wires are drawn.
 #[derive(Clone, Copy)]

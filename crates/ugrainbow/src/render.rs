@@ -1,9 +1,10 @@
 //! From a scene to a picture.
 
 use ugimage::{Frame, LinearFrame};
-use ugparse::{Diagnostics, Parsed, Provenance, Scene, Source};
+use ugparse::{Diagnostics, Parsed, Source};
 use ugpicture::{Content, Layout, Output, PictureFile, Rendering, metadata};
 use ugpipe::Progress;
+use ugscene::{Provenance, Scene};
 
 use crate::annotate::annotate;
 use crate::config::Config;
@@ -62,18 +63,18 @@ pub fn run_with(
 ) -> Result<PictureFile, Error> {
     let layout = Layout::new(&config.picture)?;
     progress.step("reading", 0);
-    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     config.picture.check()?;
     let rendering = render_with(&parsed.scene, config, &layout, progress)?;
     progress.step("compression", 0);
     let notes = rendering.notes.clone();
-    let bytes = rendering.into_file(&metadata(&parsed.scene, provenance));
+    let bytes = rendering.into_file(&metadata(&parsed.scene.remarks, provenance));
     Ok(PictureFile { bytes, notes, warnings: warnings(source, parsed) })
 }
 
 /// Warnings of the parser, and one if moving bodies are drawn at rest.
 pub(crate) fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
-    match ugscene::rest_shapes_warning(&parsed) {
+    match ugparse::rest_shapes_warning(&parsed) {
         Some(warning) => parsed.warnings.with(source, warning),
         None => parsed.warnings,
     }

@@ -1,7 +1,6 @@
 //! All faces and lines of a scene as layers for the rasterizer, in the packed layout that the scene
 //! needs.
 
-use ugparse::Face;
 use ugpicture::Filter;
 use ugpipe::Progress;
 use ugraster::{
@@ -9,6 +8,7 @@ use ugraster::{
     PolygonList, ProbedSample, Rasterizer, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample,
     TRANSPARENT_VALUES, Tile, TransparentLayer,
 };
+use ugscene::Face;
 
 use crate::clip::ClipCounts;
 use crate::config::DrawMode;

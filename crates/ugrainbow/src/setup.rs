@@ -3,19 +3,18 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use uglight::Palette;
+use uglight::Spectra;
+use uglight::SurfaceAttributes;
 use uglight::{ColorShift, HueShift, Lighting};
-use ugparse::{BodyId, ColorId, ColorValue, Scene, VertexId};
 use ugpicture::PictureOptions;
 use ugraster::{SampleGrid, TileShape};
+use ugscene::{BodyId, ColorId, ColorValue, Geometry, Scene, VertexId, View};
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::painter::Painter;
 use crate::shade::Shader;
-use uglight::Palette;
-use uglight::Spectra;
-use uglight::SurfaceAttributes;
-use ugscene::{Geometry, View};
 
 /// What is computed once for a picture.
 pub struct Setup<'a> {

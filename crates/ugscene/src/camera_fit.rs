@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::BodyId;
 
 use crate::relative_motion::RelativeMotion;
-use crate::{RestPosition, SeenPosition};
+use crate::{BodyId, RestPosition, SeenPosition};
 
 /// Passes over moving bodies, whose shape as seen depends a little on the place of the eye. From
 /// the third pass on the distance changes by about a thousandth or less.

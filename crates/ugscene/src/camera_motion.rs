@@ -6,8 +6,9 @@
 //! the axes of the scene, where its lights and normals are.
 
 use glam::DQuat;
-use ugparse::Scene;
 use ugphysics::{Velocity, wigner_rotation};
+
+use crate::Scene;
 
 /// The velocity of the camera in the frame the scene was written in; zero where no camera moved.
 pub fn camera_velocity(scene: &Scene) -> Velocity {

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 use thiserror::Error;
-use ugparse::Camera;
 
-use crate::words;
+use crate::{Camera, words};
 
 /// Default view angle across the picture, degrees.
 pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;

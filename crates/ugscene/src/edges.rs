@@ -1,6 +1,6 @@
 //! Edges of faces.
 
-use ugparse::{Face, Scene, VertexId};
+use crate::{Face, Scene, VertexId};
 
 /// The edges of a face, contour by contour, each from one corner to the next.
 pub fn face_edges<'a>(scene: &'a Scene, face: &'a Face) -> impl Iterator<Item = [VertexId; 2]> {

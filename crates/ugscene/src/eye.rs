@@ -1,9 +1,8 @@
 //! The eye point, and vertices that coincide with it.
 
 use glam::DVec3;
-use ugparse::{Scene, VertexId};
 
-use crate::{RestFrames, vertex_bodies};
+use crate::{RestFrames, Scene, VertexId, vertex_bodies};
 
 /// The eye point in scene coordinates: the option if given, else the one of the scene's camera,
 /// else the one its positions were computed for, else the origin. All programs of a pipe agree

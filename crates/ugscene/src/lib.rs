@@ -1,12 +1,11 @@
-//! Properties of a flat [`ugparse::Scene`] that several programs compute with.
+//! Properties of a flat [`crate::Scene`] that several programs compute with.
 //!
 //! - Bodies: which one a vertex is part of, and their rest frames ([`RestFrames`],
 //!   [`separate_bodies`]).
 //! - Positions: rest positions from seen ones ([`Geometry`], [`rest_positions`], equation (P4)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_shares`]).
-//! - The triangles of faces ([`face_triangles`]), as which those that are not flat are read
-//!   ([`read`]).
+//! - The triangles of faces ([`face_triangles`]), and the faces that are not flat ([`bent_faces`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
 //! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
 //!   ([`DefaultCamera`]).
@@ -26,15 +25,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod area;
 mod camera;
 mod camera_fit;
 mod camera_motion;
 mod camera_options;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod data;
 mod default_camera;
 mod edges;
 mod eye;
+mod flatness;
 mod geometry;
 mod measurement;
 mod mixing;
@@ -43,21 +45,23 @@ mod normals;
 mod note;
 mod polygon;
 mod position;
-mod read;
 mod relative_motion;
+mod requirements;
 mod rest_frames;
 mod shares;
 mod split;
-mod stage;
 mod vtk_polygons;
 mod words;
 
+pub use area::{newell_normal, unit_normal};
 pub use camera::{CameraPoint, HalfSpace, Slab, View, view_distance};
 pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use camera_options::{CameraError, CameraOptions};
+pub use data::*;
 pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
+pub use flatness::{BENT, BentFace, bent_faces, thickness};
 pub use geometry::{Geometry, rest_positions};
 pub use measurement::{Measurement, measure};
 pub use mixing::{mixing_vertices, n_mixing_vertices, repeat_vertices, separate_wires};
@@ -66,15 +70,12 @@ pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use note::Note;
 pub use polygon::{Triangle, face_triangles, is_convex, triangulate};
 pub use position::{RestPosition, SeenPosition};
-pub use read::read;
 pub use relative_motion::RelativeMotion;
+pub use requirements::{
+    StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
+    require_eye, require_geometry_at_rest, require_seen_geometry,
+};
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
-pub use stage::{
-    StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
-    require_eye, require_geometry_at_rest, require_seen_geometry, rest_shapes_warning,
-};
 pub use vtk_polygons::VtkPolygons;
-
-pub use ugparse::{Provenance, history, recipe, record};

@@ -1,10 +1,9 @@
 //! Measurements at every vertex of a scene as seen.
 
 use glam::DVec3;
-use ugparse::Scene;
 use ugphysics::{Velocity, aberrate, doppler_at};
 
-use crate::{Geometry, RestFrames, vertex_bodies};
+use crate::{Geometry, RestFrames, Scene, vertex_bodies};
 
 /// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,15 +1,13 @@
 //! Vertices where faces of different colours meet, whose colours are mixed unless they are kept
 //! apart (`-vr`).
 
-use ugparse::{Color, ColorId, Face, Scene, VertexId};
-
-use crate::split_corners;
+use crate::{Color, ColorId, Face, Scene, VertexId, split_corners};
 
 /// Gives wires vertices of their own, since a vertex carries one colour only; and with
 /// `each_face_color` (`-vr`) a copy of a vertex to each colour of its faces. All copies keep the
 /// normal, so shading stays smooth across them.
 ///
-/// With `each_face_color`, vertices lose the colours that are mixtures ([`ugparse::Stage`]).
+/// With `each_face_color`, vertices lose the colours that are mixtures ([`crate::Stage`]).
 pub fn repeat_vertices(scene: &mut Scene, each_face_color: bool) {
     if each_face_color {
         remove_mixtures(scene);

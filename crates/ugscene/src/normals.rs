@@ -1,8 +1,9 @@
 //! Vertex normals: means of face normals, weighted by angle (Nguyen 1988, 5.2.1).
 
 use glam::DVec3;
-use ugparse::{Face, Scene, VertexId, unit_normal};
 use ugphysics::unit_or_zero;
+
+use crate::{Face, Scene, VertexId, unit_normal};
 
 /// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it is the outer angle,
 /// so weights are at most π.
@@ -57,42 +58,4 @@ pub fn smooth_normals(scene: &Scene, positions: &[DVec3]) -> Vec<DVec3> {
     // Opposite normals cancel up to rounding of about 1e-16, which has no meaningful direction.
     let unit = |sum: DVec3| if sum.length() > 1e-12 { sum.normalize() } else { DVec3::ZERO };
     normals.into_iter().map(unit).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Angles and unit normals do not depend on the size of a triangle.
-    #[test]
-    fn triangles_of_any_size_have_angles_and_normals() {
-        for size in [1e-300, 1e-150, 1.0, 1e150, 1e300] {
-            let positions = [DVec3::ZERO, DVec3::X * size, DVec3::Y * size];
-            let contour = [0, 1, 2].map(VertexId);
-            let angle = corner_angle(&contour, 0, &positions);
-            assert!((angle - std::f64::consts::FRAC_PI_2).abs() < 1e-15, "{size}: {angle}");
-            let normal = seen_normal(positions.into_iter(), DVec3::Z);
-            assert!(normal.distance(DVec3::Z) < 1e-15, "{size}: {normal}");
-            let normal = shading_normal(Some(DVec3::Z * size), DVec3::Z);
-            assert!(normal.distance(DVec3::Z) < 1e-15, "{size}: {normal}");
-        }
-        for size in [5e-324, 1e200, f64::MAX] {
-            let positions = [DVec3::ZERO, DVec3::X * size, DVec3::Y * -size];
-            assert!(corner_angle(&[0, 1, 2].map(VertexId), 1, &positions).is_finite(), "{size}");
-        }
-    }
-
-    #[test]
-    fn a_cube_corner_points_along_the_diagonal_however_its_faces_are_cut() {
-        // One side is split into two triangles at the corner, which changes the mean if weighted by
-        // count, but not if weighted by angle.
-        let text = "v o 0 0 0; v x 1 0 0; v y 0 1 0; v z 0 0 1; v xy 1 1 0; v yz 0 1 1; v zx 1 0 1;
-            f (o y xy); f (o xy x); f (o z yz y); f (o x zx z);";
-        let source = ugparse::Source::new("cube.ug", text);
-        let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-        let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let corner = smooth_normals(&scene, &positions)[0];
-        let diagonal = DVec3::NEG_ONE / 3f64.sqrt();
-        assert!((corner - diagonal).length() < 1e-15, "{corner}");
-    }
 }

@@ -3,8 +3,7 @@
 use std::fmt;
 
 use crate::words::point;
-use crate::{DefaultCamera, n_mixing_vertices};
-use ugparse::Scene;
+use crate::{DefaultCamera, Scene, n_mixing_vertices};
 
 /// What a user should know about a scene.
 #[derive(Clone, Debug, PartialEq)]

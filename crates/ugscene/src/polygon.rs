@@ -10,7 +10,8 @@ mod ears;
 
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
-use ugparse::{Face, Scene, VertexId, newell_normal};
+
+use crate::{Face, Scene, VertexId, newell_normal};
 
 /// Three corners, as indices of the list of corners.
 pub type Triangle = [u32; 3];

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{ColorId, Scene, VertexId};
 
-use crate::corner_angle;
+use crate::{ColorId, Scene, VertexId, corner_angle};
 
 /// The colours of a vertex. `None` is white, for faces without a colour.
 #[derive(Clone, Debug, PartialEq)]

@@ -4,7 +4,8 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use rustc_hash::FxHashMap;
-use ugparse::{Scene, UniqueNames, Vertex, VertexId};
+
+use crate::{Scene, UniqueNames, Vertex, VertexId};
 
 /// Duplicates vertices that users of different kinds share, so that each vertex is used by one
 /// kind. The first user keeps the vertex; the others get copies, one for each kind, named after it.

@@ -8,9 +8,8 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use glam::DVec3;
-use ugparse::VertexId;
 
-use crate::Measurement;
+use crate::{Measurement, VertexId};
 
 /// A mesh with numbers at its points.
 #[derive(Clone, Debug, Default)]

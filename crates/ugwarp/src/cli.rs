@@ -9,7 +9,6 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::Format;
 use uglight::ColorShift;
-use ugparse::Provenance;
 use ugphysics::{Brightness, Velocity};
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -20,6 +19,7 @@ use ugpipe::{
     CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, number, numbers, one_of, sha256,
     vector,
 };
+use ugscene::Provenance;
 use ugsky::{Basis, Extent, Star};
 
 use crate::arrangement::Arrangement;

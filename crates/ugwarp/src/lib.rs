@@ -71,11 +71,11 @@ pub use render::{PROVENANCE, light, metadata, render, run};
 pub use sky::Sky;
 pub use star_list::{MAX_STARS, is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
-pub use ugparse::Provenance;
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
     Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering, Tone,
 };
 pub use ugscene::CameraOptions;
+pub use ugscene::Provenance;
 pub use ugsky::{ALL_NM, Basis, Extent, Observer, Panorama, Star, Texels};
 pub use warp::Warp;

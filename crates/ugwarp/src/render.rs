@@ -5,13 +5,13 @@ use std::ops::Range;
 use rayon::prelude::*;
 use ugimage::{Development, Format, LinearFrame, Metadata};
 use uglight::{ColorShift, SpectralShift};
-use ugparse::{Diagnostics, Provenance, Scene, Source};
+use ugparse::{Diagnostics, Source};
 use ugpicture::{
     Annotated, Annotations, Background, Content, DepthBuffer, Error as PictureError, Exposure, Image, Layout,
     Note, Output, PictureFile, Rendering, SceneState, channel_planes,
 };
 use ugpipe::Progress;
-use ugscene::CameraOptions;
+use ugscene::{CameraOptions, Provenance, Remarks, Scene};
 use ugsky::{Basis, Panorama};
 
 use crate::config::Config;
@@ -127,8 +127,8 @@ pub const PROVENANCE: Provenance<'static> =
 
 /// What a picture says about its making. `origin`: hash and name of the panorama.
 pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
-    let scene = Scene { origin: origin.map(str::to_owned), ..Scene::default() };
-    ugpicture::metadata(&scene, provenance)
+    let remarks = Remarks { origin: origin.map(str::to_owned), ..Remarks::default() };
+    ugpicture::metadata(&remarks, provenance)
 }
 
 /// Makes a picture of a panorama and packs it into a file.

@@ -6,10 +6,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::LinearFrame;
 use uglight::ColorShift;
-use ugparse::Scene;
 use ugphysics::Brightness;
 use ugpicture::lens::{Film, Lens, Window};
-use ugscene::View;
+use ugscene::{Scene, View};
 use ugsky::{Observer, Star, StarLight};
 
 use crate::config::Config;

@@ -5,11 +5,10 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
-use ugparse::Scene;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Emission, SeenItem};
 use ugpipe::Progress;
-use ugscene::{CameraOptions, View};
+use ugscene::{CameraOptions, Scene, View};
 use ugsky::{FlatFilm, Observer, Panorama, Sampler, Seen, SkyRay};
 
 use crate::config::Config;

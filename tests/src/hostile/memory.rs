@@ -9,8 +9,9 @@ use std::sync::LazyLock;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use ugimage::{Format, Metadata};
 use ugmesh::Target;
-use ugparse::{Limit, Limits, Options, Scene, Source};
+use ugparse::{Limit, Limits, Options, Source};
 use ugrandom::Random;
+use ugscene::Scene;
 
 use super::config;
 
@@ -56,7 +57,7 @@ fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> 
     let doppler = config::doppler(&mut random);
     let rainbow = config::rainbow(&mut random);
     let [has_lorentz, has_doppler] = [!random.one_in(5), !random.one_in(3)];
-    let Ok(parsed) = ugscene::read(&Source::new("first.ug", text), options, None) else {
+    let Ok(parsed) = ugparse::read(&Source::new("first.ug", text), options, None) else {
         return Ok(Vec::new());
     };
     let mut scene = parsed.scene;
@@ -82,7 +83,8 @@ fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> 
     }
     match ugrainbow::render(&scene, &rainbow) {
         Ok(rendering) => {
-            Ok([written, rendering.into_file(&ugrainbow::metadata(&scene, ugrainbow::PROVENANCE))].concat())
+            Ok([written, rendering.into_file(&ugrainbow::metadata(&scene.remarks, ugrainbow::PROVENANCE))]
+                .concat())
         }
         Err(error) => Ok(error.to_string().into_bytes()),
     }
@@ -91,7 +93,7 @@ fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> 
 /// The scene as the next program reads it.
 fn again(program: &str, scene: &Scene) -> Result<Scene, String> {
     let options = Options { lax: true, ..Options::default() };
-    match ugscene::read(&Source::new("written.ug", ugparse::write(scene)), &options, None) {
+    match ugparse::read(&Source::new("written.ug", ugparse::write(scene)), &options, None) {
         Ok(parsed) => Ok(parsed.scene),
         Err(findings) => Err(format!("{program} has written a scene that is refused:\n{findings}")),
     }

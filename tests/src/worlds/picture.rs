@@ -3,10 +3,10 @@
 use ugimage::{Format, LinearFrame, Samples};
 use uglight::{ColorShift, HueShift, SpectralShift};
 use uglorentz::Pieces;
-use ugparse::{Options, Scene, Source};
+use ugparse::{Options, Source};
 use ugphoton::{Channel, Lens, Output, PictureOptions, RayOptions, Shutter};
 use ugphysics::Brightness;
-use ugscene::{Anchor, MotionOptions};
+use ugscene::{Anchor, MotionOptions, Scene};
 
 use super::world::World;
 
@@ -114,7 +114,7 @@ impl Picture {
     }
 
     fn scene(&self) -> Result<Scene, String> {
-        let parsed = ugscene::read(&Source::new("world.ug", self.text.as_str()), &Options::default(), None);
+        let parsed = ugparse::read(&Source::new("world.ug", self.text.as_str()), &Options::default(), None);
         parsed.map(|parsed| parsed.scene).map_err(words)
     }
 

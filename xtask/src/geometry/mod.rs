@@ -13,13 +13,12 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Camera, Scene};
+use ugscene::{Camera, Scene};
 use ugtests::agreement::{MOST_FACES, Wrong, are_close, compare, painted, recolored};
 use ugtests::explanation::{are_edges_near, is_at_slit};
 use ugtests::oracle::{Oracle, Outline};
 use ugtests::outline::{self, Errors};
 use ugtests::pipe::Pipe;
-
 use view::{Flight, View, is_file, views};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -249,7 +248,7 @@ fn uniform(view: &View, oracle: &Oracle, error: f64) -> Option<usize> {
 /// Pieces of `-sd N` of some faces: N² of a triangle or quadrilateral, and of each triangle of
 /// other polygons.
 fn n_pieces(scene: &Scene, faces: &[usize], n: usize) -> usize {
-    let cells = |face: &ugparse::Face| {
+    let cells = |face: &ugscene::Face| {
         let n_corners = scene.contours.corners(face.contours.clone()).len();
         if face.contours.len() == 1 && n_corners <= 4 { 1 } else { n_corners + 2 * face.contours.len() - 4 }
     };

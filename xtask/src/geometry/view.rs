@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use ugparse::{Camera, Scene, Source};
+use ugparse::Source;
+use ugscene::{Camera, Remarks, Scene};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::outline::{self, Errors};
 use ugtests::scenes;
@@ -81,7 +82,7 @@ pub fn views(size: [u32; 2], files: &[PathBuf]) -> Outcome<Vec<View>> {
 
 /// The scene without wires, which the oracle does not support.
 fn without_wires(scene: Scene) -> Scene {
-    Scene { wires: Vec::new(), comments: Vec::new(), ..scene }
+    Scene { wires: Vec::new(), remarks: Remarks::default(), ..scene }
 }
 
 /// The camera of the scene if eye, view centre and angle are given; else two: one near the middle
@@ -170,7 +171,7 @@ impl View {
             return Err(format!("{} at {:?}: too many pieces", self.name, config.velocity).into());
         }
         // Pieces have the name of their face.
-        let origin = |face: &ugparse::Face| seen.names.get(face.name?).strip_prefix('f')?.parse().ok();
+        let origin = |face: &ugscene::Face| seen.names.get(face.name?).strip_prefix('f')?.parse().ok();
         let origins: Option<Vec<usize>> = seen.faces.iter().map(origin).collect();
         let origins = origins.ok_or("a piece has lost its name")?;
         Ok((outline::errors(&seen, &origins, self.eye(), oracle, &self.pinhole()), origins))

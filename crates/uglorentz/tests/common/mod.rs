@@ -6,9 +6,10 @@ use std::fmt::Write;
 
 use glam::DVec3;
 use uglorentz::{Config, PROVENANCE, Provenance, Report, Table};
-use ugparse::{Face, Options, Scene, Source, VertexId};
+use ugparse::{Options, Source};
 use ugpipe::Words;
 use ugrandom::Random;
+use ugscene::{Face, Scene, VertexId};
 
 /// A mesh as text: vertices `v0`, `v1`, … and faces by vertex row.
 pub fn text(vertices: &[DVec3], faces: &[Vec<usize>]) -> String {
@@ -55,7 +56,7 @@ pub fn run(text: &str, config: &Config) -> Outcome {
 /// the origin, unless the options say otherwise.
 pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
     let source = Source::new("t.ug", text);
-    let parsed = ugscene::read(&source, &Options::default(), config.camera.name.as_deref());
+    let parsed = ugparse::read(&source, &Options::default(), config.camera.name.as_deref());
     let parsed = parsed.map_err(|error| error.to_string())?;
     let origin = parsed.scene.cameras.is_empty().then_some(DVec3::ZERO);
     let config = &Config { eye: config.eye.or(origin), ..config.clone() };
@@ -63,7 +64,7 @@ pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
         let diagnostics = error.diagnostics(&source, &parsed.origins);
         diagnostics.map_or_else(|| error.words(), |diagnostics| diagnostics.to_string())
     })?;
-    ugscene::record(&mut scene, Provenance { command: Some("uglorentz"), ..PROVENANCE });
+    scene.remarks.record(Provenance { command: Some("uglorentz"), ..PROVENANCE });
     Ok(Outcome { scene, report })
 }
 
@@ -108,7 +109,7 @@ pub fn edges(scene: &Scene) -> BTreeMap<(VertexId, VertexId), (u32, u32)> {
 
 /// Twice the area of a face times its normal.
 pub fn normal(scene: &Scene, face: &Face, positions: &[DVec3]) -> DVec3 {
-    let area = |contour: &[VertexId]| ugparse::newell_normal(contour.iter().map(|c| positions[c.index()]));
+    let area = |contour: &[VertexId]| ugscene::newell_normal(contour.iter().map(|c| positions[c.index()]));
     scene.face_contours(face).map(area).sum()
 }
 

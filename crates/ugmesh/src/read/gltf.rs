@@ -16,9 +16,9 @@ use gltf::mesh::{Mode, Semantic};
 use gltf::{Accessor, Document, Primitive};
 use rustc_hash::FxHashMap;
 use serde_json::Value;
-use ugparse::VertexId;
 use ugphysics::srgb_encode;
 use ugpipe::shorten;
+use ugscene::VertexId;
 
 use super::{accessor, strip};
 use crate::Input;

@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugparse::{ColorId, VertexId};
 use ugpipe::shorten;
+use ugscene::{ColorId, VertexId};
 
 use super::mtl::{self, Materials};
 use super::text::numbers;

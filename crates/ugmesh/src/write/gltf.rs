@@ -7,8 +7,8 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use gltf::binary::{Glb, Header};
 use serde_json::{Value, json};
-use ugparse::Camera;
 use ugphysics::srgb_decode;
+use ugscene::Camera;
 
 use crate::Error;
 use crate::polygon_mesh::PolygonMesh;

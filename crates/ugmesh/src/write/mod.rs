@@ -5,7 +5,7 @@ mod obj;
 mod ply;
 mod vtp;
 
-use ugparse::Scene;
+use ugscene::Scene;
 
 use crate::polygon_mesh::{PolygonMesh, Polygons};
 use crate::{Error, Target};
@@ -34,5 +34,11 @@ type Writer = fn(&mut PolygonMesh) -> Result<Vec<u8>, Error>;
 /// because some readers would take them for line ends.
 fn head_lines(scene: &Scene) -> impl Iterator<Item = String> {
     let printable = |line: &str| line.trim().replace(char::is_control, " ");
-    scene.head.iter().flat_map(|comment| comment.lines()).map(printable).filter(|line| !line.is_empty())
+    scene
+        .remarks
+        .head
+        .iter()
+        .flat_map(|comment| comment.lines())
+        .map(printable)
+        .filter(|line| !line.is_empty())
 }

@@ -2,7 +2,8 @@
 #![allow(dead_code, clippy::unwrap_used, reason = "each test uses a part; a test fails by panicking")]
 
 use ugmesh::{Config, Converted, Error, Input, Target};
-use ugparse::{ColorValue, Scene, Source};
+use ugparse::Source;
+use ugscene::{ColorValue, Scene};
 
 /// Converts a mesh with the options of `config`.
 pub fn convert(config: &Config, name: &str, bytes: impl Into<Vec<u8>>) -> Result<Converted, Error> {
@@ -30,7 +31,8 @@ pub fn parse(text: &[u8]) -> Scene {
 
 /// The text of a scene without its head comments.
 pub fn statements(scene: &Scene) -> String {
-    let bare = Scene { head: Vec::new(), ..scene.clone() };
+    let mut bare = scene.clone();
+    bare.remarks.head.clear();
     String::from_utf8(ugparse::write(&bare)).unwrap()
 }
 
@@ -44,12 +46,12 @@ pub struct Corner {
 
 /// The corners of all faces.
 pub fn seen(scene: &Scene) -> Vec<Vec<Corner>> {
-    let rgba = |id: ugparse::ColorId| {
+    let rgba = |id: ugscene::ColorId| {
         let color = &scene.colors[id.index()];
         let ColorValue::Rgb([red, green, blue]) = color.value else { panic!("no c_rgb") };
         [red, green, blue, 1.0 - color.translucency]
     };
-    let corner = |face: &ugparse::Face, id: &ugparse::VertexId| {
+    let corner = |face: &ugscene::Face, id: &ugscene::VertexId| {
         let vertex = &scene.vertices[id.index()];
         Corner {
             position: vertex.position.to_array(),
@@ -57,7 +59,7 @@ pub fn seen(scene: &Scene) -> Vec<Vec<Corner>> {
             rgba: vertex.color.or(face.color).map(rgba),
         }
     };
-    let outline = |face: &ugparse::Face| scene.face_contours(face).next().unwrap().to_vec();
+    let outline = |face: &ugscene::Face| scene.face_contours(face).next().unwrap().to_vec();
     scene.faces.iter().map(|face| outline(face).iter().map(|id| corner(face, id)).collect()).collect()
 }
 

@@ -5,16 +5,15 @@ use std::fmt::Write;
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 use ugphysics::Velocity;
+use ugscene::Scene;
 
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
 use crate::diagnostic::Location;
 use crate::parallel_reader::read_document;
 use crate::reader::line_marks;
-use crate::scene::Scene;
 use crate::scope::Scope;
-use crate::stage_statement;
 use crate::statement::Repeat;
-use crate::{Options, Parsed, Source};
+use crate::{Options, Parsed, Source, stage_statement};
 
 /// All statistics.
 pub(crate) struct Counts {
@@ -182,8 +181,8 @@ fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statemen
         row("wires", |scope| scope.wires.len(), Some(scene.wires.len())),
         row("lights", |scope| scope.lights.len(), Some(scene.lights.len())),
         row("cameras", |scope| scope.cameras.len(), Some(scene.cameras.len())),
-        row("escapes", |scope| scope.escapes.len(), Some(scene.escapes.len())),
-        row("unknown", |scope| scope.unknown.len(), Some(scene.unknown.len())),
+        row("escapes", |scope| scope.escapes.len(), Some(scene.remarks.escapes.len())),
+        row("unknown", |scope| scope.unknown.len(), Some(scene.remarks.unknown.len())),
         row("definitions", |scope| scope.definitions.len(), None),
         row("instances", |scope| scope.calls.len() - array_count(scope), None),
         row("arrays", array_count, None),

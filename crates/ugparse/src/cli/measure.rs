@@ -2,10 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-
-use crate::body::BodyId;
-use crate::flatness::thickness;
-use crate::scene::{Face, Scene, VertexId, unit_normal};
+use ugscene::{BodyId, Face, Scene, VertexId, thickness, unit_normal};
 
 /// Number of corners of all faces.
 pub(crate) fn corner_count(scene: &Scene) -> usize {

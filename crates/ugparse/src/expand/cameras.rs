@@ -1,8 +1,9 @@
 //! Cameras outside definitions take precedence over those inside.
 
+use ugscene::{Camera, Item};
+
 use super::Expander;
 use crate::diagnostic::Diagnostic;
-use crate::scene::{Camera, Item};
 use crate::source::Span;
 
 /// A camera placed by an instance.
@@ -47,13 +48,13 @@ impl Expander<'_, '_> {
         let cameras: Vec<Camera> = order.iter().map(|&row| self.scene.cameras[row].clone()).collect();
         let spans: Vec<Span> = order.iter().map(|&row| self.origins.cameras[row]).collect();
         (self.scene.cameras, self.origins.cameras) = (cameras, spans);
-        for comment in &mut self.scene.comments {
+        for comment in &mut self.scene.remarks.comments {
             if let Item::Camera(row) = &mut comment.at {
                 let new = order.iter().position(|&old| old == *row as usize);
                 *row = new.map_or(*row, |new| new as u32);
             }
         }
-        self.scene.comments.sort_by_key(|comment| comment.at);
+        self.scene.remarks.comments.sort_by_key(|comment| comment.at);
     }
 }
 

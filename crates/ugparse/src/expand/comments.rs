@@ -1,8 +1,9 @@
 //! Attaches comments to statements of the flat scene.
 
+use ugscene::{Comment, Item};
+
 use super::Expander;
 use crate::reader::CommentSpan;
-use crate::scene::{Comment, Item};
 use crate::scope::Scope;
 use crate::source::Span;
 
@@ -33,14 +34,14 @@ impl Expander<'_, '_> {
         for comment in comments {
             let text = String::from_utf8_lossy(comment.text.of(self.text)).into_owned();
             if comment.text.start < first_statement {
-                self.scene.head.push(text);
+                self.scene.remarks.head.push(text);
                 continue;
             }
             let (at, trailing) = item_at(self.text, &emitted, comment);
-            self.scene.comments.push(Comment { text, at, trailing });
+            self.scene.remarks.comments.push(Comment { text, at, trailing });
         }
         // The writer traverses rows and comments in parallel.
-        self.scene.comments.sort_by_key(|comment| comment.at);
+        self.scene.remarks.comments.sort_by_key(|comment| comment.at);
     }
 }
 

@@ -13,19 +13,18 @@ mod rows;
 
 use std::collections::BTreeMap;
 
+use cameras::NestedCamera;
+use placement::{Inherited, Placement};
+use queue::{Queue, Queues};
 use rustc_hash::FxHashMap;
+use ugscene::{ColorId, Item, Scene, Vertex, VertexId};
 
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
 use crate::resolve::{Link, Links};
-use crate::scene::{ColorId, Item, Scene, Vertex, VertexId};
 use crate::scope::{BodyTable, Call, Counts, Scope};
 use crate::source::Span;
 use crate::statement::Repeat;
-
-use cameras::NestedCamera;
-use placement::{Inherited, Placement};
-use queue::{Queue, Queues};
 
 /// The spans of the text from which the rows of a flat scene originate.
 #[derive(Clone, Debug, Default)]

@@ -1,9 +1,9 @@
 //! Names of expanded rows: paths.
 
+use ugscene::{NameId, Names, Scene, UniqueNames};
+
 use super::Expander;
 use super::placement::Inherited;
-use crate::names::{NameId, Names, UniqueNames};
-use crate::scene::Scene;
 use crate::scope::Scope;
 
 impl Expander<'_, '_> {

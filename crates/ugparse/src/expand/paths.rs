@@ -1,8 +1,9 @@
 //! Resolves vertices of instances by their paths.
 
+use ugscene::{Face, VertexId};
+
 use super::Expander;
 use crate::resolve::{degeneracy, is_short, omitted, short_wire, undefined};
-use crate::scene::{Face, VertexId};
 use crate::scope::{Scope, as_str};
 use crate::source::Span;
 

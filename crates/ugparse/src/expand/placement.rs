@@ -3,9 +3,8 @@
 use std::ops::Range;
 
 use rustc_hash::FxHashMap;
+use ugscene::{BodyId, ColorId, LightMotion, VertexId};
 
-use crate::body::BodyId;
-use crate::scene::{ColorId, LightMotion, VertexId};
 use crate::scope::{DefaultColor, NO_ROW, Scope};
 use crate::transform::Transform;
 

@@ -1,7 +1,8 @@
 //! Moves rows of the file into the scene without copying them.
 
+use ugscene::{Camera, Face, Item, Light, Scene, Wire};
+
 use super::Expander;
-use crate::scene::{Camera, Face, Item, Light, Scene, Wire};
 use crate::scope::{Counts, Rows};
 use crate::source::Span;
 
@@ -15,8 +16,8 @@ impl Expander<'_, '_> {
         let spans =
             self.move_some(&mut queues.cameras, end.cameras, |scene| &mut scene.cameras, Item::Camera);
         append(&mut self.origins.cameras, spans);
-        self.move_some(&mut queues.escapes, end.escapes, |scene| &mut scene.escapes, Item::Escape);
-        self.move_some(&mut queues.unknown, end.unknown, |scene| &mut scene.unknown, Item::Unknown);
+        self.move_some(&mut queues.escapes, end.escapes, |scene| &mut scene.remarks.escapes, Item::Escape);
+        self.move_some(&mut queues.unknown, end.unknown, |scene| &mut scene.remarks.unknown, Item::Unknown);
     }
 
     fn move_some<T>(

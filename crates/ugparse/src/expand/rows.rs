@@ -3,13 +3,13 @@
 use std::ops::Range;
 
 use glam::DVec3;
+use ugscene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire, newell_normal};
 
 use super::Expander;
 use super::cameras::NestedCamera;
 use super::placement::Placement;
 use crate::diagnostic::Diagnostic;
 use crate::resolve::{face_name, has_three, is_short, short_wire};
-use crate::scene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire, newell_normal};
 use crate::scope::Counts;
 use crate::source::Span;
 
@@ -31,10 +31,10 @@ impl Expander<'_, '_> {
         }
         if placement.first_time {
             let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
-            self.note(&scope.escapes.spans[escapes.clone()], self.scene.escapes.len(), Item::Escape);
-            self.scene.escapes.extend_from_slice(&scope.escapes.rows[escapes]);
-            self.note(&scope.unknown.spans[unknown.clone()], self.scene.unknown.len(), Item::Unknown);
-            self.scene.unknown.extend_from_slice(&scope.unknown.rows[unknown]);
+            self.note(&scope.escapes.spans[escapes.clone()], self.scene.remarks.escapes.len(), Item::Escape);
+            self.scene.remarks.escapes.extend_from_slice(&scope.escapes.rows[escapes]);
+            self.note(&scope.unknown.spans[unknown.clone()], self.scene.remarks.unknown.len(), Item::Unknown);
+            self.scene.remarks.unknown.extend_from_slice(&scope.unknown.rows[unknown]);
         }
     }
 

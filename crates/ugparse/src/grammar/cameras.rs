@@ -3,9 +3,9 @@
 use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
+use ugscene::{Camera, Projection};
 
 use super::{numbers, zero_vector};
-use crate::scene::{Camera, Projection};
 use crate::token::{Input, Parsed, Reason, blank, fail, number, point, require};
 
 /// Parses the arguments of camera option `name`, which begins at `at`; `input` begins after it.

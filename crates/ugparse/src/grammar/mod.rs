@@ -6,13 +6,14 @@
 mod cameras;
 mod transforms;
 
+use cameras::camera_option;
 use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
+use transforms::transforms;
 use ugphysics::Velocity;
+use ugscene::{Camera, ColorValue, NameId, SurfaceProperties, Tint};
 
-use crate::names::NameId;
-use crate::scene::{Camera, ColorValue, SurfaceProperties, Tint};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
@@ -22,9 +23,6 @@ use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
     word,
 };
-
-use cameras::camera_option;
-use transforms::transforms;
 
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str =

@@ -1,8 +1,9 @@
 //! Resolves the corners of faces and wires.
 
+use ugscene::VertexId;
+
 use super::degenerate::is_linked;
 use super::undefined::read_again;
-use crate::scene::VertexId;
 use crate::scope::{NO_ROW, PathCorner, Scope};
 use crate::source::Span;
 use crate::statement::References;

@@ -1,10 +1,10 @@
 //! Removes degenerate faces and wires, which would draw nothing.
 
+use ugscene::{Contours, Face, Vertex, VertexId, Wire, newell_normal};
+
 use super::corners::LEAST_ROWS;
 use super::undefined::{read_again, show};
-use crate::contours::Contours;
 use crate::diagnostic::Diagnostic;
-use crate::scene::{Face, Vertex, VertexId, Wire, newell_normal};
 use crate::scope::{NO_ROW, Scope};
 use crate::source::Span;
 use crate::statement::{References, Statement};

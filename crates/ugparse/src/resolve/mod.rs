@@ -8,9 +8,10 @@ mod named;
 mod sizes;
 mod undefined;
 
+use ugscene::Scene;
+
 use crate::diagnostic::Diagnostic;
 use crate::options::Limits;
-use crate::scene::Scene;
 use crate::scope::Scope;
 
 pub(crate) use degenerate::{degeneracy, face_name, has_three, is_short, omitted, short_wire};

@@ -1,13 +1,13 @@
 //! Moves colours and surfaces from the scopes to the scene, and resolves their names.
 
+use ugscene::{Color, ColorId, Illum, Mix, NameId, Names, Scene, SurfaceId, SurfaceProperties};
+
 use super::corners::LEAST_ROWS;
 use super::enclosing;
 use super::undefined::show;
 use crate::diagnostic::Diagnostic;
 use crate::named::Named;
-use crate::names::{NameId, Names};
 use crate::options::{Limit, Limits};
-use crate::scene::{Color, ColorId, Illum, Mix, Scene, SurfaceId, SurfaceProperties};
 use crate::scope::{Scope, shifted};
 use crate::source::Span;
 

@@ -1,10 +1,10 @@
 //! Computes the size of the expanded scene before expansion.
 
 use rustc_hash::FxHashSet;
+use ugscene::Body;
 
 use super::Links;
 use super::undefined::show;
-use crate::body::Body;
 use crate::diagnostic::Diagnostic;
 use crate::options::{Limit, Limits};
 use crate::scope::Scope;

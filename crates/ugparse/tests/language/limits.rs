@@ -3,7 +3,8 @@
 
 use std::time::{Duration, Instant};
 
-use ugparse::{Limit, Limits, Options, Source, Vertex, VertexId};
+use ugparse::{Limit, Limits, Options, Source};
+use ugscene::{Vertex, VertexId};
 
 use crate::{TRIANGLE, errors, flat, parse, write};
 

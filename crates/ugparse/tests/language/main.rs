@@ -19,7 +19,8 @@ mod threads;
 mod tokens;
 mod transforms;
 
-use ugparse::{Options, Parsed, Scene, Source};
+use ugparse::{Options, Parsed, Source};
+use ugscene::Scene;
 
 /// Three vertices for faces.
 const TRIANGLE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use ugparse::{Options, Scene, Source};
+use ugparse::{Options, Source};
+use ugscene::Scene;
 
 use crate::{parse, parse_with, write};
 
@@ -115,9 +116,9 @@ fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-fn surface(scene: &Scene, face: &ugparse::Face) -> Option<(String, [f64; 6])> {
+fn surface(scene: &Scene, face: &ugscene::Face) -> Option<(String, [f64; 6])> {
     let surface = scene.surface(face)?;
-    let ugparse::SurfaceProperties {
+    let ugscene::SurfaceProperties {
         diffuse, specular, transmitted, refraction, exponent, absorption, ..
     } = *surface;
     let name = scene.names.get(surface.name).to_string();
@@ -128,11 +129,11 @@ fn surface(scene: &Scene, face: &ugparse::Face) -> Option<(String, [f64; 6])> {
 fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
     let vertices = |scene: &Scene| -> Vec<String> {
         let row =
-            |v: &ugparse::Vertex| format!("{} {:?} {:?}", scene.names.get(v.name), v.position, v.normal);
+            |v: &ugscene::Vertex| format!("{} {:?} {:?}", scene.names.get(v.name), v.position, v.normal);
         scene.vertices.iter().map(row).collect()
     };
     let faces = |scene: &Scene| -> Vec<String> {
-        let row = |f: &ugparse::Face| {
+        let row = |f: &ugscene::Face| {
             let contours: Vec<_> = scene.face_contours(f).collect();
             let velocity = scene.bodies.stated_velocity(f.body);
             format!(
@@ -150,8 +151,9 @@ fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
         scene.lights.iter().map(|light| (light.intensity, light.kind, light.color)).collect()
     };
     prop_assert_eq!(kinds(a), kinds(b));
-    prop_assert_eq!((&a.escapes, &a.unknown), (&b.escapes, &b.unknown));
-    prop_assert_eq!(a.head.len() + a.comments.len(), b.head.len() + b.comments.len());
+    prop_assert_eq!((&a.remarks.escapes, &a.remarks.unknown), (&b.remarks.escapes, &b.remarks.unknown));
+    let n_comments = |scene: &Scene| scene.remarks.head.len() + scene.remarks.comments.len();
+    prop_assert_eq!(n_comments(a), n_comments(b));
     let colors = |scene: &Scene| -> Vec<_> { scene.colors.iter().map(|color| color.translucency).collect() };
     prop_assert_eq!(colors(a), colors(b));
     Ok(())

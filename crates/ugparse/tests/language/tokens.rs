@@ -106,8 +106,8 @@ fn the_layout_is_free() {
     }
     let no_comments = |text: String| {
         let mut scene = parse(text);
-        scene.head.clear();
-        scene.comments.clear();
+        scene.remarks.head.clear();
+        scene.remarks.comments.clear();
         String::from_utf8(ugparse::write(&scene)).unwrap()
     };
     // Not inside the escape, whose text must not change.
@@ -127,7 +127,11 @@ fn the_layout_is_free() {
         let text = format!("{} {{ here {{ and here }} }} {}", before.join(" "), after.join(" "));
         assert_eq!(no_comments(text.clone()), plain, "{text}");
         let scene = parse(text);
-        assert_eq!(scene.head.len() + scene.comments.len(), 1, "the comment before word {idx} is kept");
+        assert_eq!(
+            scene.remarks.head.len() + scene.remarks.comments.len(),
+            1,
+            "the comment before word {idx} is kept"
+        );
     }
 }
 

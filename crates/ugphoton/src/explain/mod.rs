@@ -9,10 +9,11 @@ use std::borrow::Cow;
 use glam::DVec3;
 use ugimage::{Quantizer, display_pixel};
 use uglight::{ColorShift, HueShift, Interpolation, light_names};
-use ugparse::{ColorScale, Diagnostics, HueScale, Parsed, SeenColors, Source};
+use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
 use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength, nearest};
 use ugpicture::{Backdrop, Exposure, Layout};
+use ugscene::{ColorScale, HueScale, SeenColors};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -128,7 +129,7 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation, Diagnostics), Error> {
-    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     let layout = Layout::new(&config.picture)?;
     config.check()?;
     let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };

@@ -15,7 +15,7 @@ pub fn drawn(text: &str, config: &Config) -> LinearFrame {
     let source = ugparse::Source::new("test.ug", text);
     let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
     if scene.cameras.is_empty() {
-        scene.cameras.push(ugparse::Camera { eye: Some(DVec3::ZERO), ..ugparse::Camera::default() });
+        scene.cameras.push(ugscene::Camera { eye: Some(DVec3::ZERO), ..ugscene::Camera::default() });
     }
     light(scene, config).unwrap()
 }

@@ -19,8 +19,7 @@ use std::borrow::Cow;
 
 use ugimage::Development;
 use uglabel::{DESCENT, Drawing, Line, SPACING, wrapped};
-use ugparse::Scene;
-use ugscene::CameraOptions;
+use ugscene::{CameraOptions, Scene};
 
 use crate::background::Backdrop;
 use crate::depth_buffer::DepthBuffer;

@@ -10,8 +10,10 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use uglabel::{Drawing, Point};
-use ugparse::{BodyId, Scene, VertexId, unit_normal};
-use ugscene::{Geometry, RestPosition, View, face_edges, rest_positions, vertex_bodies};
+use ugscene::{
+    BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
+    vertex_bodies,
+};
 
 use super::seen::SeenScene;
 use super::style::Style;

@@ -1,7 +1,6 @@
 //! The scene and camera of annotations.
 
-use ugparse::Scene;
-use ugscene::{CameraOptions, RestFrames, View};
+use ugscene::{CameraOptions, RestFrames, Scene, View};
 
 use crate::error::Error;
 

@@ -6,7 +6,8 @@ pub mod json;
 pub mod text;
 
 use ugimage::{Development, Filter, Steps};
-use ugparse::{Diagnostic, Diagnostics, Parsed, Scene, Source};
+use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
+use ugscene::Scene;
 
 /// What the explanation of a pixel tells in every renderer.
 #[derive(Clone, Debug)]
@@ -117,7 +118,7 @@ impl Item {
     pub fn new(row: u32, scene: &Scene, parsed: &Parsed, source: &Source) -> Self {
         let id = row.saturating_add(1);
         let row = row as usize;
-        let name = |name: Option<ugparse::NameId>| name.map(|name| scene.names.get(name).to_owned());
+        let name = |name: Option<ugscene::NameId>| name.map(|name| scene.names.get(name).to_owned());
         let Some(face) = scene.faces.get(row) else {
             let wire = scene.wires.get(row - scene.faces.len());
             return Self { kind: "wire", id, name: name(wire.and_then(|wire| wire.name)), place: None };

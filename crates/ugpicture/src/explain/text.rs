@@ -4,7 +4,7 @@ use std::fmt::{self, Write};
 
 use glam::DVec3;
 use ugimage::Filter;
-use ugparse::{ColorScale, SeenColors};
+use ugscene::{ColorScale, SeenColors};
 
 use super::{ExplainedPixel, Item, PixelSteps, SampleColor};
 

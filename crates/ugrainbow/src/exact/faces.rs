@@ -5,9 +5,10 @@ use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
+use uglight::Appearance;
 use uglight::ColorShift;
-use ugparse::Face;
 use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
+use ugscene::Face;
 
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
@@ -19,7 +20,6 @@ use super::sections::{Cutter, Side};
 use crate::clip::ClipCounts;
 use crate::packing::Pack;
 use crate::painter::Painter;
-use uglight::Appearance;
 
 /// All faces that are in the picture, with the rays that intersect them.
 pub struct Faces<'a, const N: usize> {

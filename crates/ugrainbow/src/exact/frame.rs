@@ -1,8 +1,8 @@
 //! Rays of the picture in the rest frame of a body, and back.
 
 use glam::{DMat3, DVec3};
-use ugparse::BodyId;
 use ugphysics::Velocity;
+use ugscene::BodyId;
 
 use super::film::{Form, center};
 use super::sections::Side;

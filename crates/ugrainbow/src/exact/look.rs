@@ -1,12 +1,12 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use ugparse::{Face, VertexId};
+use uglight::Appearance;
+use uglight::Swatch;
+use ugscene::{Face, VertexId};
 
 use super::frame::{Ray, RestFrameRays};
 use crate::painter::Painter;
-use uglight::Appearance;
-use uglight::Swatch;
 
 /// The appearance of a face, point by point.
 #[derive(Clone, Debug)]

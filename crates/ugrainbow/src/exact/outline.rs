@@ -1,7 +1,7 @@
 //! Whether a ray passes through a face.
 
 use glam::DVec3;
-use ugparse::unit_normal;
+use ugscene::unit_normal;
 
 /// Direction of the half plane that begins at a ray. Arbitrary, but unlikely to be parallel to a
 /// ray or an edge.

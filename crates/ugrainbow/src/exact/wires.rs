@@ -1,15 +1,15 @@
 //! Lines of moving bodies, which are seen as curves.
 
 use glam::DVec3;
+use uglight::Appearance;
 use uglight::ColorShift;
-use ugparse::BodyId;
+use uglight::Swatch;
 use ugphysics::doppler_at;
+use ugscene::BodyId;
 
 use super::frame::{RestFrameRays, frames};
 use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
-use uglight::Appearance;
-use uglight::Swatch;
 
 /// Greatest distance of a piece from the curve, in samples.
 const TOLERANCE: f64 = 0.125;

@@ -5,12 +5,14 @@ mod text;
 
 use glam::DVec3;
 use ugimage::{Quantizer, display_pixel};
-use ugparse::{Diagnostics, Parsed, Source, Stage, VertexId};
+use uglight::Interpolation;
+use uglight::Swatch;
+use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue};
 use ugpicture::explain::nearest;
 use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
-use ugscene::{Geometry, RestPosition, SeenPosition};
+use ugscene::{Geometry, RestPosition, SeenPosition, Stage, VertexId};
 
 use crate::config::Config;
 use crate::depth_cue::prepare;
@@ -21,8 +23,6 @@ use crate::pixels::{self, Display, backdrop, developed, development, mean};
 use crate::render::warnings;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use uglight::Interpolation;
-use uglight::Swatch;
 
 pub use json::json;
 pub use text::text;
@@ -110,7 +110,7 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation, Diagnostics), Error> {
-    let parsed = ugscene::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.exact.is_some() {
         return Err(Error::ExplainExact);
     }
@@ -147,7 +147,7 @@ pub fn explain(
         },
         sample: nearest(&samples, |sample| sample.place, pixel, picture.samples)
             .map(|sample| teller.shown(sample)),
-        history: ugscene::history(&parsed.scene).into_iter().map(str::to_owned).collect(),
+        history: parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
         stage: parsed.scene.stage,
     };
     Ok((explanation, warnings(source, parsed)))

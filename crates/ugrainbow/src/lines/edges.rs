@@ -2,8 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{Face, VertexId, unit_normal};
-use ugscene::face_edges;
+use ugscene::{Face, VertexId, face_edges, unit_normal};
 
 use crate::painter::Painter;
 

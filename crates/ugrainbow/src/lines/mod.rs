@@ -11,18 +11,17 @@
 mod edges;
 mod hidden;
 
+use edges::{Edge, edges};
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{BodyId, VertexId, Wire};
 use ugphysics::{Hsv, srgb_decode};
 use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
-use ugscene::CameraPoint;
+use ugscene::{BodyId, CameraPoint, VertexId, Wire};
 
 use crate::clip::{ClipCounts, Vertex, clip_segment};
 use crate::config::Wireframe;
 use crate::packing::pack_transparent;
 use crate::painter::Painter;
-use edges::{Edge, edges};
 pub use hidden::{Occluders, Visibility, occluded_part};
 use uglight::Swatch;
 

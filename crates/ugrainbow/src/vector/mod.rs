@@ -23,11 +23,17 @@ mod smooth;
 mod transparency;
 mod work;
 
+use color::{FigureColors, rounded};
+use merge::Paint;
+use patch::Patch;
+use smooth::{Smooth, plain_color, push_smooth};
+use transparency::PaintedArea;
 use ugimage::figure::{Element, Figure};
 use ugimage::{Development, Format};
-use ugparse::Scene;
 use ugpicture::{Annotations, Exposure, Layout, MAX_PIXELS, VectorFigure};
 use ugpipe::Progress;
+use ugscene::Scene;
+use work::Work;
 
 use crate::annotate::annotate;
 use crate::config::Config;
@@ -39,12 +45,6 @@ use crate::pixels::{self, backdrop};
 use crate::planar::BoxIndex;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use color::{FigureColors, rounded};
-use merge::Paint;
-use patch::Patch;
-use smooth::{Smooth, plain_color, push_smooth};
-use transparency::PaintedArea;
-use work::Work;
 
 /// Rows of samples a pixel, if the picture is not too large.
 const FINEST: u32 = 8;

@@ -1,6 +1,7 @@
 //! Visibility of faces at samples.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+
 use ugraster::{Corner, PixelSamples, SampleStats, TRANSPARENT_VALUES};
 
 use crate::planar::doubled_area;
@@ -68,7 +69,7 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
             corners.iter().for_each(|vertex| is_corner[vertex.index()] = true);
         }
     }
-    let has_seen_corner = |face: &ugparse::Face| {
+    let has_seen_corner = |face: &ugscene::Face| {
         scene.contours.corners(face.contours.clone()).iter().any(|vertex| is_corner[vertex.index()])
     };
     let is_near = scene.faces.iter().map(has_seen_corner).collect();

@@ -7,11 +7,11 @@ use ugrainbow::{Config, Output, PictureOptions, render, run};
 
 /// The scene of a text. Without a camera the eye is at the origin.
 #[track_caller]
-pub fn scene(text: &str) -> ugparse::Scene {
+pub fn scene(text: &str) -> ugscene::Scene {
     let source = Source::new("test.ug", text);
     let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
     if scene.cameras.is_empty() && scene.stage.seen_geometry().is_none() {
-        scene.cameras.push(ugparse::Camera { eye: Some(glam::DVec3::ZERO), ..Default::default() });
+        scene.cameras.push(ugscene::Camera { eye: Some(glam::DVec3::ZERO), ..Default::default() });
     }
     scene
 }

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugparse::{BodyId, Motion, Scene};
 use ugphysics::{Velocity, compose};
 
 use super::MotionError;
+use crate::{BodyId, Motion, Scene};
 
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's
 /// camera. It is removed from the scene, since the output is in the frame of the camera.

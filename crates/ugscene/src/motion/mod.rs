@@ -7,11 +7,13 @@ mod placement;
 use glam::DVec3;
 use rayon::prelude::*;
 use thiserror::Error;
-use ugparse::{BodyId, Camera, GeometryStage, Motion, Projection, Scene, SeenGeometry};
 use ugphysics::{Velocity, VelocityError};
 
 use crate::camera_options::half_side;
-use crate::{CameraError, CameraOptions, DefaultCamera, Geometry, RelativeMotion, RestFrames, StageError};
+use crate::{
+    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Motion, Projection,
+    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError,
+};
 
 /// How bodies, camera and lights move, and when the picture is taken.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,11 +4,10 @@
 //! coordinates alone, and the rest geometry recovered from the output has the same shape.
 
 use glam::DVec3;
-use ugparse::{BodyId, LampShift, LightKind, Motion, Scene};
 use ugphysics::observer_shift;
 
 use super::{Anchor, MotionOptions, RelativeMotion};
-use crate::SeenPosition;
+use crate::{BodyId, LampShift, LightKind, Motion, Scene, SeenPosition};
 
 /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::scene::VertexId;
+use super::ids::VertexId;
 
 /// Lists of vertices, all in one buffer.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -20,37 +20,38 @@ impl Contours {
     }
 
     /// Appends a corner to the contour that [`Contours::end_contour`] will end.
-    pub(crate) fn push_corner(&mut self, corner: VertexId) {
+    pub fn push_corner(&mut self, corner: VertexId) {
         self.corners.push(corner);
     }
 
     /// Ends a contour of single corners.
-    pub(crate) fn end_contour(&mut self) {
+    pub fn end_contour(&mut self) {
         self.push([]);
     }
 
     /// Removes all but the first `rows` contours, and the corners of an unfinished one.
-    pub(crate) fn truncate(&mut self, rows: usize) {
+    pub fn truncate(&mut self, rows: usize) {
         self.ends.truncate(rows);
         self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
     }
 
     /// Corners and ends of all contours.
-    pub(crate) fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
+    pub fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
         (&mut self.corners, &mut self.ends)
     }
 
-    pub(crate) fn with_capacity(corners: usize, contours: usize) -> Self {
+    /// Empty, with room for so many corners and contours.
+    pub fn with_capacity(corners: usize, contours: usize) -> Self {
         Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
     }
 
     /// Builds contours from all corners and the end of each contour.
-    pub(crate) fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
+    pub fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
         Self { corners, ends }
     }
 
     /// Total number of corners.
-    pub(crate) fn corner_count(&self) -> usize {
+    pub fn corner_count(&self) -> usize {
         self.corners.len()
     }
 
@@ -77,12 +78,12 @@ impl Contours {
     }
 
     /// Position of the first corner of contour `row` among those of all contours.
-    pub(crate) fn first_corner(&self, row: u32) -> usize {
+    pub fn first_corner(&self, row: u32) -> usize {
         if row == 0 { 0 } else { self.ends[row as usize - 1] as usize }
     }
 
     /// The corner at position `idx` among those of all contours.
-    pub(crate) fn corner(&self, idx: usize) -> VertexId {
+    pub fn corner(&self, idx: usize) -> VertexId {
         self.corners[idx]
     }
 
@@ -115,7 +116,8 @@ impl Contours {
         self.ends.is_empty()
     }
 
-    pub(crate) fn row_count(&self) -> u32 {
+    /// Number of contours, which is the row of the next.
+    pub fn row_count(&self) -> u32 {
         u32::try_from(self.ends.len()).expect("fewer than 2^32 contours")
     }
 }

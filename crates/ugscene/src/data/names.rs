@@ -1,16 +1,8 @@
 //! The names of a scene, in one buffer, and generation of unique names.
 
-use std::fmt;
-use std::num::NonZeroU32;
-
 use rustc_hash::FxHashSet;
 
-use crate::scene::optional_index;
-
-optional_index! {
-    /// A name in a [`Names`] table.
-    NameId
-}
+use super::ids::NameId;
 
 /// A table of names. Adding does not search: rows may have equal text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -37,12 +29,13 @@ impl Names {
     }
 
     /// Number of names.
-    pub(crate) fn len(&self) -> usize {
+    #[expect(clippy::len_without_is_empty, reason = "a table of rows, not a container")]
+    pub fn len(&self) -> usize {
         self.ends.len()
     }
 
     /// Appends another table; the ids of its names continue after those of this one.
-    pub(crate) fn append(&mut self, other: Self) {
+    pub fn append(&mut self, other: Self) {
         if self.ends.is_empty() {
             *self = other;
             return;
@@ -53,7 +46,7 @@ impl Names {
     }
 
     /// Bytes of all names together.
-    pub(crate) fn len_bytes(&self) -> usize {
+    pub fn len_bytes(&self) -> usize {
         self.text.len()
     }
 

@@ -2,9 +2,9 @@
 
 use std::ops::Range;
 
-use ugparse::{Diagnostics, Face, Item, Options, Parsed, Scene, Source, VertexId};
+use ugscene::{Face, Item, Scene, VertexId, face_triangles};
 
-use crate::face_triangles;
+use crate::{Diagnostics, Options, Parsed, Source};
 
 /// Reads a scene and cuts bent faces ([`Parsed::bent`]) into their triangles, since their shape
 /// would depend on the side they are seen from. The triangles keep all properties of the face,
@@ -13,9 +13,9 @@ use crate::face_triangles;
 /// `camera`: the name of the camera to use, see [`Parsed::choose_camera`].
 ///
 /// # Errors
-/// See [`ugparse::parse`] and [`Parsed::choose_camera`].
+/// See [`crate::parse`] and [`Parsed::choose_camera`].
 pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<Parsed, Diagnostics> {
-    let mut parsed = ugparse::parse(source, options)?;
+    let mut parsed = crate::parse(source, options)?;
     if let Some(name) = camera {
         parsed.choose_camera(source, name)?;
     }
@@ -43,7 +43,7 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
         }
         origins.faces.resize(scene.faces.len(), span);
     }
-    for comment in &mut scene.comments {
+    for comment in &mut scene.remarks.comments {
         if let Item::Face(row) = &mut comment.at {
             // A trailing comment follows the last piece.
             let ahead = if comment.trailing { first_pieces.get(*row as usize + 1) } else { None };
@@ -98,7 +98,7 @@ mod tests {
         let rest = "c red 1 0; surf s 1 0 0;\n{ first } f (a b c);\n{ bent }\nf x (a b c e) red s <.5 0 0>; { behind }\n\
                     { last }\nf (a c e);";
         let parsed = read_text(&square(0.25, rest));
-        let out = String::from_utf8(ugparse::write(&parsed.scene)).unwrap();
+        let out = String::from_utf8(crate::write(&parsed.scene)).unwrap();
         let lines: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("{ first")).collect();
         let [first, f, bent, one, two, last, g] = lines[..] else { panic!("{out}") };
         assert_eq!(

@@ -1,95 +1,25 @@
 //! The flat scene that every program reads and writes, with all names, definitions, instances and
 //! arrays resolved.
 //!
-//! A [`Scene`] is plain data in index buffers. [`crate::parse`] establishes these invariants, and
-//! all code that builds or changes a scene must keep them:
+//! A [`Scene`] is plain data in index buffers. [`SceneBuilder`](crate::SceneBuilder) and the parser
+//! establish these invariants, and all code that builds or changes a scene must keep them:
 //!
 //! - every id is in range, every number finite;
 //! - every contour of a face has three vertices or more, every contour of a
 //!   wire two or more;
 //! - names are unique within colours, within surfaces and within vertices.
 
-use std::fmt;
-use std::num::NonZeroU32;
 use std::ops::Range;
 
 use glam::DVec3;
-use ugphysics::{Velocity, unit_or_zero};
+use ugphysics::Velocity;
 
-use crate::body::{Bodies, BodyId};
-use crate::contours::Contours;
-use crate::names::{NameId, Names};
-use crate::stage::{HueScale, LampShift, Stage};
-
-macro_rules! index {
-    ($($(#[$doc:meta])* $name:ident)*) => {$(
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(pub u32);
-
-        impl $name {
-            /// The id of the element at position `idx` of its table.
-            ///
-            /// # Panics
-            /// If `idx` does not fit 32 bits; the reader refuses such scenes.
-            pub fn from_index(idx: usize) -> Self {
-                Self(u32::try_from(idx).expect("tables have fewer than 2^32 rows"))
-            }
-
-            /// Position in its table.
-            pub fn index(self) -> usize {
-                self.0 as usize
-            }
-        }
-    )*};
-}
-
-index! {
-    /// Row of [`Scene::vertices`].
-    VertexId
-}
-
-macro_rules! optional_index {
-    ($($(#[$doc:meta])* $name:ident)*) => {$(
-        $(#[$doc])*
-        ///
-        /// `Option` of it has the same size.
-        #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-        pub struct $name(NonZeroU32);
-
-        impl $name {
-            /// The id of the element at position `idx` of its table.
-            ///
-            /// # Panics
-            /// If `idx + 1` does not fit 32 bits; the reader refuses such scenes.
-            pub fn from_index(idx: usize) -> Self {
-                let row = u32::try_from(idx + 1).ok().and_then(NonZeroU32::new);
-                Self(row.expect("tables have fewer than 2^32 rows"))
-            }
-
-            /// Position in its table.
-            pub fn index(self) -> usize {
-                self.0.get() as usize - 1
-            }
-        }
-
-        impl fmt::Debug for $name {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                write!(f, "{}({})", stringify!($name), self.index())
-            }
-        }
-    )*};
-}
-pub(crate) use optional_index;
-
-optional_index! {
-    /// Row of [`Scene::colors`].
-    ColorId
-    /// Row of [`Scene::surfaces`].
-    SurfaceId
-    /// Row of [`Scene::illums`].
-    IllumId
-}
+use super::body::{Bodies, BodyId};
+use super::contours::Contours;
+use super::ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
+use super::names::Names;
+use super::remarks::Remarks;
+use super::stage::{HueScale, LampShift, Stage};
 
 /// A flat UniGrafix scene.
 ///
@@ -97,19 +27,11 @@ optional_index! {
 /// differ.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// Comments before the first statement (licence, history), without their outer braces. They
-    /// come first in the output.
-    pub head: Vec<String>,
-    /// The words for the [`Origin`](crate::Origin) of a scene without a history.
-    /// [`record`](crate::record) writes them.
-    pub origin: Option<String>,
     /// What filters have done to positions and colours: `(ugstage … )`.
     pub stage: Stage,
     /// For velocities of bodies, part of the statement of the stage if positions are as seen. Empty
     /// if lamps without a velocity are at their positions for all bodies.
     pub lamp_shifts: Vec<LampShift>,
-    /// All other comments.
-    pub comments: Vec<Comment>,
     /// Text of every name used below.
     pub names: Names,
     /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`.
@@ -137,11 +59,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// `cam`.
     pub cameras: Vec<Camera>,
-    /// Escapes `( … )`: text for other programs, without its outer
-    /// parentheses.
-    pub escapes: Vec<String>,
-    /// Unknown statements, kept with `-lax`, including their `;`.
-    pub unknown: Vec<String>,
+    /// Comments, history and statements for other programs.
+    pub remarks: Remarks,
 }
 
 /// A named surface colour.
@@ -405,52 +324,6 @@ pub enum Projection {
     Perspective,
 }
 
-/// A comment inside the scene.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Comment {
-    /// Text without the outer braces.
-    pub text: String,
-    /// The statement to which it belongs.
-    pub at: Item,
-    /// True if it follows `at` on the same line, false if it is above it.
-    pub trailing: bool,
-}
-
-/// A statement of a flat scene, by table and row.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Item {
-    /// [`Scene::stage`].
-    Stage,
-    /// Row of [`Scene::escapes`].
-    Escape(u32),
-    /// Row of [`Scene::unknown`].
-    Unknown(u32),
-    /// Row of [`Scene::colors`].
-    Color(u32),
-    /// Row of [`Scene::mixes`].
-    Mix(u32),
-    /// Row of [`Scene::surfaces`].
-    Surface(u32),
-    /// Row of [`Scene::vertices`].
-    Vertex(u32),
-    /// Row of [`Scene::faces`].
-    Face(u32),
-    /// Row of [`Scene::wires`].
-    Wire(u32),
-    /// Row of [`Scene::lights`].
-    Light(u32),
-    /// Row of [`Scene::cameras`].
-    Camera(u32),
-    /// After the last statement.
-    End,
-}
-
-impl PartialEq for Scene {
-    fn eq(&self, other: &Self) -> bool {
-        crate::write(self) == crate::write(other)
-    }
-}
-
 impl Scene {
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
@@ -486,6 +359,17 @@ impl Scene {
         self.contours.iter(wire.contours.clone())
     }
 
+    /// Row of the selected camera: the first without a name, else the first.
+    pub fn camera_row(&self) -> Option<usize> {
+        let unnamed = self.cameras.iter().position(|camera| camera.name.is_none());
+        unnamed.or((!self.cameras.is_empty()).then_some(0))
+    }
+
+    /// The selected camera, see [`Scene::camera_row`].
+    pub fn camera(&self) -> Option<&Camera> {
+        self.camera_row().map(|row| &self.cameras[row])
+    }
+
     /// Corners of the bounding box of all vertices; `None` without vertices.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         let first = self.vertices.first()?.position;
@@ -493,33 +377,4 @@ impl Scene {
             (low.min(vertex.position), high.max(vertex.position))
         }))
     }
-}
-
-/// Area-weighted normal of a polygon by Newell's method: right-handed, its
-/// length twice the area for a planar polygon, zero for a degenerate one.
-///
-/// Coordinates are relative to the first corner, so that a small face far from the origin keeps its
-/// precision. Areas above 1e300 or below 1e-300 overflow or underflow: for directions there is
-/// [`unit_normal`].
-pub fn newell_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
-    let mut rest = corners.clone();
-    let Some(origin) = rest.next() else {
-        return DVec3::ZERO;
-    };
-    rest.clone().zip(rest.skip(1)).fold(DVec3::ZERO, |sum, (a, b)| sum + (a - origin).cross(b - origin))
-}
-
-/// Unit normal of a polygon of any size, right-handed; zero if it has no area.
-pub fn unit_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
-    /// Lengths whose squares neither overflow nor underflow.
-    const USUAL: Range<f64> = 1e-140..1e150;
-    let normal = newell_normal(corners.clone());
-    if normal.is_finite() && USUAL.contains(&normal.abs().max_element()) {
-        return normal.normalize();
-    }
-    let Some(origin) = corners.clone().next() else { return DVec3::ZERO };
-    // Halved first: the difference of large coordinates may overflow.
-    let halves = corners.map(|corner| corner * 0.5 - origin * 0.5);
-    let largest = halves.clone().map(|half| half.abs().max_element()).fold(0.0, f64::max);
-    if largest > 0.0 { unit_or_zero(newell_normal(halves.map(|half| half / largest))) } else { DVec3::ZERO }
 }

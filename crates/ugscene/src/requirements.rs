@@ -3,10 +3,9 @@
 
 use glam::DVec3;
 use thiserror::Error;
-use ugparse::{Body, BodyId, ColorScale, Diagnostic, Face, HueScale, Motion, Parsed, Scene};
-use ugpipe::remedies;
 
 use crate::words::point;
+use crate::{Body, BodyId, ColorScale, HueScale, Motion, Scene};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -52,18 +51,6 @@ fn any_moves(scene: &Scene, mut bodies: impl Iterator<Item = BodyId>) -> bool {
     let moves = |body: &Body| body.motion != Motion::default();
     // In most scenes nothing moves, so their faces need not be visited.
     scene.bodies.iter().any(moves) && bodies.any(|body| moves(&scene.bodies[body]))
-}
-
-/// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are
-/// none.
-pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
-    let Parsed { scene, origins, .. } = parsed;
-    require_seen_geometry(scene).err()?;
-    let moves = |face: &Face| any_moves(scene, std::iter::once(face.body));
-    let span = scene.faces.iter().position(moves).and_then(|row| origins.faces.get(row).copied());
-    let message = "bodies in this scene move, and are drawn with their shapes at rest";
-    let finding = Diagnostic::warning(span.unwrap_or_default(), message);
-    Some(finding.label("moves").help(remedies::DRAW_AS_SEEN))
 }
 
 /// Refuses apparent positions.

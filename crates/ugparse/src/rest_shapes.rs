@@ -1,0 +1,19 @@
+//! Warns of bodies that move and are drawn with their shapes at rest.
+
+use ugpipe::remedies;
+use ugscene::{Motion, require_seen_geometry};
+
+use crate::{Diagnostic, Parsed};
+
+/// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are
+/// none.
+pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
+    let Parsed { scene, origins, .. } = parsed;
+    require_seen_geometry(scene).err()?;
+    let mut faces = scene.faces.iter();
+    let moving = faces.position(|face| scene.bodies[face.body].motion != Motion::default());
+    let span = moving.and_then(|row| origins.faces.get(row).copied());
+    let message = "bodies in this scene move, and are drawn with their shapes at rest";
+    let finding = Diagnostic::warning(span.unwrap_or_default(), message);
+    Some(finding.label("moves").help(remedies::DRAW_AS_SEEN))
+}

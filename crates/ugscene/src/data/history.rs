@@ -1,0 +1,140 @@
+//! The history of a scene: each filter adds a head comment, the first one also the hash and the
+//! name of what it read.
+
+use super::remarks::Remarks;
+
+/// The program that made a scene or a picture, and the command that makes it again.
+///
+/// By default nothing is stated. A library caller states name and version of its own program, and
+/// a command only if there is one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Provenance<'s> {
+    /// Name of the program.
+    pub program: &'s str,
+    /// Version of the program.
+    pub version: &'s str,
+    /// The command line, which begins with the name of the program. Without it nothing is added to a
+    /// history.
+    pub command: Option<&'s str>,
+}
+
+impl Remarks {
+    /// Appends a head comment with a command and its program, after one with the
+    /// [origin](Remarks::origin) of a scene without a history.
+    pub fn record(&mut self, provenance: Provenance<'_>) {
+        let Provenance { program, version, command: Some(command) } = provenance else { return };
+        if let Some(origin) = self.origin.take()
+            && self.history().is_empty()
+        {
+            self.head.push(format!(" {origin} "));
+        }
+        self.head.push(format!(" {program} {version}: {command} "));
+    }
+
+    /// The command lines recorded in a scene, oldest first.
+    pub fn history(&self) -> Vec<&str> {
+        self.entries().filter_map(|entry| entry.command).collect()
+    }
+
+    /// The history in one line for a shell, with the input of the first program, and with the hash of
+    /// that input and the versions of all programs behind it:
+    ///
+    /// ```text
+    /// uglorentz ship.ug -vel .9 0 0 | ugrainbow # SHA-256 3b1c… ship.ug; uglorentz 0.1.0, ugrainbow
+    /// 0.1.0
+    /// ```
+    ///
+    /// `last`: the last program of the pipe. `None` if it has no command, or if the origin of the scene
+    /// is unknown. The comments of a scene may have been written by anybody, so check a line before a
+    /// shell runs it.
+    pub fn recipe(&self, last: Provenance<'_>) -> Option<String> {
+        last.command?;
+        let origin = self.recorded_origin().or(self.origin.as_deref())?;
+        let (_, name) = origin_parts(origin)?;
+        let entries: Vec<Provenance<'_>> = self.entries().chain([last]).collect();
+        let mut commands: Vec<String> =
+            entries.iter().filter_map(|entry| entry.command).map(str::to_owned).collect();
+        if name != "-" {
+            commands[0].insert_str(entries[0].program.len(), &format!(" {name}"));
+        }
+        let versions: Vec<String> =
+            entries.iter().map(|entry| format!("{} {}", entry.program, entry.version)).collect();
+        Some(format!("{} # {origin}; {}", commands.join(" | "), versions.join(", ")))
+    }
+
+    /// What programs recorded, oldest first; each has a command.
+    fn entries(&self) -> impl Iterator<Item = Provenance<'_>> {
+        self.head.iter().filter_map(|comment| recorded(comment))
+    }
+
+    /// The recorded hash and name.
+    fn recorded_origin(&self) -> Option<&str> {
+        self.head.iter().map(|comment| comment.trim()).find(|comment| origin_parts(comment).is_some())
+    }
+}
+
+/// What a program recorded in a comment: `name version: command line`, where the name is one of the family's and the
+/// command line begins with it.
+pub fn recorded(comment: &str) -> Option<Provenance<'_>> {
+    let (title, command) = comment.trim().split_once(": ")?;
+    let (program, version) = title.split_once(' ')?;
+    let is_version = version.starts_with(|c: char| c.is_ascii_digit()) && !version.contains(' ');
+    let is_ours = program.starts_with("ug") && command.split(' ').next() == Some(program);
+    (is_version && is_ours).then_some(Provenance { program, version, command: Some(command) })
+}
+
+/// Hash and name of the words for an origin, `SHA-256 3b1c… ship.ug`.
+fn origin_parts(words: &str) -> Option<(&str, &str)> {
+    let (hash, name) = words.strip_prefix("SHA-256 ")?.split_once(' ')?;
+    let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
+    (is_hash && !name.contains('\n')).then_some((hash, name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn made<'s>(program: &'s str, version: &'s str, command: &'s str) -> Provenance<'s> {
+        Provenance { program, version, command: Some(command) }
+    }
+
+    fn licensed() -> Remarks {
+        Remarks { head: vec![" A licence: free for all ".to_string()], ..Remarks::default() }
+    }
+
+    #[test]
+    fn history_is_what_was_recorded() {
+        let mut remarks = licensed();
+        remarks.record(made("uglorentz", "0.1.0", "uglorentz -vel .9 0 0"));
+        remarks.record(made("ugdoppler", "0.1.0", "ugdoppler"));
+        assert_eq!(remarks.history(), ["uglorentz -vel .9 0 0", "ugdoppler"]);
+        assert_eq!(remarks.head[0], " A licence: free for all ");
+        assert_eq!(remarks.recipe(made("ugrainbow", "0.1.0", "ugrainbow")), None);
+    }
+
+    #[test]
+    fn recipes_are_pipes() {
+        let hash = "0123456789abcdef".repeat(4);
+        let check = |name: &str, first: &str| {
+            let mut remarks = licensed();
+            remarks.origin = Some(format!("SHA-256 {hash} {name}"));
+            let alone = remarks.recipe(made("ugrainbow", "0.1.0", "ugrainbow")).expect("an origin");
+            assert!(alone.starts_with("ugrainbow ") && alone.ends_with("; ugrainbow 0.1.0"), "{alone}");
+            remarks.record(made("uglorentz", "0.1.0", "uglorentz -vel .9 0 0"));
+            // What a program downstream reads has no origin of its own.
+            remarks.origin = Some(format!("SHA-256 {} -", "0".repeat(64)));
+            remarks.record(made("ugdoppler", "0.2.0", "ugdoppler"));
+            let line = remarks.recipe(made("ugrainbow", "0.1.0", "ugrainbow -sz 9 9"));
+            assert_eq!(
+                line.expect("an origin"),
+                format!(
+                    "{first} | ugdoppler | ugrainbow -sz 9 9 # SHA-256 {hash} {name}; \
+                     uglorentz 0.1.0, ugdoppler 0.2.0, ugrainbow 0.1.0"
+                )
+            );
+        };
+        check("ship.ug", "uglorentz ship.ug -vel .9 0 0");
+        check("'my ship.ug'", "uglorentz 'my ship.ug' -vel .9 0 0");
+        check("-", "uglorentz -vel .9 0 0");
+    }
+}

@@ -1,0 +1,24 @@
+//! The data model: a scene, its bodies, and what filters have done to it.
+
+mod body;
+mod contours;
+mod history;
+mod ids;
+mod names;
+mod remarks;
+mod scene;
+mod stage;
+
+pub use body::{Bodies, Body, BodyId, Motion};
+pub use contours::Contours;
+pub use history::{Provenance, recorded};
+pub use ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
+pub use names::{Names, UniqueNames};
+pub use remarks::{Comment, Item, Remarks};
+pub use scene::{
+    Camera, Color, ColorValue, Face, Illum, Light, LightKind, LightMotion, Mix, Projection, Scene,
+    SurfaceProperties, Tint, Vertex, Wire,
+};
+pub use stage::{
+    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
+};

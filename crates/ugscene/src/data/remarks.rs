@@ -1,0 +1,61 @@
+//! What the text of a scene says besides the scene: comments, history, statements for other programs.
+
+#[cfg(doc)]
+use crate::Scene;
+
+/// Comments, history and statements that programs pass on and that change no picture.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remarks {
+    /// Comments before the first statement (licence, history), without their outer braces. They
+    /// come first in the output.
+    pub head: Vec<String>,
+    /// The hash and the name of the input of a scene without a history, see
+    /// [`Remarks::record`].
+    pub origin: Option<String>,
+    /// All other comments, sorted by statement.
+    pub comments: Vec<Comment>,
+    /// Escapes `( … )`: text for other programs, without its outer parentheses.
+    pub escapes: Vec<String>,
+    /// Unknown statements, if they are accepted, including their `;`.
+    pub unknown: Vec<String>,
+}
+
+/// A comment inside the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comment {
+    /// Text without the outer braces.
+    pub text: String,
+    /// The statement to which it belongs.
+    pub at: Item,
+    /// True if it follows `at` on the same line, false if it is above it.
+    pub trailing: bool,
+}
+
+/// A statement of a flat scene, by table and row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Item {
+    /// [`Scene::stage`].
+    Stage,
+    /// Row of [`Remarks::escapes`].
+    Escape(u32),
+    /// Row of [`Remarks::unknown`].
+    Unknown(u32),
+    /// Row of [`Scene::colors`].
+    Color(u32),
+    /// Row of [`Scene::mixes`].
+    Mix(u32),
+    /// Row of [`Scene::surfaces`].
+    Surface(u32),
+    /// Row of [`Scene::vertices`].
+    Vertex(u32),
+    /// Row of [`Scene::faces`].
+    Face(u32),
+    /// Row of [`Scene::wires`].
+    Wire(u32),
+    /// Row of [`Scene::lights`].
+    Light(u32),
+    /// Row of [`Scene::cameras`].
+    Camera(u32),
+    /// After the last statement.
+    End,
+}
