@@ -67,14 +67,14 @@ impl From<io::Error> for RequestError {
 /// whole statements: a definition that begins in it ends in it.
 ///
 /// ```
-/// let scene = crate::Source::new("house/scene.ug", "include colors.ug ; v a 0 0 0 red ;");
-/// let whole = crate::include(scene, &crate::Options::default(), |request| {
-///     assert_eq!(request.kind, crate::RequestKind::Include);
+/// let scene = ugparse::Source::new("house/scene.ug", "include colors.ug ; v a 0 0 0 red ;");
+/// let whole = ugparse::include(scene, &ugparse::Options::default(), |request| {
+///     assert_eq!(request.kind, ugparse::RequestKind::Include);
 ///     assert_eq!(request.path, std::path::Path::new("house/colors.ug"));
 ///     Ok(b"c red 1 0 ;".to_vec())
 /// })?;
-/// assert_eq!(crate::parse(&whole, &crate::Options::default())?.scene.colors.len(), 1);
-/// # Ok::<(), crate::Diagnostics>(())
+/// assert_eq!(ugparse::parse(&whole, &ugparse::Options::default())?.scene.colors.len(), 1);
+/// # Ok::<(), ugparse::Diagnostics>(())
 /// ```
 ///
 /// # Errors

@@ -16,16 +16,16 @@
 //! location in the text.
 //!
 //! ```
-//! let source = crate::Source::new(
+//! let source = ugparse::Source::new(
 //!     "tile.ug",
 //!     "{ four tiles }
 //!      def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f (a b c d); end;
 //!      a floor (tile) 4 -tx 1.1;",
 //! );
-//! let scene = crate::parse(&source, &crate::Options::default())?.scene;
+//! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
 //! assert_eq!(scene.faces.len(), 4);
 //! assert_eq!(scene.names.get(scene.vertices[4].name), "floor#1:a");
-//! # Ok::<(), crate::Diagnostics>(())
+//! # Ok::<(), ugparse::Diagnostics>(())
 //! ```
 //!
 //! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a

@@ -1,4 +1,7 @@
-//! Properties of a flat [`crate::Scene`] that several programs compute with.
+//! Scenes: the data model that all programs share, and functions on it.
+//!
+//! A [`Scene`] is flat and complete: definitions are expanded, names are resolved, numbers are
+//! finite. Its text form is in `ugparse`. The functions:
 //!
 //! - Bodies: which one a vertex is part of, and their rest frames ([`RestFrames`],
 //!   [`separate_bodies`]).
