@@ -30,25 +30,39 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrangement;
 mod blocks;
 mod cube;
 mod flat;
 mod footprint;
 mod grid;
+mod hues;
 mod observer;
 mod panorama;
+mod pictures;
 mod sample;
+mod shade;
+mod sky;
 mod spectral;
+mod star_list;
 mod stars;
 mod texels;
+mod transfer;
+mod view;
 mod window;
 
+pub use arrangement::Arrangement;
 pub use cube::CubeMap;
 pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError};
+pub use pictures::Picture;
 pub use sample::Sampler;
+pub use shade::{Shade, SkyColors};
+pub use sky::{Band, Layer, Sky, VISIBLE_NM};
 pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
+pub use star_list::{MAX_STARS, StarColumn, StarListError, StarListMistake, is_star_list, read_stars};
 pub use stars::{Star, StarLight};
 pub use texels::Texels;
+pub use view::{SkyLight, SkyView};

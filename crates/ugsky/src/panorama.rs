@@ -1,42 +1,71 @@
 //! Panoramas: light by direction, on an equirectangular grid with mip levels.
 
-use std::fmt;
 use std::ops::Range;
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
+use thiserror::Error;
 
+use crate::arrangement::Arrangement;
 use crate::grid::{APRON, Columns, Extent, Grid, Row, SEGMENT, grids, ladder};
 use crate::texels::{Decoder, Planes, RowTexels, Texels, premultiply};
 
-/// Why a grid of texels is no panorama.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Why pictures are no panorama.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum PanoramaError {
     /// The number of texels is not width × height, or 0.
+    #[error("the number of texels is not that of the size")]
     Size,
     /// The angles are not increasing, or not on the sphere.
+    #[error(
+        "the angles of the panorama must increase from west to east, by at most 360 degrees, and from south to north, \
+         within 90 degrees of the horizon"
+    )]
     Extent,
     /// A texel is larger than 0.2 radians.
+    #[error(
+        "the panorama has too few pixels: none may be larger than 11 degrees, so a whole one has at least 32 x 16"
+    )]
     Coarse,
+    /// The sides of the picture have not the ratio of its arrangement.
+    #[error(
+        "{} x {} pixels are not the shape of a {}",
+        .size[0], .size[1],
+        if *arrangement == Arrangement::Equirectangular {
+            "panorama, which is twice as wide as high"
+        } else {
+            arrangement.name()
+        }
+    )]
+    Shape {
+        /// Its pixels across and down.
+        size: [u32; 2],
+        /// What it should be.
+        arrangement: Arrangement,
+    },
+    /// There are not as many files as a cube has sides, or more than one for other arrangements.
+    #[error("{n_files} files were given: a cube of sides needs six, and other panoramas one")]
+    Sides {
+        /// Their number.
+        n_files: usize,
+    },
+    /// A side of a cube is no square, or has another size than the first.
+    #[error(
+        "the {} side of the cube has {} x {} pixels: all must be squares of the same size, here \
+         {expected} x {expected}",
+        ORDINALS[*idx % 6], .size[0], .size[1]
+    )]
+    Side {
+        /// Which of the six.
+        idx: usize,
+        /// Its pixels across and down.
+        size: [u32; 2],
+        /// Columns of the first side.
+        expected: u32,
+    },
 }
 
-impl fmt::Display for PanoramaError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Size => "the number of texels is not that of the size",
-            Self::Extent => {
-                "the angles of the panorama must increase from west to east, by at most 360 degrees, and from south to \
-                 north, within 90 degrees of the horizon"
-            }
-            Self::Coarse => {
-                "the panorama has too few pixels: none may be larger than 11 degrees, so a whole one has at least \
-                 32 x 16"
-            }
-        })
-    }
-}
-
-impl std::error::Error for PanoramaError {}
+const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
 
 /// Largest texel, radians.
 const COARSEST: f64 = 0.2;

@@ -1,10 +1,10 @@
 //! Spectra for light of which only red, green and blue are known, and how it is seen in motion.
 
-use std::fmt;
 use std::ops::Range;
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
+use thiserror::Error;
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 use ugspectrum::{DopplerGrid, LightSpectrum, Spectrum, integrate};
 
@@ -30,22 +30,21 @@ pub enum Basis {
 /// All wavelengths at rest, nm.
 pub const ALL_NM: Range<f64> = 0.0..f64::INFINITY;
 
-/// What is wrong with three temperatures for [`Basis::Planck`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BasisError(pub [f64; 3]);
-
-impl fmt::Display for BasisError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [first, second, third] = self.0;
-        write!(
-            f,
-            "black bodies at {first}, {second} and {third} K are no basis of colours: give three different \
-             temperatures from 500 to 100000 K, such as 3500 5900 10000"
-        )
-    }
+/// Why there is no table of a [`Basis`].
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum BasisError {
+    /// The temperatures of [`Basis::Planck`].
+    #[error(
+        "black bodies at {}, {} and {} K are no basis of colours: give three different temperatures from 500 to \
+         100000 K, such as 3500 5900 10000",
+        .0[0], .0[1], .0[2]
+    )]
+    Temperatures([f64; 3]),
+    /// Panoramas of infrared or ultraviolet light, or a range of wavelengths, with
+    /// [`Basis::BlackBody`].
+    #[error("the colours of black bodies have infrared and ultraviolet light of their own")]
+    BlackBodyRange,
 }
-
-impl std::error::Error for BasisError {}
 
 /// Step of tables of linear maps and of black bodies in ln D or ln T.
 const STEP: f64 = 0.0025;
@@ -109,6 +108,7 @@ impl SpectralTable {
         let reach = if doppler { reach.abs().min(MOST_LN_DOPPLER) } else { 0.0 };
         let kind = match basis {
             Basis::Planck(kelvin) => planck(kelvin, reach, &range)?,
+            Basis::BlackBody if range != ALL_NM => return Err(BasisError::BlackBodyRange),
             Basis::BlackBody => black_bodies(reach),
             Basis::Smooth => Kind::Smooth(SmoothTable::new(reach, range)),
             Basis::Grey => grey(reach, &range),
@@ -176,7 +176,7 @@ fn grey(reach: f64, range: &Range<f64>) -> Kind {
 }
 
 fn planck(kelvin: [f64; 3], reach: f64, range: &Range<f64>) -> Result<Kind, BasisError> {
-    let error = BasisError(kelvin);
+    let error = BasisError::Temperatures(kelvin);
     if kelvin.iter().any(|kelvin| !(KELVIN[0]..=KELVIN[1]).contains(kelvin)) {
         return Err(error);
     }

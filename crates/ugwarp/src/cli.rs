@@ -20,14 +20,12 @@ use ugpipe::{
     vector,
 };
 use ugscene::Provenance;
-use ugsky::{Basis, Extent, Star};
+use ugsky::{Arrangement, Band, Basis, Extent, Star, VISIBLE_NM, is_star_list};
 
-use crate::arrangement::Arrangement;
 use crate::config::{Config, StarOptions};
 use crate::error::Error;
-use crate::open::{Band, Opened, open};
-use crate::render::{PROVENANCE, VISIBLE_NM, metadata, run};
-use crate::star_list::{is_star_list, read_stars};
+use crate::open::{Opened, open, read_stars};
+use crate::render::{PROVENANCE, metadata, run};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///

@@ -84,9 +84,6 @@ impl Config {
         if !(0.5..=50.0).contains(&self.stars.width) || !(-60.0..=60.0).contains(&self.stars.white) {
             return Err(Error::Stars);
         }
-        if self.basis == Basis::BlackBody && self.range_nm != ALL_NM {
-            return Err(Error::BlackBodyRange);
-        }
         let [width, height] = picture.size;
         if self.lens == Lens::Cube {
             if u64::from(width) != 6 * u64::from(height) {

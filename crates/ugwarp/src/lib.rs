@@ -10,17 +10,15 @@
 //!   [`read_stars`] reads a list of stars.
 //! - [`render`] draws a panorama, stars or both as a picture; [`light`] returns linear light
 //!   instead.
-//! - [`Warp`] is a picture's map to the sky, and the light of its velocity, ready to use with any
-//!   number of panoramas.
+//! - [`Warp`] is a picture's map to a sky, and the light of its velocity.
 //!
 //! # Modules
 //!
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! arrangement  error  config                how directions are arranged in files; errors; options
-//! open  star_list  sky                      from files to panoramas and stars; both together
-//! hues  shade                               colours as seen: by hue, and by all models
+//! error  config                             errors; options
+//! open                                      from files to panoramas and stars
 //! warp  stars                               from pixels to the sky, and their light; points of light
 //! render                                    from a panorama to a picture, with messages
 //! cli                                       the command line
@@ -46,30 +44,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod arrangement;
 #[cfg(feature = "cli")]
 mod cli;
 mod config;
 mod error;
-mod hues;
 mod open;
 mod render;
-mod shade;
-mod sky;
-mod star_list;
 mod stars;
-mod transfer;
 mod warp;
 
-pub use arrangement::Arrangement;
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};
 pub use config::{Config, StarOptions};
 pub use error::Error;
-pub use open::{Band, Opened, open};
+pub use open::{Opened, open, read_stars};
 pub use render::{PROVENANCE, light, metadata, render, run};
-pub use sky::Sky;
-pub use star_list::{MAX_STARS, is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
@@ -77,5 +66,5 @@ pub use ugpicture::{
 };
 pub use ugscene::CameraOptions;
 pub use ugscene::Provenance;
-pub use ugsky::{ALL_NM, Basis, Extent, Observer, Panorama, Star, Texels};
+pub use ugsky::{ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, Texels};
 pub use warp::Warp;

@@ -1,20 +1,10 @@
-//! From the bytes of files to a panorama.
-
-use std::ops::Range;
+//! From the bytes of files to a sky.
 
 use ugimage::{MAX_PIXELS, Pixels, read_picture};
-use ugsky::{CubeMap, Extent, Panorama, PanoramaError, Star, Texels};
+use ugparse::{Diagnostic, Diagnostics, Source, Span};
+use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
-use crate::arrangement::Arrangement;
 use crate::error::Error;
-
-/// A panorama of light outside of the visible range.
-pub struct Band {
-    /// Wavelengths at rest, nm.
-    pub range_nm: Range<f64>,
-    /// The light, of which only the luminance is used.
-    pub panorama: Panorama,
-}
 
 /// A panorama, stars or both, and what their user should know.
 pub struct Opened {
@@ -28,38 +18,32 @@ pub struct Opened {
     pub notes: Vec<String>,
 }
 
-/// The places of the sides in a cross of four squares across, and in one of three across, whose
-/// back is upside down: column and row.
-const CROSSES: [[[usize; 2]; 6]; 2] =
-    [[[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [3, 1]], [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [1, 3]]];
+impl<'s> From<&'s Opened> for Sky<'s> {
+    fn from(opened: &'s Opened) -> Self {
+        Self { panorama: opened.panorama.as_ref(), bands: &opened.bands, stars: &opened.stars }
+    }
+}
 
 /// Reads a panorama from the bytes of PNG, JPEG, HDR or EXR files. `extent`: the angles that an
 /// equirectangular one shows; without it the whole sphere.
 ///
 /// # Errors
 /// - [`Error::Read`]: a file is no picture that can be read.
-/// - [`Error::Sides`]: the number of files does not suit the arrangement.
-/// - [`Error::Shape`]: nor does the ratio of width to height.
-/// - [`Error::Side`]: the sides of a cube are not squares of one size.
-/// - [`Error::Panorama`]: the picture is too small, or its angles are impossible.
+/// - [`Error::Panorama`]: the pictures do not suit the arrangement, are too small, or their angles
+///   are impossible.
 pub fn open(files: &[&[u8]], arrangement: Arrangement, extent: Option<Extent>) -> Result<Opened, Error> {
-    if files.len() != arrangement.n_files() {
-        return Err(Error::Sides { n_files: files.len() });
-    }
     let mut notes = Vec::new();
     let mut pictures = Vec::new();
+    if files.len() != arrangement.n_files() {
+        return Err(PanoramaError::Sides { n_files: files.len() }.into());
+    }
     for (idx, file) in files.iter().enumerate() {
         let (size, pixels) = read_picture(file, MAX_PIXELS).map_err(|error| Error::Read { idx, error })?;
         pictures.push((size, texels(pixels, &mut notes)));
     }
-    let panorama = match arrangement {
-        Arrangement::Equirectangular => equirectangular(pictures, extent)?,
-        _ => cube(pictures, arrangement)?.panorama()?,
-    };
+    let panorama = Panorama::arranged(pictures, arrangement, extent)?;
     Ok(Opened { panorama: Some(panorama), bands: Vec::new(), stars: Vec::new(), notes })
 }
-
-type Picture = ([u32; 2], Texels);
 
 fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
     match pixels {
@@ -77,68 +61,18 @@ fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
     }
 }
 
-fn equirectangular(pictures: Vec<Picture>, extent: Option<Extent>) -> Result<Panorama, Error> {
-    let Some((size, texels)) = pictures.into_iter().next() else { return Err(PanoramaError::Size.into()) };
-    let [width, height] = size.map(u64::from);
-    // Some cameras cut off a row or a column.
-    let is_double = width.abs_diff(2 * height) <= 2 + width / 100;
-    let extent = match extent {
-        Some(extent) => extent,
-        None if is_double => Extent::FULL,
-        None => return Err(Error::Shape { size, arrangement: Arrangement::Equirectangular }),
-    };
-    Ok(Panorama::new(size, texels, extent)?)
-}
-
-fn cube(mut pictures: Vec<Picture>, arrangement: Arrangement) -> Result<CubeMap, Error> {
-    let [width, height] = pictures[0].0;
-    if arrangement == Arrangement::Sides {
-        for (idx, (size, _)) in pictures.iter().enumerate() {
-            if *size != [width, width] {
-                return Err(Error::Side { idx, size: *size, expected: width });
-            }
-        }
-        let faces: Vec<Texels> = pictures.into_iter().map(|(_, texels)| texels).collect();
-        let faces = faces.try_into().map_err(|_| PanoramaError::Size)?;
-        return Ok(CubeMap::new(width, faces)?);
-    }
-    let (across, down) = match arrangement {
-        Arrangement::Strip => (6, 1),
-        _ if width > height => (4, 3),
-        _ => (3, 4),
-    };
-    let side = width / across;
-    if side == 0 || [side * across, side * down] != [width, height] {
-        return Err(Error::Shape { size: [width, height], arrangement });
-    }
-    let (_, texels) = pictures.remove(0);
-    let faces = std::array::from_fn(|face| {
-        let place = match (arrangement, across) {
-            (Arrangement::Strip, _) => [face, 0],
-            (_, 4) => CROSSES[0][face],
-            _ => CROSSES[1][face],
-        };
-        let is_turned = across == 3 && face == 5;
-        match &texels {
-            Texels::Srgb(texels) => Texels::Srgb(square(texels, width, side, place, is_turned)),
-            Texels::Light(texels) => Texels::Light(square(texels, width, side, place, is_turned)),
-        }
-    });
-    Ok(CubeMap::new(side, faces)?)
-}
-
-/// A square of a picture of squares.
-fn square<T: Copy>(texels: &[T], width: u32, side: u32, place: [usize; 2], is_turned: bool) -> Vec<T> {
-    let (width, side) = (width as usize, side as usize);
-    let row = |row: usize| {
-        let start = (place[1] * side + row) * width + place[0] * side;
-        &texels[start..start + side]
-    };
-    let mut square: Vec<T> = (0..side).flat_map(row).copied().collect();
-    if is_turned {
-        square.reverse();
-    }
-    square
+/// Reads a list of stars, see [`ugsky::read_stars`]. `name`: of the file, for messages.
+///
+/// # Errors
+/// All errors of up to 20 lines, with line and column.
+pub fn read_stars(name: &str, file: &[u8]) -> Result<Vec<Star>, Box<Diagnostics>> {
+    ugsky::read_stars(file).map_err(|errors| {
+        let found = errors.into_iter().map(|error| {
+            let span = Span { start: error.place.start as u32, end: error.place.end as u32 };
+            Diagnostic::error(span, error.mistake.to_string()).help(error.mistake.remedy())
+        });
+        Box::new(Diagnostics::new(&Source::new(name, file), found.collect()))
+    })
 }
 
 #[cfg(test)]
@@ -172,7 +106,10 @@ mod tests {
         let expected = light(&files, Arrangement::Sides);
         let strip = png([6 * SIDE, SIDE], |[x, y]| side((x / SIDE) as usize, [x % SIDE, y]));
         assert_eq!(light(&[strip], Arrangement::Strip), expected);
-        for (across, down, places) in [(4, 3, CROSSES[0]), (3, 4, CROSSES[1])] {
+        for (across, down, places) in [
+            (4, 3, [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [3, 1]]),
+            (3, 4, [[2, 1], [0, 1], [1, 0], [1, 2], [1, 1], [1, 3]]),
+        ] {
             let cross = png([across * SIDE, down * SIDE], |[x, y]| {
                 let place = [x / SIDE, y / SIDE].map(|at| at as usize);
                 let Some(face) = places.iter().position(|other| *other == place) else {

@@ -1,28 +1,21 @@
 //! From a panorama to a picture.
 
-use std::ops::Range;
-
 use rayon::prelude::*;
 use ugimage::{Development, Format, LinearFrame, Metadata};
-use uglight::{ColorShift, SpectralShift};
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
-    Annotated, Annotations, Background, Content, DepthBuffer, Error as PictureError, Exposure, Image, Layout,
-    Note, Output, PictureFile, Rendering, SceneState, channel_planes,
+    Annotated, Annotations, Content, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Note,
+    Output, PictureFile, Rendering, SceneState, channel_planes,
 };
 use ugpipe::Progress;
 use ugscene::{CameraOptions, Provenance, Remarks, Scene};
-use ugsky::{Basis, Panorama};
+use ugsky::{Layer, Sky};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::open::{Band, Opened};
-use crate::sky::Sky;
-use crate::stars::{StarField, parts};
+use crate::open::Opened;
+use crate::stars::StarField;
 use crate::warp::{Statistics, Warp, camera};
-
-/// Wavelengths that are seen at rest, nm: those of the CIE 1931 observer.
-pub(crate) const VISIBLE_NM: Range<f64> = 360.0..830.0;
 
 /// Least brightness at which clipping is reported; less is invisible in 8 bits.
 const CLIPPED: f32 = 1.001;
@@ -43,10 +36,10 @@ pub fn render<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<Rendering,
 /// See [`Error`].
 pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame, Error> {
     let sky = sky.into();
-    let mut config = options_for(sky, config);
+    let mut config = config.clone();
     config.picture.keep_light();
     config.picture.annotations = ugpicture::AnnotationOptions::default();
-    let warp = Warp::new(&config)?;
+    let warp = Warp::new(sky, &config)?;
     let (mut frame, _) = seen(sky, &warp, &config, &())?;
     push_channels(&mut frame, &warp, &config);
     Ok(frame)
@@ -55,18 +48,11 @@ pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame
 /// The light of a sky.
 fn seen(
     sky: Sky<'_>,
-    warp: &Warp,
+    warp: &Warp<'_>,
     config: &Config,
     progress: &dyn Progress,
 ) -> Result<(LinearFrame, Statistics), Error> {
-    let (mut frame, mut statistics) = match sky.panorama {
-        Some(panorama) => warp.light(panorama, progress),
-        None => warp.darkness(),
-    };
-    for band in sky.bands {
-        progress.step("light outside the visible range", 0);
-        add_band(band, &mut frame, &mut statistics, config)?;
-    }
+    let (mut frame, mut statistics) = warp.light(progress);
     if !sky.stars.is_empty() {
         progress.step("stars", 0);
         statistics.max_light = StarField::new(sky.stars, config)?.add(sky.stars, &mut frame);
@@ -74,46 +60,8 @@ fn seen(
     Ok((frame, statistics))
 }
 
-/// Adds infrared or ultraviolet light, where the Doppler effect makes it visible.
-fn add_band(
-    band: &Band,
-    frame: &mut LinearFrame,
-    statistics: &mut Statistics,
-    config: &Config,
-) -> Result<(), Error> {
-    let mut of_band = Config { basis: Basis::Grey, range_nm: band.range_nm.clone(), ..config.clone() };
-    of_band.picture.background = Background::Transparent;
-    let (light, _) = Warp::new(&of_band)?.light(&band.panorama, &());
-    let sums = frame.pixels_mut().par_iter_mut().zip(light.pixels()).map(|(pixel, light)| {
-        (0..3).for_each(|channel| pixel[channel] += light[channel]);
-        pixel[..3].iter().fold(0.0, |most: f32, part| most.max(*part))
-    });
-    statistics.max_light = sums.reduce(|| statistics.max_light, f32::max);
-    Ok(())
-}
-
-/// The options for a sky. Stars are black bodies, so their spectra are shifted. Where there is a
-/// panorama of infrared or ultraviolet light, that of visible light has none.
-fn options_for(sky: Sky<'_>, config: &Config) -> Config {
-    let mut config = config.clone();
-    for Band { range_nm, .. } in sky.bands {
-        if range_nm.start >= VISIBLE_NM.end {
-            config.range_nm.end = VISIBLE_NM.end;
-        } else {
-            config.range_nm.start = VISIBLE_NM.start;
-        }
-    }
-    if sky.panorama.is_none() {
-        let [doppler, flux] = parts(config.shift);
-        config.shift = ColorShift::Spectra(SpectralShift { doppler, flux });
-        // Colours of a panorama are not needed, and this basis is computed at once.
-        config.basis = Basis::Planck([3500.0, 5900.0, 10_000.0]);
-    }
-    config
-}
-
 /// Adds the channels that the options ask for.
-fn push_channels(frame: &mut LinearFrame, warp: &Warp, config: &Config) {
+fn push_channels(frame: &mut LinearFrame, warp: &Warp<'_>, config: &Config) {
     for &channel in &config.picture.channels {
         let n_pixels = frame.pixels().len();
         let planes = channel_planes(channel, n_pixels, &|idx| warp.seen_item(idx));
@@ -144,7 +92,7 @@ pub fn run(
     let sky = opened.into();
     let prepared = Prepared::new(sky, config, progress)?;
     let (bytes, notes) = match prepared.alone(sky) {
-        Some(panorama) if prepared.is_plain_png() => prepared.png(panorama, metadata, progress),
+        Some(layer) if prepared.is_plain_png() => prepared.png(layer, metadata, progress),
         _ => {
             let mut rendering = prepared.render(sky, progress)?;
             progress.step("compression", 0);
@@ -164,29 +112,28 @@ fn render_with(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result
 }
 
 /// All that a picture needs but the light of the sky.
-struct Prepared {
+struct Prepared<'s> {
     /// Options of the picture without its annotations.
     config: Config,
     layout: Layout,
-    warp: Warp,
+    warp: Warp<'s>,
 }
 
-impl Prepared {
-    fn new(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result<Self, Error> {
+impl<'s> Prepared<'s> {
+    fn new(sky: Sky<'s>, config: &Config, progress: &dyn Progress) -> Result<Self, Error> {
         config.check()?;
-        let mut config = options_for(sky, config);
+        let mut config = config.clone();
         let layout = Layout::new(&config.picture)?;
         config.picture = layout.of_scene(&config.picture).into_owned();
         progress.step("preparing", 0);
-        Ok(Self { warp: Warp::new(&config)?, config, layout })
+        Ok(Self { warp: Warp::new(sky, &config)?, config, layout })
     }
 
     /// The panorama, if there is nothing else in the sky and each pixel has its final colour, of 8
     /// bits, as soon as its light is known.
-    fn alone<'s>(&self, sky: Sky<'s>) -> Option<&'s Panorama> {
+    fn alone(&self, sky: Sky<'_>) -> Option<&Layer<'s>> {
         let is_deep = self.config.picture.output.format().is_some_and(|format| format.is_deep());
-        let is_final = sky.bands.is_empty() && sky.stars.is_empty() && !self.warp.is_uncut() && !is_deep;
-        sky.panorama.filter(|_| is_final)
+        self.warp.clipped().filter(|_| sky.stars.is_empty() && !is_deep)
     }
 
     /// True for a PNG file of 8 bits without annotations.
@@ -196,17 +143,16 @@ impl Prepared {
     }
 
     /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
-    fn png(&self, panorama: &Panorama, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
-        let (file, statistics) =
-            self.warp.png(panorama, progress, metadata, self.config.picture.compression());
+    fn png(&self, layer: &Layer<'s>, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
+        let (file, statistics) = self.warp.png(layer, progress, metadata, self.config.picture.compression());
         (file, notes(&self.warp, &self.config, &statistics, None))
     }
 
     fn render(&self, sky: Sky<'_>, progress: &dyn Progress) -> Result<Rendering, Error> {
         let Self { config, layout, warp } = self;
         let (image, statistics, development) = match self.alone(sky) {
-            Some(panorama) => {
-                let (frame, statistics) = warp.frame(panorama, progress);
+            Some(layer) => {
+                let (frame, statistics) = warp.frame(layer, progress);
                 (Image::Display(frame), statistics, None)
             }
             None => {
@@ -226,7 +172,7 @@ impl Prepared {
 
 fn annotate(
     layout: &Layout,
-    warp: &Warp,
+    warp: &Warp<'_>,
     config: &Config,
     development: Option<Development>,
 ) -> Result<Annotations, Error> {
@@ -251,7 +197,7 @@ fn annotate(
 
 /// The notes on a picture.
 fn notes(
-    warp: &Warp,
+    warp: &Warp<'_>,
     config: &Config,
     statistics: &Statistics,
     development: Option<Development>,

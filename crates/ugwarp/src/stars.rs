@@ -5,15 +5,12 @@ use core::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::LinearFrame;
-use uglight::ColorShift;
-use ugphysics::Brightness;
 use ugpicture::lens::{Film, Lens, Window};
-use ugscene::{Scene, View};
 use ugsky::{Observer, Star, StarLight};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::warp::camera;
+use crate::warp::{colors, film};
 
 /// Rows that one task draws.
 const BAND: u32 = 16;
@@ -65,16 +62,12 @@ impl StarField {
     /// # Errors
     /// The camera of the picture is invalid.
     pub fn new(stars: &[Star], config: &Config) -> Result<Self, Error> {
-        let picture = &config.picture;
-        let [across, down] = config.lens.frames(false);
-        let frame = [picture.size[0] / across, picture.size[1] / down];
-        let view = View::new(&Scene::default(), &camera(&picture.camera), frame)?;
         Ok(Self {
-            size: picture.size,
-            film: Film::new(config.lens, None, &view, frame),
+            size: config.picture.size,
+            film: film(config, 1)?.0,
             lens: config.lens,
             observer: Observer::new(config.velocity),
-            light: StarLight::new(stars, parts(config.shift), config.velocity.rapidity()),
+            light: StarLight::new(stars, colors(config).parts(), config.velocity.rapidity()),
             deviation: config.stars.width / DEVIATIONS,
             scale: libm::exp10(0.4 * config.stars.white) * SQUARE_DEGREE,
         })
@@ -157,14 +150,6 @@ impl StarField {
                 }
             });
         }
-    }
-}
-
-/// Whether wavelengths are shifted, and whether brightness changes.
-pub fn parts(shift: ColorShift) -> [bool; 2] {
-    match shift {
-        ColorShift::Spectra(shift) => [shift.doppler, shift.flux],
-        ColorShift::Hues(shift) => [shift.doppler, shift.law != Brightness::None],
     }
 }
 

@@ -5,15 +5,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
+use uglight::ColorShift;
 use ugpicture::lens::{Film, Lens};
-use ugpicture::{Backdrop, Emission, SeenItem};
+use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
 use ugscene::{CameraOptions, Scene, View};
-use ugsky::{FlatFilm, Observer, Panorama, Sampler, Seen, SkyRay};
+use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::shade::Shade;
 
 /// Rows that one task computes.
 const BAND: usize = 32;
@@ -22,15 +22,8 @@ const BAND: usize = 32;
 /// in the cache.
 const TILE: usize = 64;
 
-/// Half the distance of the places whose directions are compared, in samples: less than a half, so
-/// that both are in the same view of a picture of several.
-const HALF_STEP: f64 = 0.49;
-
 /// The light of neighbouring pixels: red, green and blue, and alpha or the covered part.
 type Light = [[f32; Seen::N]; 4];
-
-/// How often the footprint of a sample is divided at most, if it is large on the sky.
-const MOST_DIVISIONS: u32 = 24;
 
 /// The directions of a pinhole camera, which are linear in the place.
 fn flat_film(lens: Lens, film: &Film) -> Option<FlatFilm> {
@@ -42,23 +35,19 @@ fn flat_film(lens: Lens, film: &Film) -> Option<FlatFilm> {
     Some(FlatFilm { corner, across: at([1.0, 0.0])? - corner, down: at([0.0, 1.0])? - corner })
 }
 
-/// The way of light from the sky to a picture: directions, Doppler factors, and how colours change.
-/// It can be used with any number of panoramas.
-pub struct Warp {
+/// The way of light from a sky to a picture: directions, Doppler factors, and how colours change.
+pub struct Warp<'s> {
     size: [u32; 2],
     samples: u32,
     film: Film,
-    lens: Lens,
-    observer: Observer,
-    /// Variance of the reconstruction filter, less that of the places of samples, relative to that
-    /// of a sample.
-    spread: f64,
+    view: SkyView,
     backdrop: Backdrop,
-    shade: Shade,
+    /// The panorama, unless there are only stars.
+    panorama: Option<Layer<'s>>,
+    /// Infrared and ultraviolet light.
+    bands: Vec<Layer<'s>>,
     /// The camera was parallel to its up direction.
     pub(crate) is_up_replaced: bool,
-    /// The directions of a pinhole camera.
-    flat: Option<FlatFilm>,
 }
 
 /// What was found in a picture.
@@ -110,69 +99,122 @@ pub(crate) fn camera(options: &CameraOptions) -> CameraOptions {
     }
 }
 
-impl Warp {
-    /// The map of a picture's options, with its light.
+/// How colours change by the options of a picture.
+pub(crate) fn colors(config: &Config) -> SkyColors {
+    match config.shift {
+        ColorShift::Hues(shift) => SkyColors::Hues { doppler: shift.doppler, law: shift.law },
+        ColorShift::Spectra(shift) => {
+            SkyColors::Spectra { basis: config.basis, doppler: shift.doppler, flux: shift.flux }
+        }
+    }
+}
+
+/// The lens before a film with so many samples for each pixel and direction, and whether the camera
+/// was parallel to its up direction.
+pub(crate) fn film(config: &Config, samples: u32) -> Result<(Film, bool), Error> {
+    let [across, down] = config.lens.frames(false);
+    let [width, height] = config.picture.size;
+    let frame = [width / across * samples, height / down * samples];
+    let view = View::new(&Scene::default(), &camera(&config.picture.camera), frame)?;
+    Ok((Film::new(config.lens, None, &view, frame), view.is_up_replaced))
+}
+
+impl<'s> Warp<'s> {
+    /// The map of a picture's options to a sky, with its light.
     ///
     /// # Errors
     /// See [`Error`].
-    pub fn new(config: &Config) -> Result<Self, Error> {
+    pub fn new(sky: Sky<'s>, config: &Config) -> Result<Self, Error> {
         config.check()?;
         let picture = &config.picture;
-        let [across, down] = config.lens.frames(false);
         let samples = picture.samples;
-        let frame = [picture.size[0] / across * samples, picture.size[1] / down * samples];
-        let view = View::new(&Scene::default(), &camera(&picture.camera), frame)?;
         let n = f64::from(samples * samples);
         let variance = match picture.filter {
             Filter::Box => 1.0 / 12.0,
             Filter::Triangle => 1.0 / 6.0,
             Filter::Spline => 1.0 / 4.0,
         };
-        let film = Film::new(config.lens, None, &view, frame);
+        let (film, is_up_replaced) = film(config, samples)?;
+        let mut layers =
+            sky.layers(colors(config), config.velocity, &config.range_nm, picture.keeps_light())?;
+        let bands = layers.split_off(layers.len() - sky.bands.len());
         Ok(Self {
             size: picture.size,
             samples,
-            lens: config.lens,
-            observer: Observer::new(config.velocity),
-            spread: 12.0 * variance * n - n + 1.0,
+            view: SkyView {
+                observer: Observer::new(config.velocity),
+                // Less the variance of the places of samples.
+                spread: 12.0 * variance * n - n + 1.0,
+                flat: flat_film(config.lens, &film),
+            },
             backdrop: Backdrop::new(picture.background, 1),
-            shade: Shade::new(config)?,
-            is_up_replaced: view.is_up_replaced,
-            flat: flat_film(config.lens, &film),
+            panorama: layers.pop(),
+            bands,
+            is_up_replaced,
             film,
         })
     }
 
-    /// Light brighter than white is kept until it is developed.
-    pub(crate) fn is_uncut(&self) -> bool {
-        self.shade.is_uncut()
+    /// The panorama, if its light is clipped at white, as in 1988, and alone.
+    pub(crate) fn clipped(&self) -> Option<&Layer<'s>> {
+        self.panorama.as_ref().filter(|layer| self.bands.is_empty() && !layer.shade.is_uncut())
     }
 
-    /// The light of a picture of a panorama, on the background.
-    pub fn light(&self, panorama: &Panorama, progress: &dyn Progress) -> (LinearFrame, Statistics) {
-        let (pixels, statistics) = self.draw(panorama, progress, |light, pixels| {
+    /// Light brighter than white is kept until it is developed.
+    pub(crate) fn is_uncut(&self) -> bool {
+        self.panorama.as_ref().is_none_or(|layer| layer.shade.is_uncut())
+    }
+
+    /// The light of a picture of panoramas, on the background.
+    pub fn light(&self, progress: &dyn Progress) -> (LinearFrame, Statistics) {
+        let (mut frame, mut statistics) = match &self.panorama {
+            Some(layer) => self.light_of(layer, &self.backdrop, progress),
+            None => self.darkness(),
+        };
+        for band in &self.bands {
+            progress.step("light outside the visible range", 0);
+            let (light, _) = self.light_of(band, &Backdrop::new(Background::Transparent, 1), &());
+            let sums = frame.pixels_mut().par_iter_mut().zip(light.pixels()).map(|(pixel, light)| {
+                (0..3).for_each(|channel| pixel[channel] += light[channel]);
+                pixel[..3].iter().fold(0.0, |most: f32, part| most.max(*part))
+            });
+            statistics.max_light = sums.reduce(|| statistics.max_light, f32::max);
+        }
+        (frame, statistics)
+    }
+
+    /// The light of a layer, on a background.
+    fn light_of(
+        &self,
+        layer: &Layer<'s>,
+        backdrop: &Backdrop,
+        progress: &dyn Progress,
+    ) -> (LinearFrame, Statistics) {
+        let finish = |light: &Light, pixels: &mut [[f32; 4]]| {
             for (idx, pixel) in pixels.iter_mut().enumerate() {
                 *pixel = light.map(|channel| channel[idx]);
             }
-        });
-        (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
+        };
+        let (pixels, statistics) = Drawing::new(self, layer, backdrop, progress, finish).pixels();
+        (LinearFrame::new(self.size, backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// The same display-encoded with 8 bits per channel; light outside 0…1 is clipped.
-    pub(crate) fn frame(&self, panorama: &Panorama, progress: &dyn Progress) -> (Frame, Statistics) {
-        let (pixels, statistics) = self.draw(panorama, progress, self.encode());
+    /// The light of a layer display-encoded with 8 bits per channel; light outside 0…1 is clipped.
+    pub(crate) fn frame(&self, layer: &Layer<'s>, progress: &dyn Progress) -> (Frame, Statistics) {
+        let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
+        let (pixels, statistics) = drawing.pixels();
         (Frame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
     /// The same as a PNG file, which is written while the picture is drawn.
     pub(crate) fn png(
         &self,
-        panorama: &Panorama,
+        layer: &Layer<'s>,
         progress: &dyn Progress,
         metadata: &Metadata,
         compression: Compression,
     ) -> (Vec<u8>, Statistics) {
-        let drawing = Drawing::new(self, panorama, progress, self.encode());
+        let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
         let draw = |band: usize, pixels: &mut [[u8; 4]]| drawing.band(band, pixels);
         let file = draw_png(self.size, self.backdrop.is_opaque(), BAND, metadata, compression, draw);
         (file, drawing.statistics())
@@ -197,22 +239,8 @@ impl Warp {
         }
     }
 
-    /// The pixels of a picture of a panorama. `finish` converts linear light and alpha to pixels.
-    fn draw<T: Copy + Default + Send>(
-        &self,
-        panorama: &Panorama,
-        progress: &dyn Progress,
-        finish: impl Fn(&Light, &mut [T]) + Sync,
-    ) -> (Vec<T>, Statistics) {
-        let [width, height] = self.size.map(|side| side as usize);
-        let mut pixels = vec![T::default(); width * height];
-        let drawing = Drawing::new(self, panorama, progress, finish);
-        pixels.par_chunks_mut(BAND * width).enumerate().for_each(|(band, pixels)| drawing.band(band, pixels));
-        (pixels, drawing.statistics())
-    }
-
     /// A black sky on the background, which is outside the circle of a fisheye.
-    pub fn darkness(&self) -> (LinearFrame, Statistics) {
+    fn darkness(&self) -> (LinearFrame, Statistics) {
         let (n, width) = (f64::from(self.samples), self.size[0] as usize);
         let covered = |idx: usize| {
             let place = [idx % width, idx / width].map(|at| n * (at as f64 + 0.5));
@@ -226,146 +254,6 @@ impl Warp {
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// The light of `n_pixels` pixels of a row from column `left` on: the mean of their samples,
-    /// times the covered part, and that part. `found`: a buffer for a row of samples.
-    fn row(
-        &self,
-        sampler: &mut Sampler<'_>,
-        found: &mut [Seen],
-        [left, row]: [usize; 2],
-        n_pixels: usize,
-    ) -> [Light; TILE / Seen::N] {
-        let n = self.samples as usize;
-        let mut light = [[[0.0; Seen::N]; 4]; TILE / Seen::N];
-        let found = &mut found[..(n * n_pixels).div_ceil(Seen::N)];
-        let left = (left * n) as f64 + 0.5;
-        for y in row * n..(row + 1) * n {
-            self.see_row(sampler, found, [left, y as f64 + 0.5], n * n_pixels);
-            if n == 1 {
-                light.iter_mut().zip(&*found).for_each(|(light, seen)| *light = seen.light);
-                return light;
-            }
-            for (first, seen) in found.iter().enumerate() {
-                for idx in 0..Seen::N.min(n * n_pixels - first * Seen::N) {
-                    let pixel = (first * Seen::N + idx) / n;
-                    let sums = &mut light[pixel / Seen::N];
-                    for (sums, values) in sums.iter_mut().zip(&seen.light) {
-                        sums[pixel % Seen::N] += values[idx];
-                    }
-                }
-            }
-        }
-        let part = 1.0 / (n * n) as f32;
-        light.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|sum| *sum *= part);
-        light
-    }
-
-    /// Light on the background, from light times the covered part, and that part.
-    fn composite(&self, light: &mut Light) {
-        if light[3] == [1.0; Seen::N] {
-            // Nothing of the background is seen.
-            return;
-        }
-        for idx in 0..Seen::N {
-            let [red, green, blue, covered] = light.map(|channel| channel[idx]);
-            if covered != 1.0 {
-                let pixel = self.backdrop.pixel([red, green, blue], covered);
-                light.iter_mut().zip(pixel).for_each(|(channel, part)| channel[idx] = part);
-            }
-        }
-    }
-
-    /// The light of `n` samples of a row of the film as seen, times the covered part, and that part.
-    fn see_row(&self, sampler: &mut Sampler<'_>, found: &mut [Seen], [left, y]: [f64; 2], n: usize) {
-        match &self.flat {
-            Some(flat) => sampler.flat_row(&self.observer, flat, [left, y], self.spread, found),
-            None => found.fill(Seen::default()),
-        }
-        for (first, seen) in found.iter_mut().enumerate() {
-            let place = |idx: usize| [left + (first * Seen::N + idx) as f64, y];
-            let n = Seen::N.min(n - first * Seen::N);
-            if seen.is_found != [true; Seen::N] {
-                for idx in 0..n {
-                    if !seen.is_found[idx]
-                        && let Some((light, doppler)) = self.sample(sampler, place(idx))
-                    {
-                        seen.set(idx, light, doppler);
-                    }
-                }
-            }
-            self.shade.see(&mut seen.light, &seen.doppler);
-            if seen.is_found != [true; Seen::N] {
-                for idx in 0..n {
-                    if !seen.is_found[idx] {
-                        seen.set(idx, self.divided(sampler, place(idx), 1.0, 0), 1.0);
-                    }
-                }
-            }
-        }
-    }
-
-    /// The light of a sample, and its Doppler factor; `None` where its footprint is too large.
-    fn sample(&self, sampler: &mut Sampler<'_>, place: [f64; 2]) -> Option<([f32; 4], f64)> {
-        let Some(ray) = self.ray(place, 1.0) else { return Some(([0.0; 4], 1.0)) };
-        sampler.light(&ray, self.spread).map(|light| (light, ray.doppler))
-    }
-
-    /// The light of a square of the film, `side` samples wide, as seen.
-    fn square(&self, sampler: &mut Sampler<'_>, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
-        let Some(ray) = self.ray(place, side) else { return [0.0; 4] };
-        match sampler.light(&ray, self.spread) {
-            Some(light) => {
-                let mut seen = light.map(|part| [part; Seen::N]);
-                self.shade.see(&mut seen, &[ray.doppler as f32; Seen::N]);
-                seen.map(|part| part[0])
-            }
-            None if depth < MOST_DIVISIONS => self.divided(sampler, place, side, depth),
-            // The footprint still covers nearly the whole sky. At this depth it weighs at most 4⁻²⁴
-            // of a sample, so it is left out.
-            None => [0.0; 4],
-        }
-    }
-
-    /// The mean of the four quarters of a square, whose footprint is too large.
-    fn divided(&self, sampler: &mut Sampler<'_>, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
-        let mut sum = [0.0_f32; 4];
-        for [right, below] in [[-0.25, -0.25], [0.25, -0.25], [-0.25, 0.25], [0.25, 0.25]] {
-            let quarter = [place[0] + right * side, place[1] + below * side];
-            let light = self.square(sampler, quarter, 0.5 * side, depth + 1);
-            (0..4).for_each(|channel| sum[channel] += 0.25 * light[channel]);
-        }
-        sum
-    }
-
-    /// The ray of a square of the film, `side` samples wide; `None` where the lens shows nothing.
-    #[inline]
-    fn ray(&self, [x, y]: [f64; 2], side: f64) -> Option<SkyRay> {
-        let seen = |place: [f64; 2]| self.film.sight(place).map(|sight| sight.direction);
-        let direction = seen([x, y])?;
-        let step = HALF_STEP * side;
-        if self.lens == Lens::Pinhole {
-            // Directions of depth 1 are linear in the place on the film.
-            let inverse = 1.0 / direction.length();
-            let unit = direction * inverse;
-            let slope = |place: [f64; 2]| {
-                let difference = (seen(place).unwrap_or(direction) - direction) * (inverse / HALF_STEP);
-                difference - unit.dot(difference) * unit
-            };
-            return Some(self.observer.ray(unit, [slope([x + step, y]), slope([x, y + step])]));
-        }
-        let slope = |[right, below]: [f64; 2]| {
-            let ends = [-1.0, 1.0].map(|sign| seen([x + sign * right * step, y + sign * below * step]));
-            let difference = match ends {
-                [Some(before), Some(after)] => (after - before) / (2.0 * HALF_STEP),
-                [Some(before), None] => (direction - before) / HALF_STEP,
-                [None, Some(after)] => (after - direction) / HALF_STEP,
-                [None, None] => DVec3::ZERO,
-            };
-            difference - direction.dot(difference) * direction
-        };
-        Some(self.observer.ray(direction, [slope([1.0, 0.0]), slope([0.0, 1.0])]))
-    }
-
     /// What is seen at the middles of pixels, as channels and legends need it: light that was
     /// emitted far away, in the frame of the sky.
     pub(crate) fn seen_item(&self, idx: usize) -> Option<SeenItem> {
@@ -377,7 +265,7 @@ impl Warp {
             place: direction,
             depth: f64::INFINITY,
             time: f64::NEG_INFINITY,
-            velocity: -self.observer.velocity(),
+            velocity: -self.view.observer.velocity(),
             // The axes of the panorama are those of a single boost to the observer.
             scene_from_axes: DQuat::IDENTITY,
             in_medium: None,
@@ -388,8 +276,9 @@ impl Warp {
 
 /// A picture of a panorama, of which bands are drawn in any order on any threads.
 struct Drawing<'a, F> {
-    warp: &'a Warp,
-    panorama: &'a Panorama,
+    warp: &'a Warp<'a>,
+    layer: &'a Layer<'a>,
+    backdrop: &'a Backdrop,
     progress: &'a dyn Progress,
     /// Converts linear light and alpha to pixels.
     finish: F,
@@ -400,9 +289,27 @@ struct Drawing<'a, F> {
 }
 
 impl<'a, F> Drawing<'a, F> {
-    fn new(warp: &'a Warp, panorama: &'a Panorama, progress: &'a dyn Progress, finish: F) -> Self {
+    fn new(
+        warp: &'a Warp<'_>,
+        layer: &'a Layer<'_>,
+        backdrop: &'a Backdrop,
+        progress: &'a dyn Progress,
+        finish: F,
+    ) -> Self {
         progress.step("warping", warp.size[1].div_ceil(BAND as u32).into());
-        Self { warp, panorama, progress, finish, buffers: Mutex::default(), statistics: Mutex::default() }
+        let (buffers, statistics) = (Mutex::default(), Mutex::default());
+        Self { warp, layer, backdrop, progress, finish, buffers, statistics }
+    }
+
+    /// All pixels.
+    fn pixels<T: Copy + Default + Send>(self) -> (Vec<T>, Statistics)
+    where
+        F: Fn(&Light, &mut [T]) + Sync,
+    {
+        let [width, height] = self.warp.size.map(|side| side as usize);
+        let mut pixels = vec![T::default(); width * height];
+        pixels.par_chunks_mut(BAND * width).enumerate().for_each(|(band, pixels)| self.band(band, pixels));
+        (pixels, self.statistics())
     }
 
     /// Draws [`BAND`] rows of pixels, or the last ones.
@@ -414,18 +321,22 @@ impl<'a, F> Drawing<'a, F> {
         let kept = lock(&self.buffers).pop();
         let (mut sampler, mut found) = kept.unwrap_or_else(|| {
             let n_chunks = (TILE * warp.samples as usize).div_ceil(Seen::N);
-            (self.panorama.sampler(), vec![Seen::default(); n_chunks])
+            (self.layer.panorama.sampler(), vec![Seen::default(); n_chunks])
         });
+        let film = |place: [f64; 2]| warp.film.sight(place).map(|sight| sight.direction);
+        let shade = &self.layer.shade;
+        let mut sky = SkyLight { view: &warp.view, film, shade, sampler: &mut sampler };
         let mut statistics = Found::default();
         for left in (0..width).step_by(TILE) {
             for (idx, row) in pixels.chunks_mut(width).enumerate() {
                 let row = &mut row[left..width.min(left + TILE)];
-                let mut light = warp.row(&mut sampler, &mut found, [left, band * BAND + idx], row.len());
+                let place = [left, band * BAND + idx];
+                let mut light = light_of_row(&mut sky, &mut found, place, row.len(), warp.samples as usize);
                 for (pixels, light) in row.chunks_mut(Seen::N).zip(&mut light) {
                     // There is nothing after the end of the row.
                     light.iter_mut().for_each(|channel| channel[pixels.len()..].fill(0.0));
                     statistics.add(light);
-                    warp.composite(light);
+                    composite(self.backdrop, light);
                     (self.finish)(light, pixels);
                 }
             }
@@ -442,4 +353,52 @@ impl<'a, F> Drawing<'a, F> {
 
 fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The light of `n_pixels` pixels of a row from column `left` on: the mean of their `n` × `n`
+/// samples, times the covered part, and that part. `found`: a buffer for a row of samples.
+fn light_of_row<F: Fn([f64; 2]) -> Option<DVec3>>(
+    sky: &mut SkyLight<'_, '_, F>,
+    found: &mut [Seen],
+    [left, row]: [usize; 2],
+    n_pixels: usize,
+    n: usize,
+) -> [Light; TILE / Seen::N] {
+    let mut light = [[[0.0; Seen::N]; 4]; TILE / Seen::N];
+    let found = &mut found[..(n * n_pixels).div_ceil(Seen::N)];
+    let left = (left * n) as f64 + 0.5;
+    for y in row * n..(row + 1) * n {
+        sky.row(found, [left, y as f64 + 0.5], n * n_pixels);
+        if n == 1 {
+            light.iter_mut().zip(&*found).for_each(|(light, seen)| *light = seen.light);
+            return light;
+        }
+        for (first, seen) in found.iter().enumerate() {
+            for idx in 0..Seen::N.min(n * n_pixels - first * Seen::N) {
+                let pixel = (first * Seen::N + idx) / n;
+                let sums = &mut light[pixel / Seen::N];
+                for (sums, values) in sums.iter_mut().zip(&seen.light) {
+                    sums[pixel % Seen::N] += values[idx];
+                }
+            }
+        }
+    }
+    let part = 1.0 / (n * n) as f32;
+    light.as_flattened_mut().as_flattened_mut().iter_mut().for_each(|sum| *sum *= part);
+    light
+}
+
+/// Light on a background, from light times the covered part, and that part.
+fn composite(backdrop: &Backdrop, light: &mut Light) {
+    if light[3] == [1.0; Seen::N] {
+        // Nothing of the background is seen.
+        return;
+    }
+    for idx in 0..Seen::N {
+        let [red, green, blue, covered] = light.map(|channel| channel[idx]);
+        if covered != 1.0 {
+            let pixel = backdrop.pixel([red, green, blue], covered);
+            light.iter_mut().zip(pixel).for_each(|(channel, part)| channel[idx] = part);
+        }
+    }
 }

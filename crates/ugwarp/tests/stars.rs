@@ -275,7 +275,7 @@ error: 3 fields where 4 columns have names
 4 | 10,20,1.0
   | ^^^^^^^^^
   |
-help: write as many fields in each line; put a field with a comma in double quotes"
+help: write as many fields in each line; put a field with a comma in double quotes, without blanks around them"
     );
     for (text, expected) in [
         ("ra,mag,kelvin\n", "a list of stars without directions"),

@@ -1,23 +1,22 @@
 //! Errors, with the options that correct them.
 
 use ugpipe::Words;
+use ugsky::{Arrangement, BasisError, PanoramaError};
 
 use crate::Error;
-use crate::arrangement::Arrangement;
 
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
-            Self::Read { .. } | Self::Panorama(_) | Self::Side { .. } | Self::Basis(_) => "{}",
             Self::Picture(error) => return error.words(),
-            Self::Shape { arrangement: Arrangement::Equirectangular, .. } => {
+            Self::Panorama(PanoramaError::Shape { arrangement: Arrangement::Equirectangular, .. }) => {
                 "{}: give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it \
                  shows all; a cube map needs -from strip or -from cross"
             }
-            Self::Shape { .. } => {
+            Self::Panorama(PanoramaError::Shape { .. }) => {
                 "{}: a strip is 6 squares across, a cross 4 across and 3 down, or 3 across and 4 down"
             }
-            Self::Sides { n_files } => {
+            Self::Panorama(PanoramaError::Sides { n_files }) => {
                 return format!(
                     "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and \
                      others one"
@@ -34,10 +33,11 @@ impl Words for Error {
             Self::Stars => {
                 "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60"
             }
-            Self::BlackBodyRange => {
+            Self::Basis(BasisError::BlackBodyRange) => {
                 "the colours of --basis blackbody have infrared and ultraviolet light of their own: leave out \
                  --infrared and --ultraviolet, or give --basis smooth"
             }
+            Self::Read { .. } | Self::Panorama(_) | Self::Basis(_) => "{}",
             Self::CubeSize => {
                 "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512"
             }

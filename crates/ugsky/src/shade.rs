@@ -6,12 +6,50 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16};
-use uglight::{ColorShift, HueShift, SpectralShift};
-use ugsky::{Basis, BasisError, Seen, SpectralTable};
+use ugphysics::{Brightness, Velocity};
 
-use crate::config::Config;
-use crate::error::Error;
+use crate::flat::Seen;
 use crate::hues::Hues;
+use crate::spectral::{Basis, BasisError, SpectralTable};
+
+/// How the colours of a sky change with the Doppler factor D.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SkyColors {
+    /// A colour is white and a hue, which stands for a wavelength (Nguyen 1988).  Eq. (P11), (P16)
+    Hues {
+        /// Wavelengths are divided by D.
+        doppler: bool,
+        /// The power of D by which the brightness is multiplied.
+        law: Brightness,
+    },
+    /// A colour is a spectrum.  Eq. (P12)
+    Spectra {
+        /// The spectra of red, green and blue.
+        basis: Basis,
+        /// Wavelengths are divided by D.
+        doppler: bool,
+        /// The radiance at each wavelength is multiplied by D⁵.
+        flux: bool,
+    },
+}
+
+impl SkyColors {
+    /// Whether wavelengths are shifted, and whether the brightness changes.
+    #[must_use]
+    pub fn parts(self) -> [bool; 2] {
+        match self {
+            Self::Hues { doppler, law } => [doppler, law != Brightness::None],
+            Self::Spectra { doppler, flux, .. } => [doppler, flux],
+        }
+    }
+
+    /// The same parts of the effect, on the spectra of `basis`.
+    #[must_use]
+    pub fn on(self, basis: Basis) -> Self {
+        let [doppler, flux] = self.parts();
+        Self::Spectra { basis, doppler, flux }
+    }
+}
 
 /// How light changes with the Doppler factor.
 pub struct Shade {
@@ -24,23 +62,32 @@ pub struct Shade {
 enum Kind {
     /// As at rest.
     Same,
-    /// Hues and values of 1988.
-    Hues(HueShift),
+    /// Hues and values of 1988: whether wavelengths are shifted, and the law of brightness.
+    Hues((bool, Brightness)),
     Spectra(Arc<SpectralTable>),
 }
 
 impl Shade {
-    /// The shade of a picture's options.
+    /// The shade of an observer with a velocity in the frame of the sky. `range_nm`: wavelengths at
+    /// rest at which the sky has light, [`ALL_NM`](crate::ALL_NM) except with spectra. Colours that
+    /// are hues are clipped at white unless `keeps_light`.
     ///
     /// # Errors
-    /// [`Error::Basis`].
-    pub fn new(config: &Config) -> Result<Self, Error> {
-        let kind = match config.shift {
-            ColorShift::Hues(shift) if shift == HueShift::NONE => Kind::Same,
-            ColorShift::Hues(shift) => Kind::Hues(shift),
-            ColorShift::Spectra(shift) => Kind::Spectra(spectral_table(config, shift)?),
+    /// [`BasisError`].
+    pub fn new(
+        colors: SkyColors,
+        velocity: Velocity,
+        range_nm: &Range<f64>,
+        keeps_light: bool,
+    ) -> Result<Self, BasisError> {
+        let kind = match colors {
+            SkyColors::Hues { doppler: false, law: Brightness::None } => Kind::Same,
+            SkyColors::Hues { doppler, law } => Kind::Hues((doppler, law)),
+            SkyColors::Spectra { basis, .. } => {
+                Kind::Spectra(spectral_table(basis, colors.parts(), velocity, range_nm)?)
+            }
         };
-        let is_uncut = config.picture.keeps_light() || matches!(kind, Kind::Spectra(_));
+        let is_uncut = keeps_light || matches!(kind, Kind::Spectra(_));
         Ok(Self { kind, most: if is_uncut { f32::INFINITY } else { 1.0 }, simd: Level::new() })
     }
 
@@ -104,23 +151,28 @@ fn spectra<S: Simd>(
 const REACH_STEP: f64 = 0.25;
 
 /// What a spectral table depends on.
-type TableKey = (Basis, SpectralShift, f64, Range<f64>);
+type TableKey = (Basis, [bool; 2], f64, Range<f64>);
 
 /// Tables that are kept: those of visible, infrared and ultraviolet light.
 const MOST_TABLES: usize = 3;
 
 /// The table of a basis. The last ones are kept for the next picture: they are filled as colours
 /// need them.
-fn spectral_table(config: &Config, shift: SpectralShift) -> Result<Arc<SpectralTable>, BasisError> {
+fn spectral_table(
+    basis: Basis,
+    parts: [bool; 2],
+    velocity: Velocity,
+    range_nm: &Range<f64>,
+) -> Result<Arc<SpectralTable>, BasisError> {
     static LAST: Mutex<VecDeque<(TableKey, Arc<SpectralTable>)>> = Mutex::new(VecDeque::new());
-    let (basis, range) = (config.basis, config.range_nm.clone());
-    let reach = (config.velocity.rapidity() / REACH_STEP).ceil() * REACH_STEP;
-    let key = (basis, shift, reach, range.clone());
+    let reach = (velocity.rapidity() / REACH_STEP).ceil() * REACH_STEP;
+    let key = (basis, parts, reach, range_nm.clone());
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
     if let Some((_, table)) = last.iter().find(|(of, _)| *of == key) {
         return Ok(Arc::clone(table));
     }
-    let table = Arc::new(SpectralTable::new(basis, shift.doppler, shift.flux, reach, range)?);
+    let [doppler, flux] = parts;
+    let table = Arc::new(SpectralTable::new(basis, doppler, flux, reach, range_nm.clone())?);
     last.truncate(MOST_TABLES - 1);
     last.push_front((key, Arc::clone(&table)));
     Ok(table)
@@ -129,7 +181,8 @@ fn spectral_table(config: &Config, shift: SpectralShift) -> Result<Arc<SpectralT
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ugphysics::{Brightness, Hsv, Velocity, hue_to_wavelength, srgb_decode, srgb_encode};
+    use crate::spectral::ALL_NM;
+    use ugphysics::{Hsv, hue_to_wavelength, srgb_decode, srgb_encode};
 
     /// Linear red, green and blue at rest as seen with a Doppler factor.
     fn seen(shade: &Shade, [red, green, blue]: [f32; 3], doppler: f32) -> [f32; 3] {
@@ -138,15 +191,15 @@ mod tests {
         [light[0][3], light[1][3], light[2][3]]
     }
 
-    fn shade(shift: HueShift) -> Shade {
-        let config = Config { shift: ColorShift::Hues(shift), velocity: Velocity::ZERO, ..Config::default() };
-        Shade::new(&config).unwrap()
+    fn shade(law: Brightness) -> Shade {
+        let colors = SkyColors::Hues { doppler: true, law };
+        Shade::new(colors, Velocity::ZERO, &ALL_NM, false).unwrap()
     }
 
     /// At rest nothing changes, hues at the ends of the visible range among them.
     #[test]
     fn colours_at_rest_are_kept() {
-        let shade = shade(HueShift { doppler: true, law: Brightness::Report });
+        let shade = shade(Brightness::Report);
         for rgb in [[0.5, 0.2, 0.1], [0.1, 0.9, 0.9], [0.4, 0.0, 0.4], [0.3, 0.02, 0.6], [0.7, 0.7, 0.7]] {
             let seen = seen(&shade, rgb, 1.0);
             assert!((0..3).all(|i| (seen[i] - rgb[i]).abs() < 1e-5), "{rgb:?} {seen:?}");
@@ -155,7 +208,7 @@ mod tests {
 
     #[test]
     fn hues_are_shifted_as_in_1988() {
-        let shade = shade(HueShift { doppler: true, law: Brightness::Report });
+        let shade = shade(Brightness::Report);
         let green =
             Hsv { hue: 120.0, saturation: 1.0, value: 0.4 }.to_rgb().map(|part| srgb_decode(part) as f32);
         let seen = seen(&shade, green, 1.1);

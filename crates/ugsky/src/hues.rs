@@ -4,10 +4,9 @@ use std::sync::LazyLock;
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};
-use uglight::{HueShift, HueTable};
-use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM};
-use ugsky::Seen;
+use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, hue_to_wavelength, wavelength_to_hue};
 
+use crate::flat::Seen;
 use crate::transfer::{decode, encode};
 
 /// Pixels in one SIMD vector.
@@ -20,12 +19,9 @@ pub struct Hues {
     hue: Table,
 }
 
-static HUES: LazyLock<Hues> = LazyLock::new(|| {
-    let hues = HueTable::get();
-    Hues {
-        nm: Table::new([-60.0, 300.0], |hue| hues.wavelength_nm(hue)),
-        hue: Table::new([VIOLET_END_NM, RED_END_NM], |nm| hues.hue(nm)),
-    }
+static HUES: LazyLock<Hues> = LazyLock::new(|| Hues {
+    nm: Table::new([-60.0, 300.0], hue_to_wavelength),
+    hue: Table::new([VIOLET_END_NM, RED_END_NM], wavelength_to_hue),
 });
 
 impl Hues {
@@ -41,7 +37,7 @@ impl Hues {
     pub fn seen<S: Simd>(
         &self,
         simd: S,
-        shift: HueShift,
+        (is_shifted, law): (bool, Brightness),
         most: f32,
         [red, green, blue]: [f32x16<S>; 3],
         doppler: f32x16<S>,
@@ -49,21 +45,21 @@ impl Hues {
         let number = |x: f32| f32x16::splat(simd, x);
         let (zero, one) = (number(0.0), number(1.0));
         let (red, green, blue) = (encode(simd, red), encode(simd, green), encode(simd, blue));
-        let factor = match shift.law {
+        let factor = match law {
             Brightness::Report => doppler,
             Brightness::Photon => doppler * doppler * doppler,
             Brightness::Bolometric => doppler * doppler * (doppler * doppler),
             Brightness::None => one,
         };
         // The factor of display-encoded values.
-        let (gain, of_light) = if shift.law.acts_on_light() { (one, Some(factor)) } else { (factor, None) };
+        let (gain, of_light) = if law.acts_on_light() { (one, Some(factor)) } else { (factor, None) };
 
         // A colour is a sum of white and of a pure hue.
         let value = red.max(green).max(blue);
         let white = red.min(green).min(blue);
         let pure = value - white;
         let keeps_wavelength = pure.simd_le(zero) | doppler.simd_eq(one);
-        if !shift.doppler || keeps_wavelength.all_true() {
+        if !is_shifted || keeps_wavelength.all_true() {
             let (red, green, blue) = (red * gain, green * gain, blue * gain);
             return decoded(simd, most, of_light, [red, green, blue]);
         }
@@ -189,7 +185,7 @@ mod tests {
 
     #[test]
     fn tables_are_those_of_hues() {
-        let (hues, exact) = (Hues::get(), HueTable::get());
+        let hues = Hues::get();
         let at = |table: &Table, x: f64| {
             let found: [f32; N] =
                 dispatch!(Level::new(), simd => table.at(simd, f32x16::splat(simd, x as f32)).into());
@@ -198,8 +194,8 @@ mod tests {
         for step in 0..=10_000 {
             let part = f64::from(step) / 1e4;
             let (hue, nm) = (-60.0 + 360.0 * part, 370.0 + 420.0 * part);
-            assert!((at(&hues.nm, hue) - exact.wavelength_nm(hue)).abs() < 1e-3, "{hue} degrees");
-            assert!((at(&hues.hue, nm) - exact.hue(nm)).abs() < 1e-3, "{nm} nm");
+            assert!((at(&hues.nm, hue) - hue_to_wavelength(hue)).abs() < 1e-3, "{hue} degrees");
+            assert!((at(&hues.hue, nm) - wavelength_to_hue(nm)).abs() < 1e-3, "{nm} nm");
         }
     }
 }

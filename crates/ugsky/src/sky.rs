@@ -1,0 +1,84 @@
+//! Skies: panoramas, stars, or both.
+
+use std::ops::Range;
+
+use ugphysics::Velocity;
+
+use crate::panorama::Panorama;
+use crate::shade::{Shade, SkyColors};
+use crate::spectral::{Basis, BasisError};
+use crate::stars::Star;
+
+/// Wavelengths that are seen at rest, nm: those of the CIE 1931 observer.
+pub const VISIBLE_NM: Range<f64> = 360.0..830.0;
+
+/// A panorama of light outside of the visible range.
+pub struct Band {
+    /// Wavelengths at rest, nm.
+    pub range_nm: Range<f64>,
+    /// The light, of which only the luminance is used.
+    pub panorama: Panorama,
+}
+
+/// A sky. Without a panorama it is black between the stars.
+#[derive(Clone, Copy, Default)]
+pub struct Sky<'s> {
+    /// Light by direction.
+    pub panorama: Option<&'s Panorama>,
+    /// Infrared and ultraviolet light.
+    pub bands: &'s [Band],
+    /// Points of light in front of it.
+    pub stars: &'s [Star],
+}
+
+impl<'s> From<&'s Panorama> for Sky<'s> {
+    fn from(panorama: &'s Panorama) -> Self {
+        Self { panorama: Some(panorama), ..Self::default() }
+    }
+}
+
+impl<'s> From<&'s [Star]> for Sky<'s> {
+    fn from(stars: &'s [Star]) -> Self {
+        Self { stars, ..Self::default() }
+    }
+}
+
+/// A panorama of a sky, and how an observer sees its light.
+pub struct Layer<'s> {
+    /// The light at rest.
+    pub panorama: &'s Panorama,
+    /// How it changes with the Doppler factor.
+    pub shade: Shade,
+}
+
+impl<'s> Sky<'s> {
+    /// The panorama, then infrared and ultraviolet light, as an observer with a velocity in the
+    /// frame of the sky sees them. Their light adds up. `range_nm`: wavelengths at rest at which the
+    /// panorama has light, without those of bands; `keeps_light`: see [`Shade::new`].
+    ///
+    /// # Errors
+    /// [`BasisError`].
+    pub fn layers(
+        self,
+        colors: SkyColors,
+        velocity: Velocity,
+        range_nm: &Range<f64>,
+        keeps_light: bool,
+    ) -> Result<Vec<Layer<'s>>, BasisError> {
+        let mut range_nm = range_nm.clone();
+        for band in self.bands {
+            if band.range_nm.start >= VISIBLE_NM.end {
+                range_nm.end = VISIBLE_NM.end;
+            } else {
+                range_nm.start = VISIBLE_NM.start;
+            }
+        }
+        let visible = self.panorama.map(|panorama| (panorama, colors, &range_nm));
+        let grey = colors.on(Basis::Grey);
+        let bands = self.bands.iter().map(|band| (&band.panorama, grey, &band.range_nm));
+        let layer = |(panorama, colors, range_nm)| {
+            Ok(Layer { panorama, shade: Shade::new(colors, velocity, range_nm, keeps_light)? })
+        };
+        visible.into_iter().chain(bands).map(layer).collect()
+    }
+}

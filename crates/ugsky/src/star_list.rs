@@ -1,0 +1,348 @@
+//! Lists of stars as text: CSV with a line of column names.
+
+use std::ops::Range;
+
+use csv::{ByteRecord, Reader, ReaderBuilder};
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::stars::Star;
+
+/// Most stars of a list.
+pub const MAX_STARS: usize = 10_000_000;
+
+/// Most mistakes that are reported.
+const MOST_MISTAKES: usize = 20;
+
+/// Most bytes of a field that are quoted.
+const MOST_QUOTED: usize = 40;
+
+/// A column of a list of stars.
+#[derive(Debug, PartialEq)]
+pub struct StarColumn {
+    /// Its names, of which the first is documented.
+    names: &'static [&'static str],
+    /// Least and greatest value, and their description.
+    range: ([f64; 2], &'static str),
+}
+
+/// Indices in [`COLUMNS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Column {
+    Ra,
+    RaHours,
+    Dec,
+    Longitude,
+    Latitude,
+    X,
+    Y,
+    Z,
+    Magnitude,
+    Kelvin,
+    ColorIndex,
+}
+
+const LONGITUDES: ([f64; 2], &str) = ([-360.0, 360.0], "degrees from -360 to 360");
+const LATITUDES: ([f64; 2], &str) = ([-90.0, 90.0], "degrees from -90 to 90");
+const COORDINATES: ([f64; 2], &str) = ([-1e100, 1e100], "a coordinate of a direction");
+
+static COLUMNS: [StarColumn; 11] = [
+    StarColumn { names: &["ra", "ra_deg", "right ascension"], range: LONGITUDES },
+    StarColumn { names: &["ra_hours"], range: ([-24.0, 24.0], "hours from -24 to 24") },
+    StarColumn { names: &["dec", "dec_deg", "declination"], range: LATITUDES },
+    StarColumn { names: &["lon", "longitude"], range: LONGITUDES },
+    StarColumn { names: &["lat", "latitude"], range: LATITUDES },
+    StarColumn { names: &["x"], range: COORDINATES },
+    StarColumn { names: &["y"], range: COORDINATES },
+    StarColumn { names: &["z"], range: COORDINATES },
+    StarColumn { names: &["mag", "magnitude", "vmag"], range: ([-60.0, 60.0], "a magnitude from -60 to 60") },
+    StarColumn {
+        names: &["kelvin", "temperature", "teff"],
+        range: ([100.0, 1e6], "kelvins from 100 to 1000000"),
+    },
+    StarColumn { names: &["b-v", "bv"], range: ([-0.4, 8.0], "a colour index from -0.4 to 8") },
+];
+
+impl StarColumn {
+    /// Its documented name.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        self.names[0]
+    }
+
+    fn is_named(&self, name: &[u8]) -> bool {
+        self.names.iter().any(|other| name.eq_ignore_ascii_case(other.as_bytes()))
+    }
+}
+
+/// A mistake in a list of stars.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StarListError {
+    /// Bytes of the file that are wrong.
+    pub place: Range<usize>,
+    /// What is wrong.
+    pub mistake: StarListMistake,
+}
+
+/// What is wrong in a list of stars.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum StarListMistake {
+    /// There is no line but comments.
+    #[error("a list of stars without a line of column names")]
+    NoNames,
+    /// Two columns have the same meaning.
+    #[error("the column `{}` is there twice", .0.name())]
+    Twice(&'static StarColumn),
+    /// Columns are missing: directions, magnitudes or temperatures.
+    #[error("a list of stars without {0}")]
+    Missing(&'static str),
+    /// A line has more or fewer fields than there are columns.
+    #[error("{n_fields} fields where {n_columns} columns have names")]
+    Fields {
+        /// Fields of the line.
+        n_fields: usize,
+        /// Columns of the list.
+        n_columns: usize,
+    },
+    /// A field that is needed is empty.
+    #[error("the field `{}` is empty", .0.name())]
+    Empty(&'static StarColumn),
+    /// A field is no number; its first characters.
+    #[error("`{1}` is not a number")]
+    NotANumber(&'static StarColumn, String),
+    /// A number is out of range; its first characters.
+    #[error("`{1}` is out of range")]
+    OutOfRange(&'static StarColumn, String),
+    /// x, y and z are 0.
+    #[error("a star without a direction")]
+    NoDirection,
+    /// There are more than [`MAX_STARS`].
+    #[error("more than {MAX_STARS} stars")]
+    TooMany,
+}
+
+impl StarListMistake {
+    /// How to correct it.
+    #[must_use]
+    pub fn remedy(&self) -> String {
+        match self {
+            Self::NoNames | Self::Missing(_) => "begin with the names of columns: `ra,dec,mag,kelvin`, or `lon,lat` \
+                                                 or `x,y,z` in place of `ra,dec`, or `b-v` in place of `kelvin`",
+            Self::Twice(_) => "rename or remove one",
+            Self::Fields { .. } => {
+                "write as many fields in each line; put a field with a comma in double quotes, without blanks around \
+                 them"
+            }
+            Self::Empty(column) | Self::NotANumber(column, _) | Self::OutOfRange(column, _) => {
+                return format!("`{}` takes {}", column.name(), column.range.1);
+            }
+            Self::NoDirection => "one of `x`, `y` and `z` must not be 0",
+            Self::TooMany => "keep the brightest",
+        }
+        .to_owned()
+    }
+}
+
+/// True if bytes look like a list of stars rather than a picture: text whose first line, comments
+/// apart, has names of columns.
+#[must_use]
+pub fn is_star_list(file: &[u8]) -> bool {
+    let head = &file[..file.len().min(4096)];
+    let mut record = ByteRecord::new();
+    let is_text = |byte: &u8| *byte >= b' ' || byte.is_ascii_whitespace();
+    next(&mut reader(head), &mut record)
+        && record.as_slice().iter().all(is_text)
+        && record
+            .iter()
+            .filter(|name| COLUMNS.iter().any(|column| column.is_named(name.trim_ascii())))
+            .count()
+            >= 2
+}
+
+/// Reads a list of stars.
+///
+/// The first line has the names of columns, separated by commas; other columns than the known ones
+/// are allowed and ignored. Lines that are empty or begin with `#` are skipped.
+///
+/// # Errors
+/// The mistakes of up to 20 lines.
+pub fn read_stars(file: &[u8]) -> Result<Vec<Star>, Vec<StarListError>> {
+    let (mut reader, mut record) = (reader(file), ByteRecord::new());
+    if !next(&mut reader, &mut record) {
+        return Err(vec![StarListError { place: 0..0, mistake: StarListMistake::NoNames }]);
+    }
+    let layout = Layout::new(&record).map_err(|wrong| vec![wrong.at(file, &record)])?;
+    let (mut stars, mut errors) = (Vec::new(), Vec::new());
+    while errors.len() < MOST_MISTAKES && next(&mut reader, &mut record) {
+        match layout.star(&record) {
+            Ok(_) if stars.len() == MAX_STARS => {
+                errors.push(Wrong(None, StarListMistake::TooMany).at(file, &record));
+                break;
+            }
+            Ok(star) => stars.push(star),
+            Err(wrong) => errors.push(wrong.at(file, &record)),
+        }
+    }
+    if errors.is_empty() { Ok(stars) } else { Err(errors) }
+}
+
+fn reader(file: &[u8]) -> Reader<&[u8]> {
+    ReaderBuilder::new().has_headers(false).flexible(true).comment(Some(b'#')).from_reader(file)
+}
+
+/// Reads the next line that is neither blank nor a comment; false at the end.
+fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> bool {
+    // Bytes in memory are read without errors.
+    while matches!(reader.read_byte_record(record), Ok(true)) {
+        let first = record.get(0).unwrap_or_default().trim_ascii_start();
+        if !(first.starts_with(b"#") || first.is_empty() && record.len() == 1) {
+            return true;
+        }
+    }
+    false
+}
+
+/// A mistake in a field of a record, or in all of it.
+struct Wrong(Option<usize>, StarListMistake);
+
+impl Wrong {
+    /// The mistake with its place in the file, which is searched again: a record has its fields
+    /// without quotes, and begins before the comments above it.
+    fn at(self, file: &[u8], record: &ByteRecord) -> StarListError {
+        let Self(field, mistake) = self;
+        let before = record.position().map_or(0, |position| position.byte() as usize);
+        let mut rest = file[before.min(file.len())..].trim_ascii_start();
+        while rest.starts_with(b"#") {
+            rest = rest[line_end(rest)..].trim_ascii_start();
+        }
+        for _ in 0..field.unwrap_or(0) {
+            rest = &rest[(field_end(rest) + 1).min(rest.len())..];
+        }
+        let end = if field.is_some() { field_end(rest) } else { line_end(rest) };
+        let start = file.len() - rest[..end].trim_ascii_start().len() - rest[end..].len();
+        StarListError { place: start..start + rest[..end].trim_ascii().len(), mistake }
+    }
+}
+
+fn line_end(text: &[u8]) -> usize {
+    text.iter().position(|byte| *byte == b'\n').unwrap_or(text.len())
+}
+
+fn field_end(text: &[u8]) -> usize {
+    let mut is_quoted = false;
+    let is_end = |byte: &u8| {
+        is_quoted ^= *byte == b'"';
+        !is_quoted && matches!(byte, b',' | b'\r' | b'\n')
+    };
+    text.iter().position(is_end).unwrap_or(text.len())
+}
+
+/// How the columns of a list give the direction and the temperature of a star: indices of columns.
+struct Layout {
+    direction: Direction,
+    magnitude: usize,
+    color: (Column, usize),
+    n_columns: usize,
+}
+
+enum Direction {
+    /// Longitude or right ascension, and latitude or declination.
+    Angles([(Column, usize); 2]),
+    Vector([usize; 3]),
+}
+
+impl Layout {
+    fn new(record: &ByteRecord) -> Result<Self, Wrong> {
+        let mut indices = [None; COLUMNS.len()];
+        for (idx, name) in record.iter().enumerate() {
+            let Some(column) = COLUMNS.iter().position(|column| column.is_named(name.trim_ascii())) else {
+                continue;
+            };
+            if indices[column].replace(idx).is_some() {
+                return Err(Wrong(Some(idx), StarListMistake::Twice(&COLUMNS[column])));
+            }
+        }
+        let at = |column: Column| indices[column as usize];
+        let missing = |what: &'static str| Wrong(None, StarListMistake::Missing(what));
+        let both = |one: Column, other: Column| Some([(one, at(one)?), (other, at(other)?)]);
+        let vector = || Some([at(Column::X)?, at(Column::Y)?, at(Column::Z)?]);
+        let direction = both(Column::Ra, Column::Dec)
+            .or_else(|| both(Column::RaHours, Column::Dec))
+            .or_else(|| both(Column::Longitude, Column::Latitude))
+            .map(Direction::Angles)
+            .or_else(|| vector().map(Direction::Vector))
+            .ok_or_else(|| missing("directions"))?;
+        let color = |column: Column| Some((column, at(column)?));
+        Ok(Self {
+            direction,
+            magnitude: at(Column::Magnitude).ok_or_else(|| missing("magnitudes"))?,
+            color: color(Column::Kelvin)
+                .or_else(|| color(Column::ColorIndex))
+                .ok_or_else(|| missing("temperatures"))?,
+            n_columns: record.len(),
+        })
+    }
+
+    fn star(&self, record: &ByteRecord) -> Result<Star, Wrong> {
+        if record.len() != self.n_columns {
+            let mistake = StarListMistake::Fields { n_fields: record.len(), n_columns: self.n_columns };
+            return Err(Wrong(None, mistake));
+        }
+        let number = |column: Column, idx: usize| {
+            number(&COLUMNS[column as usize], &record[idx]).map_err(|mistake| Wrong(Some(idx), mistake))
+        };
+        let direction = match self.direction {
+            Direction::Angles([(column, idx), (other, other_idx)]) => {
+                sphere(column, number(column, idx)?, number(other, other_idx)?)
+            }
+            Direction::Vector([x, y, z]) => {
+                let vector = DVec3::new(number(Column::X, x)?, number(Column::Y, y)?, number(Column::Z, z)?);
+                let largest = vector.abs().max_element();
+                if largest == 0.0 {
+                    return Err(Wrong(None, StarListMistake::NoDirection));
+                }
+                (vector / largest).normalize()
+            }
+        };
+        let (column, idx) = self.color;
+        let color = number(column, idx)?;
+        Ok(Star {
+            direction,
+            magnitude: number(Column::Magnitude, self.magnitude)?,
+            kelvin: if column == Column::ColorIndex { ballesteros(color) } else { color },
+        })
+    }
+}
+
+fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMistake> {
+    let field = field.trim_ascii();
+    let quoted = || {
+        let rest = if field.len() > MOST_QUOTED { "…" } else { "" };
+        format!("{}{rest}", String::from_utf8_lossy(&field[..field.len().min(MOST_QUOTED)]))
+    };
+    let ([least, most], _) = column.range;
+    match fast_float2::parse::<f64, _>(field) {
+        _ if field.is_empty() => Err(StarListMistake::Empty(column)),
+        Err(_) => Err(StarListMistake::NotANumber(column, quoted())),
+        Ok(number) if !(least..=most).contains(&number) => Err(StarListMistake::OutOfRange(column, quoted())),
+        Ok(number) => Ok(number),
+    }
+}
+
+/// A direction in the axes of panoramas: y ahead, x to the right and z up. Longitude increases to
+/// the right; right ascension, as seen from inside with the north up, to the left.
+fn sphere(column: Column, longitude: f64, latitude: f64) -> DVec3 {
+    let right = match column {
+        Column::Ra => -longitude,
+        Column::RaHours => -15.0 * longitude,
+        _ => longitude,
+    };
+    let (sin, cos) = libm::sincos(right.to_radians());
+    let (up, level) = libm::sincos(latitude.to_radians());
+    DVec3::new(level * sin, level * cos, up)
+}
+
+/// The temperature of a colour index B − V, kelvins (Ballesteros 2012, eq. 14).
+fn ballesteros(index: f64) -> f64 {
+    4600.0 * (1.0 / (0.92 * index + 1.7) + 1.0 / (0.92 * index + 0.62))
+}
