@@ -189,7 +189,7 @@ fn stages(
     end();
     let rendering = ugrainbow::render(&colored, &drawing.map_err(text)?)?;
     end();
-    let bytes = rendering.into_file(&ugrainbow::metadata(&colored.remarks, ugrainbow::PROVENANCE));
+    let bytes = rendering.into_file();
     end();
     std::fs::write(file, bytes)?;
     end();

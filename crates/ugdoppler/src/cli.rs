@@ -2,12 +2,12 @@
 
 use std::process::ExitCode;
 
-use clap::{ArgAction, Parser, ValueEnum};
+use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::{Brightness, Velocity};
 use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers};
-use ugscene::cli::{EyeArgs, RepeatArgs};
+use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, Note, PROVENANCE, apply_with};
@@ -35,20 +35,8 @@ pub struct Args {
     #[arg(long, visible_alias = "wavelengths")]
     gw: bool,
 
-    /// Brightness law: how brightness changes with D [default: report]
-    ///
-    /// The laws photon and bolometric multiply linear light, and so does everything downstream that
-    /// lights the scene. The laws report and none are those of 1988, which light display-encoded
-    /// values.
-    #[arg(long, visible_alias = "brightness", value_name = "LAW", value_enum)]
-    br: Option<Law>,
-
-    /// Shift spectra instead of hues, and write X, Y, Z
-    ///
-    /// Black bodies and sampled spectra are shifted as they are, other colours as surfaces in
-    /// daylight. The brightness law is D^5 per wavelength, and nothing is clipped.
-    #[arg(long, visible_alias = "spectral")]
-    sp: bool,
+    #[command(flatten)]
+    shift: ShiftArgs,
 
     #[command(flatten)]
     repeat: RepeatArgs,
@@ -78,14 +66,6 @@ pub struct Args {
     #[arg(long, visible_alias = "keep-intensities")]
     hd: bool,
 
-    /// Leave wavelengths as they are
-    #[arg(long)]
-    no_doppler: bool,
-
-    /// Leave brightness as it is; with -sp omit the factor D^5
-    #[arg(long)]
-    no_flux: bool,
-
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -98,19 +78,6 @@ const EXAMPLES: &str = "Examples:
   uglorentz lamp.ug | ugdoppler -li | ugrainbow > lamp.png
   uglorentz -vel 0 -.6 0 tunnel.ug | ugdoppler -sp -ir | ugrainbow -va 90 > tunnel.png
   uglorentz -vel .9 0 0 -in ship.ug | ugdoppler --no-doppler --no-flux | ugrainbow > shape.png";
-
-/// Brightness laws, (P12).
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Law {
-    /// D: the rate at which photons arrive, the photon-flux law of the 1988 report
-    Report,
-    /// D^3: photon radiance, photons per area, time and solid angle
-    Photon,
-    /// D^4: bolometric radiance, power per area and solid angle at all wavelengths together
-    Bolometric,
-    /// 1: no change
-    None,
-}
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
@@ -137,32 +104,22 @@ impl Args {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
             eye: self.eye.eye(),
             wavelengths: self.gw,
-            law: match self.br.unwrap_or(Law::Report) {
-                Law::Report => Brightness::Report,
-                Law::Photon => Brightness::Photon,
-                Law::Bolometric => Brightness::Bolometric,
-                Law::None => Brightness::None,
-            },
+            law: self.shift.br.unwrap_or(Brightness::Report),
             repeat: self.repeat.repeats(),
             tolerance: self.ct,
             iris: self.ir,
             light: self.li,
             keep: self.hd,
-            spectral: self.sp,
-            doppler: !self.no_doppler,
-            flux: !self.no_flux,
+            spectral: self.shift.sp,
+            doppler: !self.shift.no_doppler,
+            flux: !self.shift.no_flux,
         })
     }
 
     fn refuse_contradictions(&self) -> Result<(), Failure> {
-        if self.sp && self.gw {
+        if self.shift.sp && self.gw {
             return Err(Failure::usage(
                 "-sp writes X, Y, Z and -gw writes wavelengths of hues: give one of them",
-            ));
-        }
-        if self.sp && self.br.is_some() {
-            return Err(Failure::usage(
-                "-sp has one brightness law, D^5 per wavelength: leave out -br, or the D^5 by --no-flux",
             ));
         }
         if self.ir && self.hd {
@@ -194,7 +151,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     drop(steps);
     scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
-        context.report(&parsed.warnings.render(true));
+        context.report(&parsed.warnings.report());
     }
     report.notes.iter().for_each(|note| context.note(&note.words()));
     context.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
@@ -235,7 +192,7 @@ impl Words for Error {
             }
             Self::Camera(error) => error.words(),
             Self::TooManyLights { .. } => format!("-li computes {self}"),
-            Self::VertexAtEye { .. } => self.to_string(),
+            Self::VertexAtEye { .. } | Self::Stopped(_) => self.to_string(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Why a scene has no colours as seen.
 
 use thiserror::Error;
+use ugpipe::Stopped;
 use ugscene::{CameraError, StageError, VertexId};
 
 /// Why a scene has no colours as seen.
@@ -33,4 +34,7 @@ pub enum Error {
         /// Its name.
         name: String,
     },
+    /// The caller stopped the computation.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }

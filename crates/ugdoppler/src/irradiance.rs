@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{Irradiance, Lamp, SurfaceElement, lamps};
+use ugpipe::Progress;
 use ugscene::{
     Face, Light, LightKind, LightMotion, RestFrames, Scene, VertexId, seen_normal, shading_normal,
 };
@@ -68,18 +69,21 @@ fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3]) -> Option<DVec3> {
 impl VertexIrradiance {
     /// What the lamps of a scene cause at its vertices.
     ///
-    /// `rest`: position of each vertex, relative to the eye, (P4). `normals`: of [`split`].
+    /// `rest`: position of each vertex, relative to the eye, (P4). `normals`: of [`split`]. Vertices
+    /// stay unlit if the caller stops it.
     pub fn new(
         scene: &Scene,
         eye: DVec3,
         frames: &RestFrames,
         rest: &[DVec3],
         normals: &[Option<DVec3>],
+        progress: &dyn Progress,
     ) -> Self {
         let lamps = lamps(scene, eye);
         let bodies = ugscene::vertex_bodies(scene);
         let of_vertex = (rest.par_iter().zip(normals).zip(&bodies))
             .map(|((&point, normal), &body)| {
+                progress.check().ok()?;
                 let surface = SurfaceElement { point, delay: 0.0, normal: (*normal)?, body };
                 Some(surface.irradiances(&lamps, frames))
             })

@@ -101,7 +101,7 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
         let name = scene.names.get(scene.vertices[vertex.index()].name).to_string();
         return Err(Error::VertexAtEye { vertex, name });
     }
-    let (mut scene, mut notes) = color(scene, config, eye, &frames)?;
+    let (mut scene, mut notes) = color(scene, config, eye, &frames, progress)?;
     if let Some(camera) = default_camera {
         let (eye, center) = (Some(camera.eye), Some(camera.center));
         scene.cameras.push(Camera { eye, center, ..Camera::default() });
@@ -145,6 +145,7 @@ fn color(
     config: &Config,
     eye: DVec3,
     frames: &RestFrames,
+    progress: &dyn Progress,
 ) -> Result<(Scene, Vec<Note>), Error> {
     let stage = stage::with_seen_colors(&scene, config, eye);
     ugscene::separate_bodies(&mut scene);
@@ -156,13 +157,13 @@ fn color(
     let mut notes = if config.spectral {
         let shares = ugscene::vertex_shares(&scene, &rest).into_iter();
         let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
-        let light = light_vertices(&mut scene, config, eye, frames, rest, &mut shares)?;
+        let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut shares, progress)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
         let lit = light.map(|light| lit_spectra(&scene, config, &shares, &factors, &light));
         xyz_statements::write(&mut scene, config, &shares, &factors, &used, lit.as_deref())
     } else {
         let mut colors = uglight::vertex_colors(&scene, &rest);
-        let light = light_vertices(&mut scene, config, eye, frames, rest, &mut colors)?;
+        let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut colors, progress)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
         let lit = light.map(|light| lit_hues(&scene, config, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
@@ -192,10 +193,10 @@ fn color(
 fn light_vertices<T: Clone>(
     scene: &mut Scene,
     config: &Config,
-    eye: DVec3,
-    frames: &RestFrames,
+    (eye, frames): (DVec3, &RestFrames),
     mut rest: Vec<DVec3>,
     of_vertex: &mut Vec<T>,
+    progress: &dyn Progress,
 ) -> Result<Option<VertexIrradiance>, Error> {
     if !config.light || scene.lights.is_empty() {
         return Ok(None);
@@ -209,7 +210,9 @@ fn light_vertices<T: Clone>(
     if n_lights.saturating_mul(n_vertices) > MAX_LIT {
         return Err(Error::TooManyLights { n_lights, n_vertices });
     }
-    Ok(Some(VertexIrradiance::new(scene, eye, frames, &rest, &normals)))
+    let light = VertexIrradiance::new(scene, eye, frames, &rest, &normals, progress);
+    progress.check()?;
+    Ok(Some(light))
 }
 
 /// The colour as seen of every vertex with light on it; `None` where it is not lit.

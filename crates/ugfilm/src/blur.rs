@@ -1,9 +1,8 @@
 //! Motion blur: the mean light of a frame while a shutter is open.
 
 use ugimage::{LinearFrame, Metadata};
-use ugpicture::{Annotated, Content, Image, Layout, Output, PictureOptions, Rendering};
+use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Output, Rendering};
 use ugpipe::sha256;
-use ugscene::Scene;
 
 use crate::error::Error;
 use crate::note::Note;
@@ -57,29 +56,31 @@ impl Shot {
         if self.moments.is_empty() {
             return self.frame.draw(subject);
         }
-        Ok((mean(&self.frame.picture, self.moments, subject)?, Vec::new()))
+        Ok((self.mean(subject)?, Vec::new()))
     }
-}
 
-/// Draws the mean light of several moments, developed and annotated as `whole` says.
-fn mean(whole: &PictureOptions, moments: Vec<Pipe>, subject: Subject<'_>) -> Result<Rendering, Error> {
-    let has_more = whole.annotations.legend || whole.annotations.outline || whole.annotations.grid;
-    if has_more || !whole.channels.is_empty() || matches!(whole.output, Output::Vector(_)) {
-        return Err(Error::Mean);
+    /// Draws the mean light of all moments, developed and annotated as the frame.
+    fn mean(self, subject: Subject<'_>) -> Result<Rendering, Error> {
+        let whole = &self.frame.picture;
+        let has_more = whole.annotations.legend || whole.annotations.outline || whole.annotations.grid;
+        if has_more || !whole.channels.is_empty() || matches!(whole.output, Output::Vector(_)) {
+            return Err(Error::Mean);
+        }
+        let metadata = self.metadata(subject);
+        let canvas = Canvas::new(whole)?;
+        let mut sum = Sum::default();
+        for mut moment in self.moments {
+            moment.picture.size = canvas.options().size;
+            sum.add(&moment.light(subject)?);
+        }
+        let drawn = Drawn::<Error> {
+            content: DrawnContent::Light { frame: sum.mean(), is_clipped: false },
+            brightest: 0.0,
+            notes: Vec::new(),
+            annotated: Annotated { is_shifted: false, subject: ugpicture::Subject::Pixels },
+        };
+        canvas.finish(drawn, metadata, &())
     }
-    let layout = Layout::new(whole)?;
-    let picture = layout.of_scene(whole);
-    let mut sum = Sum::default();
-    for mut moment in moments {
-        moment.picture.size = picture.size;
-        sum.add(&moment.light(subject)?);
-    }
-    let (image, development) = Image::developed(sum.mean(), &picture, false);
-    // A caption is independent of the scene.
-    let scene = Scene::default();
-    let annotated = Annotated { scene: &scene, camera: &picture.camera, is_shifted: false, seen: None };
-    let annotations = layout.annotate(annotated, &picture, development, |_, _, _| Err(Error::Mean))?;
-    Ok(Rendering::new(Content::Image(annotations.composite(image)), &picture, Vec::new()))
 }
 
 /// What the file says about its making. No single pipe draws it, so it has none of the lines that

@@ -190,7 +190,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             let chosen = args.sheet.filter(|_| args.only.is_none());
             let frames = chosen.map_or(frames, |most| film.spread(most));
             let (sheet, pictures) = film.sheet(&frames, &context.steps())?;
-            let history = ugsheet::history(&pictures, context.command_line());
+            let history = ugsheet::history(&pictures, Some(context.command_line()));
             return context.write(&Format::Png.encode(&sheet, &history));
         }
     };
@@ -237,7 +237,7 @@ impl Read {
         let camera = script.fixed("cam");
         let parsed = ugparse::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
         if !parsed.warnings.is_empty() {
-            context.report(&parsed.warnings.render(true));
+            context.report(&parsed.warnings.report());
         }
         if let Some(camera) = default_camera(&parsed.scene, script)? {
             context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));

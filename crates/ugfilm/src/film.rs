@@ -6,7 +6,7 @@ use std::time::SystemTime;
 use ugimage::{Format, Frame, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
 use ugpicture::Rendering;
 use ugpipe::{Context, Failure, Progress, Steps, Words};
-use ugsheet::Picture;
+use ugsheet::{Motion, Picture};
 
 use crate::animation::{Palette, Shape};
 use crate::blur::{MotionBlur, Shot};
@@ -95,9 +95,7 @@ impl Film<'_> {
     }
 
     fn file(&self, frame: u32) -> Result<Vec<u8>, Failure> {
-        let shot = self.shot(frame)?;
-        let metadata = shot.metadata(self.subject);
-        Ok(shot.draw(self.subject).map_err(failure)?.0.into_file(&metadata))
+        Ok(self.shot(frame)?.draw(self.subject).map_err(Failure::of)?.0.into_file())
     }
 
     fn is_done(&self, path: &Path, metadata: &Metadata) -> bool {
@@ -164,7 +162,7 @@ impl Film<'_> {
         draw: impl Fn(Pipe) -> Result<T, Error> + Sync,
     ) -> Result<Vec<T>, Failure> {
         let mut pictures = Vec::new();
-        let small = |frame| draw(self.pipe(frame)?.small(MEASURED_SIDE)).map_err(failure);
+        let small = |frame| draw(self.pipe(frame)?.small(MEASURED_SIDE)).map_err(Failure::of);
         self.each(step, &self.spread(MOST_MEASURED), small, |_, picture| {
             pictures.push(picture);
             Ok(())
@@ -220,8 +218,8 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let (picture, notes) = shot.draw(self.subject).map_err(failure)?;
-        Context::write_now(path, &picture.into_file(&metadata))?;
+        let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
+        Context::write_now(path, &picture.into_file())?;
         Ok(Outcome::Drawn(notes))
     }
 
@@ -261,11 +259,11 @@ impl Film<'_> {
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
             return Ok((read_png(&read).map_err(Failure::failed)?.0, Outcome::Done));
         }
-        let (picture, notes) = shot.draw(self.subject).map_err(failure)?;
-        if let Some((path, metadata)) = &kept {
-            Context::write_now(path, &picture.clone().into_file(metadata))?;
+        let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
+        if let Some((path, _)) = &kept {
+            Context::write_now(path, &picture.clone().into_file())?;
         }
-        Ok((pixels(picture).map_err(failure)?, Outcome::Drawn(notes)))
+        Ok((pixels(picture).map_err(Failure::of)?, Outcome::Drawn(notes)))
     }
 
     /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
@@ -281,7 +279,8 @@ impl Film<'_> {
             |frame| self.file(frame),
             |frame, file| {
                 let (size, history) = read_png_header(&file).map_err(Failure::failed)?;
-                pictures.push(Picture { name: frame.to_string(), size, history });
+                let motion = Motion::recorded(&history);
+                pictures.push(Picture { name: frame.to_string(), size, motion, history });
                 files.push(file);
                 Ok(())
             },
@@ -342,10 +341,6 @@ impl Film<'_> {
 
 fn pixels(picture: Rendering) -> Result<Frame, Error> {
     picture.into_frame().ok_or(Error::NoPixels)
-}
-
-fn failure(error: Error) -> Failure {
-    if error.is_usage() { Failure::usage(error.words()) } else { Failure::failed(error.words()) }
 }
 
 /// An error with the frame in which it occurred.

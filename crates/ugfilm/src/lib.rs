@@ -24,8 +24,8 @@
 //!         Program::Rainbow(Default::default()),
 //!     ]);
 //!     pipe.picture.size = [40, 30];
-//!     let subject = Subject::Scene(&scene);
-//!     let file = pipe.draw(subject)?.0.into_file(&pipe.metadata(subject));
+//!     let (picture, _notes) = pipe.draw(Subject::Scene(&scene))?;
+//!     let file = picture.into_file();
 //!     assert!(file.starts_with(b"\x89PNG"));
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -36,8 +36,8 @@
 //! Each line imports only from the lines above it:
 //!
 //! ```text
-//! error                                     why there is no frame
 //! program                                   the programs with typed options
+//! error                                     why there is no frame
 //! pipe                                      one after the other, for one frame
 //! timeline  work  frame_files               numbers over time; threads; numbered files
 //! blur                                      frames while a shutter is open
@@ -86,4 +86,4 @@ pub use cli::{Args, manual, run};
 pub use error::Error;
 pub use note::Note;
 pub use pipe::{Pipe, Subject};
-pub use program::Program;
+pub use program::{Program, ProgramError};

@@ -2,6 +2,7 @@
 
 use ugimage::{LinearFrame, Metadata};
 use ugpicture::{AnnotationOptions, PictureOptions, Rendering};
+use ugpipe::Progress;
 use ugscene::{Provenance, Remarks, Scene};
 
 use crate::error::Error;
@@ -49,9 +50,9 @@ impl Pipe {
             Subject::Panorama(_, origin) => Remarks { origin: Some(origin.to_owned()), ..Remarks::default() },
         };
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
-        filters.iter().zip(&self.lines).for_each(|(filter, line)| {
-            remarks.record(Provenance { command: Some(line), ..filter.provenance() })
-        });
+        for (filter, line) in filters.iter().zip(&self.lines) {
+            remarks.record(Provenance { command: Some(line), ..filter.provenance() });
+        }
         let command = Some(self.lines.last().map_or("", String::as_str));
         ugpicture::metadata(&remarks, Provenance { command, ..last.provenance() })
     }
@@ -61,27 +62,35 @@ impl Pipe {
     /// # Errors
     /// The scene or panorama cannot be drawn with these options.
     pub fn draw(&self, subject: Subject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
+        self.draw_with(subject, &())
+    }
+
+    /// Like [`Pipe::draw`], and reports progress.
+    ///
+    /// # Errors
+    /// See [`Pipe::draw`]; the caller stopped it.
+    pub fn draw_with(
+        &self,
+        subject: Subject<'_>,
+        progress: &dyn Progress,
+    ) -> Result<(Rendering, Vec<Note>), Error> {
         let mut item = match subject {
             Subject::Scene(scene) => Item::Scene(Box::new(scene.clone())),
             Subject::Panorama(panorama, _) => Item::Panorama(panorama),
         };
         let mut notes = Vec::new();
-        for (row, program) in self.programs.iter().enumerate() {
+        for program in &self.programs {
             let mut program = program.clone();
             if let Some(picture) = program.picture() {
                 picture.clone_from(&self.picture);
             }
-            let (made, told) = program.run(item)?;
+            let (made, told) = program.run(item, progress)?.ok_or(Error::Subject)?;
             notes.extend(told);
             item = made;
-            if let (Item::Scene(scene), Some(line)) = (&mut item, self.lines.get(row)) {
-                scene.remarks.record(Provenance { command: Some(line), ..program.provenance() });
-            }
         }
-        match item {
-            Item::Picture(picture) => Ok((picture, notes)),
-            Item::Scene(_) | Item::Panorama(_) => Err(Error::Subject),
-        }
+        let Item::Picture(mut picture) = item else { return Err(Error::Subject) };
+        picture.metadata = self.metadata(subject);
+        Ok((picture, notes))
     }
 
     /// The light of the frame, without exposure and annotations.
@@ -91,7 +100,6 @@ impl Pipe {
     pub fn light(&self, subject: Subject<'_>) -> Result<LinearFrame, Error> {
         let mut pipe = self.clone();
         pipe.picture.keep_light();
-        pipe.picture.annotations = AnnotationOptions::default();
         pipe.draw(subject)?.0.into_light().ok_or(Error::NoPixels)
     }
 

@@ -1,24 +1,62 @@
 //! The programs that make a frame, with typed options.
 
+use thiserror::Error;
 use ugpicture::{PictureOptions, Rendering};
+use ugpipe::Progress;
 use ugscene::{MotionOptions, Provenance, Scene};
 
-use crate::error::Error;
 use crate::note::Note;
 
-/// A program of the family with its options, whose functions are called in this process.
-#[derive(Clone, Debug)]
-pub enum Program {
+/// Declares the programs: a variant for each with the options of its crate, and one with its errors.
+macro_rules! programs {
+    ($($(#[doc = $doc:literal])* $variant:ident($krate:ident): $error:literal,)+) => {
+        /// A program of the family with its options, whose functions are called in this process.
+        #[derive(Clone, Debug)]
+        pub enum Program {
+            $($(#[doc = $doc])* $variant($krate::Config),)+
+        }
+
+        /// Why a program of a frame failed.
+        #[derive(Debug, Error)]
+        pub enum ProgramError {
+            $(
+                #[doc = $error]
+                #[error(transparent)]
+                $variant(#[from] $krate::Error),
+            )+
+        }
+
+        impl Program {
+            /// Its name and version, as in the history of a picture.
+            pub fn provenance(&self) -> Provenance<'static> {
+                match self {
+                    $(Self::$variant(_) => $krate::PROVENANCE,)+
+                }
+            }
+        }
+
+        #[cfg(feature = "cli")]
+        impl ugpipe::Words for ProgramError {
+            fn words(&self) -> String {
+                match self {
+                    $(Self::$variant(error) => error.words(),)+
+                }
+            }
+        }
+    };
+}
+
+programs! {
     /// Positions as seen.
-    Lorentz(uglorentz::Config),
+    Lorentz(uglorentz): "The scene has no apparent positions.",
     /// Colours as seen.
-    Doppler(ugdoppler::Config),
+    Doppler(ugdoppler): "The scene has no apparent colours.",
     /// The picture, of a scene as seen.
-    Rainbow(ugrainbow::Config),
+    Rainbow(ugrainbow): "The scene as seen cannot be drawn.",
     /// The picture, by tracing rays.
-    Photon(ugphoton::Config),
+    Photon(ugphoton): "The scene at rest cannot be drawn.",
     /// The view of a panorama.
-    Warp(ugwarp::Config),
+    Warp(ugwarp): "The panorama cannot be drawn.",
 }
 
 /// What goes from one program to the next.
@@ -29,17 +67,6 @@ pub enum Item<'s> {
 }
 
 impl Program {
-    /// Its name and version, as in the history of a picture.
-    pub fn provenance(&self) -> Provenance<'static> {
-        match self {
-            Self::Lorentz(_) => uglorentz::PROVENANCE,
-            Self::Doppler(_) => ugdoppler::PROVENANCE,
-            Self::Rainbow(_) => ugrainbow::PROVENANCE,
-            Self::Photon(_) => ugphoton::PROVENANCE,
-            Self::Warp(_) => ugwarp::PROVENANCE,
-        }
-    }
-
     /// The options of the picture, of a program that draws.
     pub fn picture(&mut self) -> Option<&mut PictureOptions> {
         match self {
@@ -59,29 +86,35 @@ impl Program {
         }
     }
 
-    /// What it makes of an item, and its warnings and notes.
+    /// What it makes of an item, and its warnings and notes; `None` if it reads something else.
     ///
     /// # Errors
-    /// The program fails, or reads something else.
-    pub fn run<'s>(&self, item: Item<'s>) -> Result<(Item<'s>, Vec<Note>), Error> {
+    /// The program fails.
+    pub fn run<'s>(
+        &self,
+        item: Item<'s>,
+        progress: &dyn Progress,
+    ) -> Result<Option<(Item<'s>, Vec<Note>)>, ProgramError> {
         let mut picture = match (self, item) {
             (Self::Lorentz(config), Item::Scene(scene)) => {
-                let (scene, report) = uglorentz::apply(*scene, config)?;
-                return Ok((Item::Scene(scene.into()), vec![Note::Lorentz(report)]));
+                let (scene, report) = uglorentz::apply_with(*scene, config, progress)?;
+                return Ok(Some((Item::Scene(scene.into()), vec![Note::Lorentz(report)])));
             }
             (Self::Doppler(config), Item::Scene(scene)) => {
-                let (scene, report) = ugdoppler::apply(*scene, config)?;
+                let (scene, report) = ugdoppler::apply_with(*scene, config, progress)?;
                 let notes = report.notes.into_iter().map(Note::Doppler).collect();
-                return Ok((Item::Scene(scene.into()), notes));
+                return Ok(Some((Item::Scene(scene.into()), notes)));
             }
-            (Self::Rainbow(config), Item::Scene(scene)) => ugrainbow::render(&scene, config)?,
-            (Self::Photon(config), Item::Scene(scene)) => ugphoton::render(*scene, config)?,
-            (Self::Warp(config), Item::Panorama(panorama)) => ugwarp::render(panorama, config)?,
-            _ => return Err(Error::Subject),
+            (Self::Rainbow(config), Item::Scene(scene)) => ugrainbow::render_with(&scene, config, progress)?,
+            (Self::Photon(config), Item::Scene(scene)) => ugphoton::render_with(*scene, config, progress)?,
+            (Self::Warp(config), Item::Panorama(panorama)) => {
+                ugwarp::render_with(panorama, config, progress)?
+            }
+            _ => return Ok(None),
         };
         let program = self.provenance().program;
         let notes = std::mem::take(&mut picture.notes).into_iter();
         let notes = notes.map(|note| Note::Picture(program, note)).collect();
-        Ok((Item::Picture(picture), notes))
+        Ok(Some((Item::Picture(picture), notes)))
     }
 }

@@ -21,6 +21,7 @@
 
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
+use ugpipe::{Progress, Stopped};
 use ugscene::Scene;
 
 use crate::criterion::{Bounds, Criterion, MAX_GENERATION, Marks, Verdict};
@@ -34,13 +35,17 @@ pub(crate) const MAX_PIECES: usize = 4_000_000;
 
 /// Subdivides faces and wires until every error is within `bounds`, or `max_pieces` would be
 /// exceeded.
+///
+/// # Errors
+/// The caller stopped it; this is checked in every round.
 pub(crate) fn cut(
     scene: &Scene,
     evenness: &Evenness,
     mesh: &mut RefinedMesh,
     bounds: &Bounds,
     max_pieces: usize,
-) -> Outcome {
+    progress: &dyn Progress,
+) -> Result<Outcome, Stopped> {
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
     for (face, cut) in (Criterion { mesh, bounds }).first_cuts(scene, evenness) {
@@ -61,6 +66,7 @@ pub(crate) fn cut(
     let mut is_cut = vec![false; if fresh.is_empty() { 0 } else { scene.faces.len() }];
     let mut open: Vec<Open> = Vec::new();
     loop {
+        progress.check()?;
         let criterion = Criterion { mesh, bounds };
         sort(&criterion, std::mem::take(&mut fresh), &mut open, &mut outcome.pieces);
         let line_marks: Vec<Vec<bool>> = outcome.lines.par_iter().map(|line| criterion.line(line)).collect();
@@ -94,7 +100,7 @@ pub(crate) fn cut(
     outcome.pieces.retain(|piece| is_cut[piece.face as usize]);
     outcome.pieces.sort_by_key(|piece| piece.face);
     outcome.n_too_deep = n_too_deep(&Criterion { mesh, bounds }, &outcome);
-    outcome
+    Ok(outcome)
 }
 
 /// A piece with errors above the bound.
@@ -247,7 +253,7 @@ mod tests {
                 ViewVolume::default(),
                 &motions,
             );
-            let outcome = cut(&scene, &Evenness::default(), &mut mesh, &bounds, max_pieces);
+            let outcome = cut(&scene, &Evenness::default(), &mut mesh, &bounds, max_pieces, &()).unwrap();
             assert!(outcome.is_full);
             let n_pieces = outcome.pieces.len();
             assert!((max_pieces / 10..=max_pieces).contains(&n_pieces), "{n_pieces} of {max_pieces}");

@@ -23,14 +23,14 @@ use crate::{
 /// # Errors
 /// See [`Error`].
 pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
-    apply_with_progress(scene, config, &())
+    apply_with(scene, config, &())
 }
 
 /// Like [`apply`], and reports progress.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn apply_with_progress(
+pub fn apply_with(
     mut scene: Scene,
     config: &Config,
     progress: &dyn Progress,
@@ -64,7 +64,9 @@ pub fn apply_with_progress(
     let mut mesh = RefinedMesh::new(motions, points);
     let evenness = Evenness::new(&scene, config.repeat);
     let outcome = match config.pieces {
-        Pieces::UpTo(_) => adaptive::cut(&scene, &evenness, &mut mesh, &bounds, adaptive::MAX_PIECES),
+        Pieces::UpTo(_) => {
+            adaptive::cut(&scene, &evenness, &mut mesh, &bounds, adaptive::MAX_PIECES, progress)?
+        }
         Pieces::PerEdge(n) => uniform::cut(&scene, &evenness, &mut mesh, n)
             .map_err(|n_pieces| Error::TooManyPieces { n_pieces })?,
     };
@@ -77,6 +79,7 @@ pub fn apply_with_progress(
         scene.stage.geometry = placed.seen_stage(&motion_options);
     }
 
+    progress.check()?;
     let is_short = outcome.is_full || outcome.n_too_deep + outcome.n_uncut > 0;
     let remaining_errors =
         (config.measure || is_short).then(|| remaining_errors::measure(&scene, &mesh, &bounds));
@@ -149,11 +152,6 @@ fn set_positions(scene: &mut Scene, mesh: &RefinedMesh, shifts: &[DVec3], eye: D
     }
     match scene.vertices.iter().position(|vertex| !vertex.position.is_finite()) {
         None => Ok(()),
-        Some(row) => Err(Error::OutOfRange { name: vertex_name(scene, row), row }),
+        Some(row) => Err(Error::OutOfRange { name: viewpoint::vertex_name(scene, row), row }),
     }
-}
-
-/// For messages.
-pub(crate) fn vertex_name(scene: &Scene, row: usize) -> String {
-    scene.names.get(scene.vertices[row].name).to_string()
 }

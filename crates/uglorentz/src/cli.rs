@@ -7,9 +7,7 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{
-    CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, count, finite, numbers, whole,
-};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, count, finite, numbers, whole};
 use ugscene::Provenance;
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
@@ -133,12 +131,12 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let steps = context.steps();
     steps.step("reading", 0);
     let parsed = ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
-    let (mut scene, report) = crate::apply_with_progress(parsed.scene, &config, &steps)
+    let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
     scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
-        context.report(&parsed.warnings.render(true));
+        context.report(&parsed.warnings.report());
     }
     report.warnings().iter().for_each(|warning| context.warn(warning));
     report.notes().iter().for_each(|note| context.note(note));
@@ -154,8 +152,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {
     match error.diagnostics(source, origins) {
         Some(findings) => pipe::refused(findings),
-        None if error.is_usage() => Failure::usage(error.words()),
-        None => Failure::failed(error.words()),
+        None => Failure::of(error),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Errors.
 
 use thiserror::Error;
+use ugpipe::Stopped;
 use ugscene::{CameraError, MotionError};
 
 use crate::adaptive::MAX_PIECES;
@@ -61,23 +62,7 @@ pub enum Error {
         /// Its row.
         row: usize,
     },
-}
-
-impl Error {
-    /// True if the configuration is invalid, false if the scene is.
-    pub fn is_usage(&self) -> bool {
-        let Error::Motion(error) = self else {
-            return matches!(
-                self,
-                Error::Camera(CameraError::NoUp)
-                    | Error::NoViewCenter
-                    | Error::NoBound { .. }
-                    | Error::NoColorBound { .. }
-                    | Error::NoLightBound { .. }
-                    | Error::NoPieces
-                    | Error::TooManyPieces { .. }
-            );
-        };
-        error.is_usage()
-    }
+    /// The caller stopped the computation.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }

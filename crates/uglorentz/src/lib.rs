@@ -88,7 +88,7 @@ mod split;
 mod uniform;
 mod viewpoint;
 
-pub use apply::{apply, apply_with_progress};
+pub use apply::{apply, apply_with};
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
 pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};

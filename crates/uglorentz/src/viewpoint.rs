@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use ugscene::{CameraOptions, Scene, View};
 
 use crate::Error;
-use crate::apply::vertex_name;
 use crate::relative_motion::{Point, RelativeMotion};
 
 /// The view of the scene's camera, for a picture of `size` pixels.
@@ -36,4 +35,9 @@ pub(crate) fn refuse_vertices_at_eye(
             Err(Error::VertexAtEye { name: vertex_name(scene, vertex.index()), row: vertex.index() })
         }
     }
+}
+
+/// For messages.
+pub(crate) fn vertex_name(scene: &Scene, row: usize) -> String {
+    scene.names.get(scene.vertices[row].name).to_string()
 }

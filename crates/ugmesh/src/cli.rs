@@ -268,7 +268,7 @@ pub fn main() -> ExitCode {
             other => Failure::failed(other.words()),
         })?;
         if let Some(findings) = converted.diagnostics.filter(|findings| !findings.is_empty()) {
-            context.report(&findings.render(true));
+            context.report(&findings.report());
         }
         converted.warnings.iter().for_each(|warning| context.warn(warning));
         converted.notes.iter().for_each(|note| context.note(note));

@@ -3,7 +3,7 @@
 use ugscene::{Item, Scene};
 
 use crate::suggest::nearest;
-use crate::{Diagnostic, Diagnostics, Parsed, Source, Span};
+use crate::{Diagnostic, Diagnostics, Parsed, Setting, Source, Span};
 
 /// Selects the camera of row `chosen`: removes its name, and moves it before others without
 /// one. `spans`: of all cameras.
@@ -49,7 +49,8 @@ impl Parsed {
         match (nearest(name.as_bytes(), known.iter().map(|known| known.as_bytes())), &known[..]) {
             (Some(near), _) => finding.help(format!("did you mean `{near}`?")),
             (None, []) => finding
-                .help("no camera has a name: leave out -cam, or name one, as in `cam side -ep 0 -9 2;`"),
+                .help("no camera has a name: name one, as in `cam side -ep 0 -9 2;`")
+                .setting(Setting::NoCamera),
             (None, known) => finding.help(format!("cameras are `{}`", known.join("`, `"))),
         }
     }

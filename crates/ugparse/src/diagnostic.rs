@@ -5,6 +5,7 @@ use std::fmt;
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use ugpipe::{is_printable, message, printable};
 
+use crate::options::{Limit, Limits};
 use crate::reader::line_marks;
 use crate::source::{LineMark, Source, Span};
 
@@ -38,6 +39,24 @@ pub struct Diagnostic {
     pub other: Option<(Span, String)>,
     /// The remedy.
     pub help: Option<String>,
+    /// The setting of the reader that the remedy is about.
+    pub setting: Option<Setting>,
+}
+
+/// A setting of the reader that is part of a remedy. A command line adds the option that it stands
+/// for, see [`Diagnostics::report`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// [`Options::lax`](crate::Options::lax).
+    Lax,
+    /// [`Options::execute`](crate::Options::execute).
+    Execute,
+    /// [`Options::limits`](crate::Options::limits).
+    Limit(Limit),
+    /// The name of the camera.
+    Camera,
+    /// The name of a camera, although none has one.
+    NoCamera,
 }
 
 impl Diagnostic {
@@ -50,6 +69,7 @@ impl Diagnostic {
             label: String::new(),
             other: None,
             help: None,
+            setting: None,
         }
     }
 
@@ -74,6 +94,19 @@ impl Diagnostic {
     pub fn help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
+    }
+
+    /// Adds the setting that the remedy is about.
+    pub fn setting(mut self, setting: Setting) -> Self {
+        self.setting = Some(setting);
+        self
+    }
+
+    /// Adds the remedy against a limit that is reached; `else_do`: the alternative to raising it.
+    pub(crate) fn limited(mut self, limits: &Limits, limit: Limit, else_do: &str) -> Self {
+        let (help, can_be_raised) = limits.remedy(limit, else_do);
+        self.setting = can_be_raised.then_some(Setting::Limit(limit));
+        self.help(help)
     }
 
     /// Renders the message as text, with the line and a caret. What a terminal would obey in names
@@ -249,6 +282,40 @@ impl Diagnostics {
             parts.push(format!("… and {} more", self.omitted));
         }
         parts.join("\n\n")
+    }
+}
+
+/// For a command line.
+#[cfg(feature = "cli")]
+impl Diagnostics {
+    /// All findings as text with styles, as a program prints it.
+    pub fn report(&self) -> String {
+        self.clone().worded().render(true)
+    }
+
+    /// The findings with the options that their remedies are about.
+    #[must_use]
+    pub fn worded(mut self) -> Self {
+        for finding in &mut self.list {
+            if let (Some(help), Some(setting)) = (&mut finding.help, finding.setting.take()) {
+                *help += &setting.words();
+            }
+        }
+        self
+    }
+}
+
+#[cfg(feature = "cli")]
+impl Setting {
+    /// The option, as the end of a remedy.
+    fn words(&self) -> String {
+        match self {
+            Self::Lax => "; with -lax others are passed on".to_owned(),
+            Self::Execute => " with --allow-execute".to_owned(),
+            Self::Limit(limit) => format!(" with --limit {}=N", limit.name()),
+            Self::Camera => " (-cam)".to_owned(),
+            Self::NoCamera => ", or leave out -cam".to_owned(),
+        }
     }
 }
 

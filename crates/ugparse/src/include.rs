@@ -8,7 +8,7 @@
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::diagnostic::{Diagnostic, Diagnostics, Setting};
 use crate::grammar::KEYWORDS;
 use crate::options::{Limit, Options};
 use crate::origin::Origin;
@@ -176,56 +176,51 @@ impl Inclusion<'_> {
     /// Loads the text requested by a statement of the innermost open text.
     fn load(&mut self, statement: RequestStatement) -> Result<(PathBuf, Text), Diagnostics> {
         let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
-        let refuse = |message: String, help: String| {
+        let finding = |message: String| {
             let label = match statement.kind {
                 RequestKind::Include => "included here",
                 RequestKind::Execute => "run here",
             };
-            let finding = Diagnostic::error(statement.file, message).label(label).help(help);
-            Diagnostics::one(source, finding)
+            Diagnostic::error(statement.file, message).label(label)
         };
+        let refuse = |finding: Diagnostic| Diagnostics::one(source, finding);
         let limits = &self.options.limits;
         let shown = source.slice(statement.file);
         if statement.kind == RequestKind::Execute && !self.options.execute {
-            return Err(refuse(
-                format!("program `{shown}` is not run"),
-                "a scene can run any program; if you trust this one, allow it with --allow-execute".into(),
-            ));
+            let finding = finding(format!("program `{shown}` is not run"));
+            let finding = finding.help("a scene can run any program; if you trust this one, allow it");
+            return Err(refuse(finding.setting(Setting::Execute)));
         }
         let refuse_text = || {
             let text = match statement.kind {
                 RequestKind::Include => format!("file `{shown}`"),
                 RequestKind::Execute => format!("the output of `{shown}`"),
             };
-            refuse(
-                format!("{text} is not UniGrafix"),
-                "it must begin with a statement or a comment; errors in it are shown if it is read by itself"
-                    .into(),
-            )
+            refuse(finding(format!("{text} is not UniGrafix")).help(
+                "it must begin with a statement or a comment; errors in it are shown if it is read by itself",
+            ))
         };
         let path = relative_to(&source.name, &shown);
         if self.open.iter().any(|(open, _)| *open == path) {
-            return Err(refuse(
-                format!("file `{shown}` includes itself"),
-                "a file must not include itself, directly or through others".into(),
-            ));
+            let finding = finding(format!("file `{shown}` includes itself"));
+            return Err(refuse(finding.help("a file must not include itself, directly or through others")));
         }
         self.n_files += 1;
         if self.open.len() as u64 > limits.get(Limit::Includes) {
-            let message = "files include each other too deeply".into();
-            return Err(refuse(message, limits.remedy(Limit::Includes, "use fewer")));
+            let finding = finding("files include each other too deeply".into());
+            return Err(refuse(finding.limited(limits, Limit::Includes, "use fewer")));
         }
         if self.n_files > limits.get(Limit::Files) {
-            let message = "too many files are included".into();
-            return Err(refuse(message, limits.remedy(Limit::Files, "include fewer")));
+            let finding = finding("too many files are included".into());
+            return Err(refuse(finding.limited(limits, Limit::Files, "include fewer")));
         }
         let room = limits.get(Limit::Text).saturating_sub(self.n_bytes);
         let text = (self.loader)(&Request { kind: statement.kind, path: &path, room }).map_err(|error| {
-            refuse(complaint(statement.kind, &path, &error), remedy(statement.kind, &error))
+            refuse(finding(complaint(statement.kind, &path, &error)).help(remedy(statement.kind, &error)))
         })?;
         if text.len() as u64 > room {
-            let message = format!("with the text of `{shown}` the scene is too large");
-            return Err(refuse(message, limits.remedy(Limit::Text, "split it")));
+            let finding = finding(format!("with the text of `{shown}` the scene is too large"));
+            return Err(refuse(finding.limited(limits, Limit::Text, "split it")));
         }
         self.n_bytes += text.len() as u64;
         let file = Source::new(path.display().to_string(), text);

@@ -70,7 +70,7 @@ mod writer;
 
 #[cfg(feature = "cli")]
 pub use cli::{main, manual};
-pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Severity};
+pub use diagnostic::{Diagnostic, Diagnostics, Location, MAX_ERRORS, Setting, Severity};
 pub use expand::Origins;
 pub use flatness::FLAT;
 pub use foreign::{Foreign, foreign_data};
@@ -138,8 +138,11 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
 /// Refuses texts whose positions do not fit 32 bits or that exceed the limit.
 fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
     if source.text.len() as u64 > options.limits.get(Limit::Text) {
-        let finding = Diagnostic::error(Span::default(), "the scene is too large")
-            .help(options.limits.remedy(Limit::Text, "split it"));
+        let finding = Diagnostic::error(Span::default(), "the scene is too large").limited(
+            &options.limits,
+            Limit::Text,
+            "split it",
+        );
         return Err(Diagnostics::one(source, finding));
     }
     Ok(())

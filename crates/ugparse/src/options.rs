@@ -134,14 +134,15 @@ impl Limits {
         self
     }
 
-    /// The remedy if a limit is reached; `else_do`: the alternative to raising it.
-    pub(crate) fn remedy(&self, limit: Limit, else_do: &str) -> String {
+    /// The remedy if a limit is reached, and whether it can be raised; `else_do`: the alternative to
+    /// that.
+    pub(crate) fn remedy(&self, limit: Limit, else_do: &str) -> (String, bool) {
         let value = self.get(limit);
         let unit = if value == 1 { limit.unit().trim_end_matches('s') } else { limit.unit() };
         if value < limit.most() {
-            format!("the limit is {value} {unit}; {else_do}, or raise it with --limit {}=N", limit.name())
+            (format!("the limit is {value} {unit}; {else_do}, or raise it"), true)
         } else {
-            format!("the limit is {value} {unit}, and cannot be raised; {else_do}")
+            (format!("the limit is {value} {unit}, and cannot be raised; {else_do}"), false)
         }
     }
 }

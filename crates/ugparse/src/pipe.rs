@@ -76,5 +76,5 @@ fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestErro
 
 /// The failure of a run because of errors in the scene.
 pub fn refused(findings: Diagnostics) -> Failure {
-    Failure::Report(findings.render(true))
+    Failure::Report(findings.report())
 }

@@ -318,8 +318,11 @@ impl<'t, 'f> Reader<'t, 'f> {
         if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
             let start = self.grammar.position(input);
             let span = Span { start, end: start + found(input).len() as u32 };
-            let help = self.options.limits.remedy(Limit::Nesting, "use fewer");
-            self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").help(help));
+            self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").limited(
+                &self.options.limits,
+                Limit::Nesting,
+                "use fewer",
+            ));
         }
         let (rest, name) = wanted(identifier(body), NAME).map_err(syntax_error)?;
         let end = self.grammar.position(rest);

@@ -1,6 +1,6 @@
 //! The text of messages about single words and statements.
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Setting};
 use crate::grammar::{KEYWORDS, NAME};
 use crate::source::Span;
 use crate::suggest::nearest;
@@ -15,16 +15,18 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
         b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
         b"#" | b"#line" => finding
             .label("not a line mark of the C preprocessor")
-            .help("such a line is `# LINE \"FILE\"`; with -lax others are passed on"),
+            .help("such a line is `# LINE \"FILE\"`")
+            .setting(Setting::Lax),
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
         _ if let Some(keyword) = nearest(word, KEYWORDS.split(' ').map(str::as_bytes)) => {
             finding.label("unknown statement").help(format!("did you mean `{keyword}`?"))
         }
-        _ => finding.label("unknown statement").help(format!(
-            "a statement begins with one of {KEYWORDS}, or `(` for an escape; with -lax unknown ones are passed on"
-        )),
+        _ => finding
+            .label("unknown statement")
+            .help(format!("a statement begins with one of {KEYWORDS}, or `(` for an escape"))
+            .setting(Setting::Lax),
     }
 }
 

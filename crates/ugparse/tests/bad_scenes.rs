@@ -24,7 +24,7 @@ fn bad_scenes_fail_with_their_recorded_message() {
         let found =
             match ugparse::parse(&Source::new(&name, std::fs::read(path).unwrap()), &Options::default()) {
                 Ok(_) => panic!("{name} can be read"),
-                Err(found) => found.render(false) + "\n",
+                Err(found) => found.worded().render(false) + "\n",
             };
         let expected_path = path.with_extension("expected");
         if std::env::var_os("UG_BLESS").is_some() {

@@ -8,18 +8,16 @@ use clap::builder::Resettable;
 use clap::{ArgAction, Parser};
 use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
-use ugphysics::Brightness;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, Report, kind_named, kinds, law,
-    picture_format, pixel, refuse_terminal, report_format, with_format, write_picture,
+    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kind_named, kinds, picture_format, pixel,
+    refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, count, number, numbers, one_of, whole};
-use ugscene::cli::{MotionArgs, RepeatArgs};
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, count, number, numbers, one_of, whole};
+use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, RayOptions, Shutter};
-use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::render::{Drawing, PROVENANCE};
 
@@ -34,38 +32,16 @@ pub struct Args {
     #[command(flatten)]
     motion: MotionArgs,
 
-    /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
-    ///
-    /// The laws photon and bolometric multiply linear light, report and none display-encoded values
-    /// as in 1988, and light of lamps likewise. Values above 1 are clipped per sample, unless -ex or
-    /// -tc is given.
-    #[arg(long, visible_alias = "brightness", value_name = "LAW",
-          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux", help_heading = COLOR)]
-    br: Option<Brightness>,
-
-    /// Shift spectra instead of hues
-    ///
-    /// Black bodies and sampled spectra as they are, other colours as surfaces in daylight. The
-    /// brightness law is D^5 per wavelength, and light brighter than white is clipped only in the
-    /// last step.
-    #[arg(long, visible_alias = "spectral", conflicts_with_all = ["br", "wi"], help_heading = COLOR)]
-    sp: bool,
+    #[command(flatten, next_help_heading = COLOR)]
+    shift: ShiftArgs,
 
     /// Interpolate wavelengths between corners, instead of hues
     #[arg(long, visible_alias = "interpolate-wavelength", help_heading = COLOR)]
     iw: bool,
 
     /// Hues in colour statements are wavelengths in nm; implies -iw
-    #[arg(long, visible_alias = "wavelengths", help_heading = COLOR)]
+    #[arg(long, visible_alias = "wavelengths", conflicts_with = "sp", help_heading = COLOR)]
     wi: bool,
-
-    /// Leave wavelengths as they are
-    #[arg(long, help_heading = COLOR)]
-    no_doppler: bool,
-
-    /// Leave brightness as it is
-    #[arg(long, help_heading = COLOR)]
-    no_flux: bool,
 
     #[command(flatten)]
     repeat: RepeatArgs,
@@ -249,7 +225,8 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        ColorShift::new(self.sp, !self.no_doppler, !self.no_flux, self.br)
+        let ShiftArgs { br, sp, no_doppler, no_flux } = self.shift;
+        ColorShift::new(sp, !no_doppler, !no_flux, br)
     }
 }
 
@@ -262,14 +239,9 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if let Some(pixel) = args.explain {
         let report = report_format(args.dt, context.output_name())?;
         let source = pipe::read(context, &config.reading)?;
-        let (explanation, warnings) = explain(&config, &source, pixel).map_err(failure)?;
-        if !warnings.is_empty() {
-            context.report(&warnings.render(true));
-        }
-        return match report {
-            Report::Text => context.write_text(&explain::text(&explanation)),
-            Report::Json => context.write_json(&explain::json(&explanation)),
-        };
+        let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
+        let (text, json) = (|| explain::text(&explanation), || explain::json(&explanation));
+        return write_report(report, &warnings, text, json, context);
     }
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;
@@ -278,26 +250,23 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
-    let drawing = Drawing::read(&config, &source, provenance, &context.steps()).map_err(failure)?;
+    let steps = context.steps();
+    let (drawing, warnings) = Drawing::read(&config, &source, provenance, &steps).map_err(Failure::of)?;
     if let Some(file) = preview {
         for side in Drawing::PREVIEWS {
-            Context::write_now(&file, &drawing.preview(side, &context.steps()).map_err(failure)?)?;
+            let preview = drawing.preview(side, &steps).map_err(Failure::of)?;
+            Context::write_now(&file, &preview.into_file())?;
         }
     }
-    let picture = drawing.picture(&context.steps()).map_err(failure)?;
+    let rendering = drawing.picture(&steps).map_err(Failure::of)?;
+    drop(drawing);
+    let picture = rendering.pack(warnings, &steps);
+    drop(steps);
     write_picture(&picture, config.picture.size, context)
 }
 
 fn no_preview() -> Failure {
     Failure::usage("-pv replaces a file by finer pictures: name one with -fo FILE, or leave out -pv")
-}
-
-fn failure(error: Error) -> Failure {
-    match error {
-        Error::Text(diagnostics) => Failure::Report(diagnostics.render(true)),
-        error if error.is_usage() => Failure::usage(error.words()),
-        error => Failure::failed(error.words()),
-    }
 }
 
 /// A distance.

@@ -1,7 +1,7 @@
 //! The options of the ray tracer.
 
 use uglight::{ColorShift, Interpolation};
-use ugpicture::{Exposure, PictureOptions};
+use ugpicture::{Canvas, Exposure, PictureOptions};
 use ugscene::{HueScale, MotionOptions};
 
 use crate::error::Error;
@@ -45,13 +45,15 @@ pub struct Config {
 }
 
 impl Config {
-    /// Refuses options that exclude each other, and pictures that do not fit in memory.
+    /// The picture to be drawn. Refuses options that exclude each other, and pictures that do not
+    /// fit in memory.
     ///
     /// # Errors
     /// See [`Error`].
-    pub(crate) fn check(&self) -> Result<(), Error> {
+    pub(crate) fn canvas(&self) -> Result<Canvas, Error> {
         self.check_lens()?;
-        let Some([left, top, width, height]) = self.crop else { return Ok(self.picture.check()?) };
+        let Some([left, top, width, height]) = self.crop else { return Ok(Canvas::new(&self.picture)?) };
+        self.picture.check_size()?;
         let fits = |start: u32, length: u32, side: u32| {
             length > 0 && start.checked_add(length).is_some_and(|end| end <= side)
         };
@@ -64,8 +66,16 @@ impl Config {
         if self.picture.exposure == Some(Exposure::Auto) {
             return Err(Error::ExposedPart);
         }
-        let part = PictureOptions { size: [width, height], ..self.picture.clone() };
-        Ok(part.check()?)
+        Ok(Canvas::new(&PictureOptions { size: [width, height], ..self.picture.clone() })?)
+    }
+
+    /// The same with the options of the part of the picture that shows the scene.
+    pub(crate) fn on(&self, canvas: &Canvas) -> Self {
+        let mut config = self.clone();
+        if self.crop.is_none() {
+            config.picture = canvas.options().clone();
+        }
+        config
     }
 
     fn check_lens(&self) -> Result<(), Error> {

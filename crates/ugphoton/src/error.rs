@@ -90,25 +90,6 @@ pub enum Error {
     Stage(#[from] StageError),
 }
 
-impl Error {
-    /// True if the command line is wrong, whatever the scene.
-    pub fn is_usage(&self) -> bool {
-        match self {
-            Self::Picture(error) => error.is_usage(),
-            Self::Motion(error) => error.is_usage(),
-            Self::Text(_)
-            | Self::Empty
-            | Self::OutOfRange { .. }
-            | Self::TooManyLights { .. }
-            | Self::Orthographic
-            | Self::PartialGeometry
-            | Self::MovingSpectrum
-            | Self::Stage(_) => false,
-            _ => true,
-        }
-    }
-}
-
 impl From<CameraError> for Error {
     fn from(error: CameraError) -> Self {
         Self::Picture(error.into())

@@ -79,7 +79,7 @@ pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
 pub use explain::explain;
-pub use render::{Drawing, PROVENANCE, light, render, run};
+pub use render::{Drawing, PROVENANCE, light, render, render_with, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugpicture::lens;
@@ -88,5 +88,4 @@ pub use ugpicture::{
     Background, Channel, Exposure, Filter, Note, Output, PictureFile, PictureOptions, Rendering, Tone,
     metadata,
 };
-pub use ugscene::{Anchor, CameraOptions, MotionOptions};
-pub use ugscene::{HueScale, Provenance};
+pub use ugscene::{Anchor, CameraOptions, HueScale, MotionOptions, Provenance};

@@ -1,27 +1,18 @@
 //! Notes for the user about a picture, above all why it is empty.
 
-use ugimage::{Development, Tone};
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace};
-use ugpicture::{Exposure, Note};
+use ugpicture::Note;
 use ugscene::{Face, SurfaceProperties};
 
 use crate::config::Config;
 use crate::pixels::Statistics;
 use crate::scenery::{Lights, Scenery};
 
-/// Least brightness at which clipping is reported; less is invisible in 8 bits.
-const CLIPPED: f64 = 1.001;
-
 /// One in so many samples is not visible.
 const FEW: u64 = 1000;
 
 /// The notes on a picture.
-pub fn notes(
-    scenery: &Scenery<'_>,
-    config: &Config,
-    statistics: &Statistics,
-    development: Option<Development>,
-) -> Vec<Note> {
+pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) -> Vec<Note> {
     let (scene, view) = (&scenery.scene, &scenery.view);
     let default_camera = view.default_camera.map(ugscene::Note::DefaultCamera);
     let mut notes: Vec<Note> = default_camera.into_iter().map(Note::Scene).collect();
@@ -61,7 +52,6 @@ pub fn notes(
         Statistics { n_visible: 0, .. } => Some(Note::BlackFaces),
         _ => None,
     });
-    notes.extend(light_note(config, statistics, development));
     notes
 }
 
@@ -73,18 +63,4 @@ fn lamps_shine_through_glass(scenery: &Scenery<'_>) -> bool {
     let is_refracting = |face: &Face| scenery.scene.surface(face).is_some_and(refracts);
     let is_directed = lamps.iter().any(|lamp| lamp.place != LampPlace::Everywhere);
     *are_of_scene && is_directed && scenery.rays.shadows && scenery.scene.faces.iter().any(is_refracting)
-}
-
-/// How light brighter than white was brought into range, if there was any.
-fn light_note(config: &Config, statistics: &Statistics, development: Option<Development>) -> Option<Note> {
-    let picture = &config.picture;
-    if picture.output.is_linear() {
-        return None;
-    }
-    if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (picture.exposure, development) {
-        return Some(Note::Exposure(stops));
-    }
-    let is_chosen = picture.exposure.is_some() || picture.tone != Tone::Clip;
-    let most = statistics.max_light.min(f64::from(f32::MAX));
-    (statistics.max_light > CLIPPED && !is_chosen).then_some(Note::ClippedLight(most))
 }

@@ -55,7 +55,8 @@ impl Statistics {
     }
 }
 
-/// The light of a picture, or of a part of it, with the requested channels.
+/// The light of a picture, or of a part of it, with the requested channels. Tiles are missing if the
+/// caller stopped it.
 pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) -> (LinearFrame, Statistics) {
     let painting = Painting::new(scenery, config);
     let [width, height] = painting.area.clone().map(|range| range.len() as u32);
@@ -67,11 +68,13 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
         .map_init(
             || (Tracer::new(scenery), Packet::default()),
             |(tracer, packet), idx| {
+                progress.check().ok()?;
                 let tile = painting.tile([idx % columns, idx / columns], tracer, packet);
                 progress.done(1);
-                tile
+                Some(tile)
             },
         )
+        .while_some()
         .collect();
     let statistics = tiles.iter().fold(Statistics::default(), |sum, tile| sum.with(tile.statistics));
     let mut pixels = vec![[0.0; 4]; width as usize * height as usize];
@@ -105,7 +108,9 @@ pub fn preview(scenery: &Scenery<'_>, config: &Config, side: u32, progress: &dyn
         .map_init(
             || Tracer::new(scenery),
             |tracer, row| {
-                let line = (0..columns).map(|column| painting.square([column, row], side, tracer)).collect();
+                let n_columns = if progress.is_stopped() { 0 } else { columns };
+                let line =
+                    (0..n_columns).map(|column| painting.square([column, row], side, tracer)).collect();
                 progress.done(1);
                 line
             },
@@ -114,7 +119,7 @@ pub fn preview(scenery: &Scenery<'_>, config: &Config, side: u32, progress: &dyn
     let lines = &lines;
     let pixels = (0..height).flat_map(|row| {
         let line = &lines[(row / side) as usize];
-        (0..width).map(move |column| line[(column / side) as usize])
+        (0..width).map(move |column| line.get((column / side) as usize).copied().unwrap_or_default())
     });
     LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels.collect())
 }

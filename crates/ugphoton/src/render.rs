@@ -2,13 +2,13 @@
 
 use std::borrow::Cow;
 
-use ugimage::{Development, LinearFrame, Metadata};
+use ugimage::{LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
-    Annotated, Annotations, Content, DepthBuffer, Image, Layout, PictureFile, Rendering, SceneState, metadata,
+    Annotated, Canvas, DepthBuffer, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata,
 };
 use ugpipe::Progress;
-use ugscene::{CameraOptions, PlacedBodies, Provenance, RestPosition, Scene};
+use ugscene::{CameraOptions, PlacedBodies, Provenance, RestPosition, Scene, View};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -17,13 +17,24 @@ use crate::notes::notes;
 use crate::scenery::Scenery;
 use crate::{middles, pixels};
 
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+
 /// Renders a scene at rest.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
-    config.check()?;
-    Prepared::new(scene, config, Layout::new(&config.picture)?, &())?.rendering(&())
+    render_with(scene, config, &())
+}
+
+/// Like [`render`], and reports progress.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+    Drawing::new(scene, config, config.canvas()?, PROVENANCE, progress)?.picture(progress)
 }
 
 /// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
@@ -34,15 +45,9 @@ pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
 pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
     config.picture.keep_light();
-    config.check()?;
-    let scene = as_seen(scene, &config)?;
-    let scenery = Scenery::new(Cow::Owned(scene), &config)?;
-    Ok(pixels::light(&scenery, &config, &()).0)
+    let drawing = Drawing::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
+    Ok(pixels::light(&drawing.scenery, &config, &()).0)
 }
-
-/// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
 /// Reads a scene, renders it, and packs it into a file. `provenance`: for the history in the file.
 ///
@@ -54,21 +59,28 @@ pub fn run(
     provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    Drawing::read(config, source, provenance, progress)?.picture(progress)
+    let (drawing, warnings) = Drawing::read(config, source, provenance, progress)?;
+    let rendering = drawing.picture(progress)?;
+    // The file needs its memory.
+    drop(drawing);
+    Ok(rendering.pack(warnings, progress))
 }
 
 /// A scene that is prepared for drawing, as a preview or as the full picture.
 pub struct Drawing {
-    prepared: Prepared,
+    /// Options of the part of the picture that shows the scene, without rows for annotations.
+    config: Config,
+    canvas: Canvas,
+    scenery: Scenery<'static>,
     metadata: Metadata,
-    warnings: Diagnostics,
 }
 
 impl Drawing {
     /// Sides of the squares of previews, in pixels, from coarse to fine.
     pub const PREVIEWS: [u32; 3] = [8, 4, 2];
 
-    /// Reads a scene. `provenance`: for the history in the file.
+    /// Reads a scene; returns warnings about its text as well. `provenance`: for the history in the
+    /// file.
     ///
     /// # Errors
     /// See [`Error`].
@@ -77,80 +89,83 @@ impl Drawing {
         source: &Source,
         provenance: Provenance<'_>,
         progress: &dyn Progress,
-    ) -> Result<Self, Error> {
-        let layout = Layout::new(&config.picture)?;
+    ) -> Result<(Self, Diagnostics), Error> {
+        let canvas = config.canvas()?;
         progress.step("reading", 0);
         let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-        config.check()?;
-        let metadata = metadata(&parsed.scene.remarks, provenance);
-        let prepared = Prepared::new(parsed.scene, config, layout, progress)?;
-        Ok(Self { prepared, metadata, warnings: parsed.warnings })
+        let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
+        Ok((drawing, parsed.warnings))
     }
 
-    /// The file of a preview: of the size of the picture, in squares of `side` pixels with one
-    /// sample each, and without channels (`-ch`).
+    /// Prepares a scene. `canvas`: of these options.
+    fn new(
+        scene: Scene,
+        config: &Config,
+        canvas: Canvas,
+        provenance: Provenance<'_>,
+        progress: &dyn Progress,
+    ) -> Result<Self, Error> {
+        progress.step("preparing", 0);
+        let metadata = metadata(&scene.remarks, provenance);
+        let config = config.on(&canvas);
+        let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
+        Ok(Self { config, canvas, scenery, metadata })
+    }
+
+    /// Draws a preview: of the size of the picture, in squares of `side` pixels with one sample
+    /// each, and without channels (`-ch`).
     ///
     /// # Errors
     /// See [`Error`].
-    pub fn preview(&self, side: u32, progress: &dyn Progress) -> Result<Vec<u8>, Error> {
-        let prepared = &self.prepared;
-        let frame = pixels::preview(&prepared.scenery, &prepared.config, side.max(1), progress);
-        let (rendering, _) = prepared.developed(frame, progress)?;
-        Ok(rendering.into_file(&self.metadata))
+    pub fn preview(&self, side: u32, progress: &dyn Progress) -> Result<Rendering, Error> {
+        let frame = pixels::preview(&self.scenery, &self.config, side.max(1), progress);
+        self.finish(frame, Vec::new(), 0.0, progress)
     }
 
     /// Draws the picture.
     ///
     /// # Errors
     /// See [`Error`].
-    pub fn picture(self, progress: &dyn Progress) -> Result<PictureFile, Error> {
-        let Self { prepared, metadata, warnings } = self;
-        let rendering = prepared.rendering(progress)?;
-        drop(prepared);
-        progress.step("compression", 0);
-        let notes = rendering.notes.clone();
-        Ok(PictureFile { bytes: rendering.into_file(&metadata), notes, warnings })
-    }
-}
-
-/// A scene prepared for drawing.
-struct Prepared {
-    /// Options of the part of the picture that shows the scene, without rows for annotations.
-    config: Config,
-    layout: Layout,
-    scenery: Scenery<'static>,
-}
-
-impl Prepared {
-    /// `config`: of the whole picture, already checked.
-    fn new(scene: Scene, config: &Config, layout: Layout, progress: &dyn Progress) -> Result<Self, Error> {
-        progress.step("preparing", 0);
-        let config = Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-        let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
-        Ok(Self { config, layout, scenery })
-    }
-
-    fn rendering(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
+    pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
-        let (mut rendering, development) = self.developed(frame, progress)?;
-        let about_picture = notes(&self.scenery, &self.config, &statistics, development);
-        rendering.notes.splice(0..0, about_picture);
-        Ok(rendering)
+        let notes = notes(&self.scenery, &self.config, &statistics);
+        self.finish(frame, notes, statistics.max_light as f32, progress)
     }
 
-    /// Develops and annotates the light of a picture; its notes are those of the annotations.
-    fn developed(
+    /// Develops and annotates the light of a picture.
+    fn finish(
         &self,
         frame: LinearFrame,
+        notes: Vec<Note>,
+        brightest: f32,
         progress: &dyn Progress,
-    ) -> Result<(Rendering, Option<Development>), Error> {
-        let Self { config, layout, scenery } = self;
-        let (image, development) = Image::developed(frame, &config.picture, !scenery.is_uncut);
-        progress.step("annotating", 0);
-        let annotations = annotate(layout, scenery, config, development)?;
-        let image = Content::Image(annotations.composite(image));
-        Ok((Rendering::new(image, &config.picture, annotations.notes), development))
+    ) -> Result<Rendering, Error> {
+        let Self { config, canvas, scenery, metadata } = self;
+        let picture = &config.picture;
+        let depths = |scene: &_, camera: &_, _| depths(scene, camera, config);
+        let items = || middles::seen_items(scenery, picture.size, picture.samples);
+        let (scene, camera) = (&*scenery.scene, &picture.camera);
+        let view = match config.lens {
+            Lens::Pinhole => None,
+            _ => Some(View::new(scene, camera, picture.size)?),
+        };
+        let subject = match &view {
+            Some(view) => Subject::Items { view, items: &items, scene: Some(scene) },
+            None => Subject::Scene { scene, camera, depths: &depths },
+        };
+        let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
+        let content = DrawnContent::Light { frame, is_clipped: !scenery.is_uncut };
+        canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
+}
+
+/// The depth buffer of a scene with a camera, in a picture of these options.
+fn depths(scene: &Scene, camera: &CameraOptions, config: &Config) -> Result<DepthBuffer, Error> {
+    let mut coarse = config.clone();
+    coarse.picture.samples = 1;
+    coarse.picture.camera = camera.clone();
+    let scenery = Scenery::new(Cow::Borrowed(scene), &coarse)?;
+    Ok(middles::depths(&scenery, coarse.picture.size, 1))
 }
 
 /// The scene with its vertices where they are seen, and the stage that says so.
@@ -178,26 +193,4 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     }
     scene.stage.geometry = placed.seen_stage(&config.motion);
     Ok(scene)
-}
-
-fn annotate(
-    layout: &Layout,
-    scenery: &Scenery<'_>,
-    config: &Config,
-    development: Option<Development>,
-) -> Result<Annotations, Error> {
-    let is_shifted = config.shift.shifts_wavelengths();
-    let picture = &config.picture;
-    let seen = (config.lens != Lens::Pinhole && picture.annotations.legend)
-        .then(|| middles::seen_items(scenery, picture.size, picture.samples));
-    let annotated =
-        Annotated { scene: &scenery.scene, camera: &picture.camera, is_shifted, seen: seen.as_deref() };
-    let depths = |scene: &Scene, camera: &CameraOptions, _: SceneState| -> Result<DepthBuffer, Error> {
-        let mut coarse = config.clone();
-        coarse.picture.samples = 1;
-        coarse.picture.camera = camera.clone();
-        let scenery = Scenery::new(Cow::Borrowed(scene), &coarse)?;
-        Ok(middles::depths(&scenery, coarse.picture.size, 1))
-    };
-    layout.annotate(annotated, &config.picture, development, depths)
 }

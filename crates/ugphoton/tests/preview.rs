@@ -19,7 +19,7 @@ cam -ep 0 -6 2 -vc 0 0 .7 -ud 0 0 1;
 ";
 
 fn drawing(config: &Config) -> Drawing {
-    Drawing::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, &()).unwrap()
+    Drawing::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, &()).unwrap().0
 }
 
 fn config(size: [u32; 2], crop: Option<[u32; 4]>) -> Config {
@@ -42,11 +42,11 @@ fn pixels(png: &[u8]) -> ([u32; 2], Vec<[u8; 3]>) {
 fn a_preview_is_the_picture_at_fewer_pixels() {
     for (size, crop) in [([61, 35], None), ([64, 48], Some([5, 3, 43, 29]))] {
         let config = config(size, crop);
-        let (size, whole) = pixels(&drawing(&config).picture(&()).unwrap().bytes);
+        let (size, whole) = pixels(&drawing(&config).picture(&()).unwrap().into_file());
         assert!(whole.iter().any(|&rgb| rgb != whole[0]));
         let [width, height] = size;
         for side in Drawing::PREVIEWS {
-            let (preview_size, preview) = pixels(&drawing(&config).preview(side, &()).unwrap());
+            let (preview_size, preview) = pixels(&drawing(&config).preview(side, &()).unwrap().into_file());
             assert_eq!(preview_size, size);
             for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {
                 let middle = |at: u32, end: u32| (at / side * side + side / 2).min(end - 1);
@@ -54,7 +54,10 @@ fn a_preview_is_the_picture_at_fewer_pixels() {
                 assert_eq!(preview[(row * width + column) as usize], expected, "{side}: {column} {row}");
             }
         }
-        assert!(drawing(&config).preview(1, &()).unwrap() == drawing(&config).picture(&()).unwrap().bytes);
+        assert!(
+            drawing(&config).preview(1, &()).unwrap().into_file()
+                == drawing(&config).picture(&()).unwrap().into_file()
+        );
     }
 }
 
@@ -66,7 +69,7 @@ fn samples_of_previews_count_as_whole_pixels() {
         config.picture.samples = samples;
         config.picture.background =
             Background::Color(ugphysics::Hsv { hue: 200.0, saturation: 0.5, value: 0.8 });
-        pixels(&drawing(&config).preview(8, &()).unwrap()).1
+        pixels(&drawing(&config).preview(8, &()).unwrap().into_file()).1
     });
     // The sample in the middle is in another place; most squares show the same.
     let n_alike = coarse.iter().zip(&fine).filter(|(a, b)| a.iter().zip(*b).all(|(a, b)| a.abs_diff(*b) < 8));

@@ -7,7 +7,8 @@ use std::path::Path;
 
 use clap::{ArgAction, Args};
 use ugimage::{Filter, Format, Tone};
-use ugphysics::{Brightness, Hsv};
+use ugparse::Diagnostics;
+use ugphysics::Hsv;
 use ugpipe::{Context, Failure, Words, count, finite, number, numbers, one_of, whole};
 use ugscene::cli::CameraArgs;
 
@@ -308,6 +309,26 @@ pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Report,
     }
 }
 
+/// Prints the warnings of a scene, and writes the explanation of a pixel.
+///
+/// # Errors
+/// The output cannot be written.
+pub fn write_report(
+    report: Report,
+    warnings: &Diagnostics,
+    text: impl FnOnce() -> String,
+    json: impl FnOnce() -> String,
+    context: &mut Context,
+) -> Result<(), Failure> {
+    if !warnings.is_empty() {
+        context.report(&warnings.report());
+    }
+    match report {
+        Report::Text => context.write_text(&text()),
+        Report::Json => context.write_json(&json()),
+    }
+}
+
 /// The format given, otherwise that of the ending of the output file, otherwise PNG.
 ///
 /// # Errors
@@ -341,7 +362,7 @@ pub fn refuse_terminal(format: Format, context: &Context) -> Result<(), Failure>
 /// The output cannot be written.
 pub fn write_picture(picture: &PictureFile, size: [u32; 2], context: &mut Context) -> Result<(), Failure> {
     if !picture.warnings.is_empty() {
-        context.report(&picture.warnings.render(true));
+        context.report(&picture.warnings.report());
     }
     picture.notes.iter().for_each(|note| context.note(&note.words()));
     context.detail(&format!("drew {} x {} pixels", size[0], size[1]));
@@ -376,15 +397,6 @@ pub fn color(name: &str, numbers: &[f64]) -> Result<Hsv, Failure> {
         return Err(Failure::Usage(format!("lightness and saturation of the {name} are from 0 to 1")));
     }
     Ok(Hsv { hue, saturation, value })
-}
-
-/// Value parser: the name of a brightness law.
-///
-/// # Errors
-/// There is no such law.
-pub fn law(word: &str) -> Result<Brightness, String> {
-    Brightness::from_name(word)
-        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
 }
 
 /// Stops, or `auto`.

@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 use uglabel::MissingCharacter;
+use ugpipe::Stopped;
 use ugscene::CameraError;
 
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
@@ -74,11 +75,7 @@ pub enum Error {
     /// The options of the camera do not define a picture.
     #[error(transparent)]
     Camera(#[from] CameraError),
-}
-
-impl Error {
-    /// True if the command line is wrong, whatever the scene.
-    pub fn is_usage(&self) -> bool {
-        !matches!(self, Self::Memory(..) | Self::Camera(_)) || *self == Self::Camera(CameraError::NoUp)
-    }
+    /// The caller stopped the computation.
+    #[error(transparent)]
+    Stopped(#[from] Stopped),
 }

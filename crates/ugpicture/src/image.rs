@@ -3,7 +3,6 @@
 use rayon::prelude::*;
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, grey_postscript};
 
-use crate::exposure::Exposure;
 use crate::options::PictureOptions;
 use crate::output::Output;
 
@@ -31,8 +30,7 @@ impl Image {
         if options.output.is_linear() {
             return (Self::Light(light), None);
         }
-        let development =
-            (!is_clipped).then(|| Exposure::development(options.exposure, options.tone, || &light));
+        let development = (!is_clipped).then(|| options.development(|| &light));
         if let Some(development) = development {
             light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
                 [*red, *green, *blue] = development.apply([*red, *green, *blue]);

@@ -8,7 +8,8 @@
 //! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
 //! - [`Exposure`]: how light is brought into the range of a display;
-//! - [`Image`]: the picture as light or as 8-bit pixels, developed for its format;
+//! - [`Canvas`]: the shell, which checks options, develops and annotates what a renderer draws,
+//!   and notes what the user should know;
 //! - [`Rendering`]: the picture or vector figure that a renderer returns, and its file
 //!   ([`PictureFile`]);
 //! - [`Emissions`] and [`Channel`]: when and where light was emitted that is seen at a sample, and
@@ -16,21 +17,31 @@
 //! - [`explain`]: why a pixel is as it is, as text and as JSON;
 //! - [`Layout`]: caption, legend, coordinate grid and undistorted outlines.
 //!
-//! ```
-//! use ugimage::{Compression, Frame, Metadata};
-//! use ugpicture::{Image, PictureOptions};
+//! A renderer is a function from options to light; this one draws a sky that fades to the right:
 //!
-//! let options = PictureOptions { size: [4, 3], ..PictureOptions::default() };
-//! options.check()?;
-//! let image = Image::Display(Frame::opaque(4, 3));
+//! ```
+//! use ugimage::{LinearFrame, Metadata};
+//! use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Error, PictureOptions, Subject};
+//!
+//! let canvas = Canvas::new(&PictureOptions { size: [4, 3], ..PictureOptions::default() })?;
+//! let [width, height] = canvas.options().size;
+//! let sky = |idx: u32| [0.2, 0.4, 0.8, 1.0].map(|light: f32| light / (1 + idx % width) as f32);
+//! let frame = LinearFrame::new([width, height], true, (0..width * height).map(sky).collect());
+//! let drawn = Drawn::<Error> {
+//!     content: DrawnContent::Light { frame, is_clipped: false },
+//!     brightest: 0.8,
+//!     notes: Vec::new(),
+//!     annotated: Annotated { is_shifted: false, subject: Subject::Pixels },
+//! };
 //! let metadata = Metadata { software: "demo 1.0".into(), comment: String::new() };
-//! let png = image.into_file(options.output, &metadata, Compression::Fast);
+//! let png = canvas.finish(drawn, metadata, &())?.into_file();
 //! assert!(png.starts_with(b"\x89PNG"));
 //! # Ok::<(), ugpicture::Error>(())
 //! ```
 
 mod annotations;
 mod background;
+mod canvas;
 mod channel;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -50,14 +61,14 @@ mod output;
 mod picture_file;
 mod rendering;
 
-pub use annotations::{Annotated, Annotations, Layout, SceneState};
+pub use annotations::{Annotated, DepthsOf, Layout, SceneState, Subject};
 pub use background::{Backdrop, Background};
+pub use canvas::{Canvas, Drawn, DrawnContent};
 pub use channel::{Channel, channel_planes};
 pub use depth_buffer::{DepthBuffer, SurfaceSample};
 pub use emission::{Emission, Emissions, MediumLight, SeenItem};
 pub use error::Error;
 pub use exposure::Exposure;
-pub use image::Image;
 pub use limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
 pub use line::{clip_line, visible_runs};
 pub use metadata::metadata;
@@ -65,5 +76,5 @@ pub use note::Note;
 pub use options::{AnnotationOptions, PictureOptions};
 pub use output::Output;
 pub use picture_file::PictureFile;
-pub use rendering::{Content, Rendering, VectorFigure};
+pub use rendering::{Rendering, VectorFigure};
 pub use ugimage::{Filter, Tone};

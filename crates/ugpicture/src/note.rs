@@ -73,15 +73,13 @@ pub enum Note {
     Adaptive(f64),
     /// Automatic exposure, in stops.
     Exposure(f64),
-    /// Display-encoded values up to this were clipped.
+    /// Brightness up to this was clipped.
     ClippedIntensity {
         /// The largest one.
         most: f32,
         /// They could have been exposed.
         has_light: bool,
     },
-    /// Light up to this was clipped.
-    ClippedLight(f64),
     /// The depths between which light fades.
     DepthCue {
         /// Where it begins.
@@ -169,7 +167,6 @@ impl fmt::Display for Note {
             Self::ClippedIntensity { most, .. } => {
                 return write!(f, "max intensity is {}, clip to 1.0", decimal(*most));
             }
-            Self::ClippedLight(most) => return write!(f, "max light is {most:.3}, clip to 1.0"),
             Self::DepthCue { near, far, .. } => return write!(f, "depth cueing is from {near} to {far}"),
             Self::Grid { step: Some(step), level } => {
                 return write!(f, "the lines of the grid are {step} apart, in the plane z = {level}");

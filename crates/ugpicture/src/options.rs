@@ -1,6 +1,8 @@
 //! The options of a picture, the same for every renderer.
 
-use ugimage::{Compression, Filter, Format, Tone};
+use std::borrow::Borrow;
+
+use ugimage::{Compression, Development, Filter, Format, LinearFrame, Tone, auto_exposure};
 use ugphysics::Hsv;
 use ugscene::CameraOptions;
 
@@ -64,6 +66,18 @@ impl PictureOptions {
         self.output.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
     }
 
+    /// Exposure and tone curve together. `frame`: the light of the picture, which is computed for
+    /// [`Exposure::Auto`] alone.
+    pub fn development<F: Borrow<LinearFrame>>(&self, frame: impl FnOnce() -> F) -> Development {
+        let tone = self.tone;
+        let stops = match self.exposure {
+            None => 0.0,
+            Some(Exposure::Stops(stops)) => stops,
+            Some(Exposure::Auto) => auto_exposure(frame().borrow(), tone),
+        };
+        Development { stops, tone }
+    }
+
     /// How hard a PNG file is compressed.
     pub fn compression(&self) -> Compression {
         if self.small { Compression::Small } else { Compression::Fast }
@@ -112,15 +126,19 @@ impl PictureOptions {
         }
     }
 
-    /// Changes them to those of the linear light of the picture: exposure, tone curve and
-    /// compression are left out.
+    /// Changes them to those of the linear light of the picture: exposure, tone curve, compression
+    /// and annotations are left out.
     pub fn keep_light(&mut self) {
         self.output = Output::Color(Format::Exr);
+        self.annotations = AnnotationOptions::default();
         (self.exposure, self.tone, self.small) = (None, Tone::Clip, false);
     }
 
-    /// Refuses a picture that does not fit in memory.
-    pub(crate) fn check_size(&self) -> Result<(), Error> {
+    /// Refuses a picture with more pixels or samples than the limits.
+    ///
+    /// # Errors
+    /// [`Error::Size`], [`Error::Samples`].
+    pub fn check_size(&self) -> Result<(), Error> {
         let [width, height] = self.size;
         let fits = (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height);
         if !fits || u64::from(width) * u64::from(height) > MAX_PIXELS {

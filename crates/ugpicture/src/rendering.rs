@@ -2,11 +2,14 @@
 
 use ugimage::figure::{self, Figure, Gradient, Triangle};
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
+use ugparse::Diagnostics;
+use ugpipe::Progress;
 
 use crate::image::Image;
 use crate::note::Note;
 use crate::options::PictureOptions;
 use crate::output::Output;
+use crate::picture_file::PictureFile;
 
 /// A rendered picture, and the kind of file that the options ask for.
 #[derive(Clone, Debug)]
@@ -14,6 +17,8 @@ pub struct Rendering {
     content: Content,
     output: Output,
     compression: Compression,
+    /// What the file says about its making.
+    pub metadata: Metadata,
     /// What the user should know about it.
     pub notes: Vec<Note>,
 }
@@ -50,16 +55,28 @@ impl VectorFigure {
 
 impl Rendering {
     /// A picture that was drawn with some options.
-    pub fn new(content: Content, options: &PictureOptions, notes: Vec<Note>) -> Self {
-        Self { content, output: options.output, compression: options.compression(), notes }
+    pub(crate) fn new(
+        content: Content,
+        options: &PictureOptions,
+        metadata: Metadata,
+        notes: Vec<Note>,
+    ) -> Self {
+        Self { content, output: options.output, compression: options.compression(), metadata, notes }
     }
 
     /// The bytes of a file of the kind that the options ask for.
-    pub fn into_file(self, metadata: &Metadata) -> Vec<u8> {
+    pub fn into_file(self) -> Vec<u8> {
         match self.content {
-            Content::Image(image) => image.into_file(self.output, metadata, self.compression),
-            Content::Figure(figure) => figure.file(metadata),
+            Content::Image(image) => image.into_file(self.output, &self.metadata, self.compression),
+            Content::Figure(figure) => figure.file(&self.metadata),
         }
+    }
+
+    /// Packs it into a file, with its notes. `warnings`: about the text of the scene.
+    pub fn pack(mut self, warnings: Diagnostics, progress: &dyn Progress) -> PictureFile {
+        progress.step("compression", 0);
+        let notes = std::mem::take(&mut self.notes);
+        PictureFile { bytes: self.into_file(), notes, warnings }
     }
 
     /// 8-bit pixels for a display; `None` for a vector figure, which has no pixels.

@@ -46,6 +46,15 @@ impl Failure {
         Self::Failed(error.to_string())
     }
 
+    /// The failure of a run by an error.
+    pub fn of(error: impl Words) -> Self {
+        match error.report() {
+            Some(report) => Self::Report(report),
+            None if error.is_usage() => Self::Usage(error.words()),
+            None => Self::Failed(error.words()),
+        }
+    }
+
     /// True if the reading end of the output pipe was closed.
     pub fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Write { error, .. } if error.kind() == io::ErrorKind::BrokenPipe)
@@ -59,6 +68,16 @@ impl Failure {
 pub trait Words {
     /// What is wrong, and the options that correct it.
     fn words(&self) -> String;
+
+    /// True if the command line is wrong, whatever the input.
+    fn is_usage(&self) -> bool {
+        false
+    }
+
+    /// Rendered diagnostics, if these are what is wrong.
+    fn report(&self) -> Option<String> {
+        None
+    }
 }
 
 /// `Failure` itself does not implement [`Error`], so that `?` can convert every error to it.

@@ -151,7 +151,7 @@ pub use input::Input;
 pub use manual::{Entry, Group, Manual, Value, manual};
 #[cfg(feature = "cli")]
 pub use numbers::{Assign, SetNumbers, set_numbers};
-pub use progress::Progress;
+pub use progress::{Progress, Stopped};
 #[cfg(feature = "cli")]
 pub use provenance::{sha256, shell_word};
 #[cfg(feature = "cli")]

@@ -66,20 +66,13 @@ pub fn read_history(file: Option<&str>) -> String {
 /// Where another eye point has to be given instead.
 pub const EYE_POINT: &str = "give it to uglorentz";
 
-/// The program that has an option, by one of its short names; `None` if several have it, or none.
+/// The names of options, each once, behind a program that has it. `tests/help.rs` makes it of the
+/// definitions of all programs.
+const OPTIONS: &str = include_str!("options_of_programs.txt");
+
+/// The program that has an option, by one of its names; of several the one whose short help has it.
 pub fn program_with_option(name: &str) -> Option<&'static str> {
-    const OPTIONS: [(&str, &[&str]); 5] = [
-        (
-            "uglorentz",
-            &["vel", "velocity", "cv", "ti", "time", "an", "anchor", "in", "se", "sc", "sl", "sd", "nc"],
-        ),
-        ("ugdoppler", &["gw", "li", "ir", "hd"]),
-        (
-            "ugrainbow",
-            &["sz", "size", "aa", "ex", "exposure", "tc", "fl", "ch", "vec", "wi", "dl", "gr", "lg", "bg"],
-        ),
-        ("ugsheet", &["cols", "columns", "label", "title"]),
-        ("ugmesh", &["fit"]),
-    ];
-    OPTIONS.iter().find(|(_, names)| names.contains(&name)).map(|(program, _)| *program)
+    let lines = OPTIONS.lines().filter_map(|line| line.split_once(": "));
+    let mut with_option = lines.filter(|(_, names)| names.split(' ').any(|other| other == name));
+    with_option.next().map(|(program, _)| program)
 }

@@ -15,7 +15,7 @@ pub fn png(text: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
     let (colored, _) = ugdoppler::apply(seen, &ugdoppler::Config { iris: true, ..Default::default() })?;
     let picture = ugrainbow::PictureOptions { size: [160, 120], ..Default::default() };
     let rendering = ugrainbow::render(&colored, &ugrainbow::Config { picture, ..Default::default() })?;
-    Ok(rendering.into_file(&ugrainbow::metadata(&colored.remarks, ugrainbow::PROVENANCE)))
+    Ok(rendering.into_file())
 }
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -1,8 +1,8 @@
-//! The annotations of a picture.
+//! What annotations tell about a scene.
 
-use ugimage::Development;
-use ugpicture::{Annotated, Annotations, DepthBuffer, Layout, SceneState};
+use ugpicture::{Annotated, DepthBuffer, DepthsOf, SceneState, Subject};
 use ugraster::Center;
+use ugscene::{CameraOptions, Scene};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -10,31 +10,37 @@ use crate::front::of_surface;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// Annotates the picture of a scene. `development`: how the light of the picture was developed.
-///
-/// # Errors
-/// Errors of rendering the scene with its moving bodies at rest.
-pub fn annotate(
-    layout: &Layout,
-    setup: &Setup<'_>,
-    config: &Config,
-    development: Option<Development>,
-) -> Result<Annotations, Error> {
+/// What annotations tell about a prepared scene.
+pub fn annotated<'a>(
+    setup: &'a Setup<'_>,
+    config: &'a Config,
+    depths: &'a DepthsOf<'a, Error>,
+) -> Annotated<'a, Error> {
     let scene = setup.scene();
     let is_shifted = match config.exact {
         Some(shift) => shift.shifts_wavelengths(),
         None => scene.stage.seen_colors().is_some_and(|seen| seen.doppler),
     };
-    let annotated = Annotated { scene, camera: &config.picture.camera, is_shifted, seen: None };
-    layout.annotate(annotated, &config.picture, development, |scene, camera, state| {
-        let mut coarse = Config { wireframe: None, depth_cue: None, ..config.clone() };
-        coarse.picture.samples = 1;
-        coarse.picture.camera = camera.clone();
-        coarse.exact = config.exact.filter(|_| state == SceneState::AsSeen);
-        let setup = Setup::new(scene, &coarse)?;
-        let layers = RenderLayers::new(setup.painter(), &coarse.draw_mode());
-        let surface = |center: &Center<'_>| center.opaque.map(of_surface);
-        let seen = layers.paint_centers(&setup.grid, &setup.shader, surface);
-        Ok(DepthBuffer { size: coarse.picture.size, seen })
-    })
+    Annotated { is_shifted, subject: Subject::Scene { scene, camera: &config.picture.camera, depths } }
+}
+
+/// The depth buffer of a scene with a camera, in a picture of these options.
+///
+/// # Errors
+/// Errors of rendering the scene with its moving bodies at rest.
+pub fn depths(
+    scene: &Scene,
+    camera: &CameraOptions,
+    state: SceneState,
+    config: &Config,
+) -> Result<DepthBuffer, Error> {
+    let mut coarse = Config { wireframe: None, depth_cue: None, ..config.clone() };
+    coarse.picture.samples = 1;
+    coarse.picture.camera = camera.clone();
+    coarse.exact = config.exact.filter(|_| state == SceneState::AsSeen);
+    let setup = Setup::new(scene, &coarse)?;
+    let layers = RenderLayers::new(setup.painter(), &coarse.draw_mode());
+    let surface = |center: &Center<'_>| center.opaque.map(of_surface);
+    let seen = layers.paint_centers(&setup.grid, &setup.shader, surface);
+    Ok(DepthBuffer { size: coarse.picture.size, seen })
 }

@@ -4,22 +4,20 @@ mod words;
 
 use std::path::Path;
 
-use clap::{ArgAction, Parser};
-use uglight::ColorShift;
-use uglight::Interpolation;
-use ugparse::{Source, pipe};
-use ugphysics::{Brightness, Hsv};
+use clap::{Arg, ArgAction, Parser};
+use uglight::{ColorShift, Interpolation};
+use ugparse::pipe;
+use ugphysics::Hsv;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, Report, color, kind_named, kinds, law, picture_format,
-    pixel, refuse_terminal, report_format, with_format, write_picture,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kind_named, kinds, picture_format, pixel,
+    refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, finite, number, numbers, one_of};
-use ugscene::cli::RepeatArgs;
+use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, number, numbers, one_of};
+use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
-use crate::error::Error;
 use crate::explain::{self, explain};
 use crate::{PROVENANCE, run_with};
 
@@ -36,6 +34,7 @@ const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 /// camera is seen from far enough away that all of it is in the picture.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugrainbow", version, after_help = EXAMPLES)]
+#[command(mut_args(with_exact))]
 pub struct Args {
     /// Interpolate hue between corners (default)
     #[arg(long, visible_alias = "interpolate-hue", conflicts_with_all = ["iw", "wi"])]
@@ -48,7 +47,7 @@ pub struct Args {
     /// Hues in colour statements are wavelengths in nm; implies -iw
     ///
     /// Only scenes written by hand need it: the output of `ugdoppler -gw` is recognized.
-    #[arg(long, visible_alias = "wavelengths")]
+    #[arg(long, visible_alias = "wavelengths", conflicts_with = "sp")]
     wi: bool,
 
     /// Write black-and-white PostScript, as in 1988
@@ -125,31 +124,8 @@ pub struct Args {
     #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
     xc: bool,
 
-    /// With -xc, brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
-    ///
-    /// The laws are those of ugdoppler: photon and bolometric multiply linear light, report and none
-    /// display-encoded values as in 1988, and light of lamps likewise. Values above 1 are clipped per sample, unless -ex or -tc is
-    /// given.
-    #[arg(long, visible_alias = "brightness", value_name = "LAW",
-          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), requires = "xc",
-          conflicts_with = "no_flux", help_heading = EXACT)]
-    br: Option<Brightness>,
-
-    /// With -xc, shift spectra instead of hues
-    ///
-    /// As in ugdoppler: black bodies and sampled spectra as they are, other colours as surfaces in
-    /// daylight. The brightness law is D^5 per wavelength, and light brighter than white is clipped
-    /// only in the last step.
-    #[arg(long, visible_alias = "spectral", requires = "xc", conflicts_with_all = ["br", "wi"], help_heading = EXACT)]
-    sp: bool,
-
-    /// With -xc, do not shift wavelengths
-    #[arg(long, requires = "xc", help_heading = EXACT)]
-    no_doppler: bool,
-
-    /// With -xc, do not change brightness
-    #[arg(long, requires = "xc", help_heading = EXACT)]
-    no_flux: bool,
+    #[command(flatten, next_help_heading = EXACT)]
+    shift: ShiftArgs,
 
     /// Instead of a picture, print how the colour of the pixel in column X and row Y (from 0 at the
     /// upper left) comes about
@@ -176,7 +152,13 @@ const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in -sd 1 ship.ug | ugrainbow -xc > exact.png";
 
 const LINES: &str = "Lines";
-const EXACT: &str = "Exact pictures";
+const EXACT: &str = "Exact pictures (-xc)";
+
+/// The options of [`ShiftArgs`] need `-xc`.
+fn with_exact(arg: Arg) -> Arg {
+    const OPTIONS: [&str; 4] = ["br", "sp", "no_doppler", "no_flux"];
+    if OPTIONS.contains(&arg.get_id().as_str()) { arg.requires("xc") } else { arg }
+}
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
@@ -209,7 +191,8 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        ColorShift::new(self.sp, !self.no_doppler, !self.no_flux, self.br)
+        let ShiftArgs { br, sp, no_doppler, no_flux } = self.shift;
+        ColorShift::new(sp, !no_doppler, !no_flux, br)
     }
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {
@@ -285,37 +268,14 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
     let source = pipe::follow(input, &config.reading, context).map_err(pipe::refused)?;
     if let Some((pixel, report)) = report {
-        return explain_pixel(&config, &source, pixel, report, context);
+        let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
+        let (text, json) = (|| explain::text(&explanation), || explain::json(&explanation));
+        return write_report(report, &warnings, text, json, context);
     }
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
-    let picture = run_with(&config, &source, provenance, &context.steps()).map_err(failure)?;
+    let picture = run_with(&config, &source, provenance, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
-}
-
-fn explain_pixel(
-    config: &Config,
-    source: &Source,
-    pixel: Pixel,
-    report: Report,
-    context: &mut Context,
-) -> Result<(), Failure> {
-    let (explanation, warnings) = explain(config, source, pixel).map_err(failure)?;
-    if !warnings.is_empty() {
-        context.report(&warnings.render(true));
-    }
-    match report {
-        Report::Text => context.write_text(&explain::text(&explanation)),
-        Report::Json => context.write_json(&explain::json(&explanation)),
-    }
-}
-
-fn failure(error: Error) -> Failure {
-    match error {
-        Error::Scene(diagnostics) => Failure::Report(diagnostics.render(true)),
-        error if error.is_usage() => Failure::usage(error.words()),
-        error => Failure::failed(error.words()),
-    }
 }
 
 /// Width of lines in pixels.

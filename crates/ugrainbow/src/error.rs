@@ -48,17 +48,6 @@ pub enum Error {
     Stage(#[from] StageError),
 }
 
-impl Error {
-    /// True if the command line is wrong, whatever the scene.
-    pub fn is_usage(&self) -> bool {
-        match self {
-            Self::Picture(error) => error.is_usage(),
-            Self::ExplainExact => true,
-            _ => false,
-        }
-    }
-}
-
 impl From<CameraError> for Error {
     fn from(error: CameraError) -> Self {
         Self::Picture(error.into())

@@ -1,31 +1,16 @@
 //! Notes for the user about a picture, above all why it is empty.
 
-use ugimage::{Development, Tone};
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE};
-use ugpicture::{Background, Exposure, Note};
+use ugpicture::{Background, Note};
 use ugraster::{DepthFade, SampleStats};
 use ugscene::Scene;
 
-use crate::clip::ClipCounts;
 use crate::config::{Config, DepthCue};
-use crate::setup::Setup;
-
-/// Least brightness at which clipping is reported; less is invisible in 8 bits.
-const CLIPPED: f32 = 1.001;
-
-/// Statistics of a drawn picture.
-#[derive(Clone, Copy, Debug)]
-pub struct DrawStatistics {
-    /// How many faces and lines were clipped.
-    pub clip_counts: ClipCounts,
-    /// Statistics of its samples.
-    pub stats: SampleStats,
-    /// How light was developed, if light brighter than white was kept.
-    pub development: Option<Development>,
-}
+use crate::render::DrawnScene;
 
 /// The notes on a picture.
-pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) -> Vec<Note> {
+pub fn notes(drawn: &DrawnScene<'_>, config: &Config) -> Vec<Note> {
+    let setup = &drawn.setup;
     let default_camera = setup.view.default_camera.map(ugscene::Note::DefaultCamera);
     let mut notes: Vec<Note> = default_camera.into_iter().map(Note::Scene).collect();
     scene_notes(setup.scene(), config.exact.is_some(), &mut notes);
@@ -35,32 +20,14 @@ pub fn notes(setup: &Setup<'_>, config: &Config, statistics: &DrawStatistics) ->
     if setup.view.is_up_replaced {
         notes.push(Note::UpReplaced);
     }
-    let why = why_nothing_is_seen(config, statistics);
-    notes.extend(why.or_else(|| why_it_is_dark(&statistics.stats)));
-    notes.extend(light_note(config, statistics));
+    let why = why_nothing_is_seen(config, drawn);
+    notes.extend(why.or_else(|| why_it_is_dark(&drawn.stats)));
     if let (Some(DepthCue { range: None, least }), Some(DepthFade { near, far, .. })) =
         (config.depth_cue, setup.grid.fade)
     {
         notes.push(Note::DepthCue { near, far, least });
     }
     notes
-}
-
-/// How light brighter than white was brought into range, if there was any.
-fn light_note(config: &Config, statistics: &DrawStatistics) -> Option<Note> {
-    if config.picture.output.is_linear() {
-        return None;
-    }
-    if let (Some(Exposure::Auto), Some(Development { stops, .. })) =
-        (config.picture.exposure, statistics.development)
-    {
-        return Some(Note::Exposure(stops));
-    }
-    let is_chosen = config.picture.exposure.is_some() || config.picture.tone != Tone::Clip;
-    // Light beyond the largest number is shown as that number.
-    let most = statistics.stats.max_intensity.min(f32::MAX);
-    let has_light = statistics.development.is_some();
-    (most > CLIPPED && !is_chosen).then_some(Note::ClippedIntensity { most, has_light })
 }
 
 fn scene_notes(scene: &Scene, is_exact: bool, notes: &mut Vec<Note>) {
@@ -78,7 +45,7 @@ fn scene_notes(scene: &Scene, is_exact: bool, notes: &mut Vec<Note>) {
 
 fn why_nothing_is_seen(
     config: &Config,
-    DrawStatistics { clip_counts, stats, .. }: &DrawStatistics,
+    DrawnScene { clip_counts, stats, .. }: &DrawnScene<'_>,
 ) -> Option<Note> {
     if clip_counts.in_front == 0 {
         return Some(Note::NothingInFront);

@@ -3,8 +3,8 @@
 
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
-use ugimage::{Development, Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
-use ugpicture::{Backdrop, Emissions, Exposure, Image, PictureOptions, SurfaceSample, channel_planes};
+use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
+use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
 use ugraster::{Center, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
 use crate::config::Config;
@@ -12,37 +12,24 @@ use crate::front::front;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// The pixels of a picture.
-pub struct Pixels {
-    /// Light, or levels for a display.
-    pub image: Image,
-    /// Statistics of the samples.
-    pub stats: SampleStats,
-    /// How light was developed; `None` for linear light, and for light that was clipped sample by
-    /// sample.
-    pub development: Option<Development>,
+/// Draws the scene: 8-bit levels at once, if no exposure, tone curve or channel is asked for, and
+/// otherwise light.
+pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (DrawnContent, SampleStats) {
+    let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
+    if !is_deep && !setup.is_uncut {
+        let (frame, stats) = display(setup, layers, config);
+        return (DrawnContent::Display(frame), stats);
+    }
+    let (frame, stats) = light(setup, layers, config);
+    (DrawnContent::Light { frame, is_clipped: !setup.is_uncut }, stats)
 }
 
-impl Pixels {
-    /// Draws the scene.
-    pub fn new(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
-        let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
-        if !is_deep && !setup.is_uncut {
-            return Self::display(setup, layers, config);
-        }
-        let (frame, stats) = light(setup, layers, config);
-        let (image, development) = Image::developed(frame, &config.picture, !setup.is_uncut);
-        Self { image, stats, development }
-    }
-
-    /// Draws 8-bit levels directly, when no exposure, tone curve or channel is requested.
-    fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> Self {
-        let grid = &setup.grid;
-        let finish = Display::new(&config.picture);
-        let (pixels, stats) = layers.paint_filtered(grid, config.picture.filter, &setup.shader, &finish);
-        let frame = Frame::new([grid.width, grid.height], finish.backdrop.is_opaque(), pixels);
-        Self { image: Image::Display(frame), stats, development: None }
-    }
+/// The whole picture as 8-bit levels.
+pub fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
+    let grid = &setup.grid;
+    let finish = Display::new(&config.picture);
+    let (pixels, stats) = layers.paint_filtered(grid, config.picture.filter, &setup.shader, &finish);
+    (Frame::new([grid.width, grid.height], finish.backdrop.is_opaque(), pixels), stats)
 }
 
 /// Converts samples to display levels.
@@ -157,21 +144,6 @@ fn push_channels(
     for &channel in &config.picture.channels {
         channel_planes(channel, seen.len(), &at).into_iter().for_each(|plane| frame.push_plane(plane));
     }
-}
-
-/// How the light of a picture is developed. `frame` computes the light; it is called for an
-/// automatic exposure alone.
-pub fn development<F: std::borrow::Borrow<LinearFrame>>(
-    picture: &PictureOptions,
-    frame: impl FnOnce() -> F,
-) -> Development {
-    Exposure::development(picture.exposure, picture.tone, frame)
-}
-
-/// Develops a pixel; its covered part is unchanged.
-pub fn developed(development: &Development, [red, green, blue, part]: [f32; 4]) -> [f32; 4] {
-    let [red, green, blue] = development.apply([red, green, blue]);
-    [red, green, blue, part]
 }
 
 /// The background of a picture.

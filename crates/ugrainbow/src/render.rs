@@ -2,32 +2,40 @@
 
 use ugimage::{Frame, LinearFrame};
 use ugparse::{Diagnostics, Parsed, Source};
-use ugpicture::{Content, Layout, Output, PictureFile, Rendering, metadata};
+use ugpicture::{Canvas, Drawn, DrawnContent, Output, PictureFile, Rendering, metadata};
 use ugpipe::Progress;
+use ugraster::SampleStats;
 use ugscene::{Provenance, Scene};
 
-use crate::annotate::annotate;
+use crate::annotate::{annotated, depths};
+use crate::clip::ClipCounts;
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::error::Error;
-use crate::notes::{DrawStatistics, notes};
-use crate::pixels::{self, Pixels};
+use crate::notes::notes;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
-use crate::vector;
+use crate::{pixels, vector};
+
+/// This program, without a command line, for the history of what it makes.
+pub const PROVENANCE: Provenance<'static> =
+    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
 /// Renders a scene: to pixels for a display, light, or a vector figure.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn render(scene: &Scene, config: &Config) -> Result<Rendering, Error> {
-    config.picture.check()?;
-    render_with(scene, config, &Layout::new(&config.picture)?, &())
+    render_with(scene, config, &())
 }
 
-/// This program, without a command line, for the history of what it makes.
-pub const PROVENANCE: Provenance<'static> =
-    Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
+/// Like [`render`], and reports progress.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render_with(scene: &Scene, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+    draw(scene, config, &Canvas::new(&config.picture)?, PROVENANCE, progress)
+}
 
 /// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
 /// file, exposure, tone curve and annotations are ignored.
@@ -61,15 +69,11 @@ pub fn run_with(
     provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    let layout = Layout::new(&config.picture)?;
+    let canvas = Canvas::new(&config.picture)?;
     progress.step("reading", 0);
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-    config.picture.check()?;
-    let rendering = render_with(&parsed.scene, config, &layout, progress)?;
-    progress.step("compression", 0);
-    let notes = rendering.notes.clone();
-    let bytes = rendering.into_file(&metadata(&parsed.scene.remarks, provenance));
-    Ok(PictureFile { bytes, notes, warnings: warnings(source, parsed) })
+    let rendering = draw(&parsed.scene, config, &canvas, provenance, progress)?;
+    Ok(rendering.pack(warnings(source, parsed), progress))
 }
 
 /// Warnings of the parser, and one if moving bodies are drawn at rest.
@@ -80,35 +84,51 @@ pub(crate) fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
     }
 }
 
-/// Renders a scene in a layout. `config`: of the whole picture, already checked.
-fn render_with(
+/// A scene as drawn, before it is developed.
+pub struct DrawnScene<'a> {
+    /// The scene at the resolution at which visibility was decided.
+    pub setup: Setup<'a>,
+    /// How many faces and lines were clipped.
+    pub clip_counts: ClipCounts,
+    /// Statistics of its samples.
+    pub stats: SampleStats,
+    /// Light, pixels or areas.
+    pub content: DrawnContent,
+}
+
+/// Renders a scene on a canvas. `config`: of the whole picture.
+fn draw(
     scene: &Scene,
     config: &Config,
-    layout: &Layout,
+    canvas: &Canvas,
+    provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     progress.step("preparing", 0);
-    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-    let (setup, statistics, annotations, content) = match config.picture.output {
-        Output::Vector(format) => {
-            let drawn = vector::draw(scene, config, format, layout, progress)?;
-            (drawn.setup, drawn.statistics, drawn.annotations, Content::Figure(drawn.figure))
-        }
-        Output::Color(_) | Output::Grey => {
-            let setup = prepare(scene, config)?;
-            let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
-            let Pixels { image, stats, development } = Pixels::new(&setup, &layers, config);
-            let statistics = DrawStatistics { clip_counts: layers.clip_counts(), stats, development };
-            drop(layers);
-            progress.step("annotating", 0);
-            let annotations = annotate(layout, &setup, config, development)?;
-            let content = Content::Image(annotations.composite(image));
-            (setup, statistics, annotations, content)
-        }
+    let config = &Config { picture: canvas.options().clone(), ..config.clone() };
+    let drawn = match config.picture.output {
+        Output::Vector(format) => vector::draw(scene, config, format, progress)?,
+        Output::Color(_) | Output::Grey => draw_pixels(scene, config, progress)?,
     };
-    let mut notes = notes(&setup, config, &statistics);
-    notes.extend(annotations.notes);
-    Ok(Rendering::new(content, &config.picture, notes))
+    let notes = notes(&drawn, config);
+    let DrawnScene { setup, stats, content, .. } = drawn;
+    let depths = |scene: &_, camera: &_, state| depths(scene, camera, state, config);
+    let annotated = annotated(&setup, config, &depths);
+    let drawn = Drawn { content, brightest: stats.max_intensity, notes, annotated };
+    canvas.finish(drawn, metadata(&scene.remarks, provenance), progress)
+}
+
+fn draw_pixels<'a>(
+    scene: &'a Scene,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<DrawnScene<'a>, Error> {
+    let setup = prepare(scene, config)?;
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
+    let (content, stats) = pixels::draw(&setup, &layers, config);
+    let clip_counts = layers.clip_counts();
+    drop(layers);
+    Ok(DrawnScene { setup, clip_counts, stats, content })
 }
 
 /// A scene prepared for drawing: its colours and lights are computed, but nothing is projected yet.
@@ -127,9 +147,9 @@ impl<'a> Prepared<'a> {
         Ok(Self { setup: prepare(scene, config)?, config })
     }
 
-    /// Draws the scene: from vertices to 8 bits per channel.
+    /// Draws the scene: from vertices to 8 bits per channel, without exposure.
     pub fn draw(&self) -> Frame {
         let layers = RenderLayers::new(self.setup.painter(), &self.config.draw_mode());
-        Pixels::new(&self.setup, &layers, self.config).image.into_frame()
+        pixels::display(&self.setup, &layers, self.config).0
     }
 }

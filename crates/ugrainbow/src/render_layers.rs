@@ -32,6 +32,10 @@ impl ugraster::Progress for Drawing<'_> {
     fn done(&self) {
         self.0.done(1);
     }
+
+    fn is_stopped(&self) -> bool {
+        self.0.is_stopped()
+    }
 }
 
 /// All faces and lines of a scene.

@@ -179,6 +179,9 @@ pub(crate) fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
     // Buffers go from part to part: there are as many as threads, and their memory is touched once.
     let buffers = BufferPool::default();
     ugparallel::for_jobs(&mut parts, |part, (pixels, stats)| {
+        if progress.is_stopped() {
+            return;
+        }
         let mut own = buffers.take();
         *stats = paint(&mut own, part, pixels);
         buffers.put_back(own);

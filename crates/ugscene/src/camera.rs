@@ -94,6 +94,26 @@ impl View {
                 (crate::eye(scene, options.eye), center)
             }
         };
+        Ok(Self { default_camera, ..Self::between([eye, center], camera, options, samples)? })
+    }
+
+    /// A view of something else than a scene, with the origin for an eye or a view centre that is
+    /// not given.
+    ///
+    /// # Errors
+    /// See [`View::new`].
+    pub fn without_scene(options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
+        let ends = [options.eye, options.center].map(Option::unwrap_or_default);
+        Self::between(ends, &Camera::default(), options, samples)
+    }
+
+    /// The view from an eye point to a view centre, with the rest of a camera.
+    fn between(
+        [eye, center]: [DVec3; 2],
+        camera: &Camera,
+        options: &CameraOptions,
+        samples: [u32; 2],
+    ) -> Result<Self, CameraError> {
         let distance = view_distance(eye, center)?;
         options.check_up()?;
         let forward = (center - eye) / distance;
@@ -109,7 +129,7 @@ impl View {
             slab: slab(camera, is_perspective, distance)?,
             distance,
             is_up_replaced,
-            default_camera,
+            default_camera: None,
             right,
             up: right.cross(forward),
             scale: [film.samples[0] / (2.0 * half[0]), film.samples[1] / (2.0 * half[1])],

@@ -4,7 +4,8 @@ mod words;
 
 use clap::{ArgAction, Args};
 use glam::DVec3;
-use ugpipe::{Failure, finite, number, numbers, vector, view_angle};
+use ugphysics::Brightness;
+use ugpipe::{Failure, finite, number, numbers, one_of, vector, view_angle};
 
 use crate::{Anchor, CameraOptions, Geometry, MotionOptions};
 
@@ -175,6 +176,41 @@ impl EffectArgs {
     pub fn geometry(self) -> Geometry {
         Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time }
     }
+}
+
+/// How motion changes colours: flatten it into the arguments of a program that shifts them.
+#[derive(Args, Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShiftArgs {
+    /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
+    ///
+    /// The laws photon and bolometric multiply linear light, report and none display-encoded values
+    /// as in 1988, and light of lamps likewise. A renderer clips values above 1 sample by sample,
+    /// unless it has -ex or -tc.
+    #[arg(long, visible_alias = "brightness", value_name = "LAW",
+          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux")]
+    pub br: Option<Brightness>,
+
+    /// Shift spectra instead of hues
+    ///
+    /// Black bodies and sampled spectra as they are, other colours as surfaces in daylight. The
+    /// brightness law is D^5 per wavelength, and light brighter than white is clipped only in the
+    /// last step.
+    #[arg(long, visible_alias = "spectral", conflicts_with = "br")]
+    pub sp: bool,
+
+    /// Leave wavelengths as they are
+    #[arg(long)]
+    pub no_doppler: bool,
+
+    /// Leave brightness as it is; with -sp omit the factor D^5
+    #[arg(long)]
+    pub no_flux: bool,
+}
+
+/// Value parser: the name of a brightness law.
+fn law(word: &str) -> Result<Brightness, String> {
+    Brightness::from_name(word)
+        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
 }
 
 /// What happens where faces of different colours meet: flatten it into the arguments of a program.

@@ -11,7 +11,7 @@ use ugpipe::{
 };
 
 use crate::recipe::{Recipe, recipes};
-use crate::{Config, Error, Labels, Picture, history, join, sheet};
+use crate::{Config, Error, Labels, Motion, Picture, history, join, sheet};
 
 /// Arranges several pictures on one sheet, with labels
 ///
@@ -181,7 +181,8 @@ impl Args {
 fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
     let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
     let name = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
-    Ok(Picture { name: name.unwrap_or_default(), size, history })
+    let motion = Motion::recorded(&history);
+    Ok(Picture { name: name.unwrap_or_default(), size, motion, history })
 }
 
 /// Joins tiles to a whole picture.
@@ -198,7 +199,7 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let tile = |input: &Input| {
         let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
-        Ok(Picture { name: input.name.clone(), size, history })
+        Ok(Picture { name: input.name.clone(), size, motion: Motion::default(), history })
     };
     let tiles = inputs.iter().map(tile).collect::<Result<Vec<_>, Error>>().map_err(Failure::failed)?;
     let frame_of = |idx: usize| {
@@ -316,6 +317,6 @@ pub fn main() -> ExitCode {
             frame.width(),
             frame.height()
         ));
-        context.write(&format.encode(&frame, &history(&pictures, context.command_line())))
+        context.write(&format.encode(&frame, &history(&pictures, Some(context.command_line()))))
     })
 }

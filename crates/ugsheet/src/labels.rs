@@ -1,6 +1,7 @@
 //! The labels under the pictures.
 
 use glam::DVec3;
+use ugimage::Metadata;
 use uglabel::number::{significant, speed};
 use ugphysics::Velocity;
 
@@ -10,7 +11,7 @@ use crate::{Picture, shell_words};
 /// How pictures are labelled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Labels {
-    /// Speed and time from the history of the pictures, as far as the pictures differ in them;
+    /// Speed and time of the pictures, as far as the pictures differ in them;
     /// otherwise their names.
     Auto,
     /// The file names.
@@ -47,13 +48,15 @@ impl Labels {
     }
 }
 
-/// Labels from the options that `uglorentz` was called with. `None` if they do not distinguish the
-/// pictures.
+/// Labels by the motion of the pictures. `None` if it does not distinguish them.
 fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
-    let options: Vec<MotionOptions> =
-        pictures.iter().map(|picture| MotionOptions::parse(&picture.history.comment)).collect();
-    let speeds: Vec<Option<String>> = options.iter().map(|motion| motion.speed.clone()).collect();
-    let times: Vec<Option<String>> = options.iter().map(|motion| motion.time.clone()).collect();
+    let speed_of = |picture: &Picture| {
+        let velocity = picture.motion.velocity.filter(|velocity| !velocity.is_zero());
+        velocity.map(|velocity| format!("β = {}", speed(velocity)))
+    };
+    let time_of = |picture: &Picture| picture.motion.time.map(|time| significant(time, 6));
+    let speeds: Vec<Option<String>> = pictures.iter().map(speed_of).collect();
+    let times: Vec<Option<String>> = pictures.iter().map(time_of).collect();
     let has_speeds = speeds.iter().any(Option::is_some) && differ(&speeds);
     let has_times = times.iter().any(Option::is_some) && differ(&times);
     let label = |(speed, time): (&Option<String>, &Option<String>)| {
@@ -75,20 +78,20 @@ fn differ(texts: &[Option<String>]) -> bool {
     texts.windows(2).any(|pair| pair[0] != pair[1])
 }
 
-/// Speed and time of a picture, by the options in its history that set them.
-#[derive(Debug, PartialEq)]
-struct MotionOptions {
-    /// The speed, as `β = 0.9`; `None` at rest.
-    speed: Option<String>,
+/// What a picture shows of motion, as far as it is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// The velocity of what is seen, or of the camera.
+    pub velocity: Option<Velocity>,
     /// The time of the observer.
-    time: Option<String>,
+    pub time: Option<f64>,
 }
 
-impl MotionOptions {
-    /// Parses the command lines in the history of a picture.
-    fn parse(history: &str) -> Self {
+impl Motion {
+    /// The options in the history of a picture that set them.
+    pub fn recorded(history: &Metadata) -> Self {
         const OPTIONS: [&str; 6] = ["-vel", "--velocity", "-cv", "--camera-velocity", "-ti", "--time"];
-        let lines = history.lines().filter(|line| !shell_words::is_recipe(line));
+        let lines = history.comment.lines().filter(|line| !shell_words::is_recipe(line));
         let lines = lines.rev().map(shell_words::split);
         let mut with_options =
             lines.filter(|words| words.iter().any(|word| OPTIONS.contains(&word.as_str())));
@@ -100,25 +103,21 @@ impl MotionOptions {
             numbers
         };
         let beta = numbers(["-vel", "--velocity"], 3).or_else(|| numbers(["-cv", "--camera-velocity"], 3));
-        let velocity = beta.and_then(|beta| Velocity::from_beta(DVec3::from_slice(&beta)).ok());
         Self {
-            speed: velocity.filter(|v| !v.is_zero()).map(|v| format!("β = {}", speed(v))),
-            time: numbers(["-ti", "--time"], 1).map(|time| significant(time[0], 6)),
+            velocity: beta.and_then(|beta| Velocity::from_beta(DVec3::from_slice(&beta)).ok()),
+            time: numbers(["-ti", "--time"], 1).map(|time| time[0]),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use ugimage::Metadata;
-
     use super::*;
 
     fn texts(labels: &Labels, comments: &[&str]) -> Vec<String> {
-        let picture = |(idx, comment): (usize, &&str)| Picture {
-            name: format!("n{idx}"),
-            size: [1; 2],
-            history: Metadata { software: String::new(), comment: (*comment).to_owned() },
+        let picture = |(idx, comment): (usize, &&str)| {
+            let history = Metadata { software: String::new(), comment: (*comment).to_owned() };
+            Picture { name: format!("n{idx}"), size: [1; 2], motion: Motion::recorded(&history), history }
         };
         labels.texts(&comments.iter().enumerate().map(picture).collect::<Vec<_>>())
     }
@@ -155,7 +154,8 @@ mod tests {
             "uglorentz -vel a b c",
             "uglorentz '",
         ] {
-            assert_eq!(MotionOptions::parse(line), MotionOptions { speed: None, time: None }, "{line}");
+            let history = Metadata { software: String::new(), comment: line.to_owned() };
+            assert_eq!(Motion::recorded(&history), Motion::default(), "{line}");
         }
     }
 }

@@ -1,9 +1,8 @@
 //! `ugsheet` arranges several pictures on one sheet, like the figures of papers: in rows, with a
 //! label under each.
 //!
-//! Labels are given, or derived from the history recorded in the pictures: if the pictures differ
-//! in the velocity or the time that `uglorentz` was called with, these are the labels, otherwise
-//! the file names ([`Labels`]). Opaque pixels are copied unchanged; transparent ones are composited
+//! Labels are given, or made of the [`Motion`] of the pictures: if they differ in velocity or time,
+//! these are the labels, otherwise the file names ([`Labels`]). Opaque pixels are copied unchanged; transparent ones are composited
 //! over the background.
 //!
 //! It also joins the tiles of a large picture to the whole ([`join`]).
@@ -12,12 +11,11 @@
 //!
 //! ```
 //! use ugimage::{Frame, Metadata};
-//! use ugsheet::{Config, Labels, Picture};
+//! use ugsheet::{Config, Labels, Motion, Picture};
 //!
-//! let picture = |line: &str| Picture {
-//!     name: "ship".into(),
-//!     size: [80, 60],
-//!     history: Metadata { software: "ugrainbow".into(), comment: line.into() },
+//! let picture = |line: &str| {
+//!     let history = Metadata { software: "ugrainbow".into(), comment: line.into() };
+//!     Picture { name: "ship".into(), size: [80, 60], motion: Motion::recorded(&history), history }
 //! };
 //! let pictures = [picture("uglorentz -vel 0 0 0"), picture("uglorentz -vel .9 0 0")];
 //! assert_eq!(Labels::Auto.texts(&pictures), ["at rest", "β = 0.9"]);
@@ -42,7 +40,7 @@ use uglabel::Drawing;
 #[cfg(feature = "cli")]
 pub use cli::{main, manual};
 pub use error::Error;
-pub use labels::Labels;
+pub use labels::{Labels, Motion};
 use layout::Layout;
 pub use tiles::join;
 pub use uglabel::Rgb;
@@ -54,6 +52,8 @@ pub struct Picture {
     pub name: String,
     /// Its width and height in pixels.
     pub size: [u32; 2],
+    /// What it shows of motion, for labels.
+    pub motion: Motion,
     /// The history recorded in its file.
     pub history: Metadata,
 }
@@ -130,10 +130,10 @@ pub fn sheet(
     Ok(frame)
 }
 
-/// The history of a sheet: those of all its pictures, and the command line.
-pub fn history(pictures: &[Picture], command_line: &str) -> Metadata {
+/// The history of a sheet: those of all its pictures, and the command that made it, if one did.
+pub fn history(pictures: &[Picture], command: Option<&str>) -> Metadata {
     let lines = pictures.iter().map(|picture| picture.history.comment.as_str());
-    let lines: Vec<&str> = lines.chain([command_line]).filter(|line| !line.is_empty()).collect();
+    let lines: Vec<&str> = lines.chain(command).filter(|line| !line.is_empty()).collect();
     Metadata {
         software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(),
         comment: lines.join("\n"),

@@ -115,10 +115,12 @@ fn overlap(a: [u32; 4], b: [u32; 4]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Motion;
 
     fn tile(line: &str, size: [u32; 2]) -> Picture {
         let comment = format!("head\n{line} # SHA-256 00 a.ug");
-        Picture { name: "t".into(), size, history: Metadata { software: "a".into(), comment } }
+        let history = Metadata { software: "a".into(), comment };
+        Picture { name: "t".into(), size, motion: Motion::default(), history }
     }
 
     fn error(tiles: &[Picture]) -> String {

@@ -24,6 +24,7 @@ fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
     let headers = pictures.iter().map(|Picture { name, frame }| ugsheet::Picture {
         name: name.clone(),
         size: [frame.width(), frame.height()],
+        motion: ugsheet::Motion::default(),
         history: Metadata::default(),
     });
     ugsheet::sheet(config, &headers.collect::<Vec<_>>(), |idx| Ok(pictures[idx].frame.clone()))
@@ -139,8 +140,12 @@ fn invalid_requests_are_errors() {
     let wide = Config { labels: Labels::None, gap: Some([10_000; 2]), columns: Some(1), ..Config::default() };
     assert_eq!(sheet(&wide, &[&pictures[..]; 10].concat()), Err(Error::Size));
     // No pixels are read for a sheet that is too large.
-    let huge =
-        ugsheet::Picture { name: String::new(), size: [1 << 14, 1 << 14], history: Metadata::default() };
+    let huge = ugsheet::Picture {
+        name: String::new(),
+        size: [1 << 14, 1 << 14],
+        motion: ugsheet::Motion::default(),
+        history: Metadata::default(),
+    };
     let read = |_| unreachable!("no pixels are read");
     assert_eq!(ugsheet::sheet(&Config::default(), &[huge.clone(), huge], read), Err(Error::Size));
 }

@@ -9,10 +9,10 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::Format;
 use uglight::ColorShift;
-use ugphysics::{Brightness, Velocity};
+use ugphysics::Velocity;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, law, refuse_terminal,
+    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal,
     with_format, write_picture,
 };
 use ugpipe::{
@@ -20,6 +20,7 @@ use ugpipe::{
     vector,
 };
 use ugscene::Provenance;
+use ugscene::cli::ShiftArgs;
 use ugsky::{Arrangement, Band, Basis, Extent, Star, VISIBLE_NM, is_star_list};
 
 use crate::config::{Config, StarOptions};
@@ -65,25 +66,13 @@ pub struct Args {
           allow_hyphen_values = true, value_parser = finite)]
     part: Option<Vec<f64>>,
 
-    /// Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]
-    ///
-    /// The laws photon and bolometric multiply linear light, report display-encoded values as in
-    /// 1988. Values above 1 are clipped, unless -ex or -tc is given.
-    #[arg(long, visible_alias = "brightness", value_name = "LAW",
-          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux", help_heading = COLOR)]
-    br: Option<Brightness>,
-
-    /// Shift spectra instead of hues
-    ///
-    /// The brightness law is D^5 per wavelength, and light brighter than white is clipped only in
-    /// the last step. A picture has three numbers per colour and no infrared or ultraviolet light:
-    /// --basis says which spectra they stand for.
-    #[arg(long, visible_alias = "spectral", conflicts_with = "br", help_heading = COLOR)]
-    sp: bool,
+    #[command(flatten, next_help_heading = COLOR)]
+    shift: ShiftArgs,
 
     /// Spectra of colours: smooth, blackbody, or three temperatures [default: smooth]
     ///
-    /// smooth: daylight on surfaces with smooth reflectances. blackbody: each colour is a black
+    /// A picture has three numbers per colour and no infrared or ultraviolet light, so its spectra
+    /// are an assumption. smooth: daylight on surfaces with smooth reflectances. blackbody: each colour is a black
     /// body. Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies
     /// -sp.
     #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
@@ -130,14 +119,6 @@ pub struct Args {
     /// It relates stars to the light of a panorama, in which white is 1.
     #[arg(long, value_name = "MAG", allow_hyphen_values = true, value_parser = finite, help_heading = STARS)]
     white: Option<f64>,
-
-    /// Leave wavelengths as they are
-    #[arg(long, help_heading = COLOR)]
-    no_doppler: bool,
-
-    /// Leave brightness as it is
-    #[arg(long, help_heading = COLOR)]
-    no_flux: bool,
 
     #[command(flatten, next_help_heading = PICTURE)]
     lens: LensArgs,
@@ -230,8 +211,9 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        let is_spectral = self.sp || self.basis.is_some() || self.bands().next().is_some();
-        ColorShift::new(is_spectral, !self.no_doppler, !self.no_flux, self.br)
+        let ShiftArgs { br, sp, no_doppler, no_flux } = self.shift;
+        let is_spectral = sp || self.basis.is_some() || self.bands().next().is_some();
+        ColorShift::new(is_spectral, !no_doppler, !no_flux, br)
     }
 
     /// Reads the panorama, or the stars, of the input and of the other files that options name.
@@ -262,7 +244,7 @@ impl Args {
         if self.from.is_some() || self.part.is_some() || !self.files.is_empty() {
             return refused("the input is a list of stars: leave out -from, -part and other files");
         }
-        if self.br.is_some() || self.basis.is_some() || self.bands().next().is_some() {
+        if self.shift.br.is_some() || self.basis.is_some() || self.bands().next().is_some() {
             return refused(
                 "the input is a list of stars, which are black bodies: leave out -br, --basis, --infrared and \
                  --ultraviolet",
@@ -280,7 +262,7 @@ impl Args {
         let arrangement = self.from.unwrap_or_default();
         let mut opened = open(&files, arrangement, self.extent()).map_err(|error| match error {
             Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
-            error => failure(error),
+            error => Failure::of(error),
         })?;
         for (path, range_nm) in self.bands() {
             if arrangement == Arrangement::Sides {
@@ -320,7 +302,7 @@ impl Args {
 /// Bad usage, a bad panorama, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
-    config.check().map_err(failure)?;
+    config.check().map_err(Failure::of)?;
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;
     }
@@ -329,17 +311,13 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
     let metadata = metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
-    let picture = run(&config, &opened, &metadata, &context.steps()).map_err(failure)?;
+    let picture = run(&config, &opened, &metadata, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
 }
 
 /// The stars of a list.
 fn stars(input: &Input) -> Result<Vec<Star>, Failure> {
-    read_stars(&input.name, &input.text).map_err(|found| Failure::Report(found.render(true)))
-}
-
-fn failure(error: Error) -> Failure {
-    if error.is_usage() { Failure::usage(error.words()) } else { Failure::failed(error.words()) }
+    read_stars(&input.name, &input.text).map_err(|found| Failure::Report(found.report()))
 }
 
 /// The name of an arrangement.

@@ -48,18 +48,6 @@ pub enum Error {
     AnnotatedCube,
 }
 
-impl Error {
-    /// True if the command line is wrong, whatever the panorama.
-    pub fn is_usage(&self) -> bool {
-        match self {
-            Self::Picture(error) => error.is_usage(),
-            Self::Panorama(error) => matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. }),
-            Self::Read { .. } => false,
-            _ => true,
-        }
-    }
-}
-
 impl From<CameraError> for Error {
     fn from(error: CameraError) -> Self {
         Self::Picture(error.into())

@@ -1,14 +1,14 @@
 //! From a panorama to a picture.
 
 use rayon::prelude::*;
-use ugimage::{Development, Format, LinearFrame, Metadata};
+use ugimage::{Format, LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
-    Annotated, Annotations, Content, DepthBuffer, Error as PictureError, Exposure, Image, Layout, Note,
-    Output, PictureFile, Rendering, SceneState, channel_planes,
+    Annotated, Canvas, Drawn, DrawnContent, Error as PictureError, Note, Output, PictureFile, PictureOptions,
+    Rendering, Subject, channel_planes,
 };
 use ugpipe::Progress;
-use ugscene::{CameraOptions, Provenance, Remarks, Scene};
+use ugscene::{Provenance, Remarks, View};
 use ugsky::{Layer, Sky};
 
 use crate::config::Config;
@@ -17,20 +17,29 @@ use crate::open::Opened;
 use crate::stars::StarField;
 use crate::warp::{Statistics, Warp, camera};
 
-/// Least brightness at which clipping is reported; less is invisible in 8 bits.
-const CLIPPED: f32 = 1.001;
-
 /// Makes a picture of a panorama, of stars or of both.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn render<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<Rendering, Error> {
-    render_with(sky.into(), config, &())
+    render_with(sky, config, &())
+}
+
+/// Like [`render`], and reports progress.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render_with<'s>(
+    sky: impl Into<Sky<'s>>,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<Rendering, Error> {
+    let sky = sky.into();
+    Prepared::new(sky, config, progress)?.render(sky, &metadata(None, PROVENANCE), progress)
 }
 
 /// The linear light of a picture with its channels, without exposure and gamut mapping: white is 1.
-/// Options for the
-/// file, exposure, tone curve and annotations are ignored.
+/// Options for the file, exposure, tone curve and annotations are ignored.
 ///
 /// # Errors
 /// See [`Error`].
@@ -38,7 +47,6 @@ pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame
     let sky = sky.into();
     let mut config = config.clone();
     config.picture.keep_light();
-    config.picture.annotations = ugpicture::AnnotationOptions::default();
     let warp = Warp::new(sky, &config)?;
     let (mut frame, _) = seen(sky, &warp, &config, &())?;
     push_channels(&mut frame, &warp, &config);
@@ -91,31 +99,24 @@ pub fn run(
 ) -> Result<PictureFile, Error> {
     let sky = opened.into();
     let prepared = Prepared::new(sky, config, progress)?;
-    let (bytes, notes) = match prepared.alone(sky) {
-        Some(layer) if prepared.is_plain_png() => prepared.png(layer, metadata, progress),
-        _ => {
-            let mut rendering = prepared.render(sky, progress)?;
-            progress.step("compression", 0);
-            let notes = std::mem::take(&mut rendering.notes);
-            (rendering.into_file(metadata), notes)
+    let warnings = Diagnostics::new(&Source::new("", ""), Vec::new());
+    let mut file = match prepared.alone(sky) {
+        Some(layer) if prepared.is_plain_png() => {
+            let (bytes, notes) = prepared.png(layer, metadata, progress);
+            progress.check().map_err(PictureError::from)?;
+            PictureFile { bytes, notes, warnings }
         }
+        _ => prepared.render(sky, metadata, progress)?.pack(warnings, progress),
     };
-    Ok(PictureFile {
-        bytes,
-        notes: opened.notes.iter().cloned().map(Note::Source).chain(notes).collect(),
-        warnings: Diagnostics::new(&Source::new("", ""), Vec::new()),
-    })
-}
-
-fn render_with(sky: Sky<'_>, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
-    Prepared::new(sky, config, progress)?.render(sky, progress)
+    file.notes.splice(0..0, opened.notes.iter().cloned().map(Note::Source));
+    Ok(file)
 }
 
 /// All that a picture needs but the light of the sky.
 struct Prepared<'s> {
     /// Options of the picture without its annotations.
     config: Config,
-    layout: Layout,
+    canvas: Canvas,
     warp: Warp<'s>,
 }
 
@@ -123,10 +124,10 @@ impl<'s> Prepared<'s> {
     fn new(sky: Sky<'s>, config: &Config, progress: &dyn Progress) -> Result<Self, Error> {
         config.check()?;
         let mut config = config.clone();
-        let layout = Layout::new(&config.picture)?;
-        config.picture = layout.of_scene(&config.picture).into_owned();
+        let canvas = Canvas::new(&config.picture)?;
+        config.picture = canvas.options().clone();
         progress.step("preparing", 0);
-        Ok(Self { warp: Warp::new(sky, &config)?, config, layout })
+        Ok(Self { warp: Warp::new(sky, &config)?, config, canvas })
     }
 
     /// The panorama, if there is nothing else in the sky and each pixel has its final colour, of 8
@@ -145,64 +146,40 @@ impl<'s> Prepared<'s> {
     /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
     fn png(&self, layer: &Layer<'s>, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
         let (file, statistics) = self.warp.png(layer, progress, metadata, self.config.picture.compression());
-        (file, notes(&self.warp, &self.config, &statistics, None))
+        (file, notes(&self.warp, &statistics))
     }
 
-    fn render(&self, sky: Sky<'_>, progress: &dyn Progress) -> Result<Rendering, Error> {
-        let Self { config, layout, warp } = self;
-        let (image, statistics, development) = match self.alone(sky) {
+    fn render(
+        &self,
+        sky: Sky<'_>,
+        metadata: &Metadata,
+        progress: &dyn Progress,
+    ) -> Result<Rendering, Error> {
+        let Self { config, canvas, warp } = self;
+        let (content, statistics) = match self.alone(sky) {
             Some(layer) => {
                 let (frame, statistics) = warp.frame(layer, progress);
-                (Image::Display(frame), statistics, None)
+                (DrawnContent::Display(frame), statistics)
             }
             None => {
                 let (mut frame, statistics) = seen(sky, warp, config, progress)?;
                 push_channels(&mut frame, warp, config);
-                let (image, development) = Image::developed(frame, &config.picture, !warp.is_uncut());
-                (image, statistics, development)
+                (DrawnContent::Light { frame, is_clipped: !warp.is_uncut() }, statistics)
             }
         };
-        progress.step("annotating", 0);
-        let annotations = annotate(layout, warp, config, development)?;
-        let mut notes = notes(warp, config, &statistics, development);
-        notes.extend(annotations.notes.iter().cloned());
-        Ok(Rendering::new(Content::Image(annotations.composite(image)), &config.picture, notes))
+        let PictureOptions { size, camera: options, .. } = &config.picture;
+        let n_pixels = size[0] as usize * size[1] as usize;
+        let items = || (0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect();
+        let view = View::without_scene(&camera(options), *size).map_err(PictureError::from)?;
+        let subject = Subject::Items { view: &view, items: &items, scene: None };
+        let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
+        let (brightest, notes) = (statistics.max_light, notes(warp, &statistics));
+        canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }
 
-fn annotate(
-    layout: &Layout,
-    warp: &Warp<'_>,
-    config: &Config,
-    development: Option<Development>,
-) -> Result<Annotations, Error> {
-    let picture = &config.picture;
-    let n_pixels = picture.size[0] as usize * picture.size[1] as usize;
-    let seen: Option<Vec<_>> = picture
-        .annotations
-        .legend
-        .then(|| (0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect());
-    let annotated = Annotated {
-        scene: &Scene::default(),
-        camera: &camera(&picture.camera),
-        is_shifted: config.shift.shifts_wavelengths(),
-        seen: seen.as_deref(),
-    };
-    // Only grids and outlines need depths, and a sky has neither.
-    let depths = |_: &Scene, _: &CameraOptions, _: SceneState| -> Result<DepthBuffer, PictureError> {
-        Ok(DepthBuffer { size: picture.size, seen: vec![None; n_pixels] })
-    };
-    Ok(layout.annotate(annotated, picture, development, depths)?)
-}
-
 /// The notes on a picture.
-fn notes(
-    warp: &Warp<'_>,
-    config: &Config,
-    statistics: &Statistics,
-    development: Option<Development>,
-) -> Vec<Note> {
-    let picture = &config.picture;
+fn notes(warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
     let mut notes = Vec::new();
     if warp.is_up_replaced {
         notes.push(Note::UpReplaced);
@@ -211,18 +188,6 @@ fn notes(
         notes.push(Note::NoPanorama);
     } else if statistics.max_light == 0.0 {
         notes.push(Note::BlackPanorama);
-    }
-    if picture.output.is_linear() {
-        return notes;
-    }
-    if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (picture.exposure, development) {
-        notes.push(Note::Exposure(stops));
-    } else if picture.exposure.is_none()
-        && picture.tone == ugimage::Tone::Clip
-        && statistics.max_light > CLIPPED
-    {
-        // As the frame has it.
-        notes.push(Note::ClippedLight(f64::from(statistics.max_light.min(f32::MAX))));
     }
     notes
 }

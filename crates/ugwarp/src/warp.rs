@@ -9,7 +9,7 @@ use uglight::ColorShift;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
-use ugscene::{CameraOptions, Scene, View};
+use ugscene::{CameraOptions, View};
 use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
 
 use crate::config::Config;
@@ -115,7 +115,7 @@ pub(crate) fn film(config: &Config, samples: u32) -> Result<(Film, bool), Error>
     let [across, down] = config.lens.frames(false);
     let [width, height] = config.picture.size;
     let frame = [width / across * samples, height / down * samples];
-    let view = View::new(&Scene::default(), &camera(&config.picture.camera), frame)?;
+    let view = View::without_scene(&camera(&config.picture.camera), frame)?;
     Ok((Film::new(config.lens, None, &view, frame), view.is_up_replaced))
 }
 
@@ -317,6 +317,9 @@ impl<'a, F> Drawing<'a, F> {
     where
         F: Fn(&Light, &mut [T]),
     {
+        if self.progress.is_stopped() {
+            return;
+        }
         let (warp, width) = (self.warp, self.warp.size[0] as usize);
         let kept = lock(&self.buffers).pop();
         let (mut sampler, mut found) = kept.unwrap_or_else(|| {

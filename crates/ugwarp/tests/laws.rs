@@ -364,8 +364,9 @@ fn files_are_those_of_whole_pictures() {
         (config.picture.samples, config.picture.small) = (samples, small);
         config.picture.background = Background::Transparent;
         let file = run(&config, &opened, &metadata, &()).unwrap();
-        let picture = render(&opened, &config).unwrap();
+        let mut picture = render(&opened, &config).unwrap();
+        picture.metadata = metadata.clone();
         assert_eq!(file.notes, picture.notes);
-        assert!(file.bytes == picture.into_file(&metadata), "{lens:?}");
+        assert!(file.bytes == picture.into_file(), "{lens:?}");
     }
 }

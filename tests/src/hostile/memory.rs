@@ -82,10 +82,7 @@ fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> 
         return Err(format!("ugrainbow: the light of a pixel is {pixel:?}"));
     }
     match ugrainbow::render(&scene, &rainbow) {
-        Ok(rendering) => {
-            Ok([written, rendering.into_file(&ugrainbow::metadata(&scene.remarks, ugrainbow::PROVENANCE))]
-                .concat())
-        }
+        Ok(rendering) => Ok([written, rendering.into_file()].concat()),
         Err(error) => Ok(error.to_string().into_bytes()),
     }
 }
@@ -220,13 +217,14 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
     }
     let Ok((frame, history)) = ugimage::read_png(bytes) else { return Ok(()) };
     let size = [frame.width(), frame.height()];
-    let picture = ugsheet::Picture { name: "a".to_owned(), size, history };
+    let picture =
+        ugsheet::Picture { name: "a".to_owned(), size, motion: ugsheet::Motion::recorded(&history), history };
     let other = ugsheet::Picture { history: Metadata::default(), ..picture.clone() };
     let pictures = [picture, other];
     let Ok(sheet) = ugsheet::sheet(&ugsheet::Config::default(), &pictures, |_| Ok(frame.clone())) else {
         return Ok(());
     };
-    let metadata = ugsheet::history(&pictures, "ugsheet");
+    let metadata = ugsheet::history(&pictures, Some("ugsheet"));
     match ugimage::read_png(&Format::Png.encode(&sheet, &metadata)) {
         Ok((frame, _)) if frame == sheet => Ok(()),
         Ok(_) => Err("a sheet is read with other pixels than were written".to_owned()),

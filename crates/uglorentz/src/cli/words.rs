@@ -2,7 +2,7 @@
 
 use ugparse::{Diagnostic, Diagnostics, Origins, Source};
 use ugpipe::Words;
-use ugscene::Note;
+use ugscene::{CameraError, Note};
 
 use crate::adaptive::MAX_PIECES;
 use crate::criterion::MAX_GENERATION;
@@ -37,7 +37,24 @@ impl Words for Error {
             ),
             Self::VertexAtEye { .. } => format!("{self}: {AT_EYE}"),
             Self::OutOfRange { .. } => format!("{self}: {OUT_OF_RANGE}"),
+            Self::Stopped(_) => self.to_string(),
         }
+    }
+
+    fn is_usage(&self) -> bool {
+        let Error::Motion(error) = self else {
+            return matches!(
+                self,
+                Error::Camera(CameraError::NoUp)
+                    | Error::NoViewCenter
+                    | Error::NoBound { .. }
+                    | Error::NoColorBound { .. }
+                    | Error::NoLightBound { .. }
+                    | Error::NoPieces
+                    | Error::TooManyPieces { .. }
+            );
+        };
+        error.is_usage()
     }
 }
 

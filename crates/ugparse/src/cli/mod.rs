@@ -187,7 +187,7 @@ fn read(source: Source, options: &Options, context: &Context) -> Result<(Source,
 
 fn warn(warnings: &Diagnostics, context: &Context) {
     if !warnings.is_empty() {
-        context.report(&warnings.render(true));
+        context.report(&warnings.report());
     }
 }
 

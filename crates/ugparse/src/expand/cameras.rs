@@ -3,7 +3,7 @@
 use ugscene::{Camera, Item};
 
 use super::Expander;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Setting};
 use crate::source::Span;
 
 /// A camera placed by an instance.
@@ -34,11 +34,11 @@ impl Expander<'_, '_> {
             *name = name.or_else(|| Some(self.scene.names.add(path)));
         }
         let name = self.scene.cameras[used].name.map_or("", |name| self.scene.names.get(name));
-        let help = format!("use this one with `-cam {name}`, or remove one of them");
         let warning = Diagnostic::warning(span, "a camera in a definition is not used")
             .label(format!("placed as `{name}`"))
             .other(outer_span, "this one, outside definitions, is used")
-            .help(help);
+            .help(format!("choose this one by its name `{name}`, or remove one of them"))
+            .setting(Setting::Camera);
         self.reorder_cameras(&[outer, nested].concat());
         Some(warning)
     }

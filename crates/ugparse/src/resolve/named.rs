@@ -76,7 +76,7 @@ fn long_names(span: Span, limits: &Limits) -> Diagnostic {
         "the names of colours and surfaces, with those of their definitions before them, are too long",
     )
     .label("this one exceeds the limit")
-    .help(limits.remedy(Limit::Names, else_do))
+    .limited(limits, Limit::Names, else_do)
 }
 
 /// `outer:inner:` for the colours and surfaces of a nested definition, empty for the file's.

@@ -122,7 +122,7 @@ impl Sizes<'_, '_> {
         let finding = |place, label, else_do| {
             Diagnostic::error(place, format!("the expanded scene would have {count} {what}"))
                 .label(label)
-                .help(self.limits.remedy(limit, else_do))
+                .limited(self.limits, limit, else_do)
         };
         Some(match size.largest_call {
             Some(call) => finding(call, "most of them from here", "use smaller arrays"),
@@ -131,9 +131,11 @@ impl Sizes<'_, '_> {
     }
 
     fn too_long(&self, call: &CallStatement) -> Diagnostic {
-        Diagnostic::error(call.definition, "the chain of nested instances is too long")
-            .label("here")
-            .help(self.limits.remedy(Limit::Chain, "use fewer"))
+        Diagnostic::error(call.definition, "the chain of nested instances is too long").label("here").limited(
+            self.limits,
+            Limit::Chain,
+            "use fewer",
+        )
     }
 }
 

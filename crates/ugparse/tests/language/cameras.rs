@@ -99,6 +99,10 @@ fn one_outside_definitions_takes_precedence() {
         "def car;\n{ in }\ncam -ep 0 0 1; { here }\nend;\ni taxi (car);\n{ out }\ncam -ep 9 0 0; { there }";
     let expected = ["{ out }", "cam -ep 9 0 0; { there }", "{ in }", "cam taxi -ep 0 0 1; { here }"];
     check(text, &expected, unused);
-    let drawn = parse_with(text, false).warnings.render(false);
-    assert!(drawn.contains("test.ug:3:1") && drawn.contains("`-cam taxi`"), "{drawn}");
+    let warnings = parse_with(text, false).warnings;
+    let drawn = warnings.render(false);
+    assert!(drawn.contains("test.ug:3:1") && !drawn.contains("(-cam)"), "{drawn}");
+    // A command line adds the option.
+    let worded = warnings.worded().render(false);
+    assert!(worded.ends_with("choose this one by its name `taxi`, or remove one of them (-cam)"), "{worded}");
 }

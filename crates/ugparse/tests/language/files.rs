@@ -172,7 +172,7 @@ fn programs_are_run_if_allowed() {
     ];
     assert_eq!(read_with(&files, &allowed), "{ head }\nv d:p 1 2 3;\nv d:q 1 2 3;\n");
     assert_eq!(message(&files), "error: program `bin/one` is not run at a/scene.ug:2:17");
-    assert!(read(&files).contains("allow it with --allow-execute"));
+    assert!(read(&files).contains("if you trust this one, allow it"));
 
     let check = |files: &[(&str, &str)], expected: &str| {
         assert_eq!(message_with(files, &allowed), expected, "{files:?}");
@@ -212,10 +212,7 @@ fn limits_of_files_can_be_set() {
     assert_eq!(read_with(&chain, &with(Limit::Includes, 3)), scene);
     let found = read_with(&chain, &with(Limit::Includes, 2));
     assert!(found.starts_with("error: files include each other too deeply"), "{found}");
-    assert!(
-        found.ends_with("the limit is 2 levels; use fewer, or raise it with --limit includes=N"),
-        "{found}"
-    );
+    assert!(found.ends_with("the limit is 2 levels; use fewer, or raise it"), "{found}");
     // Far deeper than recursion on the stack would allow.
     let deep: Vec<(String, String)> =
         (0..5001).map(|idx| (format!("{idx}"), format!("include {};", idx + 1))).collect();
@@ -226,15 +223,12 @@ fn limits_of_files_can_be_set() {
     assert_eq!(read_with(&chain, &with(Limit::Files, 3)), scene);
     let found = read_with(&chain, &with(Limit::Files, 2));
     assert!(found.starts_with("error: too many files are included"), "{found}");
-    assert!(
-        found.ends_with("the limit is 2 files; include fewer, or raise it with --limit files=N"),
-        "{found}"
-    );
+    assert!(found.ends_with("the limit is 2 files; include fewer, or raise it"), "{found}");
 
     assert_eq!(read_with(&chain, &with(Limit::Text, 100)), scene);
     let found = read_with(&chain, &with(Limit::Text, 20));
     assert!(found.starts_with("error: with the text of `2` the scene is too large"), "{found}");
-    assert!(found.ends_with("the limit is 20 bytes; split it, or raise it with --limit text=N"), "{found}");
+    assert!(found.ends_with("the limit is 20 bytes; split it, or raise it"), "{found}");
     // What is read counts, even while nothing of it is copied yet.
     let rest = "{ }".repeat(100);
     let around = [("0", "include 1;"), ("1", &format!("include x/../1;{rest}")), ("x/../1", &rest)];

@@ -161,7 +161,7 @@ fn every_limit_can_be_set_and_says_so() {
         Limit::Text,
         10,
         "the scene is too large",
-        "the limit is 9 bytes; split it, or raise it with --limit text=N",
+        "the limit is 9 bytes; split it, or raise it",
     );
     let nested = "def a; def b; v p 0 0 0; end; end;";
     check(
@@ -169,7 +169,7 @@ fn every_limit_can_be_set_and_says_so() {
         Limit::Nesting,
         2,
         "definitions nest too deeply",
-        "the limit is 1 level; use fewer, or raise it with --limit nesting=N",
+        "the limit is 1 level; use fewer, or raise it",
     );
     let chain = "def a; v p 0 0 0; end; def b; i (a); end; def c; i (b); end; i (c);";
     check(
@@ -177,7 +177,7 @@ fn every_limit_can_be_set_and_says_so() {
         Limit::Chain,
         3,
         "the chain of nested instances is too long",
-        "the limit is 2 levels; use fewer, or raise it with --limit chain=N",
+        "the limit is 2 levels; use fewer, or raise it",
     );
     let array = "def d; v pp 0 0 0; v qq 1 0 0; w (pp qq); end; a (d) 10;";
     check(
@@ -185,21 +185,21 @@ fn every_limit_can_be_set_and_says_so() {
         Limit::Statements,
         41,
         "the expanded scene would have 41 statements",
-        "the limit is 40 statements; use smaller arrays, or raise it with --limit statements=N",
+        "the limit is 40 statements; use smaller arrays, or raise it",
     );
     check(
         array,
         Limit::Corners,
         20,
         "the expanded scene would have 20 corners of faces",
-        "the limit is 19 corners; use smaller arrays, or raise it with --limit corners=N",
+        "the limit is 19 corners; use smaller arrays, or raise it",
     );
     check(
         "v long 0 0 0; v longer 0 0 0;",
         Limit::Names,
         10,
         "the expanded scene would have 10 bytes of names",
-        "the limit is 9 bytes; split the scene, or raise it with --limit names=N",
+        "the limit is 9 bytes; split the scene, or raise it",
     );
     // Statements with many contours are counted by their contours, and copies by their rows.
     let star = format!("v a 0 0 0; v b 1 0 0; v c 0 1 0; f {};", "(a b c)".repeat(100));
@@ -217,9 +217,9 @@ fn every_limit_can_be_set_and_says_so() {
     let clouds = format!("def d; {points} end; def e; a (d) 490; end; a (e) 490;");
     let (found, help) = limited(&clouds, Limit::Memory, Limit::Memory.default_value()).unwrap();
     assert!(found.ends_with(" bytes in its tables"), "{found}");
-    assert_eq!(help, "the limit is 2147483648 bytes; use smaller arrays, or raise it with --limit memory=N");
+    assert_eq!(help, "the limit is 2147483648 bytes; use smaller arrays, or raise it");
     let (_, help) = limited("v a 0 0 0;", Limit::Memory, 20).unwrap();
-    assert_eq!(help, "the limit is 20 bytes; split the scene, or raise it with --limit memory=N");
+    assert_eq!(help, "the limit is 20 bytes; split the scene, or raise it");
     let (found, _) = limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 39).unwrap();
     assert!(found.starts_with("the names of colours and surfaces"), "{found}");
     assert_eq!(limited("def d; c long 1; end; surf long 1 0 0;", Limit::Names, 40), None);

@@ -56,4 +56,27 @@ impl Words for Error {
         };
         words.replacen("{}", &self.to_string(), 1)
     }
+
+    fn is_usage(&self) -> bool {
+        match self {
+            Self::Picture(error) => error.is_usage(),
+            Self::Motion(error) => error.is_usage(),
+            Self::Text(_)
+            | Self::Empty
+            | Self::OutOfRange { .. }
+            | Self::TooManyLights { .. }
+            | Self::Orthographic
+            | Self::PartialGeometry
+            | Self::MovingSpectrum
+            | Self::Stage(_) => false,
+            _ => true,
+        }
+    }
+
+    fn report(&self) -> Option<String> {
+        match self {
+            Self::Text(diagnostics) => Some(diagnostics.report()),
+            _ => None,
+        }
+    }
 }

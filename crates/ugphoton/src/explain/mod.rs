@@ -7,12 +7,10 @@ mod text;
 use std::borrow::Cow;
 
 use glam::DVec3;
-use ugimage::{Quantizer, display_pixel};
 use uglight::{ColorShift, HueShift, Interpolation, light_names};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
 use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength, nearest};
-use ugpicture::{Backdrop, Exposure, Layout};
 use ugscene::{ColorScale, HueScale, SeenColors};
 
 use crate::config::Config;
@@ -130,13 +128,9 @@ pub fn explain(
     pixel: [u32; 2],
 ) -> Result<(Explanation, Diagnostics), Error> {
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-    let layout = Layout::new(&config.picture)?;
-    config.check()?;
-    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-    let size = config.picture.size;
-    if pixel[0] >= size[0] || pixel[1] >= size[1] {
-        return Err(ugpicture::Error::Pixel { pixel, size }.into());
-    }
+    let canvas = config.canvas()?;
+    canvas.check_pixel(pixel)?;
+    let config = &config.on(&canvas);
     let scenery = Scenery::new(Cow::Owned(as_seen(parsed.scene.clone(), config)?), config)?;
     let light_names = light_names(&scenery.scene);
     let teller = Teller { scenery: &scenery, config, source, parsed: &parsed, light_names };
@@ -148,7 +142,7 @@ pub fn explain(
     let explanation = Explanation {
         pixel: ExplainedPixel {
             place: pixel,
-            size,
+            size: config.picture.size,
             samples: n,
             covers: teller.covers(&samples),
             n_free: n_missing + samples.iter().filter(is_free).count(),
@@ -175,23 +169,11 @@ fn seen_colors(scenery: &Scenery<'_>) -> Option<SeenColors> {
 }
 
 fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) -> PixelSteps {
-    let picture = &config.picture;
     let one = Config { crop: Some([column, row, 1, 1]), ..config.clone() };
     let light = pixels::light(scenery, &one, &()).0;
     let mean = light.pixels().first().copied().unwrap_or_default();
-    let [red, green, blue, part] = mean;
-    let development = scenery.is_uncut.then(|| {
-        let whole = || pixels::light(scenery, config, &()).0;
-        let development = Exposure::development(picture.exposure, picture.tone, whole);
-        (development, development.steps([red, green, blue]))
-    });
-    let [red, green, blue] = match &development {
-        Some((development, _)) => development.apply([red, green, blue]),
-        None => [red, green, blue],
-    };
-    let is_opaque = Backdrop::new(picture.background, picture.samples).is_opaque();
-    let bytes = display_pixel(&Quantizer::new(), [red, green, blue, part], is_opaque);
-    PixelSteps { filter: picture.filter, mean, development, bytes }
+    let whole = || pixels::light(scenery, config, &()).0;
+    PixelSteps::new(&config.picture, mean, !scenery.is_uncut, whole)
 }
 
 /// Computes the explanations of samples.

@@ -6,6 +6,7 @@ use uglabel::Drawing;
 
 use crate::image::Image;
 use crate::note::Note;
+use crate::rendering::{Content, VectorFigure};
 
 /// Annotations over and below the picture of a scene, ready to be composited.
 pub struct Annotations {
@@ -24,8 +25,21 @@ pub struct Annotations {
 }
 
 impl Annotations {
+    /// Adds the annotations to the picture of the scene, pixels or areas.
+    pub fn add_to(&self, content: Content) -> Content {
+        match content {
+            Content::Image(image) => Content::Image(self.composite(image)),
+            Content::Figure(VectorFigure::Gradients(figure)) => {
+                Content::Figure(VectorFigure::Gradients(self.complete(figure)))
+            }
+            Content::Figure(VectorFigure::Triangles(figure, format)) => {
+                Content::Figure(VectorFigure::Triangles(self.complete(figure), format))
+            }
+        }
+    }
+
     /// Composites the annotations with the picture of the scene. All other pixels keep their bits.
-    pub fn composite(&self, image: Image) -> Image {
+    fn composite(&self, image: Image) -> Image {
         match image {
             Image::Display(mut frame) => {
                 self.over.paint(&mut frame);
@@ -71,7 +85,7 @@ impl Annotations {
     }
 
     /// Adds the annotations to the vector figure of a scene.
-    pub fn complete<S>(&self, figure: &mut Figure<S>) {
+    fn complete<S>(&self, mut figure: Figure<S>) -> Figure<S> {
         figure.size = self.size;
         figure.elements.extend(self.over.elements());
         if self.has_strips() {
@@ -80,6 +94,7 @@ impl Annotations {
             figure.elements.push(Element::ClipRows(None));
         }
         figure.elements.extend(self.strips.elements());
+        figure
     }
 
     fn background_color(&self) -> Option<Rgb> {

@@ -15,11 +15,9 @@ mod seen;
 mod style;
 mod visible;
 
-use std::borrow::Cow;
-
 use ugimage::Development;
 use uglabel::{DESCENT, Drawing, Line, SPACING, wrapped};
-use ugscene::{CameraOptions, Scene};
+use ugscene::{CameraOptions, RestFrames, Scene, View};
 
 use crate::background::Backdrop;
 use crate::depth_buffer::DepthBuffer;
@@ -30,23 +28,44 @@ use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;
 use motion::MotionSummary;
 use outline::IdealScene;
-use seen::SeenScene;
+use seen::{SeenScene, velocities};
 use style::Style;
 use visible::VisibleLines;
 
-/// The scene of an annotated picture.
-#[derive(Clone, Copy, Debug)]
-pub struct Annotated<'a> {
-    /// The scene, whose vertices are part of one body each.
-    pub scene: &'a Scene,
-    /// The camera of the picture.
-    pub camera: &'a CameraOptions,
+/// What the annotations of a picture tell about. `E`: the error of a renderer.
+pub struct Annotated<'a, E> {
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
-    /// What is seen at the middle of each pixel, if the camera is no pinhole. Then only captions
-    /// and legends can be drawn.
-    pub seen: Option<&'a [Option<SeenItem>]>,
+    /// What is in the picture.
+    pub subject: Subject<'a, E>,
 }
+
+/// What is in an annotated picture.
+pub enum Subject<'a, E> {
+    /// A scene seen by a pinhole camera, which all annotations suit.
+    Scene {
+        /// The scene, whose vertices are part of one body each.
+        scene: &'a Scene,
+        /// The camera of the picture.
+        camera: &'a CameraOptions,
+        /// Renders the depth buffer of a picture of the same size.
+        depths: &'a DepthsOf<'a, E>,
+    },
+    /// What is seen through any lens, which captions and legends suit.
+    Items {
+        /// The axes of the camera.
+        view: &'a View,
+        /// What is seen at the middle of each pixel.
+        items: &'a (dyn Fn() -> Vec<Option<SeenItem>> + 'a),
+        /// The scene whose bodies a legend lists if none is seen.
+        scene: Option<&'a Scene>,
+    },
+    /// A picture of which only the pixels are known, which captions suit.
+    Pixels,
+}
+
+/// Renders the depth buffer of a scene with a camera.
+pub type DepthsOf<'a, E> = dyn Fn(&Scene, &CameraOptions, SceneState) -> Result<DepthBuffer, E> + 'a;
 
 /// The geometry of a depth buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -99,25 +118,20 @@ impl Layout {
     }
 
     /// The options for the picture of the scene alone. `options`: of the whole picture.
-    pub fn of_scene<'a>(&self, options: &'a PictureOptions) -> Cow<'a, PictureOptions> {
-        if self.scene_rows == self.size[1] {
-            return Cow::Borrowed(options);
-        }
-        Cow::Owned(PictureOptions { size: [self.size[0], self.scene_rows], ..options.clone() })
+    pub fn of_scene(&self, options: &PictureOptions) -> PictureOptions {
+        PictureOptions { size: [self.size[0], self.scene_rows], ..options.clone() }
     }
 
     /// All annotations, and notes about them. `options`: of the picture of the scene;
-    /// `development`: of its light. `render_depths` renders the depth buffer of a picture of that
-    /// size.
+    /// `development`: of its light.
     ///
     /// # Errors
-    /// Errors of `render_depths` and of the camera.
+    /// Errors of [`Subject::Scene`]'s `depths` and of the camera.
     pub fn annotate<E: From<Error>>(
         &self,
-        annotated: Annotated<'_>,
+        annotated: &Annotated<'_, E>,
         options: &PictureOptions,
         development: Option<Development>,
-        render_depths: impl Fn(&Scene, &CameraOptions, SceneState) -> Result<DepthBuffer, E>,
     ) -> Result<Annotations, E> {
         let background = Backdrop::new(options.background, options.samples).developed(development);
         let style = &Style::new(self.size, background, options.output);
@@ -130,44 +144,45 @@ impl Layout {
             notes: Vec::new(),
         };
         let AnnotationOptions { legend, outline, grid, .. } = options.annotations;
-        if legend || outline || grid {
-            let Annotated { scene, camera, is_shifted, .. } = annotated;
-            let seen = SeenScene::new(scene, camera, options.size)?;
-            if let (true, Some(items)) = (legend, annotated.seen) {
-                let motion = MotionSummary::new(&seen, items.iter().copied(), is_shifted);
-                let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
-                legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
-            } else if grid || legend {
-                let depths = render_depths(scene, camera, SceneState::AsSeen)?;
-                if grid {
-                    let visible = VisibleLines { view: &seen.view, depths: &depths };
-                    let note = grid::draw(&seen, &visible, style, &mut all.over).map_err(Error::from)?;
-                    all.notes.extend(note);
-                }
-                if legend {
-                    let emissions = Emissions::new(scene, &seen.view, &seen.frames);
-                    let at = |idx| emissions.at_pixel([depths.size[0], 1], &depths.seen, idx);
-                    let motion = MotionSummary::new(&seen, (0..depths.seen.len()).map(at), is_shifted);
-                    let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
-                    legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
-                }
-            }
-            if outline {
-                match IdealScene::new(&seen) {
-                    Some(ideal) => {
-                        // The camera must stay, although the scene at rest has another middle.
-                        let mut camera = camera.clone();
-                        camera.eye = Some(seen.view.eye);
-                        camera.center = Some(seen.view.eye + seen.view.distance * seen.view.forward);
-                        let depths = render_depths(&ideal.scene, &camera, SceneState::AtRest)?;
-                        outline::draw(&seen, &ideal, &depths, style, &mut all.over);
+        let Annotated { is_shifted, subject } = annotated;
+        match subject {
+            Subject::Scene { scene, camera, depths } if legend || outline || grid => {
+                let seen = SeenScene::new(scene, camera, options.size)?;
+                if grid || legend {
+                    let depths = depths(scene, camera, SceneState::AsSeen)?;
+                    if grid {
+                        let visible = VisibleLines { view: &seen.view, depths: &depths };
+                        let note = grid::draw(&seen, &visible, style, &mut all.over).map_err(Error::from)?;
+                        all.notes.extend(note);
                     }
-                    None => all.notes.push(Note::NoOutline),
+                    if legend {
+                        let emissions = Emissions::new(scene, &seen.view, &seen.frames);
+                        let at = |idx| emissions.at_pixel([depths.size[0], 1], &depths.seen, idx);
+                        let items = (0..depths.seen.len()).map(at);
+                        let motion = MotionSummary::new(&seen.view, items, || seen.velocities(), *is_shifted);
+                        self.draw_legend(&motion, style, &mut all.strips)?;
+                    }
+                }
+                if outline {
+                    draw_outline(&seen, camera, *depths, style, &mut all)?;
                 }
             }
+            Subject::Items { view, items, scene } if legend => {
+                let velocities = || scene.map(|scene| velocities(scene, &RestFrames::new(scene)));
+                let items = items().into_iter();
+                let motion =
+                    MotionSummary::new(view, items, || velocities().unwrap_or_default(), *is_shifted);
+                self.draw_legend(&motion, style, &mut all.strips)?;
+            }
+            _ => {}
         }
         self.push_caption(style, &mut all.strips);
         Ok(all)
+    }
+
+    fn draw_legend(&self, motion: &MotionSummary, style: &Style, strips: &mut Drawing) -> Result<(), Error> {
+        let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
+        Ok(legend::draw(motion, style, place, strips)?)
     }
 
     /// A single line is centred, several are left-aligned.
@@ -185,6 +200,27 @@ impl Layout {
             drawing.text(line, [left, base], ink);
         }
     }
+}
+
+/// Draws the outlines of moving bodies as they would look at rest.
+fn draw_outline<E: From<Error>>(
+    seen: &SeenScene<'_>,
+    camera: &CameraOptions,
+    depths: &DepthsOf<'_, E>,
+    style: &Style,
+    all: &mut Annotations,
+) -> Result<(), E> {
+    let Some(ideal) = IdealScene::new(seen) else {
+        all.notes.push(Note::NoOutline);
+        return Ok(());
+    };
+    // The camera must stay, although the scene at rest has another middle.
+    let mut camera = camera.clone();
+    camera.eye = Some(seen.view.eye);
+    camera.center = Some(seen.view.eye + seen.view.distance * seen.view.forward);
+    let depths = depths(&ideal.scene, &camera, SceneState::AtRest)?;
+    outline::draw(seen, &ideal, &depths, style, &mut all.over);
+    Ok(())
 }
 
 /// Height of capital letters with some space above, relative to the text size.

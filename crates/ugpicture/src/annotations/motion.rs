@@ -4,7 +4,6 @@ use glam::DVec3;
 use ugphysics::Velocity;
 use ugscene::View;
 
-use super::seen::SeenScene;
 use crate::emission::SeenItem;
 
 /// Velocities and Doppler factors of the bodies in a picture.
@@ -21,11 +20,12 @@ pub struct MotionSummary {
 }
 
 impl MotionSummary {
-    /// Summarizes what is seen at the middles of pixels. `is_shifted`: wavelengths have been
-    /// Doppler shifted.
+    /// Summarizes what is seen at the middles of pixels. `all`: the velocities of all bodies;
+    /// `is_shifted`: wavelengths have been Doppler shifted.
     pub fn new(
-        seen: &SeenScene<'_>,
+        view: &View,
         items: impl Iterator<Item = Option<SeenItem>>,
+        all: impl FnOnce() -> Vec<Velocity>,
         is_shifted: bool,
     ) -> Self {
         let mut velocities: Vec<Velocity> = Vec::new();
@@ -38,11 +38,10 @@ impl MotionSummary {
             doppler = Some(doppler.map_or([factor; 2], |[low, high]| [low.min(factor), high.max(factor)]));
         }
         if velocities.is_empty() {
-            velocities = seen.scene.faces.iter().map(|face| seen.frames.velocity(face.body)).collect();
-            velocities.dedup();
+            velocities = all();
         }
         velocities.sort_by(|a, b| a.rapidity().total_cmp(&b.rapidity()));
-        let axes = axes(&seen.view);
+        let axes = axes(view);
         let direction = |v: &Velocity| {
             if v.is_zero() {
                 DVec3::ZERO

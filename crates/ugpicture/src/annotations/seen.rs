@@ -1,5 +1,6 @@
 //! The scene and camera of annotations.
 
+use ugphysics::Velocity;
 use ugscene::{CameraOptions, RestFrames, Scene, View};
 
 use crate::error::Error;
@@ -22,8 +23,20 @@ impl<'a> SeenScene<'a> {
         Ok(Self { scene, view, frames: RestFrames::new(scene), size })
     }
 
+    /// The velocities of the bodies of its faces.
+    pub fn velocities(&self) -> Vec<Velocity> {
+        velocities(self.scene, &self.frames)
+    }
+
     /// Columns and rows of the picture.
     pub fn size(&self) -> [f64; 2] {
         self.size.map(f64::from)
     }
+}
+
+/// The velocities of the bodies of faces, each once where faces of one velocity follow each other.
+pub fn velocities(scene: &Scene, frames: &RestFrames) -> Vec<Velocity> {
+    let mut velocities: Vec<Velocity> = scene.faces.iter().map(|face| frames.velocity(face.body)).collect();
+    velocities.dedup();
+    velocities
 }

@@ -1,6 +1,7 @@
 //! Errors and notes, with the options that correct what is wrong.
 
 use ugpipe::{Words, remedies};
+use ugscene::CameraError;
 
 use crate::limits::{MAX_SAMPLES, MAX_VECTOR_SIDE};
 use crate::{Error, Note};
@@ -32,10 +33,15 @@ impl Words for Error {
                      count columns and rows from 0 at the upper left, or give -sz"
                 );
             }
-            Self::Text(_) => "{}",
+            Self::Text(_) | Self::Stopped(_) => "{}",
             Self::Camera(error) => return error.words(),
         };
         words.replacen("{}", &self.to_string(), 1)
+    }
+
+    fn is_usage(&self) -> bool {
+        !matches!(self, Self::Memory(..) | Self::Camera(_) | Self::Stopped(_))
+            || *self == Self::Camera(CameraError::NoUp)
     }
 }
 
@@ -64,9 +70,7 @@ impl Words for Note {
             Self::CutShort => "{}: give a smaller -rd or a larger -rc",
             Self::Adaptive(_) => "{} (-ad)",
             Self::Exposure(stops) => return format!("{self}; -ex {stops} gives the same picture"),
-            Self::ClippedIntensity { has_light: true, .. } | Self::ClippedLight(_) => {
-                "{}; -ex auto brings it into range"
-            }
+            Self::ClippedIntensity { has_light: true, .. } => "{}; -ex auto brings it into range",
             Self::DepthCue { near, far, least } => {
                 return format!("{self}; -dc {near} {far} {least} gives the same picture");
             }

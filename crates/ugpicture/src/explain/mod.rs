@@ -5,9 +5,11 @@
 pub mod json;
 pub mod text;
 
-use ugimage::{Development, Filter, Steps};
+use ugimage::{Development, Filter, LinearFrame, Quantizer, Steps, display_pixel};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
 use ugscene::Scene;
+
+use crate::{Background, PictureOptions};
 
 /// What the explanation of a pixel tells in every renderer.
 #[derive(Clone, Debug)]
@@ -93,6 +95,26 @@ pub struct PixelSteps {
     pub development: Option<(Development, Steps)>,
     /// Red, green, blue, alpha.
     pub bytes: [u8; 4],
+}
+
+impl PixelSteps {
+    /// The steps of a pixel whose samples have this mean. `is_clipped`: they were clipped one by
+    /// one, and are not developed; `whole`: the light of the picture, for automatic exposure.
+    pub fn new(
+        picture: &PictureOptions,
+        mean: [f32; 4],
+        is_clipped: bool,
+        whole: impl FnOnce() -> LinearFrame,
+    ) -> Self {
+        let [red, green, blue, part] = mean;
+        let light = [red, green, blue];
+        let development = (!is_clipped).then(|| picture.development(whole));
+        let [red, green, blue] = development.map_or(light, |development| development.apply(light));
+        let is_opaque = picture.background != Background::Transparent;
+        let bytes = display_pixel(&Quantizer::new(), [red, green, blue, part], is_opaque);
+        let development = development.map(|development| (development, development.steps(light)));
+        Self { filter: picture.filter, mean, development, bytes }
+    }
 }
 
 /// The sample nearest to the centre of a pixel; of several the last, as for channels. `place`:

@@ -28,4 +28,19 @@ impl Words for Error {
         };
         words.replacen("{}", &self.to_string(), 1)
     }
+
+    fn is_usage(&self) -> bool {
+        match self {
+            Self::Picture(error) => error.is_usage(),
+            Self::ExplainExact => true,
+            _ => false,
+        }
+    }
+
+    fn report(&self) -> Option<String> {
+        match self {
+            Self::Scene(diagnostics) => Some(diagnostics.report()),
+            _ => None,
+        }
+    }
 }

@@ -4,14 +4,12 @@ mod json;
 mod text;
 
 use glam::DVec3;
-use ugimage::{Quantizer, display_pixel};
-use uglight::Interpolation;
-use uglight::Swatch;
+use uglight::{Interpolation, Swatch};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue};
 use ugpicture::explain::nearest;
-use ugpicture::{Emissions, Filter, Layout, SurfaceSample};
-use ugraster::{Fragment, PixelSamples, ProbedSample, Resolve};
+use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
+use ugraster::{Fragment, PixelSamples, ProbedSample};
 use ugscene::{Geometry, RestPosition, SeenPosition, Stage, VertexId};
 
 use crate::config::Config;
@@ -19,7 +17,7 @@ use crate::depth_cue::prepare;
 use crate::error::Error;
 use crate::front::{of_fragment, of_surface};
 use crate::packing::{Interpolated, PackedLayout, Plain};
-use crate::pixels::{self, Display, backdrop, developed, development, mean};
+use crate::pixels::{self, backdrop, mean};
 use crate::render::warnings;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
@@ -114,24 +112,20 @@ pub fn explain(
     if config.exact.is_some() {
         return Err(Error::ExplainExact);
     }
-    let layout = Layout::new(&config.picture)?;
-    let config = &Config { picture: layout.of_scene(&config.picture).into_owned(), ..config.clone() };
-    config.picture.check()?;
+    let canvas = Canvas::new(&config.picture)?;
+    canvas.check_pixel(pixel)?;
+    let config = &Config { picture: canvas.options().clone(), ..config.clone() };
     let picture = &config.picture;
     let setup = prepare(&parsed.scene, config)?;
-    if pixel[0] >= picture.size[0] || pixel[1] >= picture.size[1] {
-        return Err(ugpicture::Error::Pixel { pixel, size: picture.size }.into());
-    }
     let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
-    let (display, backdrop) = (Display::new(picture), backdrop(picture));
-    let (samples, gathered, bytes) = layers.probe(&setup.grid, &setup.shader, &display, pixel);
-    let (mean, bytes) = match picture.filter {
-        Filter::Box => (mean(&backdrop, &gathered), bytes),
-        filter => {
-            let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), display.pixel(all));
-            layers.probe_filtered(&setup.grid, filter, &setup.shader, &both, pixel)
-        }
+    let backdrop = backdrop(picture);
+    let light = |all: &PixelSamples<'_>| mean(&backdrop, all);
+    let (samples, _, own) = layers.probe(&setup.grid, &setup.shader, &light, pixel);
+    let mean = match picture.filter {
+        Filter::Box => own,
+        filter => layers.probe_filtered(&setup.grid, filter, &setup.shader, &light, pixel),
     };
+    let whole = || pixels::light(&setup, &layers, config).0;
     let teller = Teller { setup: &setup, config, source, parsed: &parsed };
     let explanation = Explanation {
         pixel: ExplainedPixel {
@@ -143,7 +137,7 @@ pub fn explain(
                 - samples.iter().filter(|sample| !is_free(sample)).count(),
             is_at_rest: !ugscene::has_moving_bodies(setup.scene())
                 && !ugscene::has_moving_lights(setup.scene()),
-            steps: pixel_steps(&setup, &layers, config, mean, bytes),
+            steps: PixelSteps::new(picture, mean, !setup.is_uncut, whole),
         },
         sample: nearest(&samples, |sample| sample.place, pixel, picture.samples)
             .map(|sample| teller.shown(sample)),
@@ -151,25 +145,6 @@ pub fn explain(
         stage: parsed.scene.stage,
     };
     Ok((explanation, warnings(source, parsed)))
-}
-
-fn pixel_steps(
-    setup: &Setup<'_>,
-    layers: &RenderLayers<'_>,
-    config: &Config,
-    mean: [f32; 4],
-    bytes: [u8; 4],
-) -> PixelSteps {
-    let [red, green, blue, _] = mean;
-    let development = setup.is_uncut.then(|| {
-        let development = development(&config.picture, || pixels::light(setup, layers, config).0);
-        (development, development.steps([red, green, blue]))
-    });
-    let bytes = development.map_or(bytes, |(development, _)| {
-        let shown = developed(&development, mean);
-        display_pixel(&Quantizer::new(), shown, backdrop(&config.picture).is_opaque())
-    });
-    PixelSteps { filter: config.picture.filter, mean, development, bytes }
 }
 
 /// One of the surfaces that a sample shows.

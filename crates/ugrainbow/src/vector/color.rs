@@ -5,8 +5,7 @@ use ugimage::figure::Rgb;
 use ugphysics::srgb_encode;
 use ugraster::{Corner, SampleGrid, ShadedSample, TRANSPARENT_VALUES};
 
-use super::patch::Patch;
-use crate::pixels::developed;
+use super::patch::{Interpolants, Patch};
 use crate::render_layers::RenderLayers;
 use crate::shade::Shader;
 
@@ -83,11 +82,8 @@ impl FigureColors<'_> {
     }
 
     /// Light developed for a display.
-    pub fn levels(&self, [red, green, blue]: [f32; 3]) -> Levels {
-        let light = match &self.development {
-            Some(development) => developed(development, [red, green, blue, 1.0]),
-            None => [red, green, blue, 1.0],
-        };
+    pub fn levels(&self, light: [f32; 3]) -> Levels {
+        let light = self.development.map_or(light, |development| development.apply(light));
         [0, 1, 2].map(|i| 255.0 * srgb_encode(f64::from(light[i]).clamp(0.0, 1.0)))
     }
 }
@@ -96,12 +92,6 @@ impl FigureColors<'_> {
 struct SeenLayer {
     light: [f32; 3],
     pass: f32,
-}
-
-/// Interpolated values at a point.
-pub struct Interpolants {
-    pub values: [f32; TRANSPARENT_VALUES],
-    pub key: f64,
 }
 
 /// Rounded to the nearest levels.

@@ -30,19 +30,18 @@ use smooth::{Smooth, plain_color, push_smooth};
 use transparency::PaintedArea;
 use ugimage::figure::{Element, Figure};
 use ugimage::{Development, Format};
-use ugpicture::{Annotations, Exposure, Layout, MAX_PIXELS, VectorFigure};
+use ugpicture::{DrawnContent, Exposure, MAX_PIXELS, VectorFigure};
 use ugpipe::Progress;
 use ugscene::Scene;
 use work::Work;
 
-use crate::annotate::annotate;
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::error::Error;
 use crate::lines::Stroke;
-use crate::notes::DrawStatistics;
 use crate::pixels::{self, backdrop};
 use crate::planar::BoxIndex;
+use crate::render::DrawnScene;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
@@ -55,18 +54,6 @@ const MOST_SAMPLES: u64 = MAX_PIXELS / 4;
 /// Most samples of translucent faces by which visibility is decided, which took about two seconds.
 const MOST_FRAGMENTS: f64 = (1 << 25) as f64;
 
-/// A figure of a scene, and the data for its notes.
-pub struct Drawn<'a> {
-    /// The scene at the resolution at which visibility was decided.
-    pub setup: Setup<'a>,
-    /// Statistics of the samples that decided visibility.
-    pub statistics: DrawStatistics,
-    /// The figure.
-    pub figure: VectorFigure,
-    /// Its annotations.
-    pub annotations: Annotations,
-}
-
 /// Draws a figure.
 ///
 /// # Errors
@@ -75,9 +62,8 @@ pub fn draw<'a>(
     scene: &'a Scene,
     config: &Config,
     format: Format,
-    layout: &Layout,
     progress: &dyn Progress,
-) -> Result<Drawn<'a>, Error> {
+) -> Result<DrawnScene<'a>, Error> {
     let size = config.picture.size;
     let mut scale = scale(size);
     let mut setup = prepare(scene, &at_scale(config, scale))?;
@@ -95,16 +81,15 @@ pub fn draw<'a>(
     }
     let seen = seen::faces(&setup, &layers);
     let development = if setup.is_uncut { Some(development(scene, config)?) } else { None };
-    let statistics = DrawStatistics { clip_counts: layers.clip_counts(), stats: seen.stats, development };
-    let annotations = annotate(layout, &setup, config, development)?;
-    let job =
-        FigureJob { layers: &layers, setup: &setup, config, scale, seen: &seen, annotations: &annotations };
+    let (clip_counts, stats) = (layers.clip_counts(), seen.stats);
+    let job = FigureJob { layers: &layers, setup: &setup, config, scale, seen: &seen };
     let figure = match format {
         Format::Svg => VectorFigure::Gradients(job.figure(development)?),
         _ => VectorFigure::Triangles(job.figure(development)?, format),
     };
     drop(layers);
-    Ok(Drawn { setup, statistics, figure, annotations })
+    let content = DrawnContent::Figure(figure, development);
+    Ok(DrawnScene { setup, clip_counts, stats, content })
 }
 
 /// The options for one sample a pixel, in a picture that is so many times larger.
@@ -131,7 +116,7 @@ fn development(scene: &Scene, config: &Config) -> Result<Development, Error> {
         Some(Exposure::Auto) => {
             let setup = prepare(scene, config)?;
             let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
-            return Ok(pixels::development(&config.picture, || pixels::light(&setup, &layers, config).0));
+            return Ok(config.picture.development(|| pixels::light(&setup, &layers, config).0));
         }
         Some(Exposure::Stops(stops)) => stops,
         None => 0.0,
@@ -146,12 +131,11 @@ struct FigureJob<'a> {
     config: &'a Config,
     scale: u32,
     seen: &'a seen::Faces,
-    annotations: &'a Annotations,
 }
 
 impl FigureJob<'_> {
     fn figure<S: Smooth>(&self, development: Option<Development>) -> Result<Figure<S>, Error> {
-        let Self { layers, setup, config, scale, seen, annotations } = *self;
+        let Self { layers, setup, config, scale, seen } = *self;
         let size = config.picture.size;
         let ground = backdrop(&config.picture).light();
         let faces = patches(layers, setup, size, f64::from(scale), &seen.is_near);
@@ -170,9 +154,7 @@ impl FigureJob<'_> {
         let in_front = lines::TransparentPatches { patches: &faces, index: &index };
         lines::push_lines(&colors, &in_front, strokes, config.line_width, &mut elements);
         let background = ground.map(|light| rounded(colors.levels(light)));
-        let mut figure = Figure { size, background, elements };
-        annotations.complete(&mut figure);
-        Ok(figure)
+        Ok(Figure { size, background, elements })
     }
 }
 
@@ -270,9 +252,8 @@ mod tests {
             assert_eq!(n_fragments, f64::from(n_panes * 64 * 64 * scale * scale));
             assert_eq!(coarser(scale, n_fragments), expected);
             if n_panes < 3000 {
-                let layout = Layout::new(&config.picture).unwrap();
-                let drawn = draw(&scene, &config, Format::Svg, &layout, &()).unwrap();
-                assert!(drawn.statistics.stats.covered as f64 <= MOST_FRAGMENTS);
+                let drawn = draw(&scene, &config, Format::Svg, &()).unwrap();
+                assert!(drawn.stats.covered as f64 <= MOST_FRAGMENTS);
             }
         }
     }

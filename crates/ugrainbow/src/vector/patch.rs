@@ -2,7 +2,6 @@
 
 use ugraster::{Corner, TRANSPARENT_VALUES};
 
-use super::color::Interpolants;
 use crate::planar::{Convex, DepthPoint, clipped_to_picture, convex_parts, doubled_area, sides};
 
 /// Margin around the picture, in pixels, to which polygons are clipped.
@@ -23,6 +22,12 @@ pub struct Patch {
     /// The same, decomposed into convex parts.
     pub parts: Vec<Convex>,
     is_perspective: bool,
+}
+
+/// Interpolated values at a point.
+pub struct Interpolants {
+    pub values: [f32; TRANSPARENT_VALUES],
+    pub key: f64,
 }
 
 impl Patch {

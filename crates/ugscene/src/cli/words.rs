@@ -59,4 +59,8 @@ impl Words for MotionError {
             Self::Camera(error) => error.words(),
         }
     }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Velocity(_) | Self::CameraVelocity(_) | Self::Camera(CameraError::NoUp))
+    }
 }

@@ -73,13 +73,6 @@ pub enum MotionError {
     Camera(CameraError),
 }
 
-impl MotionError {
-    /// True if the options are invalid, false if the scene is.
-    pub fn is_usage(&self) -> bool {
-        matches!(self, Self::Velocity(_) | Self::CameraVelocity(_) | Self::Camera(CameraError::NoUp))
-    }
-}
-
 /// Where the bodies of a scene are relative to the camera.
 #[derive(Clone, Debug)]
 pub struct PlacedBodies {

@@ -47,4 +47,13 @@ impl Words for Error {
         };
         words.replacen("{}", &self.to_string(), 1)
     }
+
+    fn is_usage(&self) -> bool {
+        match self {
+            Self::Picture(error) => error.is_usage(),
+            Self::Panorama(error) => matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. }),
+            Self::Read { .. } => false,
+            _ => true,
+        }
+    }
 }

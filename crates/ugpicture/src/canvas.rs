@@ -1,0 +1,126 @@
+//! The shell of every renderer: from its options to the picture that it returns.
+
+use ugimage::{Development, Frame, LinearFrame, Metadata, Tone};
+use ugpipe::Progress;
+
+use crate::annotations::{Annotated, Layout};
+use crate::error::Error;
+use crate::exposure::Exposure;
+use crate::image::Image;
+use crate::note::Note;
+use crate::options::PictureOptions;
+use crate::rendering::{Content, Rendering, VectorFigure};
+
+/// Least brightness at which clipping is reported; less is invisible in 8 bits.
+const CLIPPED: f32 = 1.001;
+
+/// A picture to be drawn: its options are checked, and rows below it are kept for annotations.
+///
+/// A renderer draws a picture with [`Canvas::options`]; [`Canvas::finish`] does everything else.
+pub struct Canvas {
+    options: PictureOptions,
+    layout: Layout,
+}
+
+/// What a renderer draws on a [`Canvas`].
+pub struct Drawn<'a, E> {
+    /// Light, pixels or areas.
+    pub content: DrawnContent,
+    /// The brightest channel before light is clipped.
+    pub brightest: f32,
+    /// What the user should know about the scene.
+    pub notes: Vec<Note>,
+    /// What annotations tell about.
+    pub annotated: Annotated<'a, E>,
+}
+
+/// The form in which a renderer draws a picture.
+pub enum DrawnContent {
+    /// Linear light, to be developed as the options ask for. `is_clipped`: its samples were clipped
+    /// one by one, so it is in the range of a display already.
+    Light {
+        /// The light, with the channels that the options ask for.
+        frame: LinearFrame,
+        /// See above.
+        is_clipped: bool,
+    },
+    /// 8-bit pixels, for options that neither keep light nor expose it.
+    Display(Frame),
+    /// Areas, whose light was developed so.
+    Figure(VectorFigure, Option<Development>),
+}
+
+impl Canvas {
+    /// Checks the options of a picture, and lays out its annotations.
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn new(options: &PictureOptions) -> Result<Self, Error> {
+        options.check()?;
+        let layout = Layout::new(options)?;
+        Ok(Self { options: layout.of_scene(options), layout })
+    }
+
+    /// The options of the part of the picture that the renderer draws.
+    pub fn options(&self) -> &PictureOptions {
+        &self.options
+    }
+
+    /// Refuses a pixel that is not in the part that the renderer draws.
+    ///
+    /// # Errors
+    /// [`Error::Pixel`].
+    pub fn check_pixel(&self, pixel: [u32; 2]) -> Result<(), Error> {
+        let size = self.options.size;
+        let is_inside = pixel[0] < size[0] && pixel[1] < size[1];
+        if is_inside { Ok(()) } else { Err(Error::Pixel { pixel, size }) }
+    }
+
+    /// Develops and annotates what was drawn. `metadata`: what the file says about its making.
+    ///
+    /// # Errors
+    /// Errors of annotations; [`Error::Stopped`].
+    pub fn finish<E: From<Error>>(
+        &self,
+        drawn: Drawn<'_, E>,
+        metadata: Metadata,
+        progress: &dyn Progress,
+    ) -> Result<Rendering, E> {
+        let Drawn { content, brightest, mut notes, annotated } = drawn;
+        progress.check().map_err(Error::from)?;
+        let (content, development) = self.developed(content);
+        notes.extend(self.light_note(brightest, development));
+        progress.step("annotating", 0);
+        let annotations = self.layout.annotate(&annotated, &self.options, development)?;
+        let content = annotations.add_to(content);
+        notes.extend(annotations.notes);
+        progress.check().map_err(Error::from)?;
+        Ok(Rendering::new(content, &self.options, metadata, notes))
+    }
+
+    fn developed(&self, content: DrawnContent) -> (Content, Option<Development>) {
+        match content {
+            DrawnContent::Light { frame, is_clipped } => {
+                let (image, development) = Image::developed(frame, &self.options, is_clipped);
+                (Content::Image(image), development)
+            }
+            DrawnContent::Display(frame) => (Content::Image(Image::Display(frame)), None),
+            DrawnContent::Figure(figure, development) => (Content::Figure(figure), development),
+        }
+    }
+
+    /// How light brighter than white was brought into range, if there was any.
+    fn light_note(&self, brightest: f32, development: Option<Development>) -> Option<Note> {
+        let PictureOptions { output, exposure, tone, .. } = self.options;
+        if output.is_linear() {
+            return None;
+        }
+        if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (exposure, development) {
+            return Some(Note::Exposure(stops));
+        }
+        let is_chosen = exposure.is_some() || tone != Tone::Clip;
+        // Light beyond the largest number is shown as that number.
+        let (most, has_light) = (brightest.min(f32::MAX), development.is_some());
+        (most > CLIPPED && !is_chosen).then_some(Note::ClippedIntensity { most, has_light })
+    }
+}
