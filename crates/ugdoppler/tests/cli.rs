@@ -48,11 +48,11 @@ fn bad_usage_is_status_2() {
         (&["-vel", "1.2", "0", "0"][..], "speed is 1.2 c"),
         (&["-vel", ".5", "0"][..], "takes three values, not two"),
         (&["-vel", "nan", "0", "0"][..], "not a finite number"),
-        (&["-br", "bright"][..], "`-br` takes "),
+        (&["-br", "bright"][..], "none of the laws report, photon, bolometric, none"),
         (&["-ct", "-1"][..], "a colour tolerance (-ct) is between 0 and 100"),
         (&["-ct", "1e300"], "a colour tolerance (-ct) is between 0 and 100"),
         (&["-sp", "-gw"][..], "-sp writes X, Y, Z and -gw writes wavelengths of hues"),
-        (&["-sp", "-br", "report"][..], "leave out -br, or the D^5 by --no-flux"),
+        (&["-sp", "-br", "report"][..], "`-sp` and `-br` cannot be given together"),
         (&["-ir", "-hd"][..], "-ir scales intensities to 1 and -hd keeps them"),
         (&["-nonsense"][..], "there is no option"),
     ] {

@@ -14,7 +14,7 @@ use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 use crate::blur::MotionBlur;
 use crate::film::{Film, Summary, Target};
 use crate::frame_files::valid_since;
-use crate::options::{EXACT, Given, PANORAMA, PIPE, ProgramOptions, RAYS};
+use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
 use crate::pipe::Subject;
 use crate::program::Program;
@@ -41,13 +41,8 @@ pub struct Args {
     #[arg(long, value_name = "RATE", default_value = "25", value_parser = rate, help_heading = FILM)]
     fps: f64,
 
-    /// Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs
-    #[arg(long, conflicts_with = "warp", help_heading = FILM)]
-    rays: bool,
-
-    /// Draw views of a panorama, a picture, instead of a scene
-    #[arg(long, help_heading = FILM)]
-    warp: bool,
+    #[command(flatten, next_help_heading = FILM)]
+    pipe: PipeArgs,
 
     /// How numbers change from one value to the next: linear, smooth
     ///
@@ -222,7 +217,7 @@ enum Read {
 impl Read {
     /// Reads the input. A scene without a camera gets one for all frames.
     fn new(args: &Args, script: &mut Script, context: &mut Context) -> Result<Self, Failure> {
-        if args.warp {
+        if args.pipe.warp {
             let input = context.input()?;
             let opened = args.panorama(script, &input, context)?;
             opened.notes.iter().for_each(|note| context.note(note));
@@ -292,14 +287,7 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
 
 impl Args {
     fn script(&self, context: &Context) -> Result<Script, Failure> {
-        let exact = Given { name: "xc".to_owned(), values: Vec::new() };
-        let tools = match (self.warp, self.rays, self.options.given.contains(&exact)) {
-            (true, ..) => PANORAMA,
-            (false, true, _) => RAYS,
-            (false, false, true) => EXACT,
-            (false, false, false) => PIPE,
-        };
-        let mut script = Script::new(tools, self.frames);
+        let mut script = Script::new(self.pipe.tools(&self.options.given), self.frames);
         script.ease = self.ease;
         script.is_loop = self.is_loop;
         script.reading = self.common.reading_words();

@@ -44,13 +44,31 @@ pub const TOOLS: [&Tool; 5] = [LORENTZ, DOPPLER, RAINBOW, PHOTON, WARP];
 
 /// The pipe of three programs.
 pub const PIPE: &[&Tool] = &[LORENTZ, DOPPLER, RAINBOW];
-/// The pipe without the program that colours vertices: the renderer computes the light of every
-/// sample (`-xc`).
-pub const EXACT: &[&Tool] = &[LORENTZ, RAINBOW];
-/// The ray tracer alone.
-pub const RAYS: &[&Tool] = &[PHOTON];
-/// Views of a panorama.
-pub const PANORAMA: &[&Tool] = &[WARP];
+
+/// The programs that draw a film: flatten it into its arguments.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct PipeArgs {
+    /// Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs
+    #[arg(long, conflicts_with = "warp")]
+    rays: bool,
+
+    /// Draw views of a panorama, a picture, instead of a scene
+    #[arg(long)]
+    pub warp: bool,
+}
+
+impl PipeArgs {
+    /// The programs in their order. With `-xc` the renderer computes the colours as seen of every
+    /// sample, so no program colours vertices.
+    pub fn tools(self, given: &[Given]) -> &'static [&'static Tool] {
+        match self {
+            Self { warp: true, .. } => &[WARP],
+            Self { rays: true, .. } => &[PHOTON],
+            _ if given.iter().any(|option| option.name == "xc") => &[LORENTZ, RAINBOW],
+            _ => PIPE,
+        }
+    }
+}
 
 fn typed<A>(words: &[String], program: fn(&A) -> Result<Program, Failure>) -> Result<Typed, Failure>
 where

@@ -51,49 +51,44 @@
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
 //! [`printable`] and the messages of [`remedies`] are compiled, and clap is not built.
 //!
-//! # A whole program
+//! # Example
 //!
-//! ```no_run
-//! use std::process::ExitCode;
+//! A computation reports its progress, and gives up when its caller stops it:
 //!
-//! use clap::{ArgAction, Parser};
-//! use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
-//!
-//! /// Copies a scene at rest
-//! #[derive(Parser)]
-//! #[command(name = "ugstill", version, after_help = "Examples:\n  ugstill ship.ug > copy.ug")]
-//! struct Args {
-//!     /// Velocity of all objects, fraction of c
-//!     #[arg(long, visible_alias = "velocity", num_args = 3, value_names = ["X", "Y", "Z"],
-//!           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
-//!     vel: Option<Vec<f64>>,
-//!
-//!     #[command(flatten)]
-//!     common: CommonArgs,
-//! }
-//!
-//! impl ToolArgs for Args {
-//!     const ESSENTIAL: &'static [&'static str] = &["-vel", "-fo"];
-//!
-//!     fn common(&self) -> &CommonArgs {
-//!         &self.common
-//!     }
-//! }
-//!
-//! fn main() -> ExitCode {
-//!     ugpipe::main(run)
-//! }
-//!
-//! fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
-//!     let velocity = ugpipe::vector(args.vel.as_deref()).unwrap_or_default();
-//!     if velocity != [0.0; 3] {
-//!         return Err(Failure::usage("cannot move; leave out `-vel`"));
-//!     }
-//!     let input = context.input()?;
-//!     context.note(&format!("{}: {} bytes at rest", input.name, input.text.len()));
-//!     context.write(&input.text)
-//! }
 //! ```
+//! use std::sync::atomic::{AtomicU64, Ordering};
+//!
+//! use ugpipe::{Progress, Stopped};
+//!
+//! fn sum(numbers: &[u64], progress: &dyn Progress) -> Result<u64, Stopped> {
+//!     progress.step("adding", numbers.len() as u64);
+//!     numbers.iter().try_fold(0, |sum, number| {
+//!         progress.check()?;
+//!         progress.done(1);
+//!         Ok(sum + number)
+//!     })
+//! }
+//!
+//! /// Stops after two parts.
+//! struct Impatient(AtomicU64);
+//!
+//! impl Progress for Impatient {
+//!     fn step(&self, _name: &'static str, _parts: u64) {}
+//!
+//!     fn done(&self, parts: u64) {
+//!         self.0.fetch_add(parts, Ordering::Relaxed);
+//!     }
+//!
+//!     fn is_stopped(&self) -> bool {
+//!         self.0.load(Ordering::Relaxed) >= 2
+//!     }
+//! }
+//!
+//! assert_eq!(sum(&[1, 2, 3], &()), Ok(6));
+//! assert_eq!(sum(&[1, 2, 3], &Impatient(AtomicU64::new(0))), Err(Stopped));
+//! ```
+//!
+//! [`main`] has a whole program.
 
 #[cfg(feature = "cli")]
 mod args;

@@ -33,6 +33,50 @@ const BAD_USAGE: u8 = 2;
 /// | 1 | invalid scene, I/O error, or lack of memory |
 /// | 2 | invalid usage |
 /// | killed by SIGPIPE (141 in a shell) | the reading end of the output pipe was closed |
+///
+/// # A whole program
+///
+/// ```no_run
+/// use std::process::ExitCode;
+///
+/// use clap::{ArgAction, Parser};
+/// use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
+///
+/// /// Copies a scene at rest
+/// #[derive(Parser)]
+/// #[command(name = "ugstill", version, after_help = "Examples:\n  ugstill ship.ug > copy.ug")]
+/// struct Args {
+///     /// Velocity of all objects, fraction of c
+///     #[arg(long, visible_alias = "velocity", num_args = 3, value_names = ["X", "Y", "Z"],
+///           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
+///     vel: Option<Vec<f64>>,
+///
+///     #[command(flatten)]
+///     common: CommonArgs,
+/// }
+///
+/// impl ToolArgs for Args {
+///     const ESSENTIAL: &'static [&'static str] = &["-vel", "-fo"];
+///
+///     fn common(&self) -> &CommonArgs {
+///         &self.common
+///     }
+/// }
+///
+/// fn main() -> ExitCode {
+///     ugpipe::main(run)
+/// }
+///
+/// fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
+///     let velocity = ugpipe::vector(args.vel.as_deref()).unwrap_or_default();
+///     if velocity != [0.0; 3] {
+///         return Err(Failure::usage("cannot move; leave out `-vel`"));
+///     }
+///     let input = context.input()?;
+///     context.note(&format!("{}: {} bytes at rest", input.name, input.text.len()));
+///     context.write(&input.text)
+/// }
+/// ```
 pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
     exit_on_abort();
     let mut command = help::install(argv::prepare(A::command()), A::ESSENTIAL);

@@ -12,8 +12,8 @@ use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal,
-    with_format, write_picture,
+    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
+    write_picture,
 };
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, number, numbers, one_of, sha256,

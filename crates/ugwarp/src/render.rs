@@ -149,12 +149,7 @@ impl<'s> Prepared<'s> {
         (file, notes(&self.warp, &statistics))
     }
 
-    fn render(
-        &self,
-        sky: Sky<'_>,
-        metadata: &Metadata,
-        progress: &dyn Progress,
-    ) -> Result<Rendering, Error> {
+    fn render(&self, sky: Sky<'_>, metadata: &Metadata, progress: &dyn Progress) -> Result<Rendering, Error> {
         let Self { config, canvas, warp } = self;
         let (content, statistics) = match self.alone(sky) {
             Some(layer) => {
