@@ -54,7 +54,7 @@
 //! shade  packing                                      colours of samples
 //! planar  clip  painter                               geometry in the picture plane
 //! drawlist  lines  exact                              polygons, lines, faces hit by rays
-//! render_layers  setup  depth_cue  front              the whole scene for one camera
+//! render_layers  setup  depth_cue  front  drawn_scene the whole scene for one camera
 //! pixels  annotate  notes                             from samples to an image, with messages
 //! vector  render  explain                             vector graphics, pictures, one pixel
 //! cli                                                 the command line
@@ -87,6 +87,7 @@ mod clip;
 mod config;
 mod depth_cue;
 mod drawlist;
+mod drawn_scene;
 mod error;
 mod exact;
 pub mod explain;

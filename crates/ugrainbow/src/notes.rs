@@ -6,7 +6,7 @@ use ugraster::{DepthFade, SampleStats};
 use ugscene::Scene;
 
 use crate::config::{Config, DepthCue};
-use crate::render::DrawnScene;
+use crate::drawn_scene::DrawnScene;
 
 /// The notes on a picture.
 pub fn notes(drawn: &DrawnScene<'_>, config: &Config) -> Vec<Note> {

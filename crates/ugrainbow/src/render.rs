@@ -2,15 +2,14 @@
 
 use ugimage::{Frame, LinearFrame};
 use ugparse::{Diagnostics, Parsed, Source};
-use ugpicture::{Canvas, Drawn, DrawnContent, Output, PictureFile, Rendering, metadata};
+use ugpicture::{Canvas, Drawn, Output, PictureFile, Rendering, metadata};
 use ugpipe::Progress;
-use ugraster::SampleStats;
 use ugscene::{Provenance, Scene};
 
 use crate::annotate::{annotated, depths};
-use crate::clip::ClipCounts;
 use crate::config::Config;
 use crate::depth_cue::prepare;
+use crate::drawn_scene::DrawnScene;
 use crate::error::Error;
 use crate::notes::notes;
 use crate::render_layers::RenderLayers;
@@ -82,18 +81,6 @@ pub(crate) fn warnings(source: &Source, parsed: Parsed) -> Diagnostics {
         Some(warning) => parsed.warnings.with(source, warning),
         None => parsed.warnings,
     }
-}
-
-/// A scene as drawn, before it is developed.
-pub struct DrawnScene<'a> {
-    /// The scene at the resolution at which visibility was decided.
-    pub setup: Setup<'a>,
-    /// How many faces and lines were clipped.
-    pub clip_counts: ClipCounts,
-    /// Statistics of its samples.
-    pub stats: SampleStats,
-    /// Light, pixels or areas.
-    pub content: DrawnContent,
 }
 
 /// Renders a scene on a canvas. `config`: of the whole picture.

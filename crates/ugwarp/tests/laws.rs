@@ -306,7 +306,7 @@ fn the_brightest_light_is_a_number() {
     let mut config = Config { shift, velocity: ahead(0.5), ..Config::default() };
     config.picture.size = [8, 6];
     let notes = render(&sky, &config).unwrap().notes;
-    assert!(notes[0].to_string().starts_with("max light is 3402823466"), "{notes:?}");
+    assert!(notes[0].to_string().starts_with("max intensity is 3402823466"), "{notes:?}");
     assert!(light(&sky, &config).unwrap().pixels().iter().flatten().all(|part| part.is_finite()));
 }
 

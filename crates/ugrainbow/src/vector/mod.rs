@@ -37,11 +37,11 @@ use work::Work;
 
 use crate::config::Config;
 use crate::depth_cue::prepare;
+use crate::drawn_scene::DrawnScene;
 use crate::error::Error;
 use crate::lines::Stroke;
 use crate::pixels::{self, backdrop};
 use crate::planar::BoxIndex;
-use crate::render::DrawnScene;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
