@@ -3,8 +3,8 @@
 
 use std::ops::Range;
 
-use crate::grid::{APRON, Row};
 use crate::panorama::Panorama;
+use crate::pyramid::APRON;
 
 /// Columns of a block.
 const COLUMNS: usize = 64;
@@ -50,7 +50,7 @@ struct Column {
     keys: [u64; KEPT],
     /// The rows that are all here, of the blocks whose row 0 has this key.
     held: (u64, Range<u32>),
-    /// The first row that [`Panorama::load`] has not yet read.
+    /// The first row that [`Pyramid::load`](crate::pyramid::Pyramid::load) has not yet read.
     ahead: u32,
     /// All texels that were ever decoded are opaque.
     is_opaque: bool,
@@ -104,10 +104,13 @@ impl Column {
                 self.keys[place] = key;
                 if row >= self.ahead || row + AHEAD < self.ahead {
                     self.ahead = row + AHEAD;
-                    sky.load(level, row as usize..self.ahead as usize, idx * COLUMNS..idx * COLUMNS + WIDTH);
+                    sky.pyramid.load(
+                        level,
+                        row as usize..self.ahead as usize,
+                        idx * COLUMNS..idx * COLUMNS + WIDTH,
+                    );
                 }
-                let row = &sky.grids[level].rows[row as usize];
-                self.is_opaque &= fill(&mut self.texels[place], sky, level, row, idx * COLUMNS);
+                self.is_opaque &= fill(&mut self.texels[place], sky, level, row as usize, idx * COLUMNS);
             }
         }
         self.held.1 = joined(&self.held.1, &rows);
@@ -145,10 +148,10 @@ fn key(level: u32, row: u32, idx: usize) -> u64 {
 
 /// Decodes the texels of a row from a column on; true if all are opaque. Beyond the end of the row
 /// nothing is changed, because no window reaches there.
-fn fill(Block(planes): &mut Block, sky: &Panorama, level: usize, row: &Row, column: usize) -> bool {
-    let end = sky.ladder[row.ladder].n.min(column + WIDTH);
+fn fill(Block(planes): &mut Block, sky: &Panorama, level: usize, row: usize, column: usize) -> bool {
+    let end = sky.ladder[sky.grids[level].rows[row].ladder].n.min(column + WIDTH);
     let (mut at, mut is_opaque) = (0, true);
-    sky.for_each(level, row, column..end, |texels| {
+    sky.pyramid.for_each(level, row, column..end, |texels| {
         let end = at + texels.len();
         is_opaque &= texels.copy_to(planes.each_mut().map(|plane| &mut plane[at..end]));
         at = end;
@@ -208,8 +211,8 @@ mod tests {
             n_opaque += u32::from(held.is_opaque);
             for row in window.row..window.row + window.n_rows {
                 let Block(planes) = &held.blocks[row as usize % KEPT];
-                let row = &grid.rows[row as usize];
-                let texels = sky.texels(level, row, column as usize, window.n_columns as usize);
+                let texels =
+                    sky.pyramid.texels(level, row as usize, column as usize, window.n_columns as usize);
                 for idx in 0..window.n_columns as usize {
                     let found = planes.each_ref().map(|plane| plane[held.column + idx]);
                     assert_eq!(found, texels.get(idx), "{window:?}");

@@ -6,9 +6,9 @@ use fearless_simd::{Simd, dispatch, f32x16, mask32x16, u32x16};
 use glam::DVec3;
 
 use crate::footprint::{CURVED, LARGEST, MOST_ECCENTRIC, RADIUS, SLACK};
-use crate::grid::APRON;
 use crate::observer::Observer;
 use crate::panorama::Panorama;
+use crate::pyramid::APRON;
 use crate::sample::Sampler;
 use crate::window::{EACH, Footprints, ROWS, Windows, lights};
 

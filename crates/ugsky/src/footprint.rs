@@ -1,7 +1,7 @@
 //! The weights of an elliptical footprint on the sphere.
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16};
+use fearless_simd::{Level, Simd, dispatch, f32x16};
 use glam::DVec3;
 
 use crate::observer::SkyRay;
@@ -40,27 +40,20 @@ pub(crate) struct Kernel {
     pub radius: f64,
 }
 
-/// The ellipse of a pixel on the sphere.
-pub(crate) struct Ellipse {
-    /// Unit vectors to the east and to the north.
-    axes: [DVec3; 2],
+/// The ellipse of a pixel in a plane.
+#[derive(Clone, Copy)]
+pub(crate) struct PlaneEllipse {
     /// Its matrix: sums of squares and products of the slopes.
-    matrix: [f64; 3],
+    pub matrix: [f64; 3],
     /// Squares of its semi-axes, the smaller first.
-    squares: [f64; 2],
+    pub squares: [f64; 2],
 }
 
-impl Ellipse {
-    /// `spread`: variance of the pixel filter along each axis, relative to that of a box.
+impl PlaneEllipse {
+    /// `east`, `north`: coordinates of the changes per column and per row of the picture. `spread`:
+    /// variance of the pixel filter along each axis, relative to that of a box.
     #[inline(always)]
-    pub fn new(ray: &SkyRay, spread: f64) -> Self {
-        let DVec3 { x, y, z } = ray.direction;
-        let level = (x * x + y * y).sqrt();
-        let [sin, cos] = if level > 0.0 { [x / level, y / level] } else { [0.0, 1.0] };
-        let axes = [DVec3::new(cos, -sin, 0.0), DVec3::new(-z * sin, -z * cos, level)];
-        let [across, down] = ray.slopes;
-        let east = [across.dot(axes[0]), down.dot(axes[0])];
-        let north = [across.dot(axes[1]), down.dot(axes[1])];
+    pub fn new(east: [f64; 2], north: [f64; 2], spread: f64) -> Self {
         let mut matrix = [
             spread * (east[0] * east[0] + east[1] * east[1]),
             spread * (east[0] * north[0] + east[1] * north[1]),
@@ -78,37 +71,65 @@ impl Ellipse {
             matrix[2] += least - small;
             small = least;
         }
-        Self { axes, matrix, squares: [small, large] }
+        Self { matrix, squares: [small, large] }
     }
 
-    /// True if it is small enough to be sampled at once.
-    #[inline]
-    pub fn is_small(&self) -> bool {
-        self.squares[1] <= LARGEST * LARGEST
-    }
-
-    /// The square of its smaller semi-axis.
-    #[inline]
-    pub fn small_square(&self) -> f64 {
-        self.squares[0]
-    }
-
-    /// The kernel on a level with texels of this size; `finest`: of level 0.
+    /// The matrix of the kernel on a level with texels of this size, and its c; `finest`: the texels
+    /// of level 0.
     #[inline(always)]
-    pub fn kernel(&self, texel: f64, finest: f64) -> Kernel {
+    pub fn kernel(&self, texel: f64, finest: f64) -> ([f64; 3], f64) {
         let margin = RADIUS * RADIUS * texel * texel;
         let [see, sen, snn] = [self.matrix[0] + margin, self.matrix[1], self.matrix[2] + margin];
         let variance = (self.matrix[0] + self.matrix[2]) / 12.0;
         // Texels of a level are means already.
         let averaged = (texel * texel - finest * finest) / 6.0;
         let moment = (variance - averaged).max(0.0) / (see + snn);
-        let c = (2.5 - 20.0 * moment) / (1.0 - 5.0 * moment);
+        ([see, sen, snn], (2.5 - 20.0 * moment) / (1.0 - 5.0 * moment))
+    }
+}
+
+/// The ellipse of a pixel on the sphere.
+pub(crate) struct Ellipse {
+    /// Unit vectors to the east and to the north.
+    axes: [DVec3; 2],
+    /// The ellipse in the plane of these.
+    plane: PlaneEllipse,
+}
+
+impl Ellipse {
+    /// `spread`: variance of the pixel filter along each axis, relative to that of a box.
+    #[inline(always)]
+    pub fn new(ray: &SkyRay, spread: f64) -> Self {
+        let DVec3 { x, y, z } = ray.direction;
+        let level = (x * x + y * y).sqrt();
+        let [sin, cos] = if level > 0.0 { [x / level, y / level] } else { [0.0, 1.0] };
+        let axes = [DVec3::new(cos, -sin, 0.0), DVec3::new(-z * sin, -z * cos, level)];
+        let [east, north] = axes.map(|axis| ray.slopes.map(|slope| slope.dot(axis)));
+        Self { axes, plane: PlaneEllipse::new(east, north, spread) }
+    }
+
+    /// True if it is small enough to be sampled at once.
+    #[inline]
+    pub fn is_small(&self) -> bool {
+        self.plane.squares[1] <= LARGEST * LARGEST
+    }
+
+    /// The square of its smaller semi-axis.
+    #[inline]
+    pub fn small_square(&self) -> f64 {
+        self.plane.squares[0]
+    }
+
+    /// The kernel on a level with texels of this size; `finest`: of level 0.
+    #[inline(always)]
+    pub fn kernel(&self, texel: f64, finest: f64) -> Kernel {
+        let (matrix @ [see, sen, snn], c) = self.plane.kernel(texel, finest);
         let [east, north] = self.axes;
         let ratio = sen / snn;
         let a = (east - ratio * north) / (see - sen * ratio).sqrt();
         let b = north / snn.sqrt();
-        let radius = (self.squares[1] + margin).sqrt();
-        Kernel { a, b, c: c as f32, matrix: [see, sen, snn], radius }
+        let radius = (self.plane.squares[1] + RADIUS * RADIUS * texel * texel).sqrt();
+        Kernel { a, b, c: c as f32, matrix, radius }
     }
 }
 
@@ -125,6 +146,12 @@ pub(crate) fn correction<S: Simd>(simd: S, [s, t, ss, st, tt]: [f32x16<S>; 5]) -
         is_regular.select((st * t - tt * s) / determinant, zero),
         is_regular.select((st * s - ss * t) / determinant, zero),
     ]
+}
+
+/// The same for one footprint.
+#[inline]
+pub(crate) fn correction_of(simd: Level, sums: [f32; 5]) -> [f32; 2] {
+    dispatch!(simd, simd => correction(simd, sums.map(|sum| f32x16::splat(simd, sum))).map(|factors| factors[0]))
 }
 
 /// atan2 within 2·10⁻⁶, which is enough to find the texels around a direction.

@@ -65,13 +65,6 @@ pub(crate) const CHUNK: usize = 8;
 /// Rows whose [`Lines`] are read at once.
 pub(crate) const LINES_AT_ONCE: usize = 16;
 
-/// Columns of a segment of a row, which is computed when it is first needed.
-pub(crate) const SEGMENT: usize = 256;
-
-/// Columns after its own that a segment repeats from the next one, so that this many columns are
-/// together wherever they begin.
-pub(crate) const APRON: usize = 16;
-
 /// Cosine and sine of the longitudes at the middles of columns.
 pub(crate) struct Columns {
     /// Columns with texels.
@@ -87,13 +80,8 @@ pub(crate) struct Columns {
 /// A row of cells.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Row {
-    /// Its place in the level, from the top.
-    pub idx: usize,
     /// Index in the ladder: of the number of columns that this row has.
     pub ladder: usize,
-    /// Index of its first texel among those of the panorama if it has all columns and the level is
-    /// 0, else of its first segment among those of the level.
-    pub offset: usize,
     /// Sine and cosine of the latitude of its middle.
     pub sin: f64,
     pub cos: f64,
@@ -138,8 +126,6 @@ impl Lines {
 pub(crate) struct Grid {
     pub rows: Vec<Row>,
     pub lines: Lines,
-    /// Segments of all rows.
-    pub n_segments: usize,
     /// Height of a row and width of a column at the equator, whichever is larger; radians.
     pub texel: f64,
     /// Rows per radian.
@@ -187,7 +173,6 @@ pub(crate) fn grids(size: [u32; 2], extent: &Extent, ladder: &[Columns]) -> Vec<
 fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Grid {
     let step = extent.height() / n_rows as f64;
     let equator = 1.0 / ladder[level].per_radian;
-    let mut n_segments = 0;
     let rows = (0..n_rows).map(|idx| {
         let edges = [idx as f64, (idx + 1) as f64]
             .map(|edge| (extent.latitudes[1] - step * edge).clamp(-FRAC_PI_2, FRAC_PI_2));
@@ -201,18 +186,11 @@ fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Gri
         // sin a − sin b = 2 sin((a − b)/2) cos((a + b)/2), without cancellation.
         let height = 2.0 * libm::sin(0.5 * (edges[0] - edges[1])) * cos;
         let area = (height / step / (ladder[row_ladder].per_radian * equator)) as f32;
-        let offset = if level == 0 && row_ladder == 0 {
-            idx * ladder[0].n
-        } else {
-            let offset = n_segments;
-            n_segments += ladder[row_ladder].n.div_ceil(SEGMENT);
-            offset
-        };
-        Row { idx, ladder: row_ladder, offset, sin, cos, latitude, area }
+        Row { ladder: row_ladder, sin, cos, latitude, area }
     });
     let rows: Vec<Row> = rows.collect();
     let lines = Lines::new(&rows);
-    Grid { rows, lines, n_segments, texel: step.max(equator), rows_per_radian: 1.0 / step }
+    Grid { rows, lines, texel: step.max(equator), rows_per_radian: 1.0 / step }
 }
 
 #[cfg(test)]

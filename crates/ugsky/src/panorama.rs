@@ -1,14 +1,11 @@
 //! Panoramas: light by direction, on an equirectangular grid with mip levels.
 
-use std::ops::Range;
-use std::sync::OnceLock;
-
-use rayon::prelude::*;
 use thiserror::Error;
 
 use crate::arrangement::Arrangement;
-use crate::grid::{APRON, Columns, Extent, Grid, Row, SEGMENT, grids, ladder};
-use crate::texels::{Decoder, Planes, RowTexels, Texels, premultiply};
+use crate::grid::{Columns, Extent, Grid, Row, grids, ladder};
+use crate::pyramid::Pyramid;
+use crate::texels::Texels;
 
 /// Why pictures are no panorama.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
@@ -77,24 +74,17 @@ const COARSEST: f64 = 0.2;
 pub struct Panorama {
     extent: Extent,
     size: [u32; 2],
-    texels: Texels,
-    decoder: Decoder,
+    pub(crate) pyramid: Pyramid,
     pub(crate) ladder: Vec<Columns>,
     pub(crate) grids: Vec<Grid>,
-    /// Segments of rows, computed when they are first needed. Level 0 has only those of its rows
-    /// with fewer columns, the polar ones.
-    levels: Vec<Vec<Segment>>,
 }
-
-/// The texels of [`SEGMENT`] columns or those up to the end of the row, and of [`APRON`] more.
-type Segment = OnceLock<Planes>;
 
 impl Panorama {
     /// A panorama of `size` texels across and down.
     ///
     /// # Errors
     /// [`PanoramaError`].
-    pub fn new(size: [u32; 2], mut texels: Texels, extent: Extent) -> Result<Self, PanoramaError> {
+    pub fn new(size: [u32; 2], texels: Texels, extent: Extent) -> Result<Self, PanoramaError> {
         let n_texels = size[0] as usize * size[1] as usize;
         if n_texels == 0 || texels.len() != n_texels {
             return Err(PanoramaError::Size);
@@ -106,14 +96,12 @@ impl Panorama {
         if coarsest > COARSEST {
             return Err(PanoramaError::Coarse);
         }
-        if let Texels::Light(texels) = &mut texels {
-            texels.par_iter_mut().for_each(premultiply);
-        }
         let ladder = ladder(size[0], &extent);
         let grids = grids(size, &extent, &ladder);
-        let levels =
-            grids.iter().map(|grid| (0..grid.n_segments).map(|_| OnceLock::new()).collect()).collect();
-        Ok(Self { extent, size, texels, decoder: Decoder::new(), ladder, grids, levels })
+        let shape = |row: &Row| (ladder[row.ladder].n, row.area);
+        let shapes: Vec<Vec<_>> = grids.iter().map(|grid| grid.rows.iter().map(shape).collect()).collect();
+        let pyramid = Pyramid::new(texels, size[0] as usize, extent.is_closed(), &shapes);
+        Ok(Self { extent, size, pyramid, ladder, grids })
     }
 
     /// The part of the sphere that is shown.
@@ -140,202 +128,11 @@ impl Panorama {
         }
         level
     }
-
-    /// Consecutive texels of a row, at most [`APRON`], none beyond its end.
-    #[inline(always)]
-    pub(crate) fn texels(&self, level: usize, row: &Row, column: usize, n: usize) -> RowTexels<'_> {
-        if level == 0 && row.ladder == 0 {
-            let start = row.offset + column;
-            return self.given(start..start + n);
-        }
-        let at = column % SEGMENT;
-        RowTexels::Planes(self.segment(level, row, column / SEGMENT), at..at + n)
-    }
-
-    #[inline(always)]
-    fn given(&self, range: Range<usize>) -> RowTexels<'_> {
-        match &self.texels {
-            Texels::Srgb(texels) => RowTexels::Srgb(&texels[range], &self.decoder),
-            Texels::Light(texels) => RowTexels::Light(&texels[range]),
-        }
-    }
-
-    #[inline(always)]
-    fn segment(&self, level: usize, row: &Row, idx: usize) -> &Planes {
-        let segment = &self.levels[level][row.offset + idx];
-        match segment.get() {
-            Some(texels) => texels,
-            None => segment.get_or_init(|| self.computed(level, row, idx)),
-        }
-    }
-
-    /// A segment, from the texels below it. Closed rows begin again after their end; after the end
-    /// of others there is nothing.
-    #[inline(never)]
-    fn computed(&self, level: usize, row: &Row, idx: usize) -> Planes {
-        let n = self.ladder[row.ladder].n;
-        let start = idx * SEGMENT;
-        let length = SEGMENT.min(n - start) + APRON;
-        let mut sums = [[0.0; SEGMENT + APRON]; 4];
-        let mut is_opaque = true;
-        let mut done = 0;
-        while done < length {
-            let first = (start + done) % n;
-            let part = (length - done).min(n - first);
-            is_opaque &=
-                self.compute(level, row, first, sums.each_mut().map(|sum| &mut sum[done..done + part]));
-            done += part;
-            if !self.extent.is_closed() {
-                break;
-            }
-        }
-        Planes::new(sums.each_ref().map(|sum| &sum[..length]), is_opaque)
-    }
-
-    /// The means of the texels below those of a row from a column on, weighted by their areas. True
-    /// if all are opaque.
-    fn compute(&self, level: usize, row: &Row, first: usize, mut sums: [&mut [f32]; 4]) -> bool {
-        let n = self.ladder[row.ladder].n;
-        let n_sums = sums[0].len();
-        let mut below = Vec::new();
-        let mut is_opaque = true;
-        let mut add = |level: usize, row: &Row, n_fine: usize, weight: f32| {
-            let start = first * n_fine / n;
-            let length = ((first + n_sums) * n_fine).div_ceil(n) - start;
-            below.resize(4 * length, 0.0);
-            let mut planes = quarters(&mut below, length);
-            let mut at = 0;
-            self.for_each(level, row, start..start + length, |texels| {
-                let end = at + texels.len();
-                is_opaque &= texels.copy_to(planes.each_mut().map(|plane| &mut plane[at..end]));
-                at = end;
-            });
-            let planes = planes.map(|plane| &*plane);
-            add_reduced(planes, start, [n_fine, n], weight, first, &mut sums);
-        };
-        if level == 0 {
-            let given = Row { ladder: 0, offset: row.idx * self.ladder[0].n, ..*row };
-            add(0, &given, self.ladder[0].n, 1.0);
-            return is_opaque;
-        }
-        let finer = &self.grids[level - 1];
-        let parts = overlaps(finer.rows.len(), self.grids[level].rows.len(), row.idx);
-        // Relative to the solid angle of the whole row.
-        let whole = |(row, part): (usize, f64)| {
-            let row = &finer.rows[row];
-            part * f64::from(row.area) * self.ladder[row.ladder].n as f64
-        };
-        let total: f64 = parts.clone().map(whole).sum();
-        for (row, part) in parts {
-            let weight = (whole((row, part)) / total) as f32;
-            let row = &finer.rows[row];
-            add(level - 1, row, self.ladder[row.ladder].n, weight);
-        }
-        is_opaque
-    }
-
-    /// Reads texels of the given panorama before they are used, so that the processor waits for
-    /// memory once for several rows.
-    pub(crate) fn load(&self, level: usize, rows: Range<usize>, columns: Range<usize>) {
-        let grid = &self.grids[level];
-        let mut sum = 0_u32;
-        for row in &grid.rows[rows.start..rows.end.min(grid.rows.len())] {
-            if level == 0 && row.ladder == 0 {
-                let end = columns.end.min(self.ladder[0].n);
-                sum = sum.wrapping_add(self.given(row.offset + columns.start..row.offset + end).load());
-            }
-        }
-        std::hint::black_box(sum);
-    }
-
-    /// Passes consecutive texels of a row on, from the left, in several parts.
-    #[inline]
-    pub(crate) fn for_each(
-        &self,
-        level: usize,
-        row: &Row,
-        columns: Range<usize>,
-        mut take: impl FnMut(RowTexels<'_>),
-    ) {
-        if level == 0 && row.ladder == 0 {
-            return take(self.given(row.offset + columns.start..row.offset + columns.end));
-        }
-        let mut at = columns.start;
-        while at < columns.end {
-            let segment = self.segment(level, row, at / SEGMENT);
-            let end = columns.end.min((at / SEGMENT + 1) * SEGMENT);
-            let offset = at - at % SEGMENT;
-            take(RowTexels::Planes(segment, at - offset..end - offset));
-            at = end;
-        }
-    }
-}
-
-/// Four parts of a buffer.
-fn quarters(buffer: &mut [f32], length: usize) -> [&mut [f32]; 4] {
-    let (first, rest) = buffer.split_at_mut(length);
-    let (second, rest) = rest.split_at_mut(length);
-    let (third, fourth) = rest.split_at_mut(length);
-    [first, second, third, fourth]
-}
-
-/// The cells of a finer division that a cell of a coarser one overlaps, with the overlapped part of
-/// each.
-fn overlaps(n_fine: usize, n_coarse: usize, idx: usize) -> impl Iterator<Item = (usize, f64)> + Clone {
-    // In units of 1/(n_fine n_coarse), so that all edges are whole numbers.
-    let (start, end) = (idx * n_fine, (idx + 1) * n_fine);
-    let first = start / n_coarse;
-    let last = (end - 1) / n_coarse;
-    (first..=last).map(move |cell| {
-        let (low, high) = (cell * n_coarse, (cell + 1) * n_coarse);
-        (cell, (high.min(end) - low.max(start)) as f64 / n_coarse as f64)
-    })
-}
-
-/// Adds texels reduced to fewer columns by means, times a weight. `below`: those of the finer row
-/// from column `start` on; `n_fine`, `n`: the columns of both rows; `first`: the column of the
-/// first sum.
-fn add_reduced(
-    below: [&[f32]; 4],
-    start: usize,
-    [n_fine, n]: [usize; 2],
-    weight: f32,
-    first: usize,
-    sums: &mut [&mut [f32]; 4],
-) {
-    if n_fine == 2 * n {
-        let half = 0.5 * weight;
-        for (sum, below) in sums.iter_mut().zip(below) {
-            for (sum, pair) in sum.iter_mut().zip(below.as_chunks::<2>().0) {
-                *sum += half * (pair[0] + pair[1]);
-            }
-        }
-        return;
-    }
-    let per_cell = weight * n as f32 / n_fine as f32;
-    for idx in 0..sums[0].len() {
-        for (cell, part) in overlaps(n_fine, n, first + idx) {
-            (0..4).for_each(|channel| {
-                sums[channel][idx] += per_cell * part as f32 * below[channel][cell - start]
-            });
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn overlaps_cover_each_cell_once() {
-        for (n_fine, n_coarse) in [(10, 5), (9, 5), (7, 7), (3, 7), (101, 51)] {
-            let mut covered = vec![0.0; n_fine];
-            for idx in 0..n_coarse {
-                overlaps(n_fine, n_coarse, idx).for_each(|(cell, part)| covered[cell] += part);
-            }
-            assert!(covered.iter().all(|part: &f64| (part - 1.0).abs() < 1e-12), "{covered:?}");
-        }
-    }
 
     /// All levels have the mean of the panorama, weighted by area, odd sizes too.
     #[test]
@@ -350,10 +147,10 @@ mod tests {
             let panorama = Panorama::new(size, texels, Extent::FULL).unwrap();
             let mean = |level: usize| {
                 let (mut sum, mut total) = ([0.0_f64; 4], 0.0);
-                for row in &panorama.grids[level].rows {
+                for (at, row) in panorama.grids[level].rows.iter().enumerate() {
                     for idx in 0..panorama.ladder[row.ladder].n {
                         let area = f64::from(row.area);
-                        let texel = panorama.texels(level, row, idx, 1).get(0);
+                        let texel = panorama.pyramid.texels(level, at, idx, 1).get(0);
                         (0..4).for_each(|i| sum[i] += area * f64::from(texel[i]));
                         total += area;
                     }

@@ -2,11 +2,10 @@
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use fearless_simd::prelude::*;
-use fearless_simd::{Level, Simd, dispatch, f32x16};
+use fearless_simd::{Level, Simd, dispatch};
 use glam::DVec3;
 
-use crate::footprint::{CURVED, Ellipse, Kernel, SLACK, correction, near_atan2};
+use crate::footprint::{CURVED, Ellipse, Kernel, SLACK, correction_of, near_atan2};
 use crate::grid::{CHUNK, Columns, Grid, PAD, Row};
 use crate::observer::SkyRay;
 use crate::panorama::Panorama;
@@ -223,14 +222,11 @@ impl Sampler<'_> {
     /// The weighted mean of the light of the texels.
     fn sum(&self, level: usize) -> [f32; 4] {
         let sky = self.panorama;
-        let [across, along] = dispatch!(self.simd, simd => {
-            let moments = self.moments.0.map(|lanes| f32x16::splat(simd, lanes.iter().sum::<f32>()));
-            correction(simd, moments).map(|factors| factors[0])
-        });
+        let moments = self.moments.0.map(|lanes| lanes.iter().sum::<f32>());
+        let [across, along] = correction_of(self.simd, moments);
         let (mut light, mut total) = ([0.0_f32; 4], [0.0_f32; CHUNK]);
         let mut chunks = self.chunks.iter();
         for run in &self.runs {
-            let row = run.row.map(|row| &sky.grids[level].rows[row]);
             let mut column = run.column;
             let mut rest = run.n;
             while rest > 0 {
@@ -240,7 +236,7 @@ impl Sampler<'_> {
                     chunk.kernel[k] + across * chunk.across[k] + along * chunk.along[k]
                 });
                 (0..CHUNK).for_each(|k| total[k] += weights[k]);
-                if let Some(row) = row {
+                if let Some(row) = run.row {
                     add_texels(sky, level, row, column, &weights[..count], &mut light);
                 }
                 column += CHUNK as i64;
@@ -254,13 +250,13 @@ impl Sampler<'_> {
 
 /// Adds texels from a column on; there is nothing beyond the edges.
 #[inline]
-fn add_texels(sky: &Panorama, level: usize, row: &Row, column: i64, weights: &[f32], light: &mut [f32; 4]) {
-    let n = sky.ladder[row.ladder].n as i64;
+fn add_texels(sky: &Panorama, level: usize, row: usize, column: i64, weights: &[f32], light: &mut [f32; 4]) {
+    let n = sky.ladder[sky.grids[level].rows[row].ladder].n as i64;
     let (first, end) = (column.max(0), n.min(column + weights.len() as i64));
     if first >= end {
         return;
     }
-    let texels = sky.texels(level, row, first as usize, (end - first) as usize);
+    let texels = sky.pyramid.texels(level, row, first as usize, (end - first) as usize);
     for (idx, weight) in weights[(first - column) as usize..(end - column) as usize].iter().enumerate() {
         let texel = texels.get(idx);
         (0..4).for_each(|channel| light[channel] += weight * texel[channel]);
@@ -271,7 +267,7 @@ fn add_texels(sky: &Panorama, level: usize, row: &Row, column: i64, weights: &[f
 fn row_beyond(sky: &Panorama, grid: &Grid, level: usize, idx: i64) -> Row {
     let latitude = sky.extent().latitudes[1] - (idx as f64 + 0.5) / grid.rows_per_radian;
     let (sin, cos) = libm::sincos(latitude);
-    Row { idx: 0, ladder: level, offset: 0, sin, cos, latitude, area: cos.max(0.0) as f32 }
+    Row { ladder: level, sin, cos, latitude, area: cos.max(0.0) as f32 }
 }
 
 /// What the weights of a row have in common: a·d and b·d are linear in the cosine and the sine of

@@ -12,8 +12,9 @@ use glam::DVec3;
 
 use crate::blocks::{Block, Blocks, Held, WIDTH, Window};
 use crate::footprint::{CURVED, Kernel, SLACK, correction, near_atan2};
-use crate::grid::{APRON, CHUNK, LINES_AT_ONCE, PAD};
+use crate::grid::{CHUNK, LINES_AT_ONCE, PAD};
 use crate::panorama::Panorama;
+use crate::pyramid::APRON;
 
 /// Most rows of a window. Its columns are at most [`APRON`].
 pub(crate) const ROWS: usize = LINES_AT_ONCE;
