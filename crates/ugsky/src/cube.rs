@@ -4,11 +4,10 @@ use core::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::srgb_decode;
 
 use crate::grid::Extent;
 use crate::panorama::{Panorama, PanoramaError};
-use crate::texels::{Texels, premultiply};
+use crate::texels::{Decoder, Texels, premultiply};
 
 /// The sides of a cube map, each as seen from inside: right, left, up, down, front, back (+X, −X,
 /// +Y, −Y, +Z, −Z of OpenGL).
@@ -36,16 +35,11 @@ impl CubeMap {
     pub fn new(side: u32, faces: [Texels; 6]) -> Result<Self, PanoramaError> {
         let n_texels = side as usize * side as usize;
         let mut texels = Vec::with_capacity(6 * n_texels);
-        let decoded: [f32; 256] = std::array::from_fn(|level| srgb_decode(level as f64 / 255.0) as f32);
+        let decoder = Decoder::new();
         for face in faces {
             let before = texels.len();
             match face {
-                Texels::Srgb(face) => texels.extend(face.into_iter().map(|[red, green, blue, alpha]| {
-                    let alpha = f32::from(alpha) / 255.0;
-                    let [red, green, blue] =
-                        [red, green, blue].map(|level| alpha * decoded[usize::from(level)]);
-                    [red, green, blue, alpha]
-                })),
+                Texels::Srgb(face) => texels.extend(face.into_iter().map(|texel| decoder.light(texel))),
                 Texels::Light(mut face) => {
                     face.iter_mut().for_each(premultiply);
                     texels.append(&mut face);

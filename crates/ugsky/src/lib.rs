@@ -11,6 +11,9 @@
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
+//! - [`SkyColors`] say how colours change, and a [`Sky`] is a panorama, stars or both; [`SkyBehind`]
+//!   is the light of one in the footprint of any ray, [`SkyLight`] that of rows of pixels.
+//! - A [`Texture`] is light in a plane, with the same texels and mip levels.
 //! - A [`Star`] is a black body too small to be resolved, and [`StarLight`] what it gives an
 //!   observer in motion.
 //!
@@ -31,6 +34,7 @@
 //! ```
 
 mod arrangement;
+mod behind;
 mod blocks;
 mod cube;
 mod flat;
@@ -54,6 +58,7 @@ mod view;
 mod window;
 
 pub use arrangement::Arrangement;
+pub use behind::{SkyBehind, SkyRays};
 pub use cube::CubeMap;
 pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
@@ -65,7 +70,7 @@ pub use shade::{Shade, SkyColors};
 pub use sky::{Band, Layer, Sky, VISIBLE_NM};
 pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
 pub use star_list::{MAX_STARS, StarColumn, StarListError, StarListMistake, is_star_list, read_stars};
-pub use stars::{Star, StarLight};
+pub use stars::{Star, StarLight, StarOptions};
 pub use texels::Texels;
 pub use texture::{Texture, Wrap};
 pub use view::{SkyLight, SkyView};

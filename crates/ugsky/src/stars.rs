@@ -15,6 +15,51 @@ pub struct Star {
     pub kelvin: f64,
 }
 
+/// How stars are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StarOptions {
+    /// Full width at half maximum of the disc of a star, pixels, 0.5 to 50.
+    pub width: f64,
+    /// Magnitude that is drawn as white: one such star per square degree has the mean light 1.
+    pub white: f64,
+}
+
+impl Default for StarOptions {
+    fn default() -> Self {
+        Self { width: 1.7, white: -2.0 }
+    }
+}
+
+impl StarOptions {
+    /// Radius of the disc in standard deviations of its profile, a Gaussian.
+    pub const REACH: f64 = 4.0;
+
+    /// Largest standard deviation, radians: a disc is smaller than a quarter of the sphere.
+    pub const MOST_DEVIATION: f64 = 0.3;
+
+    /// Standard deviation of the profile in pixels.
+    #[must_use]
+    pub fn deviation(&self) -> f64 {
+        // The width is 2 √(2 ln 2) standard deviations.
+        self.width / 2.354_820_045_030_949_3
+    }
+
+    /// Light per irradiance and steradian.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        const SQUARE_DEGREE: f64 = (core::f64::consts::PI / 180.0) * (core::f64::consts::PI / 180.0);
+        libm::exp10(0.4 * self.white) * SQUARE_DEGREE
+    }
+
+    /// The profile of a star at the square of a distance on the unit sphere.
+    #[must_use]
+    #[inline]
+    pub fn profile(square: f64, deviation: f64) -> f64 {
+        let ratio = square / (deviation * deviation);
+        if ratio < Self::REACH * Self::REACH { libm::exp(-0.5 * ratio) } else { 0.0 }
+    }
+}
+
 /// The temperature to which the table is relative, kelvins.
 const REFERENCE: f64 = 5800.0;
 

@@ -44,7 +44,7 @@ impl Decoder {
 
     /// Light times alpha, and alpha.
     #[inline(always)]
-    fn light(&self, [red, green, blue, alpha]: [u8; 4]) -> [f32; 4] {
+    pub fn light(&self, [red, green, blue, alpha]: [u8; 4]) -> [f32; 4] {
         let [red, green, blue] = [red, green, blue].map(|level| self.0[usize::from(level)]);
         if alpha == 255 {
             return [red, green, blue, 1.0];

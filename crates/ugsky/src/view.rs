@@ -77,6 +77,7 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
     }
 
     /// The light of a sample, and its Doppler factor; `None` where its footprint is too large.
+    #[inline]
     fn sample(&mut self, place: [f64; 2]) -> Option<([f32; 4], f64)> {
         let Some(ray) = self.ray(place, 1.0) else { return Some(([0.0; 4], 1.0)) };
         self.sampler.light(&ray, self.view.spread).map(|light| (light, ray.doppler))

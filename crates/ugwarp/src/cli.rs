@@ -21,9 +21,9 @@ use ugpipe::{
 };
 use ugscene::Provenance;
 use ugscene::cli::ShiftArgs;
-use ugsky::{Arrangement, Band, Basis, Extent, Star, VISIBLE_NM, is_star_list};
+use ugsky::{Arrangement, Band, Basis, Extent, Star, StarOptions, VISIBLE_NM, is_star_list};
 
-use crate::config::{Config, StarOptions};
+use crate::config::Config;
 use crate::error::Error;
 use crate::open::{Opened, open, read_stars};
 use crate::render::{PROVENANCE, metadata, run};

@@ -6,7 +6,7 @@ use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::lens::Lens;
 use ugpicture::{Channel, PictureOptions};
-use ugsky::{ALL_NM, Basis};
+use ugsky::{ALL_NM, Basis, StarOptions};
 
 use crate::error::Error;
 
@@ -28,21 +28,6 @@ pub struct Config {
     pub stars: StarOptions,
     /// Wavelengths at rest at which a panorama has light, nm, with spectra.
     pub range_nm: Range<f64>,
-}
-
-/// How stars are drawn.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct StarOptions {
-    /// Full width at half maximum of the disc of a star, pixels, 0.5 to 50.
-    pub width: f64,
-    /// Magnitude that is drawn as white: one such star per square degree has the mean light 1.
-    pub white: f64,
-}
-
-impl Default for StarOptions {
-    fn default() -> Self {
-        Self { width: 1.7, white: -2.0 }
-    }
 }
 
 impl Default for Config {

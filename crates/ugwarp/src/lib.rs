@@ -55,7 +55,7 @@ mod warp;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};
-pub use config::{Config, StarOptions};
+pub use config::Config;
 pub use error::Error;
 pub use open::{Opened, open, read_stars};
 pub use render::{PROVENANCE, light, metadata, render, render_with, run};
@@ -66,5 +66,5 @@ pub use ugpicture::{
 };
 pub use ugscene::CameraOptions;
 pub use ugscene::Provenance;
-pub use ugsky::{ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, Texels};
+pub use ugsky::{ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, StarOptions, Texels};
 pub use warp::Warp;

@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::LinearFrame;
 use ugpicture::lens::{Film, Lens, Window};
-use ugsky::{Observer, Star, StarLight};
+use ugsky::{Observer, Star, StarLight, StarOptions};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -17,15 +17,6 @@ const BAND: u32 = 16;
 
 /// Stars whose places are in memory at once.
 const CHUNK: usize = 1 << 17;
-
-/// Radius of a star's disc in standard deviations of its profile.
-const REACH: f64 = 4.0;
-
-/// Standard deviations of a Gaussian in its full width at half maximum, 2 √(2 ln 2).
-const DEVIATIONS: f64 = 2.354_820_045_030_949_3;
-
-/// A square degree, in steradians.
-const SQUARE_DEGREE: f64 = (core::f64::consts::PI / 180.0) * (core::f64::consts::PI / 180.0);
 
 /// Largest value of a channel, far from the end of single precision.
 const MOST: f64 = 1e30;
@@ -68,8 +59,8 @@ impl StarField {
             lens: config.lens,
             observer: Observer::new(config.velocity),
             light: StarLight::new(stars, colors(config).parts(), config.velocity.rapidity()),
-            deviation: config.stars.width / DEVIATIONS,
-            scale: libm::exp10(0.4 * config.stars.white) * SQUARE_DEGREE,
+            deviation: config.stars.deviation(),
+            scale: config.stars.scale(),
         })
     }
 
@@ -102,10 +93,10 @@ impl StarField {
             return None;
         }
         let (mut sum, mut first, mut last) = (0.0, u32::MAX, 0);
-        for window in self.film.cap(direction, REACH * deviation) {
+        for window in self.film.cap(direction, StarOptions::REACH * deviation) {
             self.film.visit(&window, |facet| {
                 let square = (facet.direction - direction).length_squared();
-                sum += profile(square, deviation) * facet.solid_angle;
+                sum += StarOptions::profile(square, deviation) * facet.solid_angle;
             });
             let [from, to] =
                 [window.rows.start, window.rows.end].map(|row| row.clamp(0, i64::from(self.size[1])) as u32);
@@ -121,13 +112,12 @@ impl StarField {
 
     /// Standard deviation of the profile at a direction, radians; 0 where the lens shows nothing.
     fn deviation_at(&self, direction: DVec3) -> f64 {
-        // A disc has to be ahead of a pinhole, and smaller than a quarter of the sphere.
-        const MOST_DEVIATION: f64 = 0.3;
         let side = self.deviation * self.film.pixel_side(direction);
         let most = if self.lens == Lens::Pinhole {
-            MOST_DEVIATION.min(self.film.ahead(direction) / (2.0 * REACH))
+            // A disc has to be ahead.
+            StarOptions::MOST_DEVIATION.min(self.film.ahead(direction) / (2.0 * StarOptions::REACH))
         } else {
-            MOST_DEVIATION
+            StarOptions::MOST_DEVIATION
         };
         side.min(most)
     }
@@ -136,12 +126,12 @@ impl StarField {
     fn draw(&self, point: &Point, top: u32, pixels: &mut [[f32; 4]]) {
         let width = self.size[0] as usize;
         let bottom = i64::from(top) + (pixels.len() / width) as i64;
-        for window in self.film.cap(point.direction, REACH * point.deviation) {
+        for window in self.film.cap(point.direction, StarOptions::REACH * point.deviation) {
             let rows = window.rows.start.max(i64::from(top))..window.rows.end.min(bottom);
             self.film.visit(&Window { rows, ..window }, |facet| {
                 let Some([column, row]) = facet.place else { return };
                 let square = (facet.direction - point.direction).length_squared();
-                let weight = profile(square, point.deviation);
+                let weight = StarOptions::profile(square, point.deviation);
                 if weight > 0.0 {
                     let pixel = &mut pixels[(row - top) as usize * width + column as usize];
                     (0..3).for_each(|channel| pixel[channel] += (weight * point.light[channel]) as f32);
@@ -151,11 +141,4 @@ impl StarField {
             });
         }
     }
-}
-
-/// The profile of a star at the square of a distance on the unit sphere.
-#[inline]
-fn profile(square: f64, deviation: f64) -> f64 {
-    let ratio = square / (deviation * deviation);
-    if ratio < REACH * REACH { libm::exp(-0.5 * ratio) } else { 0.0 }
 }
