@@ -32,7 +32,7 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     let mut dice = Pipe::default().in_place();
     dice.rainbow.picture.size = size;
     let mut tunnel = Pipe::new(-0.6 * DVec3::Y, size);
-    tunnel.doppler.spectral = true;
+    tunnel.doppler.shift = uglight::ColorShift::SPECTRA;
     tunnel.doppler.iris = true;
     let mut figure = ship.clone();
     figure.rainbow.picture.output = ugrainbow::Output::Vector(ugimage::Format::Pdf);

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 use ugimage::{LinearFrame, Samples};
-use uglight::{ColorShift, SpectralShift};
+use uglight::ColorShift;
 use uglorentz::Pieces;
 use ugparse::{Options, Source};
 use ugphoton::RayOptions;
@@ -132,8 +132,7 @@ fn exact(text: &str, shift: ColorShift) -> LinearFrame {
 
 /// In the pipe, after cutting, every piece has an id of its own.
 fn by_pipe(text: &str, shift: ColorShift) -> LinearFrame {
-    let spectral = matches!(shift, ColorShift::Spectra(_));
-    let config = ugdoppler::Config { spectral, keep: true, ..ugdoppler::Config::default() };
+    let config = ugdoppler::Config { shift, keep: true, ..ugdoppler::Config::default() };
     let (scene, _) = ugdoppler::apply(seen(text, Pieces::UpTo(1e-4)), &config).unwrap();
     let config = ugrainbow::Config { picture: picture(), ..ugrainbow::Config::default() };
     ugrainbow::light(&read(&ugparse::write(&scene)), &config).unwrap()
@@ -168,7 +167,7 @@ fn compare(rays: &LinearFrame, other: &LinearFrame, tolerance: f64) -> (usize, u
 }
 
 fn shifts() -> [ColorShift; 2] {
-    [ColorShift::default(), ColorShift::Spectra(SpectralShift { doppler: true, flux: true })]
+    [ColorShift::default(), ColorShift::SPECTRA]
 }
 
 /// Worlds at rest and in motion, in several units, with the eye before the bodies and among them.

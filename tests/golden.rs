@@ -5,7 +5,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use glam::DVec3;
-use ugrainbow::{Background, Exposure, HueScale, Interpolation, Tone};
+use ugphysics::Brightness;
+use ugrainbow::{Background, ColorShift, Exposure, HueScale, Interpolation, SpectralShift, Tone};
 use ugtests::picture::{self, assert_golden, decode};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::{programs, scenes};
@@ -48,7 +49,7 @@ fn a_wide_filter_smooths_edges() {
 fn rays_bend_edges_that_are_not_cut() {
     let mut cubes = pipe(0.95, 0.0, 0.0).in_place();
     cubes.lorentz.pieces = uglorentz::Pieces::PerEdge(1);
-    cubes.rainbow.exact = Some(ugrainbow::ColorShift::NONE);
+    cubes.rainbow.exact = Some(ColorShift::NONE);
     let seen = ugtests::pipe::lorentz(&scenes::text("cubes"), &cubes.lorentz);
     assert_golden("exact-edges-cubes-0.95c", &decode(&rainbow(&seen, &cubes.rainbow)));
 }
@@ -126,8 +127,7 @@ fn a_tunnel_of_black_bodies_turns_blue_ahead() {
     let mut tunnel = Pipe::default();
     tunnel.lorentz.camera_velocity = Some(DVec3::new(0.0, 0.6, 0.0));
     tunnel.rainbow.picture.size = SIZE;
-    tunnel.doppler.spectral = true;
-    tunnel.doppler.flux = false;
+    tunnel.doppler.shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: false });
     check("doppler-alone-tunnel-0.6c", "tunnel", &tunnel);
 }
 
@@ -140,7 +140,7 @@ fn black_bodies_change_their_temperature() {
         cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 44 33;";
     let mut bodies = Pipe::default().in_place();
     bodies.rainbow.picture.size = SIZE;
-    bodies.doppler.spectral = true;
+    bodies.doppler.shift = ColorShift::SPECTRA;
     bodies.rainbow.picture.exposure = Some(Exposure::Auto);
     bodies.rainbow.picture.tone = Tone::Filmic;
     assert_golden("filmic-black-bodies-0.2c", &bodies.draw(BODIES));
@@ -159,7 +159,7 @@ fn a_lamp_that_moves_makes_a_rainbow() {
 fn lights_behind_light_the_front() {
     let mut pot = pipe(0.6, 0.0, 0.0).in_place();
     pot.doppler.light = true;
-    pot.doppler.doppler = false;
+    pot.doppler.shift = ColorShift::hues(false, Brightness::Report);
     pot.doppler.iris = true;
     let text = String::from_utf8(scenes::text("teapot")).unwrap();
     let lights = "l 1 0 -1 0 <0 0 0>; l 1 1 1 0 <0 0 0>; l 1 -1 1 0 <0 0 0>;";

@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 use ugimage::{LinearFrame, Samples};
-use uglight::{ColorShift, HueShift, SpectralShift};
+use uglight::ColorShift;
 use uglorentz::Pieces;
 use ugphoton::RayOptions;
 use ugphysics::Brightness;
@@ -140,8 +140,8 @@ fn check(name: &str, motion: Motion, shift: ColorShift) {
     assert!(n_other <= of_pipe.len() / 1000, "{name} {motion:?}: {n_other} other faces");
 }
 
-const HUES: ColorShift = ColorShift::Hues(HueShift { doppler: true, law: Brightness::Report });
-const SPECTRA: ColorShift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+const HUES: ColorShift = ColorShift::hues(true, Brightness::Report);
+const SPECTRA: ColorShift = ColorShift::SPECTRA;
 
 fn check_speeds(names: &[&str], shift: ColorShift) {
     for name in names {

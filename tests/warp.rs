@@ -5,9 +5,7 @@
 
 use glam::DVec3;
 use ugimage::LinearFrame;
-use ugphoton::{
-    CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions, SpectralShift,
-};
+use ugphoton::{CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions};
 use ugphysics::{Velocity, srgb_encode};
 use ugscene::Scene;
 use ugwarp::{Basis, Extent, Panorama, Texels};
@@ -62,7 +60,7 @@ fn check(colors: &str, shift: ColorShift, basis: Basis) {
     let scene = room(colors);
     let size = [1024, 512];
     let rest_shift = match shift {
-        ColorShift::Spectra(_) => ColorShift::Spectra(SpectralShift { doppler: true, flux: true }),
+        ColorShift::Spectra(_) => ColorShift::SPECTRA,
         ColorShift::Hues(_) => ColorShift::default(),
     };
     let sky = traced(
@@ -107,7 +105,7 @@ fn hues_are_those_of_a_moving_camera() {
 
 #[test]
 fn spectra_are_those_of_a_moving_camera() {
-    let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let shift = ColorShift::SPECTRA;
     let bodies = "c_bb one 3500 0.3; c_bb two 5900 0.3; c_bb three 10000 0.3;";
     check(bodies, shift, Basis::Planck([3500.0, 5900.0, 10_000.0]));
     // Paints: the smooth reflectances are those that the ray tracer finds for the same colours.

@@ -1,7 +1,7 @@
 //! Compares exact pictures with those of the default (scanline) mode.
 
 use glam::DVec3;
-use ugrainbow::{ColorShift, SpectralShift};
+use ugrainbow::ColorShift;
 use ugrandom::Random;
 use ugtests::picture::decode;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
@@ -57,12 +57,12 @@ fn both_modes_show_the_same_spectra() {
         };
         let mut pipe = exact(Some(beta));
         pipe.lorentz.in_place = name != "tunnel";
-        pipe.rainbow.exact = Some(ColorShift::Spectra(SpectralShift { doppler: true, flux: true }));
+        pipe.rainbow.exact = Some(ColorShift::SPECTRA);
         let drawn = decode(&rainbow(&lorentz(&text, &pipe.lorentz), &pipe.rainbow));
         pipe.lorentz.pieces = uglorentz::Config::default().pieces;
         pipe.lorentz.color_error = 1e-3;
         pipe.rainbow.exact = None;
-        pipe.doppler.spectral = true;
+        pipe.doppler.shift = ColorShift::SPECTRA;
         pipe.doppler.repeat = true;
         pipe.doppler.tolerance = 0.01;
         let scanned = pipe.draw(&text);

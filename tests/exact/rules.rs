@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugpipe::Words;
-use ugrainbow::{ColorShift, SpectralShift};
+use ugrainbow::ColorShift;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
 
@@ -35,7 +35,7 @@ fn unsupported_scenes_are_refused() {
     let spectral = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;");
     let glowing = lorentz(spectral.as_bytes(), &pipe.lorentz);
     assert!(refusal(&pipe, &glowing).unwrap().contains("give -sp"));
-    for shift in [ColorShift::NONE, ColorShift::Spectra(SpectralShift { doppler: true, flux: true })] {
+    for shift in [ColorShift::NONE, ColorShift::SPECTRA] {
         let mut other = pipe.clone();
         other.rainbow.exact = Some(shift);
         assert_eq!(refusal(&other, &glowing), None);

@@ -5,7 +5,7 @@ use ugphysics::{
     Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, srgb_decode,
     wavelength_to_hue, xyz_to_linear_srgb,
 };
-use ugrainbow::{ColorShift, HueShift, SpectralShift};
+use ugrainbow::{ColorShift, HueShift};
 use ugscene::{Face, Scene, VertexId};
 use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 use ugtests::oracle::{Oracle, Pinhole};
@@ -206,7 +206,7 @@ fn grid_is_exact() {
 /// Colours are spectra: of surfaces, and in the tunnel of black bodies.
 #[test]
 fn spectra_are_exact() {
-    let exact = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let exact = ColorShift::SPECTRA;
     let eye = Some(DVec3::new(0.012, 0.0, 0.007));
     for speed in [0.1, 0.3, 0.6] {
         check(Case { eye, exact, ..Case::moving("tunnel", speed * DVec3::NEG_Y) });
@@ -268,7 +268,7 @@ fn a_black_body_is_seen_at_another_temperature() {
     let text = SQUARE.replace("c green .9 130 .8; l .2; l .7 1 -2 .5;", "c_bb green 4000 .5; l 1;");
     let velocity = DVec3::new(0.2, -0.1, 0.0);
     let mut pipe = exact(None);
-    pipe.rainbow.exact = Some(ColorShift::Spectra(SpectralShift { doppler: true, flux: true }));
+    pipe.rainbow.exact = Some(ColorShift::SPECTRA);
     let channels = channels(&pipe, text.as_bytes());
     let scene = scenes::parse(text.as_bytes());
     let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, SIZE);

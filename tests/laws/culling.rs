@@ -1,6 +1,8 @@
 //! `-cull` omits invisible faces, and no others.
 
 use glam::DVec3;
+use uglight::ColorShift;
+use ugphysics::Brightness;
 use ugpipe::Words;
 use ugscene::{CameraOptions, Geometry};
 use ugtests::picture::assert_same;
@@ -64,7 +66,7 @@ fn pictures_stay_the_same_to_the_pixel() {
                 // Flat shading, too, and colours that do not mix.
                 pipe.lorentz.smooth = idx % 2 == 1;
                 pipe.doppler.repeat = idx == 2;
-                pipe.doppler.doppler = idx != 1;
+                pipe.doppler.shift = ColorShift::hues(idx != 1, Brightness::Report);
                 n_culled += culled(&format!("{scene}-{idx}-{:.2}", beta.length()), scene, &pipe);
             }
         }

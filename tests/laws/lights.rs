@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use ugdoppler::Config;
+use uglight::ColorShift;
 use ugphysics::{Brightness, Velocity, srgb_decode};
 use ugrandom::Random;
 use ugscene::{ColorValue, Scene, Tint};
@@ -107,7 +108,8 @@ fn both_factors_shift_and_dim() {
                 (Brightness::Bolometric, d * d * d * d * d_light * d_light),
                 (Brightness::None, 1.0),
             ] {
-                let config = Config { wavelengths: true, law, iris: true, ..lit() };
+                let shift = ColorShift::hues(true, law);
+                let config = Config { wavelengths: true, shift, iris: true, ..lit() };
                 let scene = scenes::parse(&doppler(text.as_bytes(), &config));
                 let (wavelength, intensity) = wavelength_and_intensity(&scene, law);
                 assert!((wavelength - 546.1 / (d * d_light)).abs() < 1e-5, "{text}: {wavelength}");
@@ -146,7 +148,7 @@ fn lamplight_lags() {
         .replace("b-", "bm")
         .replace("c-", "cm");
     let text = format!("{floor} l 0.5 0 20 3 0 <{speed} 0 0>; cam -ep 0 0 5;");
-    let config = Config { law: Brightness::None, doppler: false, ..lit() };
+    let config = Config { shift: ColorShift::NONE, ..lit() };
     let scene = scenes::parse(&doppler(text.as_bytes(), &config));
     let bright = |vertex: &ugscene::Vertex| {
         let color = vertex.color.expect("a colour");
@@ -190,7 +192,7 @@ fn the_camera_does_not_change_what_falls_on_a_surface() {
         };
         let moving = lights(&|random| format!("<{}>", vector(0.8 * random.direction())));
         let resting = lights(&|_| String::new());
-        let config = Config { law: Brightness::Report, keep: true, ..lit() };
+        let config = Config { keep: true, ..lit() };
         let values = |lights: &str, camera: DVec3| -> Vec<f64> {
             let text =
                 format!("c grey 0.5; {} f (a b c) grey <{body}>; {lights} cam -ep 1 2 3;", corners.join(" "));
@@ -250,7 +252,10 @@ fn no_speed_breaks_it() {
         let velocity = Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap();
         let config = uglorentz::Config { velocity: Some(velocity.beta()), ..uglorentz::Config::default() };
         for law in [Brightness::Report, Brightness::Bolometric] {
-            let seen = doppler(&lorentz(&room(&lights), &config), &Config { law, ..lit() });
+            let seen = doppler(
+                &lorentz(&room(&lights), &config),
+                &Config { shift: ColorShift::hues(true, law), ..lit() },
+            );
             assert!(numbers(&seen).iter().flat_map(|(_, rgb)| rgb).all(|part| part.is_finite()));
         }
     }
@@ -268,7 +273,7 @@ fn spectra_of_lights_pass_both_shifts() {
         ("<0 0 0>", "<0.6 0 0>", 1.0, 2.0),
     ] {
         let text = format!("{SEEN} c_bb hot 5000 0.7; {face} {body}; l 0.5 -1 0 0 hot {light};");
-        let config = Config { spectral: true, ..lit() };
+        let config = Config { shift: ColorShift::SPECTRA, ..lit() };
         let scene = scenes::parse(&doppler(text.as_bytes(), &config));
         let color = scene.vertices[0].color.expect("a colour on every used vertex");
         let ColorValue::Xyz(xyz) = scene.colors[color.index()].value else { panic!("no X, Y, Z") };
@@ -288,7 +293,7 @@ fn full_daylight_shows_colours_as_they_are() {
         v d 9 1 -1e-9; v e 9 1.0001 0; v f 9 1 0; f (d e f) line <-0.3 0 0>;
         v g 9 -1 -1e-9; v h 9 -1.0001 0; v i 9 -1 0; f (g h i) glow <0.4 0 0>;";
     let colors = |light: bool| -> Vec<[f64; 3]> {
-        let config = Config { spectral: true, light, ..lit() };
+        let config = Config { shift: ColorShift::SPECTRA, light, ..lit() };
         let scene = scenes::parse(&doppler(format!("{SEEN} {text} l 1 -1 0 0;").as_bytes(), &config));
         let of = |vertex: &ugscene::Vertex| match scene.colors[vertex.color.expect("a colour").index()].value
         {
@@ -355,7 +360,7 @@ fn the_camera_may_move_over_large_faces() {
             color_error: f64::INFINITY,
             ..uglorentz::Config::default()
         };
-        let config = Config { law: Brightness::None, ..lit() };
+        let config = Config { shift: ColorShift::hues(true, Brightness::None), ..lit() };
         let draw = |lorentz_config: &uglorentz::Config| {
             decode(&rainbow(&doppler(&lorentz(&text, lorentz_config), &config), &pipe.rainbow))
         };

@@ -42,7 +42,7 @@ pub fn seen(engine: Engine, text: &str, toward: DVec3, law: Brightness, shifts: 
         ..CameraOptions::default()
     };
     let picture = PictureOptions { size: [1, 1], samples: 1, camera, ..PictureOptions::default() };
-    let shift = uglight::ColorShift::Hues(uglight::HueShift { doppler: shifts, law });
+    let shift = uglight::ColorShift::hues(shifts, law);
     let frame = if engine == Engine::Rays {
         let config = ugphoton::Config { picture, shift, ..ugphoton::Config::default() };
         ugphoton::light(scenes::parse(text.as_bytes()), &config).unwrap()
@@ -52,14 +52,8 @@ pub fn seen(engine: Engine, text: &str, toward: DVec3, law: Brightness, shifts: 
         let exact = (engine == Engine::Exact).then_some(shift);
         let light = engine == Engine::LitPipe;
         let tolerance = 0.0;
-        let config = ugdoppler::Config {
-            law,
-            doppler: shifts,
-            keep: true,
-            light,
-            tolerance,
-            ..ugdoppler::Config::default()
-        };
+        let config =
+            ugdoppler::Config { shift, keep: true, light, tolerance, ..ugdoppler::Config::default() };
         let colored = if exact.is_some() { seen } else { doppler(&seen, &config) };
         let config = ugrainbow::Config { picture, exact, ..ugrainbow::Config::default() };
         ugrainbow::light(&scenes::parse(&colored), &config).unwrap()
@@ -250,8 +244,8 @@ fn clipping_keeps_hue_and_saturation() {
     let (v, toward) = MOTIONS[0];
     let text = format!("c own 0.5 130 0.6;\n{}", square(v, toward, None, "own 1"));
     let seen_text = lorentz(text.as_bytes(), &uglorentz::Config::default());
-    let config =
-        ugdoppler::Config { law: Brightness::Photon, doppler: false, ..ugdoppler::Config::default() };
+    let shift = uglight::ColorShift::hues(false, Brightness::Photon);
+    let config = ugdoppler::Config { shift, ..ugdoppler::Config::default() };
     let scene = scenes::parse(&doppler(&seen_text, &config));
     let color = &scene.colors[scene.vertices[0].color.unwrap().index()];
     let shown = DVec3::from_array(uglight::hsv(&scene, color).to_rgb().map(srgb_decode));

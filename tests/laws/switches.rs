@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
+use uglight::ColorShift;
 use ugphysics::Brightness;
 use ugrandom::Random;
 use ugscene::{ColorValue, Scene};
@@ -81,7 +82,7 @@ fn check_colors(
 #[test]
 fn no_doppler_keeps_hues_and_nothing_else() {
     check_colors(
-        |config| config.doppler = false,
+        |config| config.shift = ColorShift::hues(false, Brightness::Report),
         |[hue, saturation, value, _], full, changed, factor| {
             changed == [hue, saturation, full[2], 1.0] && near(full[2], value * factor)
         },
@@ -91,7 +92,7 @@ fn no_doppler_keeps_hues_and_nothing_else() {
 #[test]
 fn no_flux_keeps_values_and_nothing_else() {
     check_colors(
-        |config| config.flux = false,
+        |config| config.shift = ColorShift::hues(true, Brightness::None),
         |[_, saturation, value, _], full, changed, _| changed == [full[0], saturation, value, 1.0],
     );
 }
@@ -99,7 +100,7 @@ fn no_flux_keeps_values_and_nothing_else() {
 #[test]
 fn without_both_colours_are_as_at_rest() {
     check_colors(
-        |config| (config.doppler, config.flux) = (false, false),
+        |config| config.shift = ColorShift::NONE,
         |rest, full, changed, factor| changed == rest && (full != rest || near(factor, 1.0)),
     );
 }
@@ -114,7 +115,7 @@ fn brightness_laws_are_powers_of_d() {
     ];
     for (law, power) in laws {
         check_colors(
-            |config| config.law = law,
+            |config| config.shift = ColorShift::hues(true, law),
             |[_, saturation, value, _], full, changed, doppler| {
                 let power = libm::pow(doppler, power);
                 // Of linear light, or of display-encoded values.

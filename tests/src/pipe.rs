@@ -54,8 +54,7 @@ impl Pipe {
     /// Rest-frame colours (`--no-doppler --no-flux`).
     #[must_use]
     pub fn shape(mut self) -> Self {
-        self.doppler.doppler = false;
-        self.doppler.flux = false;
+        self.doppler.shift = uglight::ColorShift::NONE;
         self
     }
 

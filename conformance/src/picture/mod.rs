@@ -15,8 +15,7 @@ use std::fmt;
 
 use image::{ImageFormat, RgbImage};
 use ugparse::{Options, Source};
-use ugphoton::{ColorShift, HueShift, MotionOptions, SpectralShift};
-use ugphysics::Brightness;
+use ugphoton::{ColorShift, MotionOptions};
 use ugrainbow::PictureOptions;
 
 use camera::Pinhole;
@@ -238,13 +237,7 @@ impl PictureCase {
             .map_err(|error| error.to_string())?;
         let (seen, _) = uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
         // `-vr`: faces of one body keep their own colours.
-        let doppler = ugdoppler::Config {
-            repeat: true,
-            doppler: self.options.shift,
-            spectral: self.options.spectral,
-            flux: false,
-            ..Default::default()
-        };
+        let doppler = ugdoppler::Config { repeat: true, shift: self.color_shift(), ..Default::default() };
         let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;
         let rainbow = ugrainbow::Config { picture: self.picture_options(), ..Default::default() };
         let source = Source::new(self.input_of("ugrainbow"), ugparse::write(&colored));
@@ -253,14 +246,9 @@ impl PictureCase {
     }
 
     fn draw_by_rays(&self) -> Result<Vec<u8>, String> {
-        let doppler = self.options.shift;
         let config = ugphoton::Config {
             motion: MotionOptions { in_place: self.options.in_place, ..Default::default() },
-            shift: if self.options.spectral {
-                ColorShift::Spectra(SpectralShift { doppler, flux: false })
-            } else {
-                ColorShift::Hues(HueShift { doppler, law: Brightness::None })
-            },
+            shift: self.color_shift(),
             picture: self.picture_options(),
             repeat: true,
             ..Default::default()
@@ -268,6 +256,11 @@ impl PictureCase {
         let picture = ugphoton::run(&config, &self.source("ugphoton"), ugphoton::PROVENANCE, &())
             .map_err(|error| error.to_string())?;
         Ok(picture.bytes)
+    }
+
+    fn color_shift(&self) -> ColorShift {
+        let DrawOptions { shift, spectral, .. } = self.options;
+        ColorShift::new(spectral, shift, false, None)
     }
 
     fn picture_options(&self) -> PictureOptions {

@@ -4,8 +4,9 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
+use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
-use ugphysics::{Brightness, Velocity};
+use ugphysics::Velocity;
 use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers};
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
@@ -100,19 +101,17 @@ impl Args {
         self.refuse_contradictions()?;
         let vector = |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);
         let beta = vector(&self.vel).unwrap_or_default();
+        let ShiftArgs { sp, br, no_doppler, no_flux } = self.shift;
         Ok(Config {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
             eye: self.eye.eye(),
             wavelengths: self.gw,
-            law: self.shift.br.unwrap_or(Brightness::Report),
+            shift: ColorShift::new(sp, !no_doppler, !no_flux, br),
             repeat: self.repeat.repeats(),
             tolerance: self.ct,
             iris: self.ir,
             light: self.li,
             keep: self.hd,
-            spectral: self.shift.sp,
-            doppler: !self.shift.no_doppler,
-            flux: !self.shift.no_flux,
         })
     }
 

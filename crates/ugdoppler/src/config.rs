@@ -1,8 +1,8 @@
 //! What to compute, apart from the scene.
 
 use glam::DVec3;
-use uglight::{HueShift, SpectralShift};
-use ugphysics::{Brightness, Velocity};
+use uglight::ColorShift;
+use ugphysics::Velocity;
 use ugscene::HueScale;
 
 /// What to compute. [`Config::default`] is what the program does without options.
@@ -14,8 +14,9 @@ pub struct Config {
     pub eye: Option<DVec3>,
     /// Write wavelengths in nm instead of hues (`-gw`).
     pub wavelengths: bool,
-    /// The brightness law: how D changes the value of a colour, (P12) (`-br`).
-    pub law: Brightness,
+    /// How motion changes colours (`-sp`, `-br`, `--no-doppler`, `--no-flux`). With spectra, X, Y, Z
+    /// are written, and nothing is clipped.
+    pub shift: ColorShift,
     /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
     pub repeat: bool,
     /// Vertices share a colour statement if their wavelengths differ by at most this many nm and
@@ -28,13 +29,6 @@ pub struct Config {
     pub light: bool,
     /// Keep values above 1, instead of clipping them (`-hd`).
     pub keep: bool,
-    /// Shift spectra instead of hues, and write X, Y, Z (`-sp`). The brightness law is that of
-    /// spectral radiance, D⁵, and nothing is clipped.
-    pub spectral: bool,
-    /// Shift wavelengths; `--no-doppler` does not.
-    pub doppler: bool,
-    /// Change brightness; `--no-flux` does not.
-    pub flux: bool,
 }
 
 /// The default of [`Config::tolerance`]. A tenth of a nanometre moves the hue by less than one
@@ -55,15 +49,12 @@ impl Default for Config {
             velocity: Velocity::ZERO,
             eye: None,
             wavelengths: false,
-            law: Brightness::Report,
+            shift: ColorShift::default(),
             repeat: false,
             tolerance: DEFAULT_TOLERANCE,
             iris: false,
             light: false,
             keep: false,
-            spectral: false,
-            doppler: true,
-            flux: true,
         }
     }
 }
@@ -72,15 +63,5 @@ impl Config {
     /// The unit of hues in the output.
     pub(crate) fn hue_scale(&self) -> HueScale {
         if self.wavelengths { HueScale::Wavelengths } else { HueScale::Degrees }
-    }
-
-    /// What motion changes in hues.
-    pub(crate) fn hue_shift(&self) -> HueShift {
-        HueShift { doppler: self.doppler, law: if self.flux { self.law } else { Brightness::None } }
-    }
-
-    /// What motion changes in spectra.
-    pub(crate) fn spectral_shift(&self) -> SpectralShift {
-        SpectralShift { doppler: self.doppler, flux: self.flux }
     }
 }

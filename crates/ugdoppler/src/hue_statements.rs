@@ -1,8 +1,8 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueShift, VertexColor};
-use ugphysics::{Hsv, hue_to_wavelength, linear_srgb_to_xyz, srgb_decode, srgb_encode};
+use uglight::{HueColor, HueShift, RestColor, VertexColor};
+use ugphysics::{hue_to_wavelength, srgb_decode, srgb_encode};
 use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
 use crate::Config;
@@ -39,9 +39,8 @@ pub(crate) struct HueStatements<'s> {
 enum BaseKey {
     Named(ColorId),
     White,
-    /// True if the colour is given as light; the bits of light, or of hue, saturation and value,
-    /// and of the translucency.
-    Mixed(bool, [u64; 4]),
+    /// See [`RestColor::key`].
+    Mixed([u64; 5]),
 }
 
 /// A colour at rest.
@@ -53,7 +52,7 @@ struct Base {
 }
 
 impl<'s> HueStatements<'s> {
-    pub fn new(scene: &'s mut Scene, config: &'s Config) -> Self {
+    pub fn new(scene: &'s mut Scene, config: &'s Config, shift: HueShift) -> Self {
         let names = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
         Self {
             n_given: scene.colors.len(),
@@ -66,7 +65,7 @@ impl<'s> HueStatements<'s> {
             names,
             largest: 0.0,
             scene,
-            shift: config.hue_shift(),
+            shift,
             config,
         }
     }
@@ -157,10 +156,10 @@ impl<'s> HueStatements<'s> {
             self.names.fresh(&base.name)
         };
         let name = self.scene.names.add(&name);
-        if let (false, VertexColor::Mixed { light: Some(light), translucency, .. }) = (is_changed, base.given)
+        if let (false, VertexColor::Mixed(color @ RestColor { light: Some(_), translucency, .. })) =
+            (is_changed, base.given)
         {
-            let value = ColorValue::Xyz(linear_srgb_to_xyz(light));
-            self.scene.colors.push(Color { name, value, translucency });
+            self.scene.colors.push(Color { name, value: color.value(), translucency });
             return ColorId::from_index(self.scene.colors.len() - 1);
         }
         let translucency = base.translucency;
@@ -188,25 +187,15 @@ impl<'s> HueStatements<'s> {
         if let Some(&row) = self.base_rows.get(&key) {
             return row;
         }
-        let base = match given {
+        let (name, translucency) = match given {
             VertexColor::Named(id) => {
                 let color = &self.scene.colors[id.index()];
-                Base {
-                    given,
-                    color: crate::hue_color(self.scene, self.shift, given),
-                    translucency: color.translucency,
-                    name: self.scene.names.get(color.name).to_string(),
-                }
+                (self.scene.names.get(color.name).to_string(), color.translucency)
             }
-            VertexColor::White => {
-                let hsv = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
-                Base { given, color: hsv.into(), translucency: 0.0, name: "white".to_string() }
-            }
-            VertexColor::Mixed { hsv, translucency, .. } => {
-                let name = format!("mixed{}", self.bases.len() + 1);
-                Base { given, color: hsv.into(), translucency, name }
-            }
+            VertexColor::White => ("white".to_string(), 0.0),
+            VertexColor::Mixed(color) => (format!("mixed{}", self.bases.len() + 1), color.translucency),
         };
+        let base = Base { given, color: crate::hue_color(self.scene, self.shift, given), translucency, name };
         // Scenes have fewer than 2^32 vertices.
         let row = self.bases.len() as u32;
         self.bases.push(base);
@@ -308,10 +297,6 @@ fn key(color: VertexColor) -> BaseKey {
     match color {
         VertexColor::Named(id) => BaseKey::Named(id),
         VertexColor::White => BaseKey::White,
-        VertexColor::Mixed { hsv, light, translucency } => {
-            // Of light, the hue is clipped.
-            let [a, b, c] = light.unwrap_or([hsv.hue, hsv.saturation, hsv.value]);
-            BaseKey::Mixed(light.is_some(), [a, b, c, translucency].map(f64::to_bits))
-        }
+        VertexColor::Mixed(color) => BaseKey::Mixed(color.key()),
     }
 }

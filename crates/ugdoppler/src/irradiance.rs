@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Irradiance, Lamp, SurfaceElement, lamps};
+use uglight::{Irradiance, Lamps, SurfaceElement};
 use ugpipe::Progress;
 use ugscene::{
     Face, Light, LightKind, LightMotion, RestFrames, Scene, VertexId, seen_normal, shading_normal,
@@ -14,7 +14,7 @@ const NORMAL_STEP: f64 = 1e-5;
 
 /// The irradiance of every vertex of a scene, lamp by lamp.
 pub(crate) struct VertexIrradiance {
-    pub lamps: Vec<Lamp>,
+    pub lamps: Lamps,
     /// `None` for vertices that are not lit: those of wires, and of faces with a light level of
     /// their own.
     pub of_vertex: Vec<Option<Vec<Irradiance>>>,
@@ -77,9 +77,10 @@ impl VertexIrradiance {
         frames: &RestFrames,
         rest: &[DVec3],
         normals: &[Option<DVec3>],
+        is_spectral: bool,
         progress: &dyn Progress,
     ) -> Self {
-        let lamps = lamps(scene, eye);
+        let lamps = Lamps::new(scene, eye, is_spectral);
         let bodies = ugscene::vertex_bodies(scene);
         let of_vertex = (rest.par_iter().zip(normals).zip(&bodies))
             .map(|((&point, normal), &body)| {

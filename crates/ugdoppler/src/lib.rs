@@ -10,7 +10,7 @@
 //! against a surface has a Doppler factor D_l of its own there, and shines from where it was at
 //! emission (P14); D_l shifts and dims the colour as D does.
 //!
-//! With [`Config::spectral`] colours are spectra: of surfaces (P20), of black bodies (P13), or
+//! With [`ColorShift::Spectra`] colours are spectra: of surfaces (P20), of black bodies (P13), or
 //! given by samples. Each is shifted as a whole and multiplied by D⁵ (P12), and written as the X,
 //! Y, Z that the eye makes of it (P19).
 //!
@@ -45,8 +45,9 @@ mod xyz_statements;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{HueColor, HueShift, SpectralColor, VertexColor, hsv, hsv_and_factor, spectral_lamps};
-use ugphysics::Hsv;
+use uglight::{
+    ColorShift, HueColor, HueShift, RestColor, SpectralColor, SpectralShift, VertexColor, hsv, hsv_and_factor,
+};
 use ugpipe::Progress;
 use ugscene::{
     Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Geometry, Provenance, RelativeMotion,
@@ -89,7 +90,7 @@ pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
 pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<(Scene, Report), Error> {
     progress.step("colouring", 0);
     // The light of coloured lamps multiplies spectra, which are not in the output.
-    let is_lit = config.light || config.spectral && uglight::has_colored_lamps(&scene);
+    let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);
     let config = &Config { light: is_lit, ..config.clone() };
     let frames = RestFrames::new(&scene).with_unstated(config.velocity);
     let default_camera = default_camera(&scene, config, &frames);
@@ -154,20 +155,21 @@ fn color(
     // Only for lamps, and for the angles at which colours of faces meet.
     let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
     let rest = if needs_rest { ugscene::rest_positions(&scene, eye, frames) } else { Vec::new() };
-    let mut notes = if config.spectral {
+    let mut notes = if let ColorShift::Spectra(shift) = config.shift {
         let shares = ugscene::vertex_shares(&scene, &rest).into_iter();
         let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
         let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut shares, progress)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
-        let lit = light.map(|light| lit_spectra(&scene, config, &shares, &factors, &light));
-        xyz_statements::write(&mut scene, config, &shares, &factors, &used, lit.as_deref())
+        let lit = light.map(|light| lit_spectra(&scene, shift, &shares, &factors, &light));
+        xyz_statements::write(&mut scene, config, shift, &shares, &factors, &used, lit.as_deref())
     } else {
+        let shift = config.shift.of_hues();
         let mut colors = uglight::vertex_colors(&scene, &rest);
         let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut colors, progress)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
-        let lit = light.map(|light| lit_hues(&scene, config, &colors, &factors, &light));
+        let lit = light.map(|light| lit_hues(&scene, shift, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
-        let mut statements = HueStatements::new(&mut scene, config);
+        let mut statements = HueStatements::new(&mut scene, config, shift);
         for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
             match lit.as_ref().and_then(|lit| lit[row]) {
                 _ if !used[row] => {}
@@ -210,7 +212,8 @@ fn light_vertices<T: Clone>(
     if n_lights.saturating_mul(n_vertices) > MAX_LIT {
         return Err(Error::TooManyLights { n_lights, n_vertices });
     }
-    let light = VertexIrradiance::new(scene, eye, frames, &rest, &normals, progress);
+    let is_spectral = config.shift.is_spectral();
+    let light = VertexIrradiance::new(scene, eye, frames, &rest, &normals, is_spectral, progress);
     progress.check()?;
     Ok(Some(light))
 }
@@ -218,12 +221,11 @@ fn light_vertices<T: Clone>(
 /// The colour as seen of every vertex with light on it; `None` where it is not lit.
 fn lit_hues(
     scene: &Scene,
-    config: &Config,
+    shift: HueShift,
     colors: &[VertexColor],
     factors: &[f64],
     light: &VertexIrradiance,
 ) -> Vec<Option<HueColor>> {
-    let shift = config.hue_shift();
     let all = colors.par_iter().zip(factors).zip(&light.of_vertex);
     all.map(|((&color, &doppler), parts)| {
         let base = hue_color(scene, shift, color);
@@ -241,30 +243,29 @@ pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> H
             HueColor { factor, ..hsv.into() }
         }
         VertexColor::Named(id) => hsv(scene, &scene.colors[id.index()]).into(),
-        VertexColor::White => Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }.into(),
-        VertexColor::Mixed { hsv, .. } => hsv.into(),
+        VertexColor::White => RestColor::WHITE.hsv.into(),
+        VertexColor::Mixed(color) => color.hsv.into(),
     }
 }
 
 /// X, Y, Z as seen of every vertex with light on it; `None` where it is not lit.
 fn lit_spectra(
     scene: &Scene,
-    config: &Config,
+    shift: SpectralShift,
     shares: &[Shares],
     factors: &[f64],
     light: &VertexIrradiance,
 ) -> Vec<Option<[f64; 3]>> {
-    let (shift, lamps) = (config.spectral_shift(), spectral_lamps(scene));
     let ids = (0..scene.colors.len()).map(|row| Some(ColorId::from_index(row)));
     // White comes first, see `xyz_statements::row`.
     let colors: Vec<SpectralColor> =
         std::iter::once(None).chain(ids).map(|id| SpectralColor::new(scene, id)).collect();
     let all = shares.par_iter().zip(factors).zip(&light.of_vertex);
-    all.map(|((shares, &doppler), light)| {
-        let light = light.as_ref()?;
+    all.map(|((shares, &doppler), parts)| {
+        let parts = parts.as_ref()?;
         let sum = shares.parts().fold(DVec3::ZERO, |sum, (color, share)| {
             let surface = colors[xyz_statements::row(color)].spectrum();
-            sum + share * shift.seen_lit(surface, doppler, light, &lamps)
+            sum + share * shift.seen_lit(surface, doppler, parts, &light.lamps, &[])
         });
         Some(xyz_statements::finite(sum.to_array()))
     })

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugphysics::Velocity;
-use ugscene::{ColorScale, ColorStage, GeometryStage, Scene, SeenColors, SeenGeometry, Stage};
+use ugscene::{ColorStage, GeometryStage, Scene, SeenGeometry, Stage};
 
 use crate::Config;
 
@@ -20,13 +20,8 @@ pub(crate) fn with_seen_colors(scene: &Scene, config: &Config, eye: DVec3) -> St
             flight_time: true,
         });
     }
-    let scale = if config.spectral {
-        ColorScale::Spectra { flux: config.flux }
-    } else {
-        ColorScale::Hues { unit: config.hue_scale(), law: config.hue_shift().law }
-    };
     // Every vertex gets a new colour.
     stage.mixtures = None;
-    stage.colors = ColorStage::AsSeen(SeenColors { scale, doppler: config.doppler, lights: config.light });
+    stage.colors = ColorStage::AsSeen(config.shift.seen_colors(config.hue_scale(), config.light));
     stage
 }

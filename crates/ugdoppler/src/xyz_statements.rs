@@ -17,6 +17,7 @@ use crate::quantization::DopplerQuantizer;
 pub(crate) fn write(
     scene: &mut Scene,
     config: &Config,
+    shift: SpectralShift,
     shares: &[Shares],
     factors: &[f64],
     used: &[bool],
@@ -24,7 +25,6 @@ pub(crate) fn write(
 ) -> Vec<Note> {
     let lit = Lit::new(lit.unwrap_or_default(), used);
     let used = &*lit.others;
-    let shift = config.spectral_shift();
     let ln_factors: Vec<f64> = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
     let grid = DopplerGrid::new(range(&ln_factors, used));
     let colors = spectral_colors(scene, shares, used, &grid);

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 use ugdoppler::{Config, apply};
+use uglight::ColorShift;
 use ugparse::{Options, Source};
 use ugphysics::{Brightness, Velocity, hue_to_wavelength};
 use ugpipe::Words;
@@ -123,7 +124,8 @@ fn the_laws_are_powers_of_d() {
         [(Brightness::Report, 1), (Brightness::Photon, 3), (Brightness::Bolometric, 4), (Brightness::None, 0)]
     {
         // D = 0.5 for the receding rose, so nothing is clipped.
-        let (scene, _) = colour(SCENE, &Config { law, ..moving(-0.6, 0.0, 0.0) });
+        let (scene, _) =
+            colour(SCENE, &Config { shift: ColorShift::hues(true, law), ..moving(-0.6, 0.0, 0.0) });
         let expected: f64 = std::iter::repeat_n(0.5, power).product();
         let vertex = scene.vertices.iter().find(|v| scene.names.get(v.name) == "g");
         let color = vertex.and_then(|vertex| vertex.color).expect("a colour on every used vertex");
@@ -140,7 +142,12 @@ fn the_laws_are_powers_of_d() {
 #[test]
 fn the_iris_scales_linear_light() {
     // D = 2 for the approaching rose: white, seen with 16.
-    let config = |iris, keep| Config { law: Brightness::Bolometric, iris, keep, ..moving(0.6, 0.0, 0.0) };
+    let config = |iris, keep| Config {
+        shift: ColorShift::hues(true, Brightness::Bolometric),
+        iris,
+        keep,
+        ..moving(0.6, 0.0, 0.0)
+    };
     for (iris, keep, note, expected) in [
         (true, false, "scaled to 1.0", 1.0),
         (false, false, "clip to 1.0", 1.0),
@@ -159,8 +166,8 @@ fn the_iris_scales_linear_light() {
 
 #[test]
 fn teaching_switches_leave_the_other_alone() {
-    let shifted = Config { flux: false, ..moving(-0.3, 0.0, 0.0) };
-    let dimmed = Config { doppler: false, ..moving(-0.3, 0.0, 0.0) };
+    let shifted = Config { shift: ColorShift::hues(true, Brightness::None), ..moving(-0.3, 0.0, 0.0) };
+    let dimmed = Config { shift: ColorShift::hues(false, Brightness::Report), ..moving(-0.3, 0.0, 0.0) };
     let both = colour(SCENE, &moving(-0.3, 0.0, 0.0)).0;
     for vertex in ["a", "b", "d", "g", "i"] {
         let (_, value, hue, saturation) = of(&both, vertex);

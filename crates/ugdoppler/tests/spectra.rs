@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 use ugdoppler::{Config, apply};
+use uglight::ColorShift;
 use ugparse::{Options, Source};
 use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 use ugpipe::Words;
@@ -21,7 +22,7 @@ fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {
 
 fn moving(x: f64, y: f64, z: f64) -> Config {
     let velocity = Velocity::from_beta(DVec3::new(x, y, z)).expect("a speed below 1");
-    Config { velocity, eye: Some(DVec3::ZERO), spectral: true, ..Config::default() }
+    Config { velocity, eye: Some(DVec3::ZERO), shift: ColorShift::SPECTRA, ..Config::default() }
 }
 
 fn xyz(scene: &Scene, vertex: usize) -> [f64; 3] {
@@ -152,7 +153,11 @@ fn reuse_keeps_its_tolerance_and_saves_colours() {
 fn teaching_switches_leave_out_one_factor_each() {
     let text = ahead_and_behind("c_rgb brick 0.7 0.3 0.2;", "brick");
     let seen = |doppler, flux| {
-        let scene = colour(&text, &Config { doppler, flux, ..moving(-0.6, 0.0, 0.0) }).0;
+        let scene = colour(
+            &text,
+            &Config { shift: ColorShift::new(true, doppler, flux, None), ..moving(-0.6, 0.0, 0.0) },
+        )
+        .0;
         (named(&scene, "a"), named(&scene, "d"))
     };
     let rest = seen(false, false);
@@ -213,7 +218,8 @@ fn intensities_above_one() {
 
     // Hues keep their values, too, if asked.
     let text = ahead_and_behind("c white 1;", "white");
-    let config = Config { keep: true, spectral: false, tolerance: 0.0, ..moving(-0.6, 0.0, 0.0) };
+    let config =
+        Config { keep: true, shift: ColorShift::default(), tolerance: 0.0, ..moving(-0.6, 0.0, 0.0) };
     let (scene, notes) = colour(&text, &config);
     assert_eq!(notes, ["max intensity is 2.00, kept for the renderer; -ir scales it to 1.0"]);
     let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
@@ -223,10 +229,10 @@ fn intensities_above_one() {
 #[test]
 fn without_spectra_black_bodies_have_their_hue_at_rest() {
     let text = ahead_and_behind("c_bb glow 3000 0.3;", "glow");
-    let (scene, notes) = colour(&text, &Config { spectral: false, ..moving(0.0, 0.0, 0.0) });
+    let (scene, notes) = colour(&text, &Config { shift: ColorShift::default(), ..moving(0.0, 0.0, 0.0) });
     assert!(notes[0].contains("(colour `glow`): `ugdoppler -sp` shifts them"), "{notes:?}");
     assert_eq!(scene.names.get(scene.colors[scene.vertices[0].color.unwrap().index()].name), "glow");
-    let (scene, _) = colour(&text, &Config { spectral: false, ..moving(-0.1, 0.0, 0.0) });
+    let (scene, _) = colour(&text, &Config { shift: ColorShift::default(), ..moving(-0.1, 0.0, 0.0) });
     let value = scene.colors[scene.vertices[0].color.unwrap().index()].value;
     // Orange turns yellow: its one wavelength is shifted, not its spectrum.
     let is_yellow = |tint| matches!(tint, Tint::Hue(hue) if (40.0..100.0).contains(&hue));

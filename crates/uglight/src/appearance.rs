@@ -1,42 +1,119 @@
 //! Colours as they appear in the frame of the camera.
 
 use glam::DVec3;
-use ugphysics::Hsv;
+use ugphysics::{Hsv, srgb_decode, wavelength_to_hue};
+use ugscene::Scene;
 
+use crate::hue_table::HueTable;
+use crate::spectra::Spectra;
 use crate::{
-    ColorShift, HueColor, HueShift, HueTable, Interpolation, Irradiance, Lamp, Palette, Spectra, Swatch,
+    ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette, SpectralFilter,
+    SurfaceAttributes, Swatch,
 };
 
-/// Computes the apparent colour of each sample from its colour at rest.
-#[derive(Clone, Copy)]
-pub struct Appearance<'a> {
-    shift: HueShift,
-    palette: &'a Palette,
-    hues: &'static HueTable,
-    /// `None` if colours are hues or wavelengths.
-    spectra: Option<&'a Spectra>,
+/// A colour at rest at a point of a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfaceColor {
+    /// The colour, interpolated between the corners of its face.
+    pub swatch: Swatch,
+    /// The spectra of the corners, as rows of the colours of vertices
+    /// ([`SurfaceAttributes::row`]) with their weights.
+    pub rows: [(u32, f64); 3],
 }
 
-impl<'a> Appearance<'a> {
-    /// The colour shift `shift` of the colours of a scene. `spectra`: given if it shifts spectra.
-    pub fn new(shift: ColorShift, palette: &'a Palette, spectra: Option<&'a Spectra>) -> Self {
-        let shift = match shift {
-            ColorShift::Hues(shift) => shift,
-            ColorShift::Spectra(_) => HueShift::NONE,
+impl SurfaceColor {
+    /// A colour that is the same all around. `row`: of its spectrum.
+    pub fn even(swatch: Swatch, row: u32) -> Self {
+        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0)] }
+    }
+}
+
+/// Light on a point of a surface.
+#[derive(Clone, Copy)]
+pub enum Light<'a> {
+    /// White light of this level, from no lamp.
+    Level(f64),
+    /// What each of the lamps contributes.
+    Lamps(&'a [Irradiance], &'a Lamps),
+}
+
+/// A coloured transparent surface that light crossed on its way from a surface to the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct Filter {
+    /// Its colour at rest.
+    pub color: SurfaceColor,
+    /// The Doppler factor with which it is seen.
+    pub doppler: f64,
+}
+
+/// The colours of a scene, and how they appear in motion: for corners, samples and rays.
+pub struct Appearance {
+    /// The colours of the scene.
+    pub palette: Palette,
+    /// Colours and rest positions of its vertices.
+    pub surface: SurfaceAttributes,
+    /// The shift of hues; none if colours are spectra.
+    pub hue_shift: HueShift,
+    hues: &'static HueTable,
+    /// `None` if colours are hues or wavelengths.
+    spectra: Option<Spectra>,
+    /// Linear light of hues is clipped to this.
+    ceiling: f64,
+}
+
+impl Appearance {
+    /// The colours of `scene`, whose vertices are part of one body each, shifted by `shift`.
+    ///
+    /// `eye`: in scene coordinates. `reach`: the |ln D| of spectra that are fast to compute, as a
+    /// multiple of the greatest rapidity; 1 for light straight from a body.
+    pub fn new(
+        scene: &Scene,
+        eye: DVec3,
+        interpolation: Interpolation,
+        shift: ColorShift,
+        reach: f64,
+    ) -> Self {
+        let palette = Palette::new(scene, interpolation, shift.is_spectral());
+        let surface = SurfaceAttributes::new(scene, eye, &palette);
+        let spectra = match shift {
+            ColorShift::Spectra(shift) => {
+                let reach = reach * surface.greatest_rapidity(scene);
+                Some(Spectra::new(scene, shift, surface.mixtures(scene), reach))
+            }
+            ColorShift::Hues(_) => None,
         };
-        Self { shift, palette, hues: HueTable::get(), spectra }
+        let (hue_shift, hues) = (shift.of_hues(), HueTable::get());
+        Self { palette, surface, hue_shift, hues, spectra, ceiling: f64::INFINITY }
+    }
+
+    /// The same with the coloured lamps of the scene for [`Appearance::seen_light`].
+    #[must_use]
+    pub fn with_lamps(mut self, scene: &Scene, eye: DVec3) -> Self {
+        self.spectra = self.spectra.map(|spectra| spectra.with_lamps(scene, eye));
+        self
+    }
+
+    /// The same with the linear light of hues clipped to white, as in 1988.
+    #[must_use]
+    pub fn clipped(self) -> Self {
+        Self { ceiling: 1.0, ..self }
     }
 
     /// True if colours given as light can be drawn on moving bodies: they are spectra, or nothing
     /// is shifted.
     pub fn keeps_light(&self) -> bool {
-        self.spectra.is_some() || self.shift == HueShift::NONE
+        self.spectra.is_some() || self.hue_shift == HueShift::NONE
     }
 
-    /// The spectra; `None` if colours are hues or wavelengths.
+    /// True if colours are spectra.
     #[inline]
-    pub fn spectra(&self) -> Option<&'a Spectra> {
-        self.spectra
+    pub fn is_spectral(&self) -> bool {
+        self.spectra.is_some()
+    }
+
+    /// True if colours are spectra, under lamps whose spectra differ from daylight.
+    pub fn has_lit_spectra(&self) -> bool {
+        self.spectra.as_ref().is_some_and(Spectra::has_colored_lamps)
     }
 
     /// The wavelength that a tint stands for, as [`Appearance::seen`] requires it.
@@ -58,13 +135,13 @@ impl<'a> Appearance<'a> {
         if rest.light.is_some() || stretch == 1.0 {
             return *rest;
         }
-        let factor = self.shift.law.factor(1.0 / stretch);
-        let seen = if self.shift.law.acts_on_light() {
+        let factor = self.hue_shift.law.factor(1.0 / stretch);
+        let seen = if self.hue_shift.law.acts_on_light() {
             Swatch { factor: rest.factor * factor, ..*rest }
         } else {
             Swatch { value: rest.value * factor, ..*rest }
         };
-        if !self.shift.doppler || rest.is_grey() {
+        if !self.hue_shift.doppler || rest.is_grey() {
             return seen;
         }
         // λ/D, as a product, since this runs for every sample.
@@ -87,12 +164,11 @@ impl<'a> Appearance<'a> {
     /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light. Under
     /// a law that names a quantity it is given as light, since the light of lamps adds up.  Eq. (P14)
     pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
-        let (base, doppler) = (self.hue_color(rest), 1.0 / stretch);
-        if self.shift.law.acts_on_light() {
-            let parts = light.chunks(1).map(|part| self.shift.seen_lit(base, doppler, part, lamps).light());
-            return Swatch { light: Some(parts.sum()), ..*rest };
+        let doppler = 1.0 / stretch;
+        if self.hue_shift.law.acts_on_light() {
+            return Swatch { light: Some(self.light_of_lamps(rest, doppler, light, lamps)), ..*rest };
         }
-        let seen = self.shift.seen_lit(base, doppler, light, lamps);
+        let seen = self.hue_shift.seen_lit(self.hue_color(rest), doppler, light, lamps);
         let tint = match self.palette.interpolation() {
             Interpolation::Hue => seen.hue,
             Interpolation::Wavelength => seen.wavelength_nm,
@@ -100,26 +176,113 @@ impl<'a> Appearance<'a> {
         Swatch { tint, saturation: seen.saturation, value: seen.value, factor: seen.factor, ..*rest }
     }
 
-    /// [`Appearance::seen_light`] under the coloured lamps of the scene, at rest with the surface.
-    /// `place`: see [`Spectra::light_of_lamps`].
-    pub fn seen_under_lamps(
-        &self,
-        parts: impl IntoIterator<Item = (u32, f64)>,
-        stretch: f64,
-        place: [DVec3; 3],
-    ) -> DVec3 {
-        let Some(spectra) = self.spectra else { return DVec3::ONE };
-        let ln_doppler = -libm::log(stretch);
-        let light = |row: u32| spectra.light_of_lamps(row, ln_doppler, place);
-        parts.into_iter().map(|(row, weight)| weight * light(row)).sum()
+    /// Linear red, green and blue of a surface under `light` and behind `filters`, seen with the
+    /// Doppler factor `doppler`: for rays, which may reach the eye by way of mirrors and glass.
+    /// Eq. (P14)
+    pub fn light(&self, color: &SurfaceColor, doppler: f64, light: Light<'_>, filters: &[Filter]) -> DVec3 {
+        match &self.spectra {
+            Some(spectra) => spectral_light(spectra, color, doppler, light, filters),
+            None => self.hue_light(&color.swatch, doppler, light) * self.transmitted(filters),
+        }
+    }
+
+    /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters.
+    fn hue_light(&self, rest: &Swatch, doppler: f64, light: Light<'_>) -> DVec3 {
+        let of_level = |level: f64| {
+            let base = self.hue_shift.brightened(self.hue_color(rest), level);
+            self.hue_shift.seen(base, doppler).light()
+        };
+        let seen = match (rest.light, light) {
+            (Some(own), Light::Level(level)) => return level * own,
+            (Some(own), Light::Lamps(parts, lamps)) => {
+                let received = |part: &Irradiance| part.level * lamps[part.lamp as usize].linear;
+                return own * parts.iter().map(received).sum::<DVec3>();
+            }
+            (None, Light::Level(level)) => of_level(level),
+            (None, Light::Lamps(parts, lamps)) if is_plain(parts) && !lamps.is_colored => {
+                let of_lamp = |part: &Irradiance| self.hue_shift.color_of(&lamps[part.lamp as usize]).x;
+                of_level(parts.iter().map(|part| part.level * of_lamp(part)).sum())
+            }
+            (None, Light::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
+        };
+        seen.min(DVec3::splat(self.ceiling))
+    }
+
+    /// Linear light of a hue under lamps, which may be coloured, and move. Light adds up, as seen,
+    /// under a law that names a quantity; otherwise display-encoded colours do.  Eq. (P14)
+    fn light_of_lamps(&self, rest: &Swatch, doppler: f64, parts: &[Irradiance], lamps: &[Lamp]) -> DVec3 {
+        let base = self.hue_color(rest);
+        let seen = |parts: &[Irradiance]| self.hue_shift.seen_lit(base, doppler, parts, lamps).light();
+        if self.hue_shift.law.acts_on_light() { parts.chunks(1).map(seen).sum() } else { seen(parts) }
+    }
+
+    /// The part of linear red, green and blue that filters transmit, whose hues are shifted.
+    pub fn transmitted(&self, filters: &[Filter]) -> DVec3 {
+        let part = |filter: &Filter| {
+            let base = self.hue_color(&filter.color.swatch);
+            let wavelength_nm = self.hue_shift.wavelength_nm(base.wavelength_nm, filter.doppler);
+            let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
+            let hsv = Hsv { hue, saturation: base.saturation, value: base.value };
+            DVec3::from(hsv.to_rgb().map(srgb_decode))
+        };
+        filters.iter().map(part).product()
     }
 
     /// Linear red, green and blue of a weighted mean of spectra, where wavelengths are stretched by
-    /// `stretch` = 1/D. `parts`: rows of spectra with their weights. White unless colours are
-    /// spectra.
-    pub fn seen_light(&self, parts: impl IntoIterator<Item = (u32, f64)>, stretch: f64) -> DVec3 {
-        let Some(spectra) = self.spectra else { return DVec3::ONE };
+    /// `stretch` = 1/D. White unless colours are spectra.
+    ///
+    /// `parts`: rows of spectra with their weights. `place`: for the light of coloured lamps at rest
+    /// with the surface, point, normal and shift of lamps as for [`crate::Lighting::level`].
+    pub fn seen_light(
+        &self,
+        parts: impl IntoIterator<Item = (u32, f64)>,
+        stretch: f64,
+        place: Option<[DVec3; 3]>,
+    ) -> DVec3 {
+        let Some(spectra) = &self.spectra else { return DVec3::ONE };
         let ln_doppler = -libm::log(stretch);
-        parts.into_iter().map(|(row, weight)| weight * spectra.light(row, ln_doppler)).sum()
+        parts.into_iter().map(|(row, weight)| weight * spectra.light(row, ln_doppler, place)).sum()
+    }
+}
+
+/// True if all light comes from lamps at rest with the surface.
+fn is_plain(parts: &[Irradiance]) -> bool {
+    parts.iter().all(|part| part.doppler == 1.0)
+}
+
+/// [`Appearance::light`] of a mixture of spectra.
+fn spectral_light(
+    spectra: &Spectra,
+    color: &SurfaceColor,
+    doppler: f64,
+    light: Light<'_>,
+    filters: &[Filter],
+) -> DVec3 {
+    let mean = |light: &dyn Fn(u32) -> DVec3| -> DVec3 {
+        let parts = color.rows.iter().filter(|(_, weight)| *weight != 0.0);
+        parts.map(|&(row, weight)| weight * light(row)).sum()
+    };
+    let of_daylight = match light {
+        Light::Level(level) => Some(level),
+        Light::Lamps(parts, lamps) => (lamps.is_daylight && is_plain(parts))
+            .then(|| parts.iter().map(|part| part.level * lamps[part.lamp as usize].intensity).sum()),
+    };
+    if let (Some(level), []) = (of_daylight, filters) {
+        let ln_doppler = libm::log(doppler);
+        return level * mean(&|row| spectra.light(row, ln_doppler, None));
+    }
+    let filter = |filter: &Filter| {
+        let rows = filter.color.rows.iter().copied();
+        let row = rows.reduce(|best, row| if row.1 > best.1 { row } else { best }).map_or(0, |row| row.0);
+        SpectralFilter { color: spectra.spectrum(row), doppler: filter.doppler }
+    };
+    let filters: Vec<_> = filters.iter().map(filter).collect();
+    match light {
+        Light::Level(level) => {
+            let white = [Irradiance { lamp: 0, level: 1.0, doppler: 1.0 }];
+            let lamp = [Lamp::white(crate::LampPlace::Everywhere, level)];
+            mean(&|row| spectra.lit(row, doppler, &white, &lamp, &filters))
+        }
+        Light::Lamps(parts, lamps) => mean(&|row| spectra.lit(row, doppler, parts, lamps, &filters)),
     }
 }

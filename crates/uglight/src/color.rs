@@ -1,8 +1,57 @@
 //! What a colour statement stands for: a hue, light, or a spectrum.
 
-use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
+use glam::DVec3;
+use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugscene::{Color, ColorId, ColorValue, Note, Scene, Tint};
 use ugspectrum::Spectrum;
+
+/// A colour at rest: of a statement, or mixed of several.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestColor {
+    /// As [`hsv`].
+    pub hsv: Hsv,
+    /// As [`light`], if it is given so.
+    pub light: Option<[f64; 3]>,
+    /// 0 opaque … 1 fully transparent.
+    pub translucency: f64,
+}
+
+impl RestColor {
+    /// The colour of what has none.
+    pub const WHITE: Self =
+        Self { hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }, light: None, translucency: 0.0 };
+
+    /// The colour of a statement, or white.
+    pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
+        color.map_or(Self::WHITE, |id| {
+            let color = &scene.colors[id.index()];
+            Self { hsv: hsv(scene, color), light: light(scene, color), translucency: color.translucency }
+        })
+    }
+
+    /// Linear red, green and blue.
+    pub fn linear(&self) -> DVec3 {
+        DVec3::from_array(self.light.unwrap_or_else(|| self.hsv.to_rgb().map(srgb_decode)))
+    }
+
+    /// A statement of it.
+    pub fn value(&self) -> ColorValue {
+        let Hsv { hue, saturation, value } = self.hsv;
+        match self.light {
+            Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
+            None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
+        }
+    }
+
+    /// Equal for equal colours.
+    pub fn key(&self) -> [u64; 5] {
+        let Hsv { hue, saturation, value } = self.hsv;
+        // Of light, the hue is clipped.
+        let [a, b, c] = self.light.unwrap_or([hue, saturation, value]);
+        let is_light = f64::from(u8::from(self.light.is_some()));
+        [is_light, a, b, c, self.translucency].map(f64::to_bits)
+    }
+}
 
 /// A colour statement as hue in degrees, saturation and value.
 ///

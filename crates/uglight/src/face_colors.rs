@@ -1,8 +1,9 @@
 //! The colours of the corners of a face, ready to interpolate.
 
-use ugscene::{Face, Scene};
+use glam::DVec3;
+use ugscene::{Face, Scene, VertexId};
 
-use crate::{Palette, SurfaceAttributes, Swatch};
+use crate::{Appearance, SurfaceColor, Swatch};
 
 /// What the corners of a face have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,19 +17,30 @@ pub struct Common {
     pub is_light: bool,
 }
 
-impl Common {
-    /// The same face with hues in place of light.
-    pub fn without_light(self) -> Self {
-        Self { is_light: false, ..self }
+impl Swatch {
+    /// The weighted mean of the corners of a triangle, number by number. A number that is the same
+    /// at all corners keeps its bits.
+    fn mixed([a, b, c]: [Self; 3], weights: [f64; 3]) -> Self {
+        let [first, second, third] = weights;
+        let number = |of: fn(&Self) -> f64| of(&a) + second * (of(&b) - of(&a)) + third * (of(&c) - of(&a));
+        let mean = |a: DVec3, b: DVec3, c: DVec3| first * a + second * b + third * c;
+        Self {
+            tint: number(|swatch| swatch.tint),
+            saturation: number(|swatch| swatch.saturation),
+            value: number(|swatch| swatch.value),
+            factor: number(|swatch| swatch.factor),
+            light: a.light.zip(b.light).zip(c.light).map(|((a, b), c)| mean(a, b, c)),
+            translucency: number(|swatch| swatch.translucency),
+        }
     }
 }
 
-impl Palette {
+impl Appearance {
     /// What the corners of a face have in common.
     #[inline]
-    pub fn common(&self, scene: &Scene, surface: &SurfaceAttributes, face: &Face) -> Common {
+    pub fn common(&self, scene: &Scene, face: &Face) -> Common {
         let corners = scene.contours.corners(face.contours.clone());
-        let swatches = || corners.iter().map(|&vertex| surface.swatch(vertex));
+        let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
         let mean_tint = || {
             let (sum, count) = swatches()
                 .filter(|swatch| !swatch.is_grey())
@@ -36,36 +48,62 @@ impl Palette {
             if count == 0 { 0.0 } else { sum / f64::from(count) }
         };
         let grey_tint = if swatches().any(Swatch::is_grey) { mean_tint() } else { 0.0 };
-        let translucency = face.color.map(|color| self.get(color).translucency);
-        let is_light = self.has_light() && swatches().any(|swatch| swatch.light.is_some());
+        let translucency = face.color.map(|color| self.palette.get(color).translucency);
+        let is_light = self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some());
         Common { grey_tint, translucency, is_light }
     }
 
-    /// The colour of a corner of a face. `own`: of the vertex.
+    /// As [`Appearance::common`], of a face that moves or not. Colours given as light have no hue to
+    /// shift: on moving bodies they are replaced by the nearest hue, except in spectral mode.
+    pub fn common_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> Common {
+        let common = self.common(scene, face);
+        let is_light = common.is_light && (self.keeps_light() || !is_moving);
+        Common { is_light, ..common }
+    }
+
+    /// The colour of a corner of a face.
     #[inline]
-    pub fn swatch_of(&self, own: Swatch, common: &Common) -> Swatch {
+    pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
+        let own = *self.surface.swatch(vertex);
         let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..own };
         if common.is_light {
-            self.as_light(swatch)
+            self.palette.as_light(swatch)
         } else if swatch.is_grey() {
-            Swatch { tint: common.grey_tint, ..swatch }
+            Swatch { tint: common.grey_tint, light: None, ..swatch }
         } else {
-            swatch
+            Swatch { light: None, ..swatch }
         }
+    }
+
+    /// The colour at rest at a point of a triangle of a face. `weights`: of the corners.
+    pub fn color_at(&self, common: &Common, corners: [VertexId; 3], weights: [f64; 3]) -> SurfaceColor {
+        let rows = corners.map(|corner| self.surface.row(corner));
+        let swatch = |corner| self.swatch(corner, common);
+        let first = swatch(corners[0]);
+        let even = SurfaceColor::even(first, rows[0]);
+        if rows == [rows[0]; 3] {
+            return even;
+        }
+        let swatches = [first, swatch(corners[1]), swatch(corners[2])];
+        if swatches == [first; 3] {
+            return even;
+        }
+        let rows = std::array::from_fn(|at| (rows[at], weights[at]));
+        SurfaceColor { swatch: Swatch::mixed(swatches, weights), rows }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its
     /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
-    pub fn is_translucent(&self, scene: &Scene, surface: &SurfaceAttributes, face: &Face) -> bool {
-        if !self.has_translucency() {
+    pub fn is_translucent(&self, scene: &Scene, face: &Face) -> bool {
+        if !self.palette.has_translucency() {
             return false;
         }
         match face.color {
-            Some(color) => self.get(color).translucency > 0.0,
+            Some(color) => self.palette.get(color).translucency > 0.0,
             None => {
                 let corners = scene.contours.corners(face.contours.clone());
-                corners.iter().any(|&vertex| surface.swatch(vertex).translucency > 0.0)
+                corners.iter().any(|&vertex| self.surface.swatch(vertex).translucency > 0.0)
             }
         }
     }

@@ -157,7 +157,13 @@ impl HueColor {
     /// Linear red, green and blue as a renderer draws it.  Eq. (P17)
     #[must_use]
     pub fn light(&self) -> DVec3 {
-        self.factor * DVec3::from_array(self.attenuated().to_rgb().map(srgb_decode))
+        let decode = |channel: f64| self.factor * srgb_decode(channel);
+        let [red, green, blue] = self.attenuated().to_rgb();
+        let first = decode(red);
+        // Decoding is slow, and the channels of greys are equal.
+        let [second, third] =
+            [green, blue].map(|channel| if channel == red { first } else { decode(channel) });
+        DVec3::new(first, second, third)
     }
 
     /// The colour as a renderer draws it, without its factor: faded where the eye sees little.
@@ -188,15 +194,9 @@ impl HueColor {
         }
         let mixed = Hsv::from_rgb(sum);
         if mixed.value <= 0.0 {
-            // Nothing is visible. The wavelength of the strongest part is kept: another shift may
-            // bring it into view.
-            let strongest =
-                parts.iter().fold(*first, |best, part| if part.value > best.value { *part } else { best });
-            return Self { value: all, ..strongest };
+            return Self { value: all, ..Self::strongest(parts, first, |part| part.value) };
         }
-        let wavelength_nm = Self::from(mixed).wavelength_nm;
-        let Hsv { hue, saturation, value } = mixed.unattenuated(attenuation(wavelength_nm), all);
-        Self { hue, wavelength_nm, saturation, value, factor: first.factor }
+        Self { factor: first.factor, ..Self::amplified(mixed, all) }
     }
 
     /// The sum of colours as linear light.
@@ -214,17 +214,24 @@ impl HueColor {
         let all: f64 = parts.iter().map(Self::brightest).sum();
         let most = light.max_element();
         if most <= 0.0 {
-            // Nothing is visible. The wavelength of the strongest part is kept.
-            let stronger =
-                |best: Self, part: &Self| if part.brightest() > best.brightest() { *part } else { best };
-            let strongest = parts.iter().fold(*first, stronger);
+            let strongest = Self::strongest(parts, first, Self::brightest);
             return Self { factor: all / srgb_decode(strongest.value), ..strongest };
         }
         let mixed = Hsv::from_rgb((light / most).to_array().map(srgb_encode));
+        Self { factor: most, ..Self::amplified(mixed, srgb_encode(all / most)) }
+    }
+
+    /// The first of the strongest parts, where nothing is visible: its wavelength is kept, since another
+    /// shift may bring it into view.
+    fn strongest(parts: &[Self], first: &Self, strength: impl Fn(&Self) -> f64) -> Self {
+        parts.iter().fold(*first, |best, part| if strength(part) > strength(&best) { *part } else { best })
+    }
+
+    /// A mixture that looks like `mixed` after it was attenuated. `limit`: of its value.
+    fn amplified(mixed: Hsv, limit: f64) -> Self {
         let wavelength_nm = Self::from(mixed).wavelength_nm;
-        let limit = srgb_encode(all / most);
         let Hsv { hue, saturation, value } = mixed.unattenuated(attenuation(wavelength_nm), limit);
-        Self { hue, wavelength_nm, saturation, value, factor: most }
+        Self { hue, wavelength_nm, saturation, value, factor: 1.0 }
     }
 }
 

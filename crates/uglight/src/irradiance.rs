@@ -54,21 +54,23 @@ impl SurfaceElement {
     #[must_use]
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
-        self.for_each_incident(lamps, frames, |incident| all.push(incident.irradiance));
+        self.for_each_incident(lamps, frames, |_, lamp| lamp.place, |incident| all.push(incident.irradiance));
         all
     }
 
     /// Calls `visit` with the light of each lamp, in their order; not with those behind the
     /// surface. Moving ambient light is visited several times, once for each ring of the sky.
+    /// `place`: returns that of a lamp and its row; a lamp that is not a point has many.
     pub fn for_each_incident(
         &self,
         lamps: &[Lamp],
         frames: &RestFrames,
+        place: impl Fn(usize, &Lamp) -> LampPlace,
         mut visit: impl FnMut(IncidentLamp),
     ) {
         let shift = frames.lamp_shift(self.body);
         for (row, lamp) in lamps.iter().enumerate() {
-            let lamp = &lamp.shifted(shift);
+            let place = lamp.shifted(place(row, lamp), shift);
             let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
                 if level > 0.0 {
                     visit(IncidentLamp {
@@ -80,19 +82,19 @@ impl SurfaceElement {
             };
             match self.moving_body(lamp, frames) {
                 None => {
-                    let level = lamp.level_at_rest(self.point, self.normal);
-                    let toward = self.direction_at_rest(lamp);
+                    let level = lamp.level_from(place, self.point, self.normal);
+                    let toward = self.direction_at_rest(place);
                     let part = toward.map_or(1.0, |(_, distance)| lamp.part_at(distance));
                     add(level, 1.0, toward, part);
                 }
-                Some(body) => self.of_moving(lamp, body, frames, &mut add),
+                Some(body) => self.of_moving(lamp, (place, body), frames, &mut add),
             }
         }
     }
 
     /// Direction and distance of a lamp that rests with the surface.
-    fn direction_at_rest(&self, lamp: &Lamp) -> Option<(DVec3, f64)> {
-        match lamp.place {
+    fn direction_at_rest(&self, place: LampPlace) -> Option<(DVec3, f64)> {
+        match place {
             LampPlace::Everywhere => None,
             LampPlace::Afar(toward) => Some((toward, f64::INFINITY)),
             LampPlace::At(place) => {
@@ -110,7 +112,7 @@ impl SurfaceElement {
     fn of_moving(
         &self,
         lamp: &Lamp,
-        body: BodyId,
+        (place, body): (LampPlace, BodyId),
         frames: &RestFrames,
         add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
     ) {
@@ -120,7 +122,7 @@ impl SurfaceElement {
         let (of_surface, of_lamp) = (axes_of(self.body), axes_of(body));
         let (point, normal) = (of_surface * self.point, of_surface * self.normal);
         let (velocity, motion) = (frames.velocity(self.body), frames.velocity(body));
-        let light = match lamp.place {
+        let light = match place {
             LampPlace::Everywhere => {
                 for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {
                     add(level, doppler, None, 1.0);

@@ -1,16 +1,27 @@
 //! The lights of a scene, with their colours and places ready to compute with.
 
+use std::sync::LazyLock;
+
 use glam::DVec3;
 use ugphysics::{length, srgb_decode, unit_or_zero};
 use ugscene::{ColorValue, Light, LightKind, LightMotion, Scene};
+use ugspectrum::{LightSpectrum, Spectrum};
 
-use crate::{hsv, light};
+use crate::{hsv, light, spectrum};
+
+/// The intensity of the ambient light in a scene without lights.
+pub const DEFAULT_AMBIENT: f64 = 0.3;
+
+/// The intensity of the directional light from the eye in a scene without lights.
+pub const DEFAULT_FROM_EYE: f64 = 0.7;
 
 /// A light of a scene, ready to compute with.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Lamp {
     /// What kind of light, and where.
     pub place: LampPlace,
+    /// Level of its light on a white surface at normal incidence.
+    pub intensity: f64,
     /// Display-encoded red, green and blue, times the intensity. In this form light of several
     /// lamps is added, and multiplies the display-encoded colour of a surface, as in 1988.
     pub color: DVec3,
@@ -18,8 +29,12 @@ pub struct Lamp {
     pub linear: DVec3,
     /// True if the light is neither white nor grey.
     pub is_colored: bool,
+    /// The spectrum of its colour: `None` for daylight, and where colours are not spectra.
+    own_spectrum: Option<LightSpectrum>,
     /// How it moves.
     pub motion: LightMotion,
+    /// Radius of a sphere that casts soft shadows; 0 for a point, and for a light without a place.
+    pub radius: f64,
     /// How its light falls off with distance; `None` if the level is the same at any distance.
     pub fall_off: Option<FallOff>,
 }
@@ -68,11 +83,46 @@ pub enum LampPlace {
     At(DVec3),
 }
 
-/// The lights of a scene, in its order.
-///
-/// `eye`: in scene coordinates.
-pub fn lamps(scene: &Scene, eye: DVec3) -> Vec<Lamp> {
-    scene.lights.iter().map(|light| lamp(scene, light, eye)).collect()
+/// The lights of a scene, in its order, or the default ones.
+#[derive(Clone, Debug)]
+pub struct Lamps {
+    all: Vec<Lamp>,
+    /// True if a light is neither white nor grey.
+    pub is_colored: bool,
+    /// True if no light has a colour, so that white surfaces reflect daylight.
+    pub is_daylight: bool,
+}
+
+impl Lamps {
+    /// The lights of a scene.
+    ///
+    /// `eye`: in scene coordinates. `is_spectral`: colours are spectra, those of lamps as well.
+    pub fn new(scene: &Scene, eye: DVec3, is_spectral: bool) -> Self {
+        let all: Vec<Lamp> = scene.lights.iter().map(|light| lamp(scene, light, eye, is_spectral)).collect();
+        let is_colored = all.iter().any(|lamp| lamp.is_colored);
+        Self { all, is_colored, is_daylight: scene.lights.iter().all(|light| light.color.is_none()) }
+    }
+
+    /// As [`Lamps::new`]; in a scene without lights an ambient light ([`DEFAULT_AMBIENT`]) and one
+    /// from the eye ([`DEFAULT_FROM_EYE`]).
+    ///
+    /// `forward`: unit vector along the view.
+    pub fn or_default(scene: &Scene, eye: DVec3, forward: DVec3, is_spectral: bool) -> Self {
+        let mut lamps = Self::new(scene, eye, is_spectral);
+        if lamps.all.is_empty() {
+            let from_eye = Lamp::white(LampPlace::Afar(-forward), DEFAULT_FROM_EYE);
+            lamps.all = vec![Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT), from_eye];
+        }
+        lamps
+    }
+}
+
+impl std::ops::Deref for Lamps {
+    type Target = [Lamp];
+
+    fn deref(&self) -> &[Lamp] {
+        &self.all
+    }
 }
 
 /// True if light of the scene has another spectrum than daylight, so that with spectra it multiplies
@@ -86,7 +136,7 @@ pub fn has_colored_lamps(scene: &Scene) -> bool {
     })
 }
 
-fn lamp(scene: &Scene, statement: &Light, eye: DVec3) -> Lamp {
+fn lamp(scene: &Scene, statement: &Light, eye: DVec3, is_spectral: bool) -> Lamp {
     let place = match statement.kind {
         LightKind::Ambient => LampPlace::Everywhere,
         // Divided first: the square of a large component may be too large.
@@ -95,12 +145,13 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3) -> Lamp {
         }
         LightKind::Local { position, .. } => LampPlace::At(position - eye),
     };
-    let fall_off = match statement.kind {
-        LightKind::Local { radius, reference: Some(reference), .. } => Some(FallOff::new(reference, radius)),
-        _ => None,
+    let (radius, reference) = match statement.kind {
+        LightKind::Local { radius, reference, .. } => (radius, reference),
+        _ => (0.0, None),
     };
+    let fall_off = reference.map(|reference| FallOff::new(reference, radius));
     let motion = statement.motion;
-    let white = Lamp { motion, fall_off, ..Lamp::white(place, statement.intensity) };
+    let white = Lamp { motion, radius, fall_off, ..Lamp::white(place, statement.intensity) };
     let Some(id) = statement.color else { return white };
     let color = &scene.colors[id.index()];
     let shown = hsv(scene, color);
@@ -110,6 +161,7 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3) -> Lamp {
         color: DVec3::from_array(encoded) * statement.intensity,
         linear: DVec3::from_array(linear) * statement.intensity,
         is_colored: shown.saturation > 0.0,
+        own_spectrum: is_spectral.then(|| LightSpectrum::new(&spectrum(scene, color).0)),
         ..white
     }
 }
@@ -119,7 +171,26 @@ impl Lamp {
     pub fn white(place: LampPlace, intensity: f64) -> Lamp {
         let color = DVec3::splat(intensity);
         let motion = LightMotion::WithWhatItLights;
-        Lamp { place, color, linear: color, is_colored: false, motion, fall_off: None }
+        let (own_spectrum, fall_off) = (None, None);
+        Lamp {
+            place,
+            intensity,
+            color,
+            linear: color,
+            is_colored: false,
+            own_spectrum,
+            motion,
+            radius: 0.0,
+            fall_off,
+        }
+    }
+
+    /// Its spectrum: daylight filtered by its colour, or the black body or samples that its colour
+    /// is.
+    pub fn spectrum(&self) -> &LightSpectrum {
+        static DAYLIGHT: LazyLock<LightSpectrum> =
+            LazyLock::new(|| LightSpectrum::new(&Spectrum::from_linear_srgb([1.0; 3])));
+        self.own_spectrum.as_ref().unwrap_or(&DAYLIGHT)
     }
 
     /// The part of its intensity that arrives at a distance in its rest frame: 1 unless its light
@@ -129,31 +200,37 @@ impl Lamp {
         self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance))
     }
 
-    /// The lamp as a body sees it. `shift`: of lamps that rest with what they light, see
+    /// A place of it as a body sees it. `shift`: of lamps that rest with what they light, see
     /// [`ugscene::RestFrames::lamp_shift`].
     #[must_use]
     #[inline]
-    pub fn shifted(mut self, shift: DVec3) -> Lamp {
-        if let (LampPlace::At(place), LightMotion::WithWhatItLights) = (&mut self.place, self.motion) {
-            *place += shift;
+    pub fn shifted(&self, place: LampPlace, shift: DVec3) -> LampPlace {
+        match (place, self.motion) {
+            (LampPlace::At(place), LightMotion::WithWhatItLights) => LampPlace::At(place + shift),
+            (place, _) => place,
         }
-        self
     }
 
     /// The irradiance of a surface that rests with the lamp, as a part of the lamp's intensity:
     /// max(0, n·l), times the fall-off of the lamp, or 1 for ambient light.
     ///
     /// `point`: of the surface, relative to the eye. `normal`: unit vector on the side that is
-    /// seen, or zero for a surface without one.
+    /// seen, or zero for a surface without one. `shift`: see [`Lamp::shifted`].
     #[inline]
-    pub fn level_at_rest(&self, point: DVec3, normal: DVec3) -> f64 {
-        let toward = match self.place {
+    pub fn level_at_rest(&self, point: DVec3, normal: DVec3, shift: DVec3) -> f64 {
+        self.level_from(self.shifted(self.place, shift), point, normal)
+    }
+
+    /// As [`Lamp::level_at_rest`], from a place of the lamp as the body of the surface sees it.
+    #[inline]
+    pub fn level_from(&self, place: LampPlace, point: DVec3, normal: DVec3) -> f64 {
+        let toward = match place {
             LampPlace::Everywhere => return 1.0,
             LampPlace::Afar(toward) => toward,
             LampPlace::At(place) => unit_or_zero(place - point),
         };
         let level = normal.dot(toward).max(0.0);
-        match (self.fall_off, self.place) {
+        match (self.fall_off, place) {
             (Some(fall_off), LampPlace::At(place)) => level * fall_off.at(length(place - point)),
             _ => level,
         }

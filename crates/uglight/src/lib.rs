@@ -2,7 +2,7 @@
 //!
 //! Several programs need the same answers. A filter that puts light into vertex colours, a renderer
 //! that shades corners or samples, a program that refines edges where light changes: each asks
-//! which [`lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps
+//! which [`Lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps
 //! at rest with what they light, [`SurfaceElement`] for lamps that move against it), and which
 //! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`],
 //! [`spectrum`]).
@@ -11,23 +11,24 @@
 //! [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a
 //! [`SpectralShift`]; a [`ColorShift`] is either. All hold for a vertex, a sample or a ray.
 //!
-//! A renderer reads the colours of a scene as a [`Palette`] and [`SurfaceAttributes`], interpolates
-//! between corners, and has the apparent colour of each sample computed by an [`Appearance`].
+//! A renderer has the colours of a scene as an [`Appearance`]. It interpolates them between corners;
+//! [`Appearance::seen`] is the apparent colour of a sample, which is lit afterwards, and
+//! [`Appearance::light`] the light that a ray meets, of a [`SurfaceColor`] under lamps behind filters.
 //!
 //! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
 //! statements of a [`Scene`].
 //!
 //! ```
 //! use glam::DVec3;
-//! use uglight::lamps;
+//! use uglight::Lamps;
 //!
 //! let source = ugparse::Source::new("lamp.ug", "c blue 1 240; l 0.5 0 0 1 blue;");
 //! let scene = ugparse::parse(&source, &ugparse::Options::default())?.scene;
-//! let lamp = lamps(&scene, DVec3::ZERO)[0];
+//! let lamp = &Lamps::new(&scene, DVec3::ZERO, false)[0];
 //! // Light that comes in at 60 degrees to the normal.
 //! let normal = DVec3::new(0.75f64.sqrt(), 0.0, 0.5);
 //! assert_eq!(lamp.color, DVec3::new(0.0, 0.0, 0.5));
-//! assert!((lamp.level_at_rest(DVec3::ZERO, normal) - 0.5).abs() < 1e-15);
+//! assert!((lamp.level_at_rest(DVec3::ZERO, normal, DVec3::ZERO) - 0.5).abs() < 1e-15);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -44,7 +45,6 @@ mod irradiance;
 mod lamp;
 mod light_names;
 mod lighting;
-mod lit_tables;
 mod palette;
 mod shift;
 mod spectra;
@@ -52,18 +52,16 @@ mod spectral;
 mod surface_attributes;
 mod vertex_color;
 
-pub use appearance::Appearance;
-pub use color::{hsv, hsv_and_factor, is_light, light, spectra_note, spectrum};
+pub use appearance::{Appearance, Filter, Light, SurfaceColor};
+pub use color::{RestColor, hsv, hsv_and_factor, is_light, light, spectra_note, spectrum};
 pub use face_colors::Common;
 pub use hue::{HueColor, HueShift};
-pub use hue_table::HueTable;
 pub use irradiance::{IncidentLamp, Irradiance, SurfaceElement};
-pub use lamp::{FallOff, Lamp, LampPlace, has_colored_lamps, lamps};
+pub use lamp::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, FallOff, Lamp, LampPlace, Lamps, has_colored_lamps};
 pub use light_names::light_names;
-pub use lighting::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, Lighting};
+pub use lighting::Lighting;
 pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
-pub use spectra::Spectra;
-pub use spectral::{SpectralColor, SpectralFilter, SpectralLamp, SpectralShift, spectral_lamps};
+pub use spectral::{SpectralColor, SpectralFilter, SpectralShift};
 pub use surface_attributes::SurfaceAttributes;
 pub use vertex_color::{VertexColor, vertex_colors};

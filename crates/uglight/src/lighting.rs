@@ -4,13 +4,7 @@ use glam::DVec3;
 use ugphysics::Brightness;
 use ugscene::{LightKind, Scene};
 
-use crate::{Irradiance, Lamp, LampPlace, lamps, light_names};
-
-/// The intensity of the ambient light in a scene without lights.
-pub const DEFAULT_AMBIENT: f64 = 0.3;
-
-/// The intensity of the directional light from the eye in a scene without lights.
-pub const DEFAULT_FROM_EYE: f64 = 0.7;
+use crate::{Irradiance, Lamp, LampPlace, Lamps, light_names};
 
 /// The lights of a scene, each at rest with the face it lights: the rule of 1988.
 ///
@@ -28,47 +22,37 @@ pub struct Lighting {
     /// All others.
     lamps: Vec<Lamp>,
     /// All lamps, if one is neither white nor grey.
-    colored: Vec<Lamp>,
+    colored: Option<Lamps>,
     acts_on_light: bool,
 }
 
 impl Lighting {
-    /// The lights of the scene; if it has none, an ambient light ([`DEFAULT_AMBIENT`]) and one
-    /// from the eye ([`DEFAULT_FROM_EYE`]).
+    /// The lights of the scene, or the default ones, see [`Lamps::or_default`].
     ///
     /// `eye`: in scene coordinates. `forward`: unit vector along the view. `law`: the brightness law
     /// of hues, which determines whether levels multiply their linear light.
     pub fn new(scene: &Scene, eye: DVec3, forward: DVec3, law: Brightness) -> Self {
-        let acts_on_light = law.acts_on_light();
-        if scene.lights.is_empty() {
-            let from_eye = Lamp::white(LampPlace::Afar(-forward), DEFAULT_FROM_EYE);
-            let ambient = Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT);
-            return Self { ambient, lamps: vec![from_eye], colored: Vec::new(), acts_on_light };
-        }
-        let all = lamps(scene, eye);
-        let is_colored = all.iter().any(|lamp| lamp.is_colored);
-        let colored = if is_colored { all.clone() } else { Vec::new() };
+        let all = Lamps::or_default(scene, eye, forward, false);
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
-            all.into_iter().partition(|lamp| lamp.place == LampPlace::Everywhere);
-        let ambient = Lamp {
-            color: ambient.iter().map(|lamp| lamp.color).sum(),
-            linear: ambient.iter().map(|lamp| lamp.linear).sum(),
-            ..Lamp::white(LampPlace::Everywhere, 0.0)
-        };
-        Self { ambient, lamps, colored, acts_on_light }
+            all.iter().cloned().partition(|lamp| lamp.place == LampPlace::Everywhere);
+        let mut sum = Lamp::white(LampPlace::Everywhere, 0.0);
+        sum.color = ambient.iter().map(|lamp| lamp.color).sum();
+        sum.linear = ambient.iter().map(|lamp| lamp.linear).sum();
+        let colored = all.is_colored.then_some(all);
+        Self { ambient: sum, lamps, colored, acts_on_light: law.acts_on_light() }
     }
 
     /// True if a light is neither white nor grey, so that levels differ between red, green and
     /// blue.
     #[inline]
     pub fn is_colored(&self) -> bool {
-        !self.colored.is_empty()
+        self.colored.is_some()
     }
 
     /// The lamps of a scene in which a light is neither white nor grey; none in other scenes.
     #[inline]
     pub fn colored_lamps(&self) -> &[Lamp] {
-        &self.colored
+        self.colored.as_deref().unwrap_or_default()
     }
 
     /// What each of the [coloured lamps](Self::colored_lamps) contributes. The arguments: as of
@@ -76,10 +60,10 @@ impl Lighting {
     pub fn irradiances(&self, point: DVec3, normal: DVec3, shift: DVec3) -> Vec<Irradiance> {
         let irradiance = |(row, lamp): (usize, &Lamp)| Irradiance {
             lamp: row as u32,
-            level: lamp.shifted(shift).level_at_rest(point, normal),
+            level: lamp.level_at_rest(point, normal, shift),
             doppler: 1.0,
         };
-        let all = self.colored.iter().enumerate().map(irradiance);
+        let all = self.colored_lamps().iter().enumerate().map(irradiance);
         all.filter(|part| part.level > 0.0).collect()
     }
 
@@ -122,8 +106,7 @@ impl Lighting {
 
     #[inline]
     fn sum(&self, point: DVec3, normal: DVec3, shift: DVec3, scale: impl Fn(&Lamp) -> DVec3) -> DVec3 {
-        let lit =
-            |sum: DVec3, lamp: &Lamp| sum + scale(lamp) * lamp.shifted(shift).level_at_rest(point, normal);
+        let lit = |sum: DVec3, lamp: &Lamp| sum + scale(lamp) * lamp.level_at_rest(point, normal, shift);
         self.lamps.iter().fold(scale(&self.ambient), lit)
     }
 
@@ -149,7 +132,7 @@ impl Lighting {
             [(row, name)] if scene.lights.get(*row).is_some_and(|light| light.name.is_some()) => name,
             _ => "ambient",
         };
-        let part = |(lamp, (_, name))| (name, scale(lamp) * lamp.shifted(shift).level_at_rest(point, normal));
+        let part = |(lamp, (_, name))| (name, scale(lamp) * lamp.level_at_rest(point, normal, shift));
         let others = self.lamps.iter().zip(others).map(part);
         std::iter::once((ambient.to_owned(), scale(&self.ambient))).chain(others).collect()
     }

@@ -1,6 +1,7 @@
 //! How motion changes colours, by either model of colour.
 
 use ugphysics::Brightness;
+use ugscene::{ColorScale, HueScale, SeenColors};
 
 use crate::{HueShift, SpectralShift};
 
@@ -17,6 +18,9 @@ impl ColorShift {
     /// Colours stay as they are at rest.
     pub const NONE: Self = Self::Hues(HueShift::NONE);
 
+    /// All that motion changes in spectra.
+    pub const SPECTRA: Self = Self::Spectra(SpectralShift { doppler: true, flux: true });
+
     /// The shift of spectra, or of hues with a brightness law (by default that of 1988). `doppler`,
     /// `flux`: wavelengths and brightness change.
     #[must_use]
@@ -25,6 +29,38 @@ impl ColorShift {
             return Self::Spectra(SpectralShift { doppler, flux });
         }
         Self::Hues(HueShift { doppler, law: if flux { law.unwrap_or_default() } else { Brightness::None } })
+    }
+
+    /// A shift of hues. `doppler`: wavelengths are divided by D. `law`: the brightness law.
+    #[must_use]
+    pub const fn hues(doppler: bool, law: Brightness) -> Self {
+        Self::Hues(HueShift { doppler, law })
+    }
+
+    /// The shift of hues; none if colours are spectra.
+    #[must_use]
+    pub fn of_hues(self) -> HueShift {
+        match self {
+            Self::Hues(shift) => shift,
+            Self::Spectra(_) => HueShift::NONE,
+        }
+    }
+
+    /// True if colours are spectra.
+    #[must_use]
+    pub fn is_spectral(self) -> bool {
+        matches!(self, Self::Spectra(_))
+    }
+
+    /// What a scene says of colours that it was applied to. `unit`: of their hues. `lights`: the light
+    /// of lamps is in them.
+    #[must_use]
+    pub fn seen_colors(self, unit: HueScale, lights: bool) -> SeenColors {
+        let scale = match self {
+            Self::Hues(shift) => ColorScale::Hues { unit, law: shift.law },
+            Self::Spectra(shift) => ColorScale::Spectra { flux: shift.flux },
+        };
+        SeenColors { scale, doppler: self.shifts_wavelengths(), lights }
     }
 
     /// True if wavelengths are divided by D.

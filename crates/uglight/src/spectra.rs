@@ -1,13 +1,14 @@
 //! Spectra of the colours of a scene, tabulated over the Doppler factor.
 
+use std::sync::OnceLock;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, Scene, Shares};
-use ugspectrum::{DopplerGrid, Spectrum};
+use ugspectrum::{DopplerGrid, DopplerTable, Spectrum};
 
-use crate::lit_tables::LitTables;
-use crate::{Irradiance, SpectralColor, SpectralFilter, SpectralLamp, SpectralShift};
+use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
 
 /// The apparent light of mixtures of spectra as a function of the Doppler factor.
 pub struct Spectra {
@@ -19,8 +20,10 @@ pub struct Spectra {
     colors: Vec<SpectralColor>,
     /// |ln D| up to which the spectra are tabulated.
     reach: f64,
-    /// Colours under the lamps of the scene; `None` if all of these are daylight.
-    lit: Option<LitTables>,
+    /// The lamps of the scene; `None` if all of these are daylight.
+    lamps: Option<Lamps>,
+    /// For each colour and lamp, the colour under the lamp, tabulated.
+    lit: Vec<OnceLock<DopplerTable>>,
 }
 
 impl Spectra {
@@ -34,55 +37,68 @@ impl Spectra {
             .map(|row: usize| row.checked_sub(1).map(ColorId::from_index))
             .map(|color| SpectralColor::new(scene, color).tabulated(&grid))
             .collect();
-        Self { shift, grid, rows, colors, reach, lit: None }
+        Self { shift, grid, rows, colors, reach, lamps: None, lit: Vec::new() }
     }
 
-    /// The same, with the lamps of the scene for [`Spectra::light_of_lamps`]. `eye`: in scene
-    /// coordinates.
+    /// The same, with the lamps of the scene for [`Spectra::light`]. `eye`: in scene coordinates.
     pub fn with_lamps(self, scene: &Scene, eye: DVec3) -> Self {
-        let lit = crate::has_colored_lamps(scene).then(|| LitTables::new(scene, eye, self.colors.len()));
-        Self { lit, ..self }
+        if !crate::has_colored_lamps(scene) {
+            return self;
+        }
+        let lamps = Lamps::new(scene, eye, true);
+        let lit = std::iter::repeat_with(OnceLock::new).take(self.colors.len() * lamps.len()).collect();
+        Self { lamps: Some(lamps), lit, ..self }
     }
 
     /// True if the scene has coloured lamps.
     pub fn has_colored_lamps(&self) -> bool {
-        self.lit.is_some()
+        self.lamps.is_some()
     }
 
-    /// Linear red, green and blue of a row under the lamps of the scene, at rest with it, at a ln D
-    /// within the reach; 0 without coloured lamps. Black bodies and samples are not lit.  Eq. (P14)
+    /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P14), (P19)
     ///
-    /// `place`: point, normal and shift of lamps as for [`crate::Lighting::level`].
-    pub fn light_of_lamps(&self, row: u32, ln_doppler: f64, place: [DVec3; 3]) -> DVec3 {
-        let Some(lit) = &self.lit else { return DVec3::ZERO };
-        let ln_shift = self.shift.ln_shift(ln_doppler);
-        let gain = libm::exp(self.shift.ln_gain(ln_doppler));
-        let seen = |color: Option<ColorId>| {
-            let row = color.map_or(0, |color| color.index() + 1);
-            let color = &self.colors[row];
-            if color.spectrum().is_surface() {
-                gain * lit.xyz((row, color), &self.grid, ln_shift, place)
-            } else {
-                DVec3::from_array(color.seen(&self.grid, ln_doppler, self.shift))
-            }
-        };
-        let parts = self.rows[row as usize].parts();
-        let xyz: DVec3 = parts.map(|(color, share)| share * seen(color)).sum();
-        DVec3::from_array(xyz_to_linear_srgb(xyz.to_array()))
-    }
-
-    /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P19)
-    pub fn light(&self, row: u32, ln_doppler: f64) -> DVec3 {
+    /// `place`: under the [coloured lamps](Self::with_lamps), if the row is to be seen in their light:
+    /// point, normal and shift of lamps as for [`crate::Lighting::level`], and ln D is then within
+    /// the reach. Black bodies and samples are not lit.
+    pub fn light(&self, row: u32, ln_doppler: f64, place: Option<[DVec3; 3]>) -> DVec3 {
         // Rounding may exceed the rapidity slightly.
         let is_near = ln_doppler.abs() <= self.reach + 1e-9;
-        self.mean(row, |color| {
+        let (ln_shift, gain) = (self.shift.ln_shift(ln_doppler), self.shift.ln_gain(ln_doppler));
+        self.mean(row, |row| {
+            let color = &self.colors[row];
+            if let (Some(lamps), Some(place), true) = (&self.lamps, place, color.spectrum().is_surface()) {
+                return libm::exp(gain) * self.xyz_under(lamps, row, ln_shift, place);
+            }
             if is_near {
                 return DVec3::from_array(color.seen(&self.grid, ln_doppler, self.shift));
             }
-            let gain = libm::exp(self.shift.ln_gain(ln_doppler));
-            let shifted = color.spectrum().shifted(libm::exp(self.shift.ln_shift(ln_doppler)));
-            gain * DVec3::from_array(shifted)
+            libm::exp(gain) * DVec3::from_array(color.spectrum().shifted(libm::exp(ln_shift)))
         })
+    }
+
+    /// X, Y, Z of a surface under the lamps of the scene, at rest with it, without the factor D⁵.
+    /// `row`: of its colour.
+    fn xyz_under(
+        &self,
+        lamps: &Lamps,
+        row: usize,
+        ln_shift: f64,
+        [point, normal, shift]: [DVec3; 3],
+    ) -> DVec3 {
+        let mut sum = DVec3::ZERO;
+        for (at, lamp) in lamps.iter().enumerate() {
+            let level = lamp.intensity * lamp.level_at_rest(point, normal, shift);
+            if level > 0.0 {
+                // Made at first use, since few colours are seen under each lamp.
+                let table = self.lit[row * lamps.len() + at].get_or_init(|| {
+                    let surface = self.colors[row].spectrum();
+                    let lit = |doppler: f64| surface.under(lamp.spectrum(), doppler, 1.0);
+                    self.grid.table_of(|doppler| lit(doppler).unwrap_or_default())
+                });
+                sum += level * DVec3::from_array(table.xyz(ln_shift));
+            }
+        }
+        sum
     }
 
     /// Linear red, green and blue of a row under several lamps, behind filters.  Eq. (P14), (P19)
@@ -91,30 +107,29 @@ impl Spectra {
         row: u32,
         doppler: f64,
         light: &[Irradiance],
-        lamps: &[SpectralLamp],
+        lamps: &[Lamp],
         filters: &[SpectralFilter<'_>],
     ) -> DVec3 {
-        self.mean(row, |color| match filters {
-            [] => self.shift.seen_lit(color.spectrum(), doppler, light, lamps),
-            _ => self.shift.seen_filtered(color.spectrum(), doppler, light, lamps, filters),
-        })
+        self.mean(row, |row| self.shift.seen_lit(self.colors[row].spectrum(), doppler, light, lamps, filters))
     }
 
     /// The strongest colour of a row.
     pub fn spectrum(&self, row: u32) -> &Spectrum {
         let parts = self.rows[row as usize].parts();
         let strongest = parts.reduce(|best, part| if part.1 > best.1 { part } else { best });
-        self.color(strongest.and_then(|(color, _)| color)).spectrum()
+        self.colors[color_row(strongest.and_then(|(color, _)| color))].spectrum()
     }
 
-    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue.
-    fn mean(&self, row: u32, seen: impl Fn(&SpectralColor) -> DVec3) -> DVec3 {
+    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue. `seen`: of the row
+    /// of a colour.
+    fn mean(&self, row: u32, seen: impl Fn(usize) -> DVec3) -> DVec3 {
         let parts = self.rows[row as usize].parts();
-        let xyz: DVec3 = parts.map(|(color, share)| share * seen(self.color(color))).sum();
+        let xyz: DVec3 = parts.map(|(color, share)| share * seen(color_row(color))).sum();
         DVec3::from_array(xyz_to_linear_srgb(xyz.to_array()))
     }
+}
 
-    fn color(&self, color: Option<ColorId>) -> &SpectralColor {
-        &self.colors[color.map_or(0, |color| color.index() + 1)]
-    }
+/// The row of a colour behind white, which comes first.
+fn color_row(color: Option<ColorId>) -> usize {
+    color.map_or(0, |color| color.index() + 1)
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugscene::{ColorId, Scene};
 use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
 
-use crate::{Irradiance, spectrum};
+use crate::{Irradiance, Lamp, spectrum};
 
 /// What motion changes in a spectrum, L(λ) = D⁵ L'(λD): wavelengths, and the radiance at each.  Eq.
 /// (P12)
@@ -32,31 +32,44 @@ impl SpectralShift {
         if self.flux { 5.0 * ln_doppler } else { 0.0 }
     }
 
-    /// X, Y, Z of a surface under several lamps, seen with the Doppler factor `doppler`: those of
-    /// L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l), over the lamps. R is the
-    /// reflectance, S the lamp's spectrum. What is no surface emits what it emits without lamps.
-    /// Eq. (P14)
+    /// X, Y, Z of a surface under several lamps behind filters, seen with the Doppler factor
+    /// `doppler`: those of L(λ) = D⁵ Σ D_l³ · level · intensity · R(λD) S(λ D D_l) Π T(λ D_f), the
+    /// sum over the lamps, the product over the filters. R is the reflectance, S the spectrum of a
+    /// lamp, T the transmittance of a filter. Black bodies and samples emit what they emit without
+    /// lamps.  Eq. (P14)
     #[must_use]
     pub fn seen_lit(
         self,
         surface: &Spectrum,
         doppler: f64,
         light: &[Irradiance],
-        lamps: &[SpectralLamp],
+        lamps: &[Lamp],
+        filters: &[SpectralFilter<'_>],
     ) -> DVec3 {
         let shift = |doppler: f64| if self.doppler { doppler } else { 1.0 };
         let flux = |factor: f64| if self.flux { factor } else { 1.0 };
+        let through = |nm: f64| {
+            let part = |filter: &SpectralFilter<'_>| filter.color.transmittance(nm * shift(filter.doppler));
+            filters.iter().map(part).product::<f64>()
+        };
         let square = doppler * doppler;
-        let gain = flux(square * square * doppler);
+        let (own, gain) = (shift(doppler), flux(square * square * doppler));
         if !surface.is_surface() {
-            return gain * DVec3::from(surface.shifted(shift(doppler)));
+            if filters.is_empty() {
+                return gain * DVec3::from(surface.shifted(own));
+            }
+            let emitted = LightSpectrum::new(surface);
+            return gain * DVec3::from(integrate(|nm| emitted.at(nm * own) * through(nm)));
         }
         let mut sum = DVec3::ZERO;
         for part in light {
             let lamp = &lamps[part.lamp as usize];
-            let xyz = surface.under(&lamp.light, shift(doppler), shift(part.doppler)).unwrap_or_default();
+            let of_lamp = shift(part.doppler);
+            let seen = |nm: f64| {
+                surface.transmittance(nm * own) * lamp.spectrum().at(nm * own * of_lamp) * through(nm)
+            };
             let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
-            sum += received * gain * DVec3::from(xyz);
+            sum += received * gain * DVec3::from(integrate(seen));
         }
         sum
     }
@@ -71,76 +84,12 @@ pub struct SpectralFilter<'a> {
     pub doppler: f64,
 }
 
-impl SpectralShift {
-    /// Like [`SpectralShift::seen_lit`], behind filters: L(λ) is multiplied by the transmittance
-    /// T(λ D_f) of each.
-    #[must_use]
-    pub fn seen_filtered(
-        self,
-        surface: &Spectrum,
-        doppler: f64,
-        light: &[Irradiance],
-        lamps: &[SpectralLamp],
-        filters: &[SpectralFilter<'_>],
-    ) -> DVec3 {
-        let shift = |doppler: f64| if self.doppler { doppler } else { 1.0 };
-        let flux = |factor: f64| if self.flux { factor } else { 1.0 };
-        let own = shift(doppler);
-        let through = |nm: f64| {
-            let part = |filter: &SpectralFilter<'_>| filter.color.transmittance(nm * shift(filter.doppler));
-            filters.iter().map(part).product::<f64>()
-        };
-        let square = doppler * doppler;
-        let gain = flux(square * square * doppler);
-        if !surface.is_surface() {
-            let emitted = LightSpectrum::new(surface);
-            return gain * DVec3::from(integrate(|nm| emitted.at(nm * own) * through(nm)));
-        }
-        let mut sum = DVec3::ZERO;
-        for part in light {
-            let lamp = &lamps[part.lamp as usize];
-            let of_lamp = own * shift(part.doppler);
-            let seen = |nm: f64| surface.transmittance(nm * own) * lamp.light.at(nm * of_lamp) * through(nm);
-            let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
-            sum += received * gain * DVec3::from(integrate(seen));
-        }
-        sum
-    }
-}
-
-/// The spectrum of a lamp, and its intensity.
-#[derive(Clone, Debug)]
-pub struct SpectralLamp {
-    pub(crate) light: LightSpectrum,
-    pub(crate) intensity: f64,
-}
-
-/// The lamps of a scene, in its order: daylight filtered by the lamp's colour, or the black body or
-/// samples that its colour is.
-#[must_use]
-pub fn spectral_lamps(scene: &Scene) -> Vec<SpectralLamp> {
-    let of_color = |color: Option<ColorId>| SpectralColor::new(scene, color).spectrum;
-    let lamp = |light: &ugscene::Light| SpectralLamp {
-        light: LightSpectrum::new(&of_color(light.color)),
-        intensity: light.intensity,
-    };
-    scene.lights.iter().map(lamp).collect()
-}
-
 /// The spectrum of a colour of a scene.
 #[derive(Clone, Debug)]
 pub struct SpectralColor {
     spectrum: Spectrum,
     is_exact: bool,
     table: Option<DopplerTable>,
-}
-
-impl SpectralLamp {
-    /// White light of an intensity.
-    #[must_use]
-    pub fn white(intensity: f64) -> Self {
-        Self { light: LightSpectrum::new(&Spectrum::from_linear_srgb([1.0; 3])), intensity }
-    }
 }
 
 impl SpectralColor {

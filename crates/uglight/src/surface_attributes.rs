@@ -1,11 +1,15 @@
 //! What vertices look like and where they rest.
 
+use std::ops::Range;
+
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
-use ugscene::{BodyId, ColorId, RestFrames, Scene, Shares, VertexId, rest_positions, vertex_shares};
+use ugscene::{
+    BodyId, ColorId, ColorValue, RestFrames, Scene, Shares, VertexId, Wire, rest_positions, vertex_shares,
+};
 
-use crate::{Palette, Swatch, VertexColor, vertex_colors};
+use crate::{ColorShift, HueShift, Palette, RestColor, Swatch, VertexColor, vertex_colors};
 
 /// Colours and rest positions of the vertices of a scene.
 #[derive(Clone, Debug)]
@@ -53,6 +57,25 @@ impl SurfaceAttributes {
     pub fn greatest_rapidity(&self, scene: &Scene) -> f64 {
         let bodies = (0..scene.bodies.len()).map(BodyId::from_index);
         bodies.map(|body| self.frames.velocity(body).rapidity()).fold(0.0, f64::max)
+    }
+
+    /// True if hues are shifted, and a face or one of `wires` that moves has a black body or a sampled
+    /// spectrum, which has no hue.
+    pub fn has_moving_spectra(&self, scene: &Scene, wires: &[Wire], shift: ColorShift) -> bool {
+        let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
+        let is_spectrum = |color: ColorId| {
+            let value = scene.colors[color.index()].value;
+            matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
+        };
+        let moves = |body: BodyId, contours: &Range<u32>, color: Option<ColorId>| {
+            let corners = scene.contours.corners(contours.clone());
+            let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(color);
+            !self.velocity(body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
+        };
+        let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
+        let mut wires = wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
+        let has_spectra = scene.colors.iter().any(crate::is_light);
+        has_spectra && is_hue && (faces.any(|moves| moves) || wires.any(|moves| moves))
     }
 
     /// The row of the colour of a vertex.
@@ -117,7 +140,7 @@ fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut V
     let rows = colors.map(|color| match color {
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
-        VertexColor::Mixed { hsv, light, translucency } => {
+        VertexColor::Mixed(RestColor { hsv, light, translucency }) => {
             let light = light.map(DVec3::from_array).or(palette.white().light);
             swatches.push(Swatch { light, translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.

@@ -1,10 +1,10 @@
 //! The colour of a vertex: its own, or the mean of those of its faces (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugphysics::{Hsv, srgb_decode, srgb_encode};
+use ugphysics::{Hsv, srgb_encode};
 use ugscene::{ColorId, Scene, Shares, vertex_shares};
 
-use crate::{hsv, is_light, light};
+use crate::{RestColor, is_light};
 
 /// The colour of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,16 +13,9 @@ pub enum VertexColor {
     Named(ColorId),
     /// Neither the vertex nor its faces have a colour: white.
     White,
-    /// Its faces have different colours: their mean in linear RGB, weighted by
-    /// the angle of the faces' corners.
-    Mixed {
-        /// The mean, hue in degrees.
-        hsv: Hsv,
-        /// The mean as linear light, without clipping, if one of the colours is [`light`].
-        light: Option<[f64; 3]>,
-        /// The mean translucency.
-        translucency: f64,
-    },
+    /// Its faces have different colours: their mean in linear RGB, weighted by the angle of the
+    /// faces' corners. It is light if one of the colours is.
+    Mixed(RestColor),
 }
 
 /// The colour of every vertex: its own, else from its faces, else from its wires.
@@ -33,9 +26,8 @@ pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
     let shares = vertex_shares(scene, positions);
     // Decoding is slow, and in most scenes no vertex has several colours.
     let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, Shares::Mixed(_))) {
-        let shown = |color| hsv(scene, color).to_rgb().map(srgb_decode);
-        let linear = |color| light(scene, color).unwrap_or_else(|| shown(color));
-        scene.colors.iter().map(|color| DVec3::from_array(linear(color))).collect()
+        let ids = (0..scene.colors.len()).map(ColorId::from_index);
+        ids.map(|color| RestColor::new(scene, Some(color)).linear()).collect()
     } else {
         Vec::new()
     };
@@ -59,11 +51,11 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
         translucency += color.map_or(0.0, |color| scene.colors[color.index()].translucency) * share;
     }
     let linear = sum.to_array();
-    VertexColor::Mixed {
+    VertexColor::Mixed(RestColor {
         hsv: Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0)))),
         light: has_light.then_some(linear),
         translucency,
-    }
+    })
 }
 
 #[cfg(test)]
@@ -79,8 +71,8 @@ mod tests {
             .map(|color| match color {
                 VertexColor::Named(id) => scene.names.get(scene.colors[id.index()].name).to_string(),
                 VertexColor::White => "white".to_string(),
-                VertexColor::Mixed { hsv, .. } => {
-                    let rgb = hsv.to_rgb().map(srgb_decode);
+                VertexColor::Mixed(color) => {
+                    let rgb = color.hsv.to_rgb().map(ugphysics::srgb_decode);
                     format!("{:.6} {:.6} {:.6}", rgb[0], rgb[1], rgb[2])
                 }
             })
@@ -120,7 +112,8 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let VertexColor::Mixed { light: Some(light), .. } = vertex_colors(&scene, &positions)[0] else {
+        let VertexColor::Mixed(RestColor { light: Some(light), .. }) = vertex_colors(&scene, &positions)[0]
+        else {
             panic!("two faces with two colours meet there")
         };
         let xyz = ugphysics::linear_srgb_to_xyz(light);

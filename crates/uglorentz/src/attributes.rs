@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use uglight::VertexColor;
-use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, unit_or_zero};
+use uglight::{RestColor, VertexColor};
+use ugphysics::{Hsv, unit_or_zero};
 use ugscene::{
     Color, ColorId, ColorValue, Mix, Mixtures, Scene, Shares, Tint, Vertex, face_vertices, vertex_shares,
 };
@@ -65,9 +65,7 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
     let shade = |color: VertexColor| match color {
         VertexColor::Named(id) => Shade::of(scene, Some(id)),
         VertexColor::White => Shade::of(scene, None),
-        VertexColor::Mixed { hsv, light, translucency } => {
-            Shade { color: None, is_mixture: true, hsv, light, translucency }
-        }
+        VertexColor::Mixed(rest) => Shade { color: None, is_mixture: true, rest },
     };
     let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
     let shares = vertex_shares(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
@@ -81,39 +79,15 @@ pub(crate) struct Shade {
     color: Option<Option<ColorId>>,
     /// Colours of several faces are mixed in it.
     is_mixture: bool,
-    hsv: Hsv,
-    /// Linear light, if it is given as light.
-    light: Option<[f64; 3]>,
-    translucency: f64,
+    rest: RestColor,
 }
 
 impl Shade {
     fn of(scene: &Scene, id: Option<ColorId>) -> Shade {
-        let Some(color) = id.map(|id| &scene.colors[id.index()]) else {
-            let hsv = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
-            return Shade { color: Some(id), is_mixture: false, hsv, light: None, translucency: 0.0 };
-        };
-        let mixtures = scene.stage.mixtures;
-        Shade {
-            color: Some(id),
-            is_mixture: mixtures.is_some_and(|mixtures| mixtures.contains(scene.names.get(color.name))),
-            hsv: uglight::hsv(scene, color),
-            light: uglight::light(scene, color),
-            translucency: color.translucency,
-        }
-    }
-
-    fn linear(&self) -> DVec3 {
-        DVec3::from_array(self.light.unwrap_or_else(|| self.hsv.to_rgb().map(srgb_decode)))
-    }
-
-    /// A statement of this colour.
-    fn value(&self) -> ColorValue {
-        let Hsv { hue, saturation, value } = self.hsv;
-        match self.light {
-            Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
-            None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
-        }
+        let name = |id: ColorId| scene.names.get(scene.colors[id.index()].name);
+        let is_mixture =
+            id.zip(scene.stage.mixtures).is_some_and(|(id, mixtures)| mixtures.contains(name(id)));
+        Shade { color: Some(id), is_mixture, rest: RestColor::new(scene, id) }
     }
 }
 
@@ -158,7 +132,7 @@ struct ColorMixer {
     prefix: String,
     mixed: FxHashMap<Mixture, ColorId>,
     mixtures: Mixtures,
-    stated: FxHashMap<([u64; 5], MixedColors), ColorId>,
+    stated: FxHashMap<([u64; 5], bool, MixedColors), ColorId>,
     white: Option<ColorId>,
 }
 
@@ -237,12 +211,8 @@ impl ColorMixer {
         if shade.color.is_some() {
             return None;
         }
-        let Hsv { hue, saturation, value } = shade.hsv;
-        let numbers = shade.light.unwrap_or([hue, saturation, value]);
-        let kind = u64::from(shade.light.is_some()) + 2 * u64::from(shade.is_mixture);
-        let [a, b, c] = numbers.map(f64::to_bits);
-        let numbers = [a, b, c, shade.translucency.to_bits(), kind];
-        let key = (numbers, shares.parts().map(|(color, share)| (color, share.to_bits())).collect());
+        let parts = shares.parts().map(|(color, share)| (color, share.to_bits())).collect();
+        let key = (shade.rest.key(), shade.is_mixture, parts);
         if let Some(&known) = self.stated.get(&key) {
             return Some(known);
         }
@@ -266,7 +236,8 @@ impl ColorMixer {
         };
         let parts: Vec<_> = shares.parts().map(part).collect();
         let color = ColorId::from_index(scene.colors.len());
-        scene.colors.push(Color { name, value: shade.value(), translucency: shade.translucency });
+        let RestColor { translucency, .. } = shade.rest;
+        scene.colors.push(Color { name, value: shade.rest.value(), translucency });
         // Of colours in ascending order, as the scene requires.
         scene.mixes.push(Mix { color, parts });
         color
@@ -310,17 +281,17 @@ fn blend(parts: impl Iterator<Item = (Shade, f64)>) -> Shade {
     let (mut hsv, mut hue_weight) = (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0);
     let (mut linear, mut translucency) = (DVec3::ZERO, 0.0);
     let (mut has_light, mut is_mixture) = (false, false);
-    for (shade, weight) in parts {
-        hsv.value += weight * shade.hsv.value;
-        hsv.saturation += weight * shade.hsv.saturation;
-        translucency += weight * shade.translucency;
-        if shade.hsv.saturation > 0.0 {
-            hsv.hue += weight * below_violet(shade.hsv.hue);
+    for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts {
+        hsv.value += weight * rest.hsv.value;
+        hsv.saturation += weight * rest.hsv.saturation;
+        translucency += weight * rest.translucency;
+        if rest.hsv.saturation > 0.0 {
+            hsv.hue += weight * below_violet(rest.hsv.hue);
             hue_weight += weight;
         }
-        linear += weight * shade.linear();
-        has_light |= shade.light.is_some();
-        is_mixture |= shade.is_mixture;
+        linear += weight * rest.linear();
+        has_light |= rest.light.is_some();
+        is_mixture |= is_mixed;
     }
     if hue_weight > 0.0 {
         hsv.hue /= hue_weight;
@@ -329,7 +300,7 @@ fn blend(parts: impl Iterator<Item = (Shade, f64)>) -> Shade {
     hsv.saturation = hsv.saturation.min(1.0);
     let translucency = translucency.min(1.0);
     let light = has_light.then(|| linear.to_array());
-    Shade { color: None, is_mixture, hsv, light, translucency }
+    Shade { color: None, is_mixture, rest: RestColor { hsv, light, translucency } }
 }
 
 /// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are

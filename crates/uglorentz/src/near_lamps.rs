@@ -6,7 +6,7 @@
 //! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional and ambient light do not change along an edge.
 
 use glam::DVec3;
-use uglight::{FallOff, LampPlace, lamps};
+use uglight::{FallOff, LampPlace, Lamps};
 use ugphysics::{Velocity, illumination};
 use ugscene::{BodyId, RestFrames, Scene};
 
@@ -48,7 +48,8 @@ impl NearLamps {
         if bound == f64::INFINITY {
             return Self::default();
         }
-        let near = lamps(scene, eye).into_iter().filter_map(|lamp| {
+        let lamps = Lamps::new(scene, eye, false);
+        let near = lamps.iter().filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));

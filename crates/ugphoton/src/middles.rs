@@ -75,7 +75,7 @@ impl<'a> Middles<'a> {
     /// it.
     pub fn item(&self, idx: usize) -> Option<SeenItem> {
         let ((s, item), ray) = (self.surfaces[idx]?, self.ray(idx)?);
-        let frames = self.scenery.surface.frames();
+        let frames = self.scenery.appearance.surface.frames();
         let body = self.scenery.scene.faces[item as usize].body;
         let emission = Emission {
             place: s * ray.step.x,
@@ -91,7 +91,7 @@ impl<'a> Middles<'a> {
     /// Light of a body along a ray, if the eye is in a transparent solid.
     fn in_medium(&self, ray: &Ray, body: BodyId) -> Option<MediumLight> {
         self.scenery.media_at(ray.origin).innermost()?;
-        let frame = RestFrame::new(self.scenery.surface.frames(), body);
+        let frame = RestFrame::new(self.scenery.appearance.surface.frames(), body);
         Some(MediumLight {
             doppler: ray.wave.frequency / frame.wave_to_rest(ray.wave).frequency,
             rest_direction: frame.to_rest(ray.step).x.normalize_or_zero(),

@@ -6,7 +6,7 @@ use ugscene::{Face, SurfaceProperties};
 
 use crate::config::Config;
 use crate::pixels::Statistics;
-use crate::scenery::{Lights, Scenery};
+use crate::scenery::Scenery;
 
 /// One in so many samples is not visible.
 const FEW: u64 = 1000;
@@ -16,7 +16,7 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
     let (scene, view) = (&scenery.scene, &scenery.view);
     let default_camera = view.default_camera.map(ugscene::Note::DefaultCamera);
     let mut notes: Vec<Note> = default_camera.into_iter().map(Note::Scene).collect();
-    if !scenery.lights.are_of_scene && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
+    if !scenery.has_lights() && scene.faces.iter().any(|face| scene.light_level(face).is_none()) {
         let (ambient, from_eye) = (DEFAULT_AMBIENT, DEFAULT_FROM_EYE);
         notes.push(Note::NoLights { ambient, from_eye, has_shadows: true });
     }
@@ -58,9 +58,11 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
 /// True if the light of lamps, which is followed backwards in straight lines (P24), may cross a
 /// refracting solid.
 fn lamps_shine_through_glass(scenery: &Scenery<'_>) -> bool {
-    let Lights { lamps, are_of_scene, .. } = &scenery.lights;
     let refracts = |surface: &SurfaceProperties| surface.transmitted > 0.0 && surface.refraction != 1.0;
     let is_refracting = |face: &Face| scenery.scene.surface(face).is_some_and(refracts);
-    let is_directed = lamps.iter().any(|lamp| lamp.place != LampPlace::Everywhere);
-    *are_of_scene && is_directed && scenery.rays.shadows && scenery.scene.faces.iter().any(is_refracting)
+    let is_directed = scenery.lamps.iter().any(|lamp| lamp.place != LampPlace::Everywhere);
+    scenery.has_lights()
+        && is_directed
+        && scenery.rays.shadows
+        && scenery.scene.faces.iter().any(is_refracting)
 }

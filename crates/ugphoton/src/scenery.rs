@@ -4,15 +4,10 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use glam::DVec3;
-use uglight::{
-    Appearance, ColorShift, DEFAULT_AMBIENT, DEFAULT_FROM_EYE, HueShift, Interpolation, Lamp, LampPlace,
-    Palette, Spectra, SpectralLamp, SurfaceAttributes, lamps, spectral_lamps,
-};
+use uglight::{Appearance, ColorShift, Interpolation, Lamp, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
-use ugscene::{
-    ColorId, ColorValue, Face, Geometry, HueScale, LightKind, Scene, SurfaceProperties, VertexId, View,
-};
+use ugscene::{Geometry, HueScale, Scene, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -43,41 +38,21 @@ pub struct Scenery<'a> {
     immersion: Immersion,
     /// The media at the origin, where the eye is at the moment of the picture.
     eye_media: Media,
-    /// The colours of the scene.
-    pub palette: Palette,
-    /// Colours and rest positions of the vertices.
-    pub surface: SurfaceAttributes,
+    /// The colours of the scene, and how motion changes them.
+    pub appearance: Appearance,
     /// Which secondary rays are traced.
     pub rays: RayOptions,
-    /// The lights.
-    pub lights: Lights,
+    /// The lights, or the default ones.
+    pub lamps: Lamps,
+    /// The rest frame of each, if its motion is stated.
+    pub lamp_frames: Vec<Option<RestFrame>>,
     /// How motion changes colours.
     pub shift: ColorShift,
-    /// If colours are spectra.
-    pub spectra: Option<Spectra>,
     /// True if a transparent solid absorbs light.
     pub has_absorption: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
     pub is_uncut: bool,
-}
-
-/// The lights of a scene.
-pub struct Lights {
-    /// In the order of the scene, or the default lights.
-    pub lamps: Vec<Lamp>,
-    /// Their spectra, if colours are spectra.
-    pub spectral: Vec<SpectralLamp>,
-    /// Radii; 0 for points and for lights without a place.
-    pub radii: Vec<f64>,
-    /// The rest frame of each, if its motion is stated.
-    pub frames: Vec<Option<RestFrame>>,
-    /// True if a light is neither white nor grey.
-    pub is_colored: bool,
-    /// True if the light of white surfaces under them is daylight.
-    pub is_daylight: bool,
-    /// True for lights of the scene. Default lights cast no shadows.
-    pub are_of_scene: bool,
 }
 
 impl<'a> Scenery<'a> {
@@ -116,24 +91,22 @@ impl<'a> Scenery<'a> {
             HueScale::Degrees => config.interpolation,
             HueScale::Wavelengths => Interpolation::Wavelength,
         };
-        let is_spectral = matches!(config.shift, ColorShift::Spectra(_));
-        let palette = Palette::new(&scene, interpolation, is_spectral);
-        let surface = SurfaceAttributes::new(&scene, view.eye, &palette);
-        let spectra = match config.shift {
-            ColorShift::Spectra(shift) => {
-                let reach = REACH * surface.greatest_rapidity(&scene);
-                Some(Spectra::new(&scene, shift, surface.mixtures(&scene), reach))
-            }
-            ColorShift::Hues(_) => None,
-        };
-        check_spectra(&scene, &surface, config.shift)?;
+        let shift = config.shift;
+        let appearance = Appearance::new(&scene, view.eye, interpolation, shift, REACH);
+        let surface = &appearance.surface;
+        if surface.has_moving_spectra(&scene, &[], shift) {
+            return Err(Error::MovingSpectrum);
+        }
         let faces = Faces { scene: &scene, rest: surface.all_rest() };
         let world = World::new(faces, surface.frames());
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
-        let lights = Lights::new(&scene, &view, &surface, is_spectral);
-        let is_uncut = palette.has_light() || config.picture.keeps_light();
-        let (rays, shift) = (config.rays, config.shift);
+        let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
+        let lamp_frame = |lamp: &Lamp| Some(RestFrame::new(surface.frames(), lamp.motion.body()?));
+        let lamp_frames = lamps.iter().map(lamp_frame).collect();
+        let is_uncut = appearance.palette.has_light() || config.picture.keeps_light();
+        let appearance = if is_uncut { appearance } else { appearance.clipped() };
+        let rays = config.rays;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
         Ok(Self {
             scene,
@@ -143,43 +116,28 @@ impl<'a> Scenery<'a> {
             immersion,
             eye_media,
             has_absorption,
-            palette,
-            surface,
+            appearance,
             rays,
-            lights,
+            lamps,
+            lamp_frames,
             shift,
-            spectra,
             is_uncut,
         })
     }
 
     /// True if a face transmits light straight on.
     pub fn is_translucent(&self, face: u32) -> bool {
-        self.palette.is_translucent(&self.scene, &self.surface, &self.scene.faces[face as usize])
+        self.appearance.is_translucent(&self.scene, &self.scene.faces[face as usize])
     }
 
-    /// True if colours given as light can be drawn on moving bodies: they are spectra, or nothing
-    /// is shifted.
-    pub fn keeps_light(&self) -> bool {
-        self.spectra.is_some() || self.hue_shift() == HueShift::NONE
-    }
-
-    /// The shift of hues; none if colours are spectra.
-    pub fn hue_shift(&self) -> HueShift {
-        match self.shift {
-            ColorShift::Hues(shift) => shift,
-            ColorShift::Spectra(_) => HueShift::NONE,
-        }
-    }
-
-    /// How colours appear.
-    pub fn appearance(&self) -> Appearance<'_> {
-        Appearance::new(self.shift, &self.palette, self.spectra.as_ref())
+    /// True if the scene has lights. Default lights cast no shadows.
+    pub fn has_lights(&self) -> bool {
+        !self.scene.lights.is_empty()
     }
 
     /// The faces.
     pub fn faces(&self) -> Faces<'_> {
-        Faces { scene: &self.scene, rest: self.surface.all_rest() }
+        Faces { scene: &self.scene, rest: self.appearance.surface.all_rest() }
     }
 
     /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter
@@ -239,59 +197,5 @@ impl<'a> Scenery<'a> {
     /// Reflection properties.
     pub fn properties(&self, surface: ugscene::SurfaceId) -> &SurfaceProperties {
         &self.scene.surfaces[surface.index()]
-    }
-}
-
-/// Refuses moving bodies with spectra when hues are shifted.
-fn check_spectra(scene: &Scene, surface: &SurfaceAttributes, shift: ColorShift) -> Result<(), Error> {
-    let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
-    let is_spectrum = |color: ColorId| {
-        let value = scene.colors[color.index()].value;
-        matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
-    };
-    let moves = |face: &Face| {
-        let corners = scene.contours.corners(face.contours.clone());
-        let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(face.color);
-        !surface.velocity(face.body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
-    };
-    if is_hue && scene.colors.iter().any(uglight::is_light) && scene.faces.iter().any(moves) {
-        return Err(Error::MovingSpectrum);
-    }
-    Ok(())
-}
-
-impl Lights {
-    fn new(scene: &Scene, view: &View, surface: &SurfaceAttributes, is_spectral: bool) -> Self {
-        if scene.lights.is_empty() {
-            let lamps = vec![
-                Lamp::white(LampPlace::Everywhere, DEFAULT_AMBIENT),
-                Lamp::white(LampPlace::Afar(-view.forward), DEFAULT_FROM_EYE),
-            ];
-            let spectral = [DEFAULT_AMBIENT, DEFAULT_FROM_EYE].map(SpectralLamp::white).to_vec();
-            return Self {
-                radii: vec![0.0; lamps.len()],
-                frames: vec![None; lamps.len()],
-                lamps,
-                spectral,
-                is_colored: false,
-                is_daylight: true,
-                are_of_scene: false,
-            };
-        }
-        let lamps = lamps(scene, view.eye);
-        let radius = |light: &ugscene::Light| match light.kind {
-            LightKind::Local { radius, .. } => radius,
-            _ => 0.0,
-        };
-        let frame = |lamp: &Lamp| Some(RestFrame::new(surface.frames(), lamp.motion.body()?));
-        Self {
-            spectral: if is_spectral { spectral_lamps(scene) } else { Vec::new() },
-            radii: scene.lights.iter().map(radius).collect(),
-            frames: lamps.iter().map(frame).collect(),
-            is_colored: lamps.iter().any(|lamp| lamp.is_colored),
-            is_daylight: scene.lights.iter().all(|light| light.color.is_none()),
-            are_of_scene: true,
-            lamps,
-        }
     }
 }

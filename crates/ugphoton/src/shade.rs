@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use uglight::{HueColor, IncidentLamp, Irradiance, LampPlace, SpectralFilter, SurfaceElement, Swatch};
-use ugphysics::{Event, Hsv, WaveVector, srgb_decode, srgb_encode, wavelength_to_hue};
+use uglight::{Filter, IncidentLamp, Irradiance, Lamp, LampPlace, Light, SurfaceColor, SurfaceElement};
+use ugphysics::{Event, WaveVector, srgb_encode};
 
 use crate::corridor::Corridor;
 use crate::immersion::transparent_solid;
@@ -13,17 +13,6 @@ use crate::sampling::disk_point;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
 use crate::world::Intersection;
-
-/// A coloured transparent surface that light crossed on its way from a surface to the eye.
-#[derive(Clone, Copy, Debug)]
-pub struct Filter {
-    /// Its colour at rest.
-    pub color: Swatch,
-    /// The row of its spectrum.
-    pub row: u32,
-    /// The Doppler factor with which it is seen.
-    pub doppler: f64,
-}
 
 /// Shades points of surfaces; it owns the memory it needs for that.
 pub struct Shader<'a> {
@@ -67,44 +56,29 @@ impl<'a> Shader<'a> {
         }
         let face = &scenery.scene.faces[point.face as usize];
         if let Some(level) = scenery.scene.light_level(face) {
-            return self.at_level(point, level, filters);
+            return scenery.appearance.light(&point.color, point.doppler(), Light::Level(level), filters);
         }
         let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
         let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, exponent, sample);
+        let lit = |color: &SurfaceColor, light: &[Irradiance]| {
+            let light = Light::Lamps(light, &scenery.lamps);
+            scenery.appearance.light(color, point.doppler(), light, filters)
+        };
         let mut sum = DVec3::ZERO;
         if diffuse > 0.0 {
-            sum += diffuse * lit(scenery, &point.color, point.rows, point.doppler(), &self.diffuse, filters);
+            sum += diffuse * lit(&point.color, &self.diffuse);
         }
         if !self.highlights.is_empty() {
-            sum += specular * lit_white(scenery, point.doppler(), &self.highlights, filters);
+            // Mirrored without a change of colour.
+            let white = SurfaceColor::even(
+                scenery.appearance.palette.white(),
+                scenery.appearance.surface.row_of(None),
+            );
+            sum += specular * lit(&white, &self.highlights);
         }
         sum
-    }
-
-    /// The light of a face with a light level of its own.
-    fn at_level(&mut self, point: &SurfacePoint, level: f64, filters: &[Filter]) -> DVec3 {
-        let (scenery, doppler) = (self.scenery, point.doppler());
-        if let Some(spectra) = &scenery.spectra {
-            if filters.is_empty() {
-                let ln_doppler = libm::log(doppler);
-                return level * weighted(point.rows, |row| spectra.light(row, ln_doppler));
-            }
-            let (lamp, white) =
-                ([uglight::SpectralLamp::white(level)], [Irradiance { lamp: 0, level: 1.0, doppler: 1.0 }]);
-            let filters = spectral_filters(scenery, filters);
-            return weighted(point.rows, |row| spectra.lit(row, doppler, &white, &lamp, &filters));
-        }
-        let light = match point.color.light {
-            Some(light) => level * light,
-            None => {
-                let base = scenery.appearance().hue_color(&point.color);
-                let shift = scenery.hue_shift();
-                shown(scenery, [shift.seen(shift.brightened(base, level), doppler)])
-            }
-        };
-        light * transmitted(scenery, filters)
     }
 
     /// Finds the light of each lamp that arrives: for diffuse reflection, and if there is an
@@ -113,16 +87,15 @@ impl<'a> Shader<'a> {
         self.diffuse.clear();
         self.highlights.clear();
         let scenery = self.scenery;
-        let lights = &scenery.lights;
         let frame = &scenery.world.parts[point.part].frame;
         let element =
             SurfaceElement { point: point.place, delay: point.delay, normal: point.normal, body: frame.body };
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
-        let mut add = |incident: IncidentLamp| {
+        let add = |incident: IncidentLamp| {
             let Irradiance { level, lamp, .. } = incident.irradiance;
-            let part = if lights.are_of_scene && scenery.rays.shadows {
+            let part = if scenery.has_lights() && scenery.rays.shadows {
                 let corridor = (17 * lamp as usize + point.part) % corridors.len();
                 unshadowed(scenery, point, &incident, &mut corridors[corridor])
             } else {
@@ -145,27 +118,19 @@ impl<'a> Shader<'a> {
                 }
             }
         };
-        if lights.radii.iter().all(|&radius| radius == 0.0) {
-            element.for_each_incident(&lights.lamps, scenery.surface.frames(), add);
-            return;
-        }
-        for (row, (lamp, &radius)) in lights.lamps.iter().zip(&lights.radii).enumerate() {
-            let mut lamp = *lamp;
-            let shifted = lamp.shifted(scenery.surface.frames().lamp_shift(frame.body));
-            if let (LampPlace::At(place), LampPlace::At(shifted), true) =
-                (&mut lamp.place, shifted.place, radius > 0.0)
-            {
-                let from = match &lights.frames[row] {
+        let lamp_shift = scenery.appearance.surface.frames().lamp_shift(frame.body);
+        let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
+            (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
+                let from = match &scenery.lamp_frames[row] {
                     Some(frame) => frame.to_rest(point.event).x,
                     None => point.place,
                 };
-                *place += radius * disk_point(ugphysics::unit_or_zero(shifted - from), sample, row as u64);
+                let toward = ugphysics::unit_or_zero(shifted - from);
+                LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64))
             }
-            element.for_each_incident(&[lamp], scenery.surface.frames(), |incident| {
-                let irradiance = Irradiance { lamp: row as u32, ..incident.irradiance };
-                add(IncidentLamp { irradiance, ..incident });
-            });
-        }
+            (place, _) => place,
+        };
+        element.for_each_incident(&scenery.lamps, scenery.appearance.surface.frames(), place, add);
     }
 }
 
@@ -200,7 +165,7 @@ fn unshadowed(
         if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
     part *= left_by_solids(crossings, distance);
-    let is_linear = scenery.spectra.is_some() || scenery.hue_shift().law.acts_on_light();
+    let is_linear = scenery.appearance.is_spectral() || scenery.appearance.hue_shift.law.acts_on_light();
     if is_linear { part } else { srgb_encode(part) }
 }
 
@@ -281,103 +246,4 @@ fn transmittance(scenery: &Scenery<'_>, face: u32) -> f64 {
         Some(color) => scenery.scene.colors[color.index()].translucency,
         None => 0.0,
     }
-}
-
-/// Light reflected diffusely by a colour, as seen.
-fn lit(
-    scenery: &Scenery<'_>,
-    color: &Swatch,
-    rows: [(u32, f64); 3],
-    doppler: f64,
-    light: &[Irradiance],
-    filters: &[Filter],
-) -> DVec3 {
-    let lights = &scenery.lights;
-    let is_plain = light.iter().all(|part| part.doppler == 1.0);
-    if let Some(spectra) = &scenery.spectra {
-        if lights.is_daylight && is_plain && filters.is_empty() {
-            let level: f64 =
-                light.iter().map(|part| part.level * lights.lamps[part.lamp as usize].color.x).sum();
-            let ln_doppler = libm::log(doppler);
-            return level * weighted(rows, |row| spectra.light(row, ln_doppler));
-        }
-        let filters = spectral_filters(scenery, filters);
-        return weighted(rows, |row| spectra.lit(row, doppler, light, &lights.spectral, &filters));
-    }
-    let seen = if let Some(own) = color.light {
-        let received = |part: &Irradiance| part.level * lights.lamps[part.lamp as usize].linear;
-        own * light.iter().map(received).sum::<DVec3>()
-    } else {
-        let base = scenery.appearance().hue_color(color);
-        let shift = scenery.hue_shift();
-        if is_plain && !lights.is_colored {
-            let of_lamp = |part: &Irradiance| shift.color_of(&lights.lamps[part.lamp as usize]).x;
-            let level: f64 = light.iter().map(|part| part.level * of_lamp(part)).sum();
-            shown(scenery, [shift.seen(shift.brightened(base, level), doppler)])
-        } else {
-            let hsv = Hsv { hue: base.hue, saturation: base.saturation, value: base.value };
-            let base = HueColor { factor: base.factor, ..hsv.into() };
-            let seen = |parts: &[Irradiance]| shift.seen_lit(base, doppler, parts, &lights.lamps);
-            // Light adds up, as seen; its hues need not be joined as in the text of a scene.
-            if shift.law.acts_on_light() {
-                shown(scenery, light.chunks(1).map(seen))
-            } else {
-                shown(scenery, [seen(light)])
-            }
-        }
-    };
-    seen * transmitted(scenery, filters)
-}
-
-/// Light mirrored without a change of colour, as seen.
-fn lit_white(scenery: &Scenery<'_>, doppler: f64, light: &[Irradiance], filters: &[Filter]) -> DVec3 {
-    let white = scenery.surface.row_of(None);
-    lit(
-        scenery,
-        &scenery.palette.white(),
-        [(white, 1.0), (white, 0.0), (white, 0.0)],
-        doppler,
-        light,
-        filters,
-    )
-}
-
-fn weighted(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
-    rows.into_iter().filter(|&(_, weight)| weight != 0.0).map(|(row, weight)| weight * light(row)).sum()
-}
-
-/// The sum of colours as the display shows it, as linear light.
-fn shown(scenery: &Scenery<'_>, colors: impl IntoIterator<Item = HueColor>) -> DVec3 {
-    let most = if scenery.is_uncut { f64::INFINITY } else { 1.0 };
-    colors.into_iter().map(light_of).sum::<DVec3>().min(DVec3::splat(most))
-}
-
-/// A colour as linear light. Hues near the ends of the visible range fade.
-fn light_of(color: HueColor) -> DVec3 {
-    let decode = |channel: f64| color.factor * srgb_decode(channel);
-    let [red, green, blue] = color.attenuated().to_rgb();
-    let first = decode(red);
-    // Decoding is slow, and the channels of greys are equal.
-    let [second, third] = [green, blue].map(|channel| if channel == red { first } else { decode(channel) });
-    DVec3::new(first, second, third)
-}
-
-/// The part of linear red, green and blue that filters transmit, whose hues are shifted.
-pub fn transmitted(scenery: &Scenery<'_>, filters: &[Filter]) -> DVec3 {
-    let shift = scenery.hue_shift();
-    let part = |filter: &Filter| {
-        let base = scenery.appearance().hue_color(&filter.color);
-        let wavelength_nm = shift.wavelength_nm(base.wavelength_nm, filter.doppler);
-        let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
-        let hsv = Hsv { hue, saturation: base.saturation, value: base.value };
-        DVec3::from(hsv.to_rgb().map(srgb_decode))
-    };
-    filters.iter().map(part).product()
-}
-
-fn spectral_filters<'a>(scenery: &'a Scenery<'_>, filters: &[Filter]) -> Vec<SpectralFilter<'a>> {
-    let Some(spectra) = &scenery.spectra else { return Vec::new() };
-    let filter =
-        |filter: &Filter| SpectralFilter { color: spectra.spectrum(filter.row), doppler: filter.doppler };
-    filters.iter().map(filter).collect()
 }

@@ -1,9 +1,9 @@
 //! What a ray sees of a face at a point: place, normals, colour, Doppler factor.
 
 use glam::DVec3;
-use uglight::Swatch;
+use uglight::SurfaceColor;
 use ugphysics::{Event, WaveVector};
-use ugscene::{Face, SurfaceId, VertexId};
+use ugscene::SurfaceId;
 
 use crate::path::{Ray, Start};
 use crate::scenery::Scenery;
@@ -34,11 +34,7 @@ pub struct SurfacePoint {
     /// The light that leaves towards the eye along the ray.
     pub wave: WaveVector,
     /// Colour at rest.
-    pub color: Swatch,
-    /// The corners whose colours are mixed, as rows of the colours with their weights.
-    pub rows: [(u32, f64); 3],
-    /// Translucency of the face here.
-    pub translucency: f64,
+    pub color: SurfaceColor,
 }
 
 impl SurfacePoint {
@@ -46,7 +42,7 @@ impl SurfacePoint {
     pub fn new(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) -> Self {
         let part = &scenery.world.parts[found.part];
         let face = &scenery.scene.faces[found.triangle.face as usize];
-        let places = found.triangle.corners.map(|corner| scenery.surface.rest(corner));
+        let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights);
         let wave = part.frame.wave_to_rest(ray.wave);
         let outside = scenery.faces().outside(found.triangle.face);
@@ -59,7 +55,9 @@ impl SurfacePoint {
             Start::Eye => 0.0,
             _ => part.frame.to_rest(event).t + ugphysics::length(place),
         };
-        let (color, rows) = color(scenery, face, found, !part.frame.velocity.is_zero());
+        let is_moving = !part.frame.velocity.is_zero();
+        let common = scenery.appearance.common_in_motion(&scenery.scene, face, is_moving);
+        let color = scenery.appearance.color_at(&common, found.triangle.corners, found.weights);
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -71,9 +69,7 @@ impl SurfacePoint {
             normal,
             is_outside,
             wave,
-            translucency: color.translucency,
             color,
-            rows,
         }
     }
 
@@ -116,47 +112,4 @@ fn smooth(
     let normals = own.map(|own| ugscene::shading_normal(own, plane));
     let lifts = [0, 1, 2].map(|at| (corners[at] - place).dot(normals[at]).max(0.0) * normals[at]);
     (mean(normals, found.weights).normalize_or_zero(), mean(lifts, found.weights))
-}
-
-/// The colour at rest, interpolated between the corners as by every renderer.
-fn color(
-    scenery: &Scenery<'_>,
-    face: &Face,
-    found: &Intersection,
-    is_moving: bool,
-) -> (Swatch, [(u32, f64); 3]) {
-    let corners = found.triangle.corners;
-    let rows = corners.map(|corner| scenery.surface.row(corner));
-    let weighted = std::array::from_fn(|at| (rows[at], found.weights[at]));
-    let common = scenery.palette.common(&scenery.scene, &scenery.surface, face);
-    // Colours given as light have no hue to shift. Except in spectral mode they are replaced by the
-    // nearest hue.
-    let common = if is_moving && !scenery.keeps_light() { common.without_light() } else { common };
-    let swatch = |corner: VertexId| {
-        let swatch = scenery.palette.swatch_of(*scenery.surface.swatch(corner), &common);
-        Swatch { light: swatch.light.filter(|_| common.is_light), ..swatch }
-    };
-    let constant = [(rows[0], 1.0), (rows[0], 0.0), (rows[0], 0.0)];
-    if rows == [rows[0]; 3] {
-        return (swatch(corners[0]), constant);
-    }
-    let [a, b, c] = corners.map(swatch);
-    if a == b && b == c {
-        return (a, constant);
-    }
-    let [_, second, third] = found.weights;
-    let number = |of: fn(&Swatch) -> f64| of(&a) + second * (of(&b) - of(&a)) + third * (of(&c) - of(&a));
-    let light = match [a.light, b.light, c.light] {
-        [Some(a), Some(b), Some(c)] => Some(mean([a, b, c], found.weights)),
-        _ => None,
-    };
-    let mixed = Swatch {
-        tint: number(|swatch| swatch.tint),
-        saturation: number(|swatch| swatch.saturation),
-        value: number(|swatch| swatch.value),
-        factor: number(|swatch| swatch.factor),
-        light,
-        translucency: number(|swatch| swatch.translucency),
-    };
-    (mixed, weighted)
 }

@@ -1,11 +1,12 @@
 //! Rays from the eye into the past: surfaces, mirrors and glass along them.
 
 use glam::DVec3;
+use uglight::Filter;
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
 use crate::path::{Media, Ray, Solid, Start};
 use crate::scenery::Scenery;
-use crate::shade::{Filter, LampLight, Shader, transmitted};
+use crate::shade::{LampLight, Shader};
 use crate::surface_point::SurfacePoint;
 use crate::world::Intersection;
 
@@ -177,12 +178,12 @@ impl<'a> Tracer<'a> {
             let mut end = found.s;
             for layer in &layers {
                 let point = SurfacePoint::new(self.scenery, path.ray, layer);
-                let weight = passing * left * (1.0 - point.translucency);
+                let weight = passing * left * (1.0 - point.color.swatch.translucency);
                 if weight > 0.0 {
                     let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point, left);
                     sum.add(weight, own);
                 }
-                passing *= point.translucency;
+                passing *= point.color.swatch.translucency;
                 end = end.max(layer.s);
             }
             self.layers = layers;
@@ -193,7 +194,7 @@ impl<'a> Tracer<'a> {
         }
         // The background is infinitely far away.
         if path.absorption == 0.0 {
-            sum.background += passing * transmitted(self.scenery, &self.filters);
+            sum.background += passing * self.scenery.appearance.transmitted(&self.filters);
         }
         sum
     }
@@ -238,14 +239,10 @@ impl<'a> Tracer<'a> {
         if let Some(Refracted { wave, media, .. }) = refracted
             && is_followed(transmitted)
         {
-            let is_white = point.color.is_grey() && point.color.value == 1.0 && point.color.light.is_none();
+            let swatch = &point.color.swatch;
+            let is_white = swatch.is_grey() && swatch.value == 1.0 && swatch.light.is_none();
             if !is_white {
-                let row = point
-                    .rows
-                    .iter()
-                    .fold(point.rows[0], |best, row| if row.1 > best.1 { *row } else { best })
-                    .0;
-                self.filters.push(Filter { color: point.color, row, doppler: point.doppler() });
+                self.filters.push(Filter { color: point.color, doppler: point.doppler() });
             }
             if let Some(visit) = self.visited(visit) {
                 visit.followed[1] = Some(transmitted);

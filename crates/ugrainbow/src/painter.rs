@@ -1,9 +1,7 @@
 //! Colour and light of the corners of faces and wires.
 
 use glam::DVec3;
-use uglight::Spectra;
-use uglight::SurfaceAttributes;
-use uglight::{Common, Lighting, Palette, Swatch};
+use uglight::{Appearance, Common, Lighting, Swatch};
 use ugraster::{Corner, Point, SampleGrid};
 use ugscene::{CameraPoint, Face, Scene, Slab, Triangle, VertexId, View, Wire, unit_normal};
 
@@ -19,13 +17,9 @@ pub struct Painter<'a> {
     /// The sample grid.
     pub grid: &'a SampleGrid,
     /// Its colours.
-    pub palette: &'a Palette,
+    pub appearance: &'a Appearance,
     /// Its lights.
     pub lighting: &'a Lighting,
-    /// Colours and rest positions of its vertices.
-    pub surface: &'a SurfaceAttributes,
-    /// Its spectra, if colours are spectra.
-    pub spectra: Option<&'a Spectra>,
     /// Cull back-facing faces.
     pub is_culled: bool,
 }
@@ -60,46 +54,47 @@ impl Painter<'_> {
     /// What the corners of a face have in common.
     #[inline]
     pub fn common(&self, face: &Face) -> Common {
-        self.palette.common(self.scene, self.surface, face)
+        self.appearance.common(self.scene, face)
     }
 
     /// The colour of a corner of a face.
     #[inline]
     pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
-        self.palette.swatch_of(*self.surface.swatch(vertex), common)
+        self.appearance.swatch(vertex, common)
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its
     /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
     pub fn is_transparent(&self, face: &Face) -> bool {
-        self.palette.is_translucent(self.scene, self.surface, face)
+        self.appearance.is_translucent(self.scene, face)
     }
 
     /// The colour of a wire at ends without a colour of their own.
     pub fn wire_swatch(&self, wire: &Wire) -> Swatch {
-        wire.color.map_or(self.palette.white(), |color| self.palette.get(color))
+        wire.color.map_or(self.appearance.palette.white(), |color| self.appearance.palette.get(color))
     }
 
     /// The colour of an end of a wire of colour `color`.
     pub fn wire_end(&self, vertex: VertexId, color: &Swatch) -> Swatch {
-        self.scene.vertices[vertex.index()].color.map_or(*color, |own| self.palette.get(own))
+        self.scene.vertices[vertex.index()].color.map_or(*color, |own| self.appearance.palette.get(own))
     }
 
     /// The row of the spectrum of an end of a wire.
     pub fn wire_end_row(&self, vertex: VertexId, wire: &Wire) -> u32 {
-        self.surface.row_of(self.scene.vertices[vertex.index()].color.or(wire.color))
+        self.appearance.surface.row_of(self.scene.vertices[vertex.index()].color.or(wire.color))
     }
 
     /// True if a colour of the wire is given as light.
     pub fn is_light_wire(&self, wire: &Wire, color: &Swatch) -> bool {
         let mut ends = self.scene.contours.corners(wire.contours.clone()).iter();
-        self.palette.has_light() && ends.any(|&vertex| self.wire_end(vertex, color).light.is_some())
+        self.appearance.palette.has_light()
+            && ends.any(|&vertex| self.wire_end(vertex, color).light.is_some())
     }
 
     /// The triangles of a face, as numbers of its corners; `None` if it intersects itself.
     pub fn triangles(&self, face: &Face) -> Option<Vec<Triangle>> {
-        ugscene::face_triangles(self.scene, face, |vertex| self.surface.rest(vertex))
+        ugscene::face_triangles(self.scene, face, |vertex| self.appearance.surface.rest(vertex))
     }
 
     /// The rest normal of a face on its visible side; zero if lighting needs none or the face is
@@ -109,16 +104,16 @@ impl Painter<'_> {
             return DVec3::ZERO;
         }
         let Some(outline) = self.scene.face_contours(face).next() else { return DVec3::ZERO };
-        let rest = outline.iter().map(|&vertex| self.surface.rest(vertex));
+        let rest = outline.iter().map(|&vertex| self.appearance.surface.rest(vertex));
         ugscene::seen_normal(rest, self.toward_eye(face, outline[0]))
     }
 
     /// The direction from a corner to the eye in the rest frame of the face.
     fn toward_eye(&self, face: &Face, corner: VertexId) -> DVec3 {
         if self.view.is_perspective {
-            -self.surface.rest(corner)
+            -self.appearance.surface.rest(corner)
         } else {
-            -self.surface.rest_direction(self.view.forward, face.body)
+            -self.appearance.surface.rest_direction(self.view.forward, face.body)
         }
     }
 
@@ -133,8 +128,8 @@ impl Painter<'_> {
             return self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, is_light);
         }
         let normal = self.normal_at(vertex, seen_normal);
-        let shift = self.surface.frames().lamp_shift(face.body);
-        self.lighting.level(self.surface.rest(vertex), normal, shift, is_light)
+        let shift = self.appearance.surface.frames().lamp_shift(face.body);
+        self.lighting.level(self.appearance.surface.rest(vertex), normal, shift, is_light)
     }
 
     /// True if the light level of a face is the same at all these corners of it.
@@ -151,8 +146,8 @@ impl Painter<'_> {
             !self.lighting.needs_geometry() || self.scene.light_level(face).is_some() || self.is_flat(corners)
         };
         let looks_like_first = |&corner: &VertexId| {
-            self.surface.row(corner) == self.surface.row(first)
-                || self.surface.swatch(corner) == self.surface.swatch(first)
+            self.appearance.surface.row(corner) == self.appearance.surface.row(first)
+                || self.appearance.surface.swatch(corner) == self.appearance.surface.swatch(first)
         };
         others.iter().all(looks_like_first) && is_lit_evenly()
     }
@@ -161,7 +156,7 @@ impl Painter<'_> {
     /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry();
-        let is_plain = !self.palette.has_light() && !self.palette.has_translucency();
+        let is_plain = !self.appearance.palette.has_light() && !self.appearance.palette.has_translucency();
         (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 

@@ -138,7 +138,7 @@ fn push_channels(
     config: &Config,
     seen: &[Option<SurfaceSample>],
 ) {
-    let emissions = Emissions::new(setup.scene(), &setup.view, setup.surface.frames());
+    let emissions = Emissions::new(setup.scene(), &setup.view, setup.appearance.surface.frames());
     let grid = [setup.grid.width, setup.grid.samples];
     let at = |idx| emissions.at_pixel(grid, seen, idx);
     for &channel in &config.picture.channels {

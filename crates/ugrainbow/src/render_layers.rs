@@ -89,7 +89,7 @@ impl<'a, const N: usize> Layers<'a, N> {
         let is_one = |face: &Face| painter.is_transparent(face) == is_transparent;
         let surfaces = match mode.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
-            Some(shift) => Surfaces::Rays(Faces::new(painter, shift, is_one, pack)),
+            Some(_) => Surfaces::Rays(Faces::new(painter, is_one, pack)),
         };
         Self { surfaces, is_drawn: mode.has_faces() }
     }
@@ -191,7 +191,7 @@ impl TransparentLayer for Lit<'_, '_> {
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
     pub fn new(painter: Painter<'a>, mode: &DrawMode) -> Self {
-        let solid = match PackedLayout::new(painter.palette, painter.lighting) {
+        let solid = match PackedLayout::new(&painter.appearance.palette, painter.lighting) {
             PackedLayout::Plain => Solid::Plain(Layers::new(painter, mode, false, pack_plain)),
             PackedLayout::Colored => Solid::Colored(Layers::new(painter, mode, false, pack_colored)),
             PackedLayout::Mixed => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
@@ -199,10 +199,13 @@ impl<'a> RenderLayers<'a> {
                 Solid::MixedColored(Layers::new(painter, mode, false, pack_mixed_colored))
             }
         };
-        let faces =
-            painter.palette.has_translucency().then(|| Layers::new(painter, mode, true, pack_transparent));
+        let faces = painter
+            .appearance
+            .palette
+            .has_translucency()
+            .then(|| Layers::new(painter, mode, true, pack_transparent));
         let shape: Box<dyn LineShape> = match mode.exact {
-            Some(shift) => Box::new(CurvedLines::new(painter, shift)),
+            Some(_) => Box::new(CurvedLines::new(painter)),
             None => Box::new(StraightLines::new(painter)),
         };
         let lines = lines(&painter, mode.wireframe, &*shape);

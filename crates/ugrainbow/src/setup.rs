@@ -1,15 +1,11 @@
 //! A scene prepared for one camera.
 
 use std::borrow::Cow;
-use std::ops::Range;
 
-use uglight::Palette;
-use uglight::Spectra;
-use uglight::SurfaceAttributes;
-use uglight::{ColorShift, HueShift, Lighting};
+use uglight::{Appearance, ColorShift, Lighting};
 use ugpicture::PictureOptions;
 use ugraster::{SampleGrid, TileShape};
-use ugscene::{BodyId, ColorId, ColorValue, Geometry, Scene, VertexId, View};
+use ugscene::{BodyId, Geometry, Scene, View};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -21,11 +17,8 @@ pub struct Setup<'a> {
     scene: Cow<'a, Scene>,
     pub view: View,
     pub grid: SampleGrid,
-    pub palette: Palette,
+    pub appearance: Appearance,
     pub lighting: Lighting,
-    pub surface: SurfaceAttributes,
-    /// If colours are spectra.
-    spectra: Option<Spectra>,
     pub shader: Shader,
     /// Back-facing faces are culled.
     is_culled: bool,
@@ -58,32 +51,27 @@ impl<'a> Setup<'a> {
         let is_perspective = view.is_perspective;
         let tiles = if config.exact.is_some() { TileShape::Wide } else { TileShape::Tall };
         let grid = SampleGrid { width, height, samples, is_perspective, fade, tiles };
-        let is_spectral = matches!(config.exact, Some(ColorShift::Spectra(_)));
         let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         if hue_scale != scene.stage.hue_scale() {
             // With -wi, numbers in the text of a scene at rest are wavelengths.
             ugscene::read_tints_in(scene.to_mut(), hue_scale);
         }
-        let palette = Palette::new(&scene, config.interpolated(hue_scale), is_spectral);
+        let shift = config.exact.unwrap_or(ColorShift::NONE);
+        let appearance = Appearance::new(&scene, view.eye, config.interpolated(hue_scale), shift, 1.0);
+        let appearance = appearance.with_lamps(&scene, view.eye);
         let law = config.law(&scene);
         let lighting = Lighting::new(&scene, view.eye, view.forward, law);
-        let surface = SurfaceAttributes::new(&scene, view.eye, &palette);
+        let palette = &appearance.palette;
         let is_uncut = palette.has_light() || config.picture.keeps_light();
-        if let Some(exact) = config.exact {
+        if config.exact.is_some() {
             check_exact(&scene, &view)?;
-            check_spectra(&scene, &surface, exact)?;
-        }
-        let spectra = match config.exact {
-            Some(ColorShift::Spectra(shift)) => {
-                let rapidity = surface.greatest_rapidity(&scene);
-                let spectra = Spectra::new(&scene, shift, surface.mixtures(&scene), rapidity);
-                Some(spectra.with_lamps(&scene, view.eye))
+            if appearance.surface.has_moving_spectra(&scene, &scene.wires, shift) {
+                return Err(Error::ExactMovingSpectrum);
             }
-            _ => None,
-        };
+        }
         let shader = Shader::new(palette.interpolation(), !is_uncut, law.acts_on_light());
         let is_culled = config.cull;
-        Ok(Self { scene, view, grid, palette, lighting, surface, spectra, shader, is_culled, is_uncut })
+        Ok(Self { scene, view, grid, appearance, lighting, shader, is_culled, is_uncut })
     }
 
     /// The scene, whose vertices are part of one body each. Faces and wires keep their order.
@@ -97,10 +85,8 @@ impl<'a> Setup<'a> {
             scene: &self.scene,
             view: &self.view,
             grid: &self.grid,
-            palette: &self.palette,
+            appearance: &self.appearance,
             lighting: &self.lighting,
-            surface: &self.surface,
-            spectra: self.spectra.as_ref(),
             is_culled: self.is_culled,
         }
     }
@@ -116,27 +102,6 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     }
     if !view.is_perspective {
         return Err(Error::ExactOrthographic);
-    }
-    Ok(())
-}
-
-/// Refuses moving bodies with spectra when hues are shifted.
-fn check_spectra(scene: &Scene, surface: &SurfaceAttributes, shift: ColorShift) -> Result<(), Error> {
-    let is_spectrum = |color: ColorId| {
-        let value = scene.colors[color.index()].value;
-        matches!(value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. })
-    };
-    let moves = |body: BodyId, contours: &Range<u32>, color: Option<ColorId>| {
-        let corners = scene.contours.corners(contours.clone());
-        let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(color);
-        !surface.velocity(body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
-    };
-    let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
-    let mut wires = scene.wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
-    let has_spectra = scene.colors.iter().any(uglight::is_light);
-    let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
-    if has_spectra && is_hue && (faces.any(|moves| moves) || wires.any(|moves| moves)) {
-        return Err(Error::ExactMovingSpectrum);
     }
     Ok(())
 }

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use crate::quadrature::{N_NODES, Quadrature};
 use crate::reflectance::Reflectance;
-use crate::spectrum::{Kind, Spectrum};
+use crate::spectrum::{Kind, MAX_LN_DOPPLER, Spectrum};
 use crate::weighted_daylight::WeightedDaylight;
 
 /// Step of a table in ln D. A step shifts wavelengths by one percent, about 5 nm.
@@ -17,9 +17,6 @@ pub const LN_STEP: f64 = 0.01;
 
 /// Number of extra points at each end of the table, for the cubic interpolation.
 const MARGIN: i32 = 2;
-
-/// |ln D| is clamped to this value: beyond it nothing visible is left.
-pub(crate) const MAX_LN_DOPPLER: f64 = 100.0;
 
 /// The Doppler factors of tables: e^(0.01 k) over a range with margins, always including D = 1.
 #[derive(Debug)]

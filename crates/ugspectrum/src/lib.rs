@@ -30,6 +30,7 @@
 
 mod blackbody;
 mod cie_1931;
+mod curve;
 mod daylight;
 mod doppler_table;
 mod light_spectrum;

@@ -1,7 +1,6 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::reflectance::CURVE_NM;
-use crate::upsampling::Coefficients;
+use crate::curve::{CURVE_NM, Coefficients};
 use crate::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 4 nm.

@@ -1,11 +1,9 @@
 //! Surface colours upsampled to reflectance spectra.
 
+use crate::curve::{CURVE_NM, Coefficients};
 use crate::quadrature::dot;
-use crate::upsampling::{Coefficients, solve};
+use crate::upsampling::solve;
 use crate::weighted_daylight::WeightedDaylight;
-
-/// The range of the curve, nm; outside it the reflectance is constant.
-pub(crate) const CURVE_NM: [f64; 2] = [380.0, 780.0];
 
 /// The value of the largest channel for which a curve is solved: with 1 the coefficients would grow
 /// without bound towards white. Colours outside the sRGB gamut need a dimmer surface to be that

@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
-use crate::doppler_table::MAX_LN_DOPPLER;
 use crate::reflectance::Reflectance;
 use crate::{blackbody, samples};
+
+/// |ln D| is clamped to this value: beyond it nothing visible is left.
+pub(crate) const MAX_LN_DOPPLER: f64 = 100.0;
 
 /// Spectral radiance L'(λ) over all wavelengths, in the rest frame of its source.
 #[derive(Clone, Debug, PartialEq)]

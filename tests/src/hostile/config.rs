@@ -5,7 +5,7 @@ use ugimage::{Filter, Format, Tone};
 use ugphysics::{Brightness, Hsv, Velocity};
 use ugrainbow::{
     AnnotationOptions, Background, CameraOptions, Channel, ColorShift, DepthCue, Exposure, HueScale,
-    HueShift, Interpolation, Output, PictureOptions, SpectralShift, Wireframe,
+    Interpolation, Output, PictureOptions, SpectralShift, Wireframe,
 };
 use ugrandom::Random;
 use ugwarp::{Basis, Lens};
@@ -46,20 +46,12 @@ pub fn doppler(random: &mut Random) -> ugdoppler::Config {
             .unwrap_or(Velocity::ZERO),
         eye: maybe(random, 8, point),
         wavelengths: random.one_in(3),
-        law: *random.pick(&[
-            Brightness::Report,
-            Brightness::Photon,
-            Brightness::Bolometric,
-            Brightness::None,
-        ]),
+        shift: shift(random),
         repeat: random.one_in(4),
         tolerance: if random.one_in(4) { number(random).abs() } else { 0.1 },
         iris: random.one_in(4),
         light: random.one_in(3),
         keep: random.one_in(3),
-        spectral: random.one_in(3),
-        doppler: !random.one_in(6),
-        flux: !random.one_in(6),
     }
 }
 
@@ -158,7 +150,7 @@ fn shift(random: &mut Random) -> ColorShift {
     if random.one_in(2) {
         return ColorShift::Spectra(SpectralShift { doppler, flux: !random.one_in(4) });
     }
-    ColorShift::Hues(HueShift { doppler, law: *random.pick(&[Brightness::Report, Brightness::Photon]) })
+    ColorShift::hues(doppler, *random.pick(&Brightness::ALL))
 }
 
 fn picture(random: &mut Random) -> PictureOptions {

@@ -1,12 +1,12 @@
 //! Pictures of worlds: by rays, by the exact mode of the pipe, and by the whole pipe.
 
 use ugimage::{Format, LinearFrame, Samples};
-use uglight::{ColorShift, HueShift, SpectralShift};
+use uglight::ColorShift;
 use uglorentz::Pieces;
 use ugparse::{Options, Source};
 use ugphoton::{Channel, Lens, Output, PictureOptions, RayOptions, Shutter};
 use ugphysics::Brightness;
-use ugscene::{Anchor, MotionOptions, Scene};
+use ugscene::{Anchor, ColorValue, MotionOptions, Scene, VertexId};
 
 use super::world::World;
 
@@ -17,11 +17,11 @@ pub const SIZE: [u32; 2] = [24, 18];
 pub const UNSHIFTED: ColorShift = ColorShift::NONE;
 
 /// Colours as spectra.
-pub const SPECTRA: ColorShift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+pub const SPECTRA: ColorShift = ColorShift::SPECTRA;
 
 /// Grey stays grey, and its light is multiplied by a power of D.
 pub const fn by_law(law: Brightness) -> ColorShift {
-    ColorShift::Hues(HueShift { doppler: true, law })
+    ColorShift::hues(true, law)
 }
 
 /// Who draws.
@@ -171,24 +171,50 @@ impl Picture {
     }
 
     fn piped(&self) -> Result<LinearFrame, String> {
-        let (spectral, doppler, law) = match self.shift {
-            ColorShift::Spectra(shift) => (true, shift.doppler, Brightness::Report),
-            ColorShift::Hues(shift) => (false, shift.doppler, shift.law),
-        };
+        let colored = self.colored(self.pieces()?)?;
+        let config = ugrainbow::Config { picture: self.options(), ..ugrainbow::Config::default() };
+        ugrainbow::light(&colored, &config).map_err(words)
+    }
+
+    /// For each piece of a face in the pipe, whether a lamp sets in it: one that lights some of its
+    /// corners and not others.
+    ///
+    /// # Errors
+    /// What a program says instead.
+    pub fn pieces_with_dusk(&self) -> Result<Vec<bool>, String> {
+        let pieces = self.pieces()?;
+        let mut has_dusk = vec![false; pieces.faces.len()];
+        for lamp in &pieces.lights {
+            let colored = self.colored(Scene { lights: vec![lamp.clone()], ..pieces.clone() })?;
+            let is_dark = |corner: &VertexId| {
+                let color = colored.vertices[corner.index()].color;
+                color.is_some_and(|color| match colored.colors[color.index()].value {
+                    ColorValue::Xyz(xyz) => xyz == [0.0; 3],
+                    ColorValue::Hsv { value, .. } => value == 0.0,
+                    _ => false,
+                })
+            };
+            for (face, has_dusk) in colored.faces.iter().zip(&mut has_dusk) {
+                let corners = colored.contours.corners(face.contours.clone());
+                *has_dusk |= corners.iter().any(is_dark) && !corners.iter().all(is_dark);
+            }
+        }
+        Ok(has_dusk)
+    }
+
+    fn pieces(&self) -> Result<Scene, String> {
+        self.seen(Pieces::UpTo(uglorentz::DEFAULT_ERROR))
+    }
+
+    fn colored(&self, seen: Scene) -> Result<Scene, String> {
         let config = ugdoppler::Config {
-            spectral,
-            doppler,
-            law,
+            shift: self.shift,
             light: true,
             keep: true,
             tolerance: 0.0,
-            flux: law != Brightness::None,
             ..ugdoppler::Config::default()
         };
-        let seen = self.seen(Pieces::UpTo(uglorentz::DEFAULT_ERROR))?;
-        let (colored, _) = ugdoppler::apply(seen, &config).map_err(words)?;
-        let config = ugrainbow::Config { picture: self.options(), ..ugrainbow::Config::default() };
-        ugrainbow::light(&colored, &config).map_err(words)
+        ugdoppler::apply(seen, &config).map(|(scene, _)| scene).map_err(words)
     }
 
     /// The command line and the scene, to draw the picture by hand.

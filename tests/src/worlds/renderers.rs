@@ -22,7 +22,8 @@ pub fn painted_exact(random: &mut Random) -> Outcome {
     check_exact(random, painted)
 }
 
-/// Rays and the whole pipe, off edges. Bodies have one colour, and lamps are white.
+/// Rays and the whole pipe, off edges, and off pieces of faces in which a lamp sets. Bodies have one
+/// colour, and lamps are white.
 pub fn pipe(random: &mut Random) -> Outcome {
     check_pipe(random, white_lamps)
 }
@@ -60,14 +61,19 @@ fn check_pipe(random: &mut Random, change: fn(&mut Random, World) -> World) -> O
     let shift = *random.pick(&[SPECTRA, UNSHIFTED]);
     let channels = vec![Channel::Id];
     let rays = Picture { channels, ..Picture::new(&world, shift).like_pipe() };
-    let (one, other) =
-        (Picture { channels: Vec::new(), ..rays.clone().by(Renderer::Pipe) }.draw()?, rays.draw()?);
+    let pipe = rays.clone().by(Renderer::Pipe);
+    let (one, other, has_dusk) = (pipe.draw()?, rays.draw()?, pipe.pieces_with_dusk()?);
     let (width, light, ids) = (rays.size[0] as usize, other.light(), other.ids());
-    // Between different faces, and where a light sets, light changes from sample to sample.
+    // Between different faces, and where a light sets, light changes from sample to sample. Light at
+    // a point of a flat face is 0 behind the line where a moving lamp sets; the pipe, which has the
+    // light of corners alone, interpolates between those in light and those in the dark.
+    let pieces = one.ids();
     let is_smooth = |at: usize| {
-        are_around(at, width, light.len(), |near| {
-            ids[near] == ids[at] && is_within(light[near], light[at], 0.5)
-        })
+        let piece = (pieces[at] as usize).checked_sub(1);
+        !piece.is_some_and(|piece| has_dusk[piece])
+            && are_around(at, width, light.len(), |near| {
+                ids[near] == ids[at] && is_within(light[near], light[at], 0.5)
+            })
     };
     let pairs: Vec<_> = one.light().into_iter().zip(light.clone()).enumerate().collect();
     let pairs: Vec<_> = pairs.into_iter().filter(|(at, _)| is_smooth(*at)).map(|(_, pair)| pair).collect();

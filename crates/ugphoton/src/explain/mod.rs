@@ -7,11 +7,11 @@ mod text;
 use std::borrow::Cow;
 
 use glam::DVec3;
-use uglight::{ColorShift, HueShift, Interpolation, light_names};
+use uglight::{ColorShift, Interpolation, light_names};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
 use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength, nearest};
-use ugscene::{ColorScale, HueScale, SeenColors};
+use ugscene::{HueScale, SeenColors};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -158,14 +158,8 @@ pub fn explain(
 
 /// The law by which colours change; `None` if nothing is changed.
 fn seen_colors(scenery: &Scenery<'_>) -> Option<SeenColors> {
-    let (doppler, scale) = match scenery.shift {
-        ColorShift::Hues(shift) if shift == HueShift::NONE => return None,
-        ColorShift::Hues(shift) => {
-            (shift.doppler, ColorScale::Hues { unit: HueScale::Degrees, law: shift.law })
-        }
-        ColorShift::Spectra(shift) => (shift.doppler, ColorScale::Spectra { flux: shift.flux }),
-    };
-    Some(SeenColors { scale, doppler, lights: scenery.lights.are_of_scene })
+    let is_changed = scenery.shift != ColorShift::NONE;
+    is_changed.then(|| scenery.shift.seen_colors(HueScale::Degrees, scenery.has_lights()))
 }
 
 fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) -> PixelSteps {
@@ -237,7 +231,7 @@ impl Teller<'_> {
             rest: (rest_time, point.place),
             angles_deg,
             doppler: point.doppler(),
-            translucency: point.translucency,
+            translucency: point.color.swatch.translucency,
             color: self.color(visit),
             lamps: visit.lamps.iter().map(|lamp| self.lamp(lamp)).collect(),
             light: visit.light.to_array(),
@@ -257,9 +251,9 @@ impl Teller<'_> {
     }
 
     fn lamp(&self, light: &LampLight) -> ExplainedLamp {
-        let lamps = &self.scenery.lights.lamps;
+        let lamps = &self.scenery.lamps;
         let row = light.irradiance.lamp as usize;
-        let shift = self.scenery.hue_shift();
+        let shift = self.scenery.appearance.hue_shift;
         ExplainedLamp {
             name: self.light_names[row].clone(),
             level: (light.irradiance.level * shift.color_of(&lamps[row])).to_array(),
@@ -271,17 +265,17 @@ impl Teller<'_> {
 
     fn color(&self, visit: &Visit) -> SampleColor {
         let (scenery, point) = (self.scenery, &visit.point);
-        if scenery.spectra.is_some() || point.color.light.is_some() {
+        if scenery.appearance.is_spectral() || point.color.swatch.light.is_some() {
             let xyz = linear_srgb_to_xyz(visit.light.to_array());
             let sum: f64 = xyz.iter().sum();
             let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
             return SampleColor::Light { xyz, chromaticity };
         }
-        let base = scenery.appearance().hue_color(&point.color);
-        let is_end =
-            scenery.palette.interpolation() == Interpolation::Hue && !(-60.0 < base.hue && base.hue < 300.0);
-        let wavelength = (!point.color.is_grey()).then(|| {
-            let seen_nm = scenery.hue_shift().wavelength_nm(base.wavelength_nm, point.doppler());
+        let base = scenery.appearance.hue_color(&point.color.swatch);
+        let is_end = scenery.appearance.palette.interpolation() == Interpolation::Hue
+            && !(-60.0 < base.hue && base.hue < 300.0);
+        let wavelength = (!point.color.swatch.is_grey()).then(|| {
+            let seen_nm = scenery.appearance.hue_shift.wavelength_nm(base.wavelength_nm, point.doppler());
             Wavelength {
                 rest_nm: base.wavelength_nm,
                 seen_nm,
@@ -304,7 +298,7 @@ impl Teller<'_> {
         if let Some(level) = scene.light_level(&scene.faces[visit.point.face as usize]) {
             return [level; 3];
         }
-        let (lamps, shift) = (&self.scenery.lights.lamps, self.scenery.hue_shift());
+        let (lamps, shift) = (&self.scenery.lamps, self.scenery.appearance.hue_shift);
         let level = |light: &LampLight| {
             let color = shift.color_of(&lamps[light.irradiance.lamp as usize]);
             light.irradiance.level * light.part * color

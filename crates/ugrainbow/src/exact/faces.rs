@@ -5,8 +5,6 @@ use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::Appearance;
-use uglight::ColorShift;
 use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
 use ugscene::Face;
 
@@ -24,7 +22,6 @@ use crate::painter::Painter;
 /// All faces that are in the picture, with the rays that intersect them.
 pub struct Faces<'a, const N: usize> {
     painter: Painter<'a>,
-    appearance: Appearance<'a>,
     pack: Pack<N>,
     frames: Vec<RestFrameRays>,
     shapes: Vec<Shape>,
@@ -60,15 +57,9 @@ struct Shape {
 
 impl<'a, const N: usize> Faces<'a, N> {
     /// The faces of a scene for which `is_drawn` returns true.
-    pub fn new(
-        painter: Painter<'a>,
-        shift: ColorShift,
-        is_drawn: impl Fn(&Face) -> bool + Sync,
-        pack: Pack<N>,
-    ) -> Self {
-        let appearance = Appearance::new(shift, painter.palette, painter.spectra);
+    pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
         let frames = frames(&painter);
-        let built = build_all(&painter, &appearance, &frames, &is_drawn);
+        let built = build_all(&painter, &frames, &is_drawn);
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
         let clip_counts = ClipCounts { in_front, in_picture: shapes.len() };
@@ -77,7 +68,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         let limits = [(1.0 / slab.far).max(f64::MIN_POSITIVE), 1.0 / slab.near];
         let film = Film::new(painter.view.rays());
         let pool = Mutex::default();
-        Self { painter, appearance, pack, frames, shapes, bins, film, limits, pool, clip_counts }
+        Self { painter, pack, frames, shapes, bins, film, limits, pool, clip_counts }
     }
 
     /// True if a face is nearer than `key` on the ray through a point of the picture, in samples.
@@ -153,7 +144,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         let part = self.bounds(shapes, tile.area());
         self.with_scratch(|scratch| {
             self.find_nearest(shapes, part, scratch);
-            if self.appearance.spectra().is_some() {
+            if self.painter.appearance.is_spectral() {
                 self.draw_nearest::<true>(scratch, tile);
             } else {
                 self.draw_nearest::<false>(scratch, tile);
@@ -182,7 +173,7 @@ impl<'a, const N: usize> Faces<'a, N> {
     #[inline(always)] // As `Look::at`.
     fn values<const SPECTRAL: bool>(&self, shape: &Shape, frame: &RestFrameRays, ray: &Ray) -> [f32; N] {
         let key = shape.outline.key(ray.rest);
-        let (color, level) = shape.look.at::<SPECTRAL>(&self.painter, &self.appearance, frame, ray, key);
+        let (color, level) = shape.look.at::<SPECTRAL>(&self.painter, frame, ray, key);
         (self.pack)(&color, level).map(|number| number as f32)
     }
 
@@ -212,7 +203,7 @@ impl Faces<'_, TRANSPARENT_VALUES> {
         let shapes = self.bins.in_band(band);
         let part = self.bounds(shapes, writer.area());
         self.with_scratch(|scratch| {
-            if self.appearance.spectra().is_some() {
+            if self.painter.appearance.is_spectral() {
                 self.draw_all::<true>(shapes, part, scratch, writer);
             } else {
                 self.draw_all::<false>(shapes, part, scratch, writer);
@@ -275,19 +266,15 @@ impl Built {
     }
 }
 
-fn build(
-    painter: &Painter<'_>,
-    appearance: &Appearance<'_>,
-    frames: &[RestFrameRays],
-    row: usize,
-    face: &Face,
-) -> Built {
+fn build(painter: &Painter<'_>, frames: &[RestFrameRays], row: usize, face: &Face) -> Built {
     let at = face.body.index();
     let frame = &frames[at];
     let contours: Vec<Vec<DVec3>> = painter
         .scene
         .face_contours(face)
-        .map(|contour| contour.iter().map(|&id| frame.axes_from_scene(painter.surface.rest(id))).collect())
+        .map(|contour| {
+            contour.iter().map(|&id| frame.axes_from_scene(painter.appearance.surface.rest(id))).collect()
+        })
         .collect();
     let mut corners = contours.iter().flatten();
     let is_behind = corners.all(|&corner| frame.place(frame.seen(corner)).z < painter.view.slab.near);
@@ -299,7 +286,7 @@ fn build(
     if columns.is_empty() || rows.is_empty() {
         return outside;
     }
-    let look = Look::new(painter, appearance, frame, face, &contours);
+    let look = Look::new(painter, frame, face, &contours);
     // The text of a scene is below 4 GiB, so row numbers fit.
     let item = row as u32;
     let (sides, depth) =
@@ -310,12 +297,11 @@ fn build(
 /// The faces of a scene for which `is_drawn` returns true, compiled once for all layouts.
 fn build_all(
     painter: &Painter<'_>,
-    appearance: &Appearance<'_>,
     frames: &[RestFrameRays],
     is_drawn: &(dyn Fn(&Face) -> bool + Sync),
 ) -> Vec<Built> {
     let faces = painter.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));
-    faces.map(|(row, face)| build(painter, appearance, frames, row, face)).collect()
+    faces.map(|(row, face)| build(painter, frames, row, face)).collect()
 }
 
 /// The samples in a rectangle that lies within the picture.

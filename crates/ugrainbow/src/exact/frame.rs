@@ -45,12 +45,12 @@ pub fn frames(painter: &Painter<'_>) -> Vec<RestFrameRays> {
 
 impl RestFrameRays {
     fn new(painter: &Painter<'_>, body: BodyId) -> Self {
-        let velocity = painter.surface.velocity(body);
+        let velocity = painter.appearance.surface.velocity(body);
         let along = velocity.direction();
         let (e1, e2) = along.any_orthonormal_pair();
         let camera_from_axes = DMat3::from_cols(along, e1, e2);
         let axes_from_camera = camera_from_axes.transpose();
-        let scene_from_camera = DMat3::from_quat(painter.surface.scene_from_axes(body));
+        let scene_from_camera = DMat3::from_quat(painter.appearance.surface.scene_from_axes(body));
         let place = |axis: DVec3| {
             let place = painter.view.place(axis);
             DVec3::new(place.x, place.y, place.z)
@@ -58,7 +58,7 @@ impl RestFrameRays {
         Self {
             velocity,
             scene_from_axes: scene_from_camera * camera_from_axes,
-            lamp_shift: painter.surface.frames().lamp_shift(body),
+            lamp_shift: painter.appearance.surface.frames().lamp_shift(body),
             camera_from_axes,
             samples_from_seen: DMat3::from_cols(place(along), place(e1), place(e2)),
             rays: painter.view.rays().map(|ray| axes_from_camera * ray),

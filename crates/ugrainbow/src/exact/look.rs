@@ -1,8 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::Appearance;
-use uglight::Swatch;
+use uglight::{Appearance, Swatch};
 use ugscene::{Face, VertexId};
 
 use super::frame::{Ray, RestFrameRays};
@@ -71,36 +70,28 @@ struct Spot<'a> {
 
 impl Look {
     /// The appearance of `face`. `contours`: its corners at rest, in the axes of `frame`.
-    pub fn new(
-        painter: &Painter<'_>,
-        appearance: &Appearance<'_>,
-        frame: &RestFrameRays,
-        face: &Face,
-        contours: &[Vec<DVec3>],
-    ) -> Self {
-        let common = painter.common(face);
-        // Colours given as light have no hue to shift. Except in spectral mode they are replaced by
-        // the nearest hue.
-        let is_changed = !frame.velocity.is_zero() && !appearance.keeps_light();
-        let common = if is_changed { common.without_light() } else { common };
+    pub fn new(painter: &Painter<'_>, frame: &RestFrameRays, face: &Face, contours: &[Vec<DVec3>]) -> Self {
+        let appearance = painter.appearance;
+        let common = appearance.common_in_motion(painter.scene, face, !frame.velocity.is_zero());
         let normal = painter.seen_normal(face);
         let corner = |&vertex: &VertexId| {
             let color = painter.swatch(vertex, &common);
-            let light = color.light.filter(|_| common.is_light);
-            let normal = painter.normal_at(vertex, normal);
-            Corner { color: Swatch { light, ..color }, row: painter.surface.row(vertex), normal }
+            Corner {
+                color,
+                row: painter.appearance.surface.row(vertex),
+                normal: painter.normal_at(vertex, normal),
+            }
         };
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corners: Vec<Corner> = vertices.iter().map(corner).collect();
         let first = corners[0];
         let differ = |of: &dyn Fn(&Corner, &Corner) -> bool| corners.iter().any(|corner| of(corner, &first));
-        let is_spectral = appearance.spectra().is_some();
+        let is_spectral = appearance.is_spectral();
         let has_colors = differ(&|a, b| a.color != b.color || (is_spectral && a.row != b.row));
         let has_tints = differ(&|a, b| a.color.tint != b.color.tint);
         let has_normals = differ(&|a, b| a.normal != b.normal);
         let has_level = painter.scene.light_level(face).is_some();
-        let is_lit_by_spectra =
-            !has_level && appearance.spectra().is_some_and(uglight::Spectra::has_colored_lamps);
+        let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
         let is_lit_by_hues = !has_level && !is_spectral && !common.is_light && painter.lighting.is_colored();
         let is_even = has_level
             || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
@@ -135,20 +126,25 @@ impl Look {
     pub fn at<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
-        appearance: &Appearance<'_>,
         frame: &RestFrameRays,
         ray: &Ray,
         key: f64,
     ) -> (Swatch, DVec3) {
+        let appearance = painter.appearance;
         let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
+        let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
         if SPECTRAL && self.is_lit_by_spectra {
-            return (self.seen_under_lamps(appearance, frame, ray, key, spot), DVec3::ONE);
+            let place = [place(), self.normal_at(spot), frame.lamp_shift];
+            return (self.seen_spectrum(appearance, spot, ray.stretch, Some(place)), DVec3::ONE);
         }
         if !SPECTRAL && self.is_lit_by_hues {
-            return (self.seen_lit(painter, appearance, frame, ray, key, spot), DVec3::ONE);
+            let light = painter.lighting.irradiances(place(), self.normal_at(spot), frame.lamp_shift);
+            let color = spot.filter(|spot| spot.mesh.has_colors).map_or(self.color, |spot| spot.color());
+            let lamps = painter.lighting.colored_lamps();
+            return (appearance.seen_lit(&color, ray.stretch, &light, lamps), DVec3::ONE);
         }
         let color = match &spot {
-            &spot if SPECTRAL => self.seen_spectrum(appearance, spot, ray.stretch),
+            &spot if SPECTRAL => self.seen_spectrum(appearance, spot, ray.stretch, None),
             Some(spot) if spot.mesh.has_colors => {
                 let color = spot.color();
                 let has_own = spot.mesh.has_tints && ray.stretch != 1.0;
@@ -165,26 +161,8 @@ impl Look {
             Some(spot) if spot.mesh.has_normals => spot.normal(),
             _ => self.normal,
         };
-        let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
         let point = if self.needs_place { place() } else { DVec3::ZERO };
         (color, painter.lighting.level(point, normal, frame.lamp_shift, self.is_light))
-    }
-
-    /// The apparent hue under coloured lamps.
-    fn seen_lit(
-        &self,
-        painter: &Painter<'_>,
-        appearance: &Appearance<'_>,
-        frame: &RestFrameRays,
-        ray: &Ray,
-        key: f64,
-        spot: Option<Spot<'_>>,
-    ) -> Swatch {
-        let normal = self.normal_at(spot);
-        let place = frame.scene_from_axes * (ray.rest * (1.0 / key));
-        let light = painter.lighting.irradiances(place, normal, frame.lamp_shift);
-        let color = spot.filter(|spot| spot.mesh.has_colors).map_or(self.color, |spot| spot.color());
-        appearance.seen_lit(&color, ray.stretch, &light, painter.lighting.colored_lamps())
     }
 
     /// The normal where a ray meets the face.
@@ -192,34 +170,25 @@ impl Look {
         spot.filter(|spot| spot.mesh.has_normals).map_or(self.normal, |spot| spot.normal())
     }
 
-    /// The apparent colour in spectral mode, lit by lamps with spectra of their own.
-    fn seen_under_lamps(
-        &self,
-        appearance: &Appearance<'_>,
-        frame: &RestFrameRays,
-        ray: &Ray,
-        key: f64,
-        spot: Option<Spot<'_>>,
-    ) -> Swatch {
-        let normal = self.normal_at(spot);
-        let place = [frame.scene_from_axes * (ray.rest * (1.0 / key)), normal, frame.lamp_shift];
-        let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
-            let light = Some(appearance.seen_under_lamps([(self.row, 1.0)], ray.stretch, place));
-            return Swatch { light, ..self.color };
-        };
-        let light = Some(appearance.seen_under_lamps(spot.rows(), ray.stretch, place));
-        Swatch { light, ..spot.color() }
-    }
-
     /// The apparent colour in spectral mode. Between corners, the apparent colours of spectra are
-    /// mixed.
-    fn seen_spectrum(&self, appearance: &Appearance<'_>, spot: Option<Spot<'_>>, stretch: f64) -> Swatch {
-        let Some(spot) = spot.filter(|spot| spot.mesh.has_colors) else {
-            let light = Some(appearance.seen_light([(self.row, 1.0)], stretch));
-            return Swatch { light, ..self.color };
-        };
-        let light = Some(appearance.seen_light(spot.rows(), stretch));
-        Swatch { light, ..spot.color() }
+    /// mixed. `place`: under lamps with spectra of their own.
+    fn seen_spectrum(
+        &self,
+        appearance: &Appearance,
+        spot: Option<Spot<'_>>,
+        stretch: f64,
+        place: Option<[DVec3; 3]>,
+    ) -> Swatch {
+        match spot.filter(|spot| spot.mesh.has_colors) {
+            None => {
+                let light = Some(appearance.seen_light([(self.row, 1.0)], stretch, place));
+                Swatch { light, ..self.color }
+            }
+            Some(spot) => {
+                let light = Some(appearance.seen_light(spot.rows(), stretch, place));
+                Swatch { light, ..spot.color() }
+            }
+        }
     }
 }
 

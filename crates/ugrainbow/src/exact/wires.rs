@@ -1,9 +1,7 @@
 //! Lines of moving bodies, which are seen as curves.
 
 use glam::DVec3;
-use uglight::Appearance;
-use uglight::ColorShift;
-use uglight::Swatch;
+use uglight::{Appearance, Swatch};
 use ugphysics::doppler_at;
 use ugscene::BodyId;
 
@@ -27,18 +25,13 @@ const MOST_HALVINGS: u32 = 12;
 /// one Doppler factor.
 pub struct CurvedLines<'a> {
     painter: Painter<'a>,
-    appearance: Appearance<'a>,
     frames: Vec<RestFrameRays>,
 }
 
 impl<'a> CurvedLines<'a> {
-    /// The lines of a scene with the colour shift `shift`.
-    pub fn new(painter: Painter<'a>, shift: ColorShift) -> Self {
-        Self {
-            painter,
-            appearance: Appearance::new(shift, painter.palette, painter.spectra),
-            frames: frames(&painter),
-        }
+    /// The lines of a scene.
+    pub fn new(painter: Painter<'a>) -> Self {
+        Self { painter, frames: frames(&painter) }
     }
 }
 
@@ -46,9 +39,9 @@ impl LineShape for CurvedLines<'_> {
     fn joints(&self, line: &Line) -> Vec<Joint> {
         let painter = &self.painter;
         let frame = &self.frames[line.body.index()];
-        let rest = line.ends.map(|end| frame.axes_from_scene(painter.surface.rest(end)));
+        let rest = line.ends.map(|end| frame.axes_from_scene(painter.appearance.surface.rest(end)));
         let near = painter.view.slab.near;
-        let appearance = self.appearance;
+        let appearance = painter.appearance;
         let curve = Curve { frame, appearance, rest, colors: line.colors, rows: line.rows, near };
         let mut joints = vec![curve.joint(0.0)];
         curve.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
@@ -56,13 +49,13 @@ impl LineShape for CurvedLines<'_> {
     }
 
     fn keeps_light(&self, body: BodyId) -> bool {
-        self.appearance.keeps_light() || self.frames[body.index()].velocity.is_zero()
+        self.painter.appearance.keeps_light() || self.frames[body.index()].velocity.is_zero()
     }
 }
 
 struct Curve<'a> {
     frame: &'a RestFrameRays,
-    appearance: Appearance<'a>,
+    appearance: &'a Appearance,
     /// The ends at rest, in the axes of the frame.
     rest: [DVec3; 2],
     colors: [Swatch; 2],
@@ -92,9 +85,9 @@ impl Curve<'_> {
         };
         let seen = self.point(part);
         let stretch = 1.0 / self.doppler(seen);
-        let color = match self.rows.filter(|_| self.appearance.spectra().is_some()) {
+        let color = match self.rows.filter(|_| self.appearance.is_spectral()) {
             Some([a, b]) => {
-                let light = self.appearance.seen_light([(a, 1.0 - part), (b, part)], stretch);
+                let light = self.appearance.seen_light([(a, 1.0 - part), (b, part)], stretch, None);
                 Swatch { light: Some(light), ..rest }
             }
             None => self.appearance.seen(&rest, self.appearance.wavelength_nm(rest.tint), stretch),

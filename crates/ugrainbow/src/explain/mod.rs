@@ -209,7 +209,7 @@ impl Teller<'_> {
     fn shown(&self, sample: &ProbedSample) -> ExplainedSample {
         let painter = self.setup.painter();
         let (seen, values, light) = self.subject(sample);
-        let emissions = Emissions::new(painter.scene, painter.view, painter.surface.frames());
+        let emissions = Emissions::new(painter.scene, painter.view, painter.appearance.surface.frames());
         let emission = emissions.at(sample.place, seen);
         let (place, velocity) = (emission.place, emission.velocity);
         let geometry = Geometry::of(self.setup.scene());
@@ -267,7 +267,7 @@ impl Teller<'_> {
 
     /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
-        let layout = PackedLayout::new(&self.setup.palette, &self.setup.lighting);
+        let layout = PackedLayout::new(&self.setup.appearance.palette, &self.setup.lighting);
         let (Plain { tint, saturation, value }, level) = match layout.color(values) {
             Interpolated::Light(light) => {
                 let xyz = linear_srgb_to_xyz(light);
@@ -278,14 +278,14 @@ impl Teller<'_> {
             Interpolated::Hue { color, level } => (color, level),
         };
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
-        let interpolation = self.setup.palette.interpolation();
+        let interpolation = self.setup.appearance.palette.interpolation();
         let hue = match interpolation {
             Interpolation::Hue => tint,
             Interpolation::Wavelength => wavelength_to_hue(tint),
         };
         let is_shifted = self.setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler);
         let wavelength = (!swatch.is_grey()).then(|| {
-            let seen_nm = self.setup.palette.wavelength_nm(&swatch);
+            let seen_nm = self.setup.appearance.palette.wavelength_nm(&swatch);
             Wavelength {
                 rest_nm: if is_shifted { seen_nm * doppler } else { seen_nm },
                 seen_nm,
@@ -310,8 +310,8 @@ impl Teller<'_> {
                     Vec::new()
                 } else {
                     let normal = painter.normal_at(vertex, normal);
-                    let point = painter.surface.rest(vertex);
-                    let shift = painter.surface.frames().lamp_shift(face.body);
+                    let point = painter.appearance.surface.rest(vertex);
+                    let shift = painter.appearance.surface.frames().lamp_shift(face.body);
                     painter.lighting.parts(scene, point, normal, shift, common.is_light)
                 };
                 self.corner(vertex, &swatch, level, lights)
@@ -332,7 +332,7 @@ impl Teller<'_> {
         lights: Vec<(String, DVec3)>,
     ) -> Corner {
         let scene = self.setup.scene();
-        let hsv = self.setup.palette.hsv(swatch);
+        let hsv = self.setup.appearance.palette.hsv(swatch);
         // As a display shows its linear light.
         let value = match swatch.factor {
             1.0 => hsv.value,

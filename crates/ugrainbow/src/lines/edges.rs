@@ -45,7 +45,7 @@ fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
     }
     let normal = |face: &Face| {
         let outline = painter.scene.face_contours(face).next()?;
-        Some(unit_normal(outline.iter().map(|&vertex| painter.surface.rest(vertex))))
+        Some(unit_normal(outline.iter().map(|&vertex| painter.appearance.surface.rest(vertex))))
             .filter(|&normal| normal != DVec3::ZERO)
     };
     let is_one_plane = |a: DVec3, b: DVec3| a.dot(b) > 0.0 && a.cross(b).length() < FLAT;

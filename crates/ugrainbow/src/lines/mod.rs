@@ -127,7 +127,7 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
     let is_light = keeps_light && painter.is_light_wire(wire, &color);
     let end = |vertex| {
         let swatch = Swatch { translucency: 0.0, ..painter.wire_end(vertex, &color) };
-        if is_light { painter.palette.as_light(swatch) } else { Swatch { light: None, ..swatch } }
+        if is_light { painter.appearance.palette.as_light(swatch) } else { Swatch { light: None, ..swatch } }
     };
     for contour in painter.scene.wire_contours(wire) {
         for ends in contour.windows(2) {
@@ -144,17 +144,12 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
     let colors = match wireframe.color {
         Some(color) => [plain(color); 2],
         None => {
-            let keeps_light = shape.keeps_light(face.body);
-            let common = painter.common(face);
-            let common = if keeps_light { common } else { common.without_light() };
-            edge.ends.map(|end| {
-                let swatch = painter.swatch(end, &common);
-                let light = swatch.light.filter(|_| common.is_light);
-                Swatch { light, translucency: 0.0, ..swatch }
-            })
+            let is_moving = !shape.keeps_light(face.body);
+            let common = painter.appearance.common_in_motion(painter.scene, face, is_moving);
+            edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.swatch(end, &common) })
         }
     };
-    let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.surface.row(end)));
+    let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));
     Line { item: edge.face, body: face.body, ends: edge.ends, colors, rows }
 }
 
