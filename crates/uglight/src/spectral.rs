@@ -64,12 +64,15 @@ impl SpectralShift {
         let mut sum = DVec3::ZERO;
         for part in light {
             let lamp = &lamps[part.lamp as usize];
-            let of_lamp = shift(part.doppler);
-            let seen = |nm: f64| {
-                surface.transmittance(nm * own) * lamp.spectrum().at(nm * own * of_lamp) * through(nm)
+            let (spectrum, of_lamp) = (lamp.spectrum(), shift(part.doppler));
+            let xyz = match filters {
+                [] => surface.under(spectrum, own, of_lamp).unwrap_or_default(),
+                _ => integrate(|nm| {
+                    surface.transmittance(nm * own) * spectrum.at(nm * own * of_lamp) * through(nm)
+                }),
             };
             let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
-            sum += received * gain * DVec3::from(integrate(seen));
+            sum += received * gain * DVec3::from(xyz);
         }
         sum
     }
