@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 use ugrainbow::HueScale;
-use ugscene::BodyId;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::scenes;
@@ -10,8 +9,9 @@ use ugtests::scenes;
 /// The scene without velocities of its own, which `-vel` overrides.
 fn without_velocities(text: &[u8]) -> Vec<u8> {
     let mut scene = scenes::parse(text);
-    scene.faces.iter_mut().for_each(|face| face.body = BodyId::UNSTATED);
-    scene.wires.iter_mut().for_each(|wire| wire.body = BodyId::UNSTATED);
+    let unstated = scene.bodies.unstated();
+    scene.faces.iter_mut().for_each(|face| face.body = unstated);
+    scene.wires.iter_mut().for_each(|wire| wire.body = unstated);
     ugparse::write(&scene)
 }
 

@@ -1,35 +1,35 @@
-//! No circle of imports between the folders and files at the top of a crate.
+//! No circle of imports between the files and folders of a folder, at any depth.
 //!
-//! A circle has no bottom: none of its files can be read, tested or moved without all the others.
+//! A circle has no bottom: none of its files can be read, tested or moved without all the others. A
+//! module and its own parts count as one.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Imports between the top-level modules of a crate: from each module to those it uses, each with
-/// the first file that imports it.
+/// Imports between the modules of one folder: from each module to those it uses, each with the first
+/// file that imports it.
 type Imports = BTreeMap<String, BTreeMap<String, String>>;
 
 /// The circles of imports in a crate, one message each. `files`: paths below its `src`, and their
 /// texts.
 pub fn circles(krate: &str, files: &BTreeMap<String, String>) -> Vec<String> {
-    let imports = imports(files);
-    let mut found = BTreeSet::new();
-    for start in imports.keys() {
-        if let Some(circle) = shortest_circle(&imports, start) {
-            found.insert(circle);
-        }
+    let mut messages = Vec::new();
+    for (folder, imports) in imports(files) {
+        let found: BTreeSet<Vec<String>> =
+            imports.keys().filter_map(|start| shortest_circle(&imports, start)).collect();
+        messages.extend(found.iter().map(|circle| {
+            let steps = circle.iter().zip(circle.iter().cycle().skip(1));
+            let steps: Vec<String> =
+                steps.map(|(from, to)| format!("`{to}` is used by src/{}", imports[from][to])).collect();
+            let place = if folder.is_empty() { String::new() } else { format!(" in {}", folder.join("/")) };
+            format!(
+                "crates/{krate}: a circle of imports{place} between {}: {}. Move what two of them need into a file \
+                 below both, or pass it in as an argument",
+                circle.join(", "),
+                steps.join("; ")
+            )
+        }));
     }
-    let message = |circle: &Vec<String>| {
-        let steps = circle.iter().zip(circle.iter().cycle().skip(1));
-        let steps: Vec<String> =
-            steps.map(|(from, to)| format!("`{to}` is used by src/{}", imports[from][to])).collect();
-        format!(
-            "crates/{krate}: a circle of imports between {}: {}. Move what two of them need into a file below both, \
-             or pass it in as an argument",
-            circle.join(", "),
-            steps.join("; ")
-        )
-    };
-    found.iter().map(message).collect()
+    messages
 }
 
 /// A shortest circle through a module, beginning with the module that sorts first.
@@ -40,7 +40,7 @@ fn shortest_circle(imports: &Imports, start: &str) -> Option<Vec<String>> {
     let mut next = 0;
     while let Some(&module) = queue.get(next) {
         next += 1;
-        for other in imports[module].keys().map(String::as_str) {
+        for other in imports.get(module).into_iter().flat_map(BTreeMap::keys).map(String::as_str) {
             if other == start {
                 let mut circle = vec![module.to_string()];
                 while circle[circle.len() - 1] != start {
@@ -60,30 +60,41 @@ fn shortest_circle(imports: &Imports, start: &str) -> Option<Vec<String>> {
     None
 }
 
-fn imports(files: &BTreeMap<String, String>) -> Imports {
-    let is_module =
-        |path: &&String| !matches!(path.as_str(), "lib.rs" | "main.rs") && !path.starts_with("bin/");
-    let paths: Vec<&String> = files.keys().filter(is_module).collect();
-    let modules: BTreeSet<&str> = paths.iter().map(|path| module_of(path)).collect();
-    let exported = files.get("lib.rs").map_or_else(BTreeMap::new, |text| exports(&code(text)));
-    let mut imports: Imports = modules.iter().map(|module| (module.to_string(), BTreeMap::new())).collect();
-    for path in paths {
-        let (own, text) = (module_of(path), code(&files[path]));
-        for name in names_at_root(path, &text) {
-            let module = if modules.contains(name.as_str()) { Some(&name) } else { exported.get(&name) };
-            if let Some(module) = module.filter(|module| *module != own && modules.contains(module.as_str()))
-            {
-                let of_own = imports.entry(own.to_string()).or_default();
-                of_own.entry(module.clone()).or_insert_with(|| path.clone());
+/// The imports in every folder, by the names on the way to it.
+fn imports(files: &BTreeMap<String, String>) -> BTreeMap<Vec<String>, Imports> {
+    let is_module = |path: &&String| path.as_str() != "main.rs" && !path.starts_with("bin/");
+    let paths = files.keys().filter(is_module);
+    let modules: BTreeMap<Vec<String>, &String> = paths.map(|path| (module_of(path), path)).collect();
+    let exports: BTreeMap<&Vec<String>, BTreeMap<String, String>> =
+        modules.iter().map(|(module, path)| (module, exports(&code(&files[*path])))).collect();
+    let mut imports: BTreeMap<Vec<String>, Imports> = BTreeMap::new();
+    for (module, path) in &modules {
+        for used in used(module, &code(&files[*path])) {
+            for depth in 0..used.len().min(module.len()) {
+                let folder = &used[..depth];
+                if module[..depth] != *folder {
+                    break;
+                }
+                let name = &used[depth];
+                let other =
+                    exports.get(&folder.to_vec()).and_then(|exports| exports.get(name)).unwrap_or(name);
+                let is_other = *other != module[depth];
+                if is_other && modules.contains_key(&[folder, std::slice::from_ref(other)].concat()) {
+                    let of_folder = imports.entry(folder.to_vec()).or_default();
+                    let of_own = of_folder.entry(module[depth].clone()).or_default();
+                    of_own.entry(other.clone()).or_insert_with(|| (*path).clone());
+                }
             }
         }
     }
     imports
 }
 
-/// The top-level module of a file.
-fn module_of(path: &str) -> &str {
-    path.split('/').next().unwrap_or(path).trim_end_matches(".rs")
+/// The names that lead from the root of the crate to the module of a file.
+fn module_of(path: &str) -> Vec<String> {
+    let path = path.trim_end_matches(".rs");
+    let names = path.strip_suffix("/mod").unwrap_or(path);
+    if names == "lib" { Vec::new() } else { names.split('/').map(str::to_owned).collect() }
 }
 
 /// Source text without comments and without the tests at its end.
@@ -102,55 +113,87 @@ fn code(text: &str) -> String {
     code
 }
 
-/// The names that `lib.rs` re-exports, with their modules. `pub use shape::{Circle, area as size};`
+/// The names that a module re-exports from its parts, with the parts.
+/// `pub use shape::{Circle, area as size};`
 fn exports(code: &str) -> BTreeMap<String, String> {
     let mut exports = BTreeMap::new();
-    for statement in code.split(';').filter_map(|statement| statement.split("use ").nth(1)) {
-        let Some((module, names)) = statement.split_once("::") else { continue };
-        for name in names.trim_matches(['{', '}', ' ']).split(',') {
-            let name = name.rsplit([' ', ':']).find(|word| !word.is_empty()).unwrap_or_default();
-            exports.insert(name.to_string(), module.trim().to_string());
+    for statement in code.split(';') {
+        let Some(at) = statement.find("use ").filter(|&at| statement[..at].contains("pub")) else { continue };
+        for path in tree(&statement[at + "use ".len()..]) {
+            if let [module, .., name] = &path[..] {
+                exports.insert(name.clone(), module.clone());
+            }
         }
     }
     exports
 }
 
-/// First names after `crate::`, or after as many `super::` as lead to the root.
-fn names_at_root(path: &str, code: &str) -> Vec<String> {
-    let depth = path.matches('/').count() + usize::from(!path.ends_with("/mod.rs"));
-    let roots = ["crate::".to_string(), "super::".repeat(depth)];
-    let mut names = Vec::new();
-    for root in &roots {
-        for (at, _) in code.match_indices(root.as_str()) {
+/// What a module uses of its crate, as names from the root: paths that begin with `crate`, `self` or
+/// `super`.
+fn used(module: &[String], code: &str) -> Vec<Vec<String>> {
+    let mut used = Vec::new();
+    for begin in ["crate::", "self::", "super::"] {
+        for (at, _) in code.match_indices(begin) {
             let is_whole = !code[..at].ends_with(|c: char| c == ':' || c == '_' || c.is_alphanumeric());
             if is_whole {
-                names.extend(first_names(&code[at + root.len()..]));
+                used.extend(tree(&code[at..]).into_iter().map(|path| from_root(module, &path)));
             }
         }
     }
-    names
+    used
 }
 
-/// The first names of a path: `shape` of `shape::Circle`; `shape` and `area` of
-/// `{shape::Circle, area}`.
-fn first_names(rest: &str) -> Vec<String> {
-    let word = |text: &str| -> String {
-        text.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect()
-    };
-    let Some(group) = rest.strip_prefix('{') else { return vec![word(rest)] };
-    let (mut depth, mut names) = (1, vec![word(group)]);
-    for (at, c) in group.char_indices() {
-        match c {
-            '{' => depth += 1,
-            '}' => depth -= 1,
-            ',' if depth == 1 => names.push(word(&group[at + 1..])),
-            _ => {}
+/// A path in a module, from the root of the crate.
+fn from_root(module: &[String], path: &[String]) -> Vec<String> {
+    let n_up = path.iter().take_while(|name| *name == "super").count();
+    let n_begin = path.iter().take_while(|name| ["crate", "self", "super"].contains(&name.as_str())).count();
+    let base = if path[0] == "crate" { &[] } else { &module[..module.len().saturating_sub(n_up)] };
+    [base, &path[n_begin..]].concat()
+}
+
+/// The paths of a tree of imports: `a::b` and `a::c` of `a::{b, c}`, by their original names. The text
+/// may go on behind it.
+fn tree(text: &str) -> Vec<Vec<String>> {
+    let mut paths = Vec::new();
+    // The names before each open brace, and those of the current path.
+    let mut open: Vec<Vec<String>> = Vec::new();
+    let mut path: Vec<String> = Vec::new();
+    let mut rest = text.trim_start();
+    loop {
+        let word: String = rest.chars().take_while(|c| c.is_alphanumeric() || "_*".contains(*c)).collect();
+        rest = &rest[word.len()..];
+        if !word.is_empty() {
+            path.push(word);
         }
-        if depth == 0 {
-            break;
+        let behind = rest.trim_start();
+        if let Some(after) = rest.strip_prefix("::") {
+            rest = after;
+            if let Some(after) = rest.strip_prefix('{') {
+                open.push(path.clone());
+                rest = after.trim_start();
+            }
+            continue;
+        }
+        if !path.is_empty() {
+            paths.push(std::mem::take(&mut path));
+        }
+        // The new name of `name as other`.
+        let behind = behind.strip_prefix("as ").map_or(behind, |other| {
+            other.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_').trim_start()
+        });
+        let Some(outer) = open.last() else { return paths };
+        if let Some(after) = behind.strip_prefix(',') {
+            (path, rest) = (outer.clone(), after.trim_start());
+            if rest.starts_with('}') {
+                path.clear();
+            }
+        } else if let Some(after) = behind.strip_prefix('}') {
+            open.pop();
+            rest = after;
+        } else {
+            return paths;
         }
     }
-    names
 }
 
 #[test]
@@ -161,20 +204,31 @@ fn circles_are_found() {
     let open = [
         ("lib.rs", "mod a; mod b; mod c;\npub use c::{Thing, other as Other};"),
         ("a.rs", "use crate::b::x;\n// use crate::c;\n#[cfg(test)]\nmod tests {\n    use crate::c;\n}\n"),
-        ("b/mod.rs", "mod inner;\nuse super::c;"),
-        ("b/inner.rs", "use crate::{Thing, b::y};"),
+        ("b/mod.rs", "mod inner;\nmod other;\nuse super::c;\npub struct Shared;"),
+        ("b/inner.rs", "use crate::{Thing, b::{y, other::{One, Two}}};\nuse super::Shared;"),
+        ("b/other.rs", "pub struct One;"),
         ("c.rs", "pub struct Thing;"),
     ];
     assert_eq!(circles("demo", &files(&open)), Vec::<String>::new());
     for closing in ["use crate::a::z;", "use super::{b, a};", "fn f() { crate::a::f() }"] {
         let mut closed = open;
-        closed[4].1 = closing;
+        closed[5].1 = closing;
         let found = circles("demo", &files(&closed));
         let expected = "crates/demo: a circle of imports between";
         assert!(
             !found.is_empty() && found.iter().all(|text| text.starts_with(expected)),
             "{closing} {found:?}"
         );
+    }
+    // In a folder below.
+    for closing in
+        ["use super::inner::z;", "use crate::{c, b::{inner::z as y, y}};", "fn f() { super::inner::f() }"]
+    {
+        let mut closed = open;
+        closed[4].1 = closing;
+        let found = circles("demo", &files(&closed));
+        let expected = "crates/demo: a circle of imports in b between inner, other: ";
+        assert!(found.len() == 1 && found[0].starts_with(expected), "{closing} {found:?}");
     }
     // A name that `lib.rs` exports stands for its module.
     let named = [("lib.rs", "pub use a::One;"), ("a.rs", "use crate::b;"), ("b.rs", "use crate::One;")];

@@ -92,7 +92,7 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
     // The light of coloured lamps multiplies spectra, which are not in the output.
     let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);
     let config = &Config { light: is_lit, ..config.clone() };
-    let frames = RestFrames::new(&scene).with_unstated(config.velocity);
+    let frames = RestFrames::with_default(&scene, config.velocity);
     let default_camera = default_camera(&scene, config, &frames);
     let eye = default_camera.map_or_else(|| ugscene::eye(&scene, config.eye), |camera| camera.eye);
     ugscene::require_colors_at_rest(&scene)?;

@@ -181,7 +181,7 @@ fn colours_that_meet_are_added_by_angle() {
     let lamp = Spectrum::blackbody(3000.0, 2.0).seen(doppler);
     // Angles are those at rest, where the triangles stand askew by less than their size over the
     // distance.
-    let rest = ugscene::RestFrames::new(&scene).with_unstated(moving(-0.3, 0.0, 0.0).velocity);
+    let rest = ugscene::RestFrames::with_default(&scene, moving(-0.3, 0.0, 0.0).velocity);
     let rest = ugscene::rest_positions(&scene, DVec3::ZERO, &rest);
     let angle = |from: usize, to: usize| (rest[from] - rest[0]).angle_between(rest[to] - rest[0]);
     let (first, second) = (angle(1, 2), angle(2, 3));

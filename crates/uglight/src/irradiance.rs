@@ -118,7 +118,7 @@ impl SurfaceElement {
     ) {
         // Velocities of two frames can be composed only in common axes: those of the camera, which
         // boosts do not turn.  Eq. (P25)
-        let axes_of = |body: BodyId| frames.scene_from_axes(body).inverse();
+        let axes_of = |body: BodyId| frames.of(body).scene_from_boosted().inverse();
         let (of_surface, of_lamp) = (axes_of(self.body), axes_of(body));
         let (point, normal) = (of_surface * self.point, of_surface * self.normal);
         let (velocity, motion) = (frames.velocity(self.body), frames.velocity(body));

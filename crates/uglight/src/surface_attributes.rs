@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
@@ -51,12 +51,6 @@ impl SurfaceAttributes {
             mixtures[row as usize] = shares;
         }
         mixtures.into_iter().map(|shares| shares.of_spectra(scene)).collect()
-    }
-
-    /// The greatest rapidity of a body.
-    pub fn greatest_rapidity(&self, scene: &Scene) -> f64 {
-        let bodies = (0..scene.bodies.len()).map(BodyId::from_index);
-        bodies.map(|body| self.frames.velocity(body).rapidity()).fold(0.0, f64::max)
     }
 
     /// True if hues are shifted, and a face or one of `wires` that moves has a black body or a sampled
@@ -116,14 +110,9 @@ impl SurfaceAttributes {
         self.frames.velocity(body)
     }
 
-    /// Turns rest coordinates of a body, as (P4) gives them, into the axes of the scene.  Eq. (P25)
-    pub fn scene_from_axes(&self, body: BodyId) -> DQuat {
-        self.frames.scene_from_axes(body)
-    }
-
     /// A viewing direction in the rest frame of a body, in the axes of the scene.  Eq. (P6), (P25)
     pub fn rest_direction(&self, direction: DVec3, body: BodyId) -> DVec3 {
-        self.scene_from_axes(body) * aberrate(direction, self.frames.velocity(body))
+        self.frames.of(body).scene_from_boosted() * aberrate(direction, self.frames.velocity(body))
     }
 }
 

@@ -244,7 +244,7 @@ mod tests {
             let points = scene
                 .vertices
                 .iter()
-                .map(|vertex| Point::new(&motions[0], BodyId::UNSTATED, vertex.position))
+                .map(|vertex| Point::new(&motions[0], BodyId::from_index(0), vertex.position))
                 .collect();
             let mut mesh = RefinedMesh::new(&motions, points);
             let bounds = Bounds::new(

@@ -47,7 +47,7 @@ pub(crate) fn add_vertices(
         }
         let normal = mean_normal(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
-        scene.vertices.push(Vertex { name, position: DVec3::ZERO, color, normal });
+        scene.add_vertex(Vertex { name, position: DVec3::ZERO, color, normal });
     }
     inherits
 }

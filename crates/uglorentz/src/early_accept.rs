@@ -124,7 +124,7 @@ mod tests {
             let a = point(0.618_034, 0.414_214, 0.732_051);
             let b = a + point(0.236_068, 0.645_751, 0.316_625) * size;
             let c = a + point(0.872_983, 0.123_106, 0.358_899) * size;
-            let corners = [a, b, c].map(|p| Point::new(&motion, BodyId::UNSTATED, p));
+            let corners = [a, b, c].map(|p| Point::new(&motion, BodyId::from_index(0), p));
             for tolerance in [Tolerance::new(1e-4, 1.5e-3), Tolerance::new(1e-2, f64::INFINITY)] {
                 if is_close(corners.iter(), most_spread(&motion, &tolerance)) {
                     n_close += 1;

@@ -265,7 +265,7 @@ mod tests {
             let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
             let a = point(0.618_034, 0.414_214, 0.732_051);
             let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
-            let corners = corners.map(|corner| Point::new(&motion, BodyId::UNSTATED, corner));
+            let corners = corners.map(|corner| Point::new(&motion, BodyId::from_index(0), corner));
             if near_lamps.is_surely_linear(&motion, corners.iter()) {
                 n_linear += 1;
                 let pairs = [(0, 1), (1, 2), (0, 2)];

@@ -154,7 +154,8 @@ mod tests {
             let corner = |p, q| DVec3::new(3.0 + step(k, p), step(k, q), 0.01);
             let corners =
                 [corner(0.618_034, 0.414_214), corner(0.236_068, 0.645_751), corner(0.872_983, 0.123_106)];
-            let points = corners.map(|corner| Point::new(&motions[0], BodyId::UNSTATED, corner)).to_vec();
+            let points =
+                corners.map(|corner| Point::new(&motions[0], BodyId::from_index(0), corner)).to_vec();
             let mut mesh = RefinedMesh::new(&motions, points);
             let marks = Marks { edges: [true, true, true, false], inside: false };
             let pieces = split(&mut mesh, &bounds, &Shape::Triangle([0, 1, 2]), marks);

@@ -11,7 +11,7 @@ use uglorentz::{Anchor, Config, Pieces};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
 use ugpipe::Words;
 use ugrandom::Random;
-use ugscene::{BodyId, Geometry, LightKind, LightMotion, RestFrames, Scene, rest_positions};
+use ugscene::{Geometry, LightKind, LightMotion, RestFrames, Scene, rest_positions};
 
 /// Bodies of one triangle each.
 struct Fleet {
@@ -316,7 +316,7 @@ fn the_camera_of_the_scene_may_move() {
     assert_eq!(ugscene::camera_velocity(&still), Velocity::ZERO);
     let beta = |scene: &Scene, body| scene.bodies.stated_velocity(body).map(Velocity::beta);
     assert_eq!(beta(&still, still.faces[0].body), Some(DVec3::new(0.0, 0.5, 0.0)));
-    assert_eq!(still.faces.last().unwrap().body, BodyId::UNSTATED);
+    assert_eq!(still.faces.last().unwrap().body, still.bodies.unstated());
 
     // All velocities are those in the frame of the camera, (P15).
     let expected = |u: DVec3| compose(velocity(u), velocity(DVec3::X * -0.6)).beta();

@@ -235,7 +235,7 @@ fn bodies_with_their_own_velocities() {
     assert!((place(&scene, find(&scene, "lone")) - seen_position(DVec3::splat(7.0), v)).length() < 1e-13);
     // -vel 0 stops them; who had a velocity says so.
     let scene = seen(text, &moving(DVec3::ZERO));
-    let said: Vec<bool> = scene.faces.iter().map(|f| f.body != ugscene::BodyId::UNSTATED).collect();
+    let said: Vec<bool> = scene.faces.iter().map(|f| f.body != scene.bodies.unstated()).collect();
     assert_eq!(said, [false, true, true]);
     assert_eq!(scene.vertices[0].position, DVec3::new(1.0, 2.0, 3.0));
 }

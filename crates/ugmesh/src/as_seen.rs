@@ -18,7 +18,7 @@ pub(crate) fn see_normals(scene: &mut Scene) {
     for (vertex, body) in scene.vertices.iter_mut().zip(bodies) {
         let Some(rest) = vertex.normal else { continue };
         // Lengths do not matter, and their squares may overflow.
-        let rest = frames.scene_from_axes(body).inverse() * (rest / rest.abs().max_element());
+        let rest = frames.of(body).scene_from_boosted().inverse() * (rest / rest.abs().max_element());
         let seen = SeenPosition(vertex.position - eye);
         vertex.normal = Some(geometry.seen_normal(RestPosition(rest), seen, frames.velocity(body)));
     }

@@ -3,9 +3,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugpipe::printable;
-use ugscene::{
-    BodyId, Color, ColorId, ColorValue, Face, NameId, Scene, UniqueNames, Vertex, VertexId, unit_normal,
-};
+use ugscene::{Color, ColorId, ColorValue, Face, NameId, Scene, UniqueNames, Vertex, VertexId, unit_normal};
 
 use crate::error::Problem;
 
@@ -159,7 +157,7 @@ impl Builder {
             contours,
             color,
             illum: None,
-            body: BodyId::UNSTATED,
+            body: self.scene.bodies.unstated(),
         });
         Ok(())
     }

@@ -4,7 +4,7 @@
 //! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
-use ugscene::{BodyId, ColorId, Face, VertexId};
+use ugscene::{ColorId, Face, VertexId};
 
 use crate::numbered::Name;
 use crate::scope::Scope;
@@ -46,7 +46,7 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
         return None;
     };
     let body = match tail.beta.map(|beta| scope.bodies.moving_with_beta(beta)) {
-        None => BodyId::UNSTATED,
+        None => scope.bodies.bodies.unstated(),
         Some(Some(body)) => body,
         // Faster than light: the grammar reports the error.
         Some(None) => {

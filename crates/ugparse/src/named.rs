@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::scope::Rows;
+use crate::rows::Rows;
 use crate::source::Span;
 
 /// The colours or surfaces of a scope.

@@ -12,7 +12,8 @@ use ugscene::{BodyId, ColorId, Contours, Illum, IllumId, LightMotion, NameId, Su
 use crate::Options;
 use crate::diagnostic::Diagnostic;
 use crate::reader::{Document, read, read_part};
-use crate::scope::{DefaultColor, NO_ROW, Rows, Scope, shifted};
+use crate::rows::Rows;
+use crate::scope::{DefaultColor, NO_ROW, Scope, shifted};
 
 /// The least size of a part in bytes.
 const MIN_PART: usize = 1 << 19;

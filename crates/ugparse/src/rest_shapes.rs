@@ -1,7 +1,7 @@
 //! Warns of bodies that move and are drawn with their shapes at rest.
 
 use ugpipe::remedies;
-use ugscene::{Motion, require_seen_geometry};
+use ugscene::require_seen_geometry;
 
 use crate::{Diagnostic, Parsed};
 
@@ -11,7 +11,7 @@ pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
     let Parsed { scene, origins, .. } = parsed;
     require_seen_geometry(scene).err()?;
     let mut faces = scene.faces.iter();
-    let moving = faces.position(|face| scene.bodies[face.body].motion != Motion::default());
+    let moving = faces.position(|face| scene.bodies.is_moving(face.body));
     let span = moving.and_then(|row| origins.faces.get(row).copied());
     let message = "bodies in this scene move, and are drawn with their shapes at rest";
     let finding = Diagnostic::warning(span.unwrap_or_default(), message);

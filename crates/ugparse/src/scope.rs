@@ -8,14 +8,15 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugphysics::Velocity;
+use ugphysics::{Velocity, WorldLine};
 use ugscene::{
-    Bodies, Body, BodyId, Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light,
-    LightKind, LightMotion, Mix, Motion, NameId, Names, SurfaceId, SurfaceProperties, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind,
+    LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;
 use crate::numbered::{Name, NumberedNames};
+use crate::rows::Rows;
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
@@ -31,50 +32,6 @@ const CORNER_BYTES: usize = 5;
 
 /// The row of a name without a vertex.
 pub(crate) const NO_ROW: u32 = u32::MAX;
-
-/// A table, and the span of each row in the text.
-#[derive(Debug)]
-pub(crate) struct Rows<T> {
-    pub rows: Vec<T>,
-    pub spans: Vec<Span>,
-}
-
-impl<T> Default for Rows<T> {
-    fn default() -> Self {
-        Self { rows: Vec::new(), spans: Vec::new() }
-    }
-}
-
-impl<T> Rows<T> {
-    pub fn push(&mut self, row: T, span: Span) {
-        self.rows.push(row);
-        self.spans.push(span);
-    }
-
-    fn with_capacity(rows: usize) -> Self {
-        Self { rows: Vec::with_capacity(rows), spans: Vec::with_capacity(rows) }
-    }
-
-    pub fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    pub fn into_parts(self) -> (Vec<T>, Vec<Span>) {
-        (self.rows, self.spans)
-    }
-
-    /// Removes the given rows, which must be sorted.
-    fn remove(&mut self, rows: &[usize]) {
-        if rows.is_empty() {
-            return;
-        }
-        let is_kept = |row: usize| rows.binary_search(&row).is_err();
-        let mut row = 0..;
-        self.rows.retain(|_| row.next().is_some_and(is_kept));
-        let mut row = 0..;
-        self.spans.retain(|_| row.next().is_some_and(is_kept));
-    }
-}
 
 /// The tables of a scope, in the order of the text.
 #[derive(Default)]
@@ -500,7 +457,7 @@ pub(crate) struct BodyTable {
 impl BodyTable {
     /// The body of a face or wire with this velocity, if it has one.
     pub fn of_stated(&mut self, velocity: Option<Velocity>) -> BodyId {
-        velocity.map_or(BodyId::UNSTATED, |velocity| self.moving_with(velocity))
+        velocity.map_or(self.bodies.unstated(), |velocity| self.moving_with(velocity))
     }
 
     /// The body with this velocity; adds it if it is new.
@@ -531,7 +488,7 @@ impl BodyTable {
     }
 
     fn add(&mut self, bits: [u64; 3], velocity: Velocity) -> BodyId {
-        let id = self.bodies.push(Body::inertial(velocity));
+        let id = self.bodies.push(None, WorldLine::inertial(velocity));
         self.rows.insert(bits, id);
         self.last = Some((bits, id));
         id
@@ -540,11 +497,7 @@ impl BodyTable {
     /// Adds the bodies of another table where they are new, and returns the rows of all of them in
     /// this one.
     pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
-        let stated = other.bodies.iter().skip(1).map(|body| {
-            let Motion::Inertial(velocity) = body.motion;
-            self.moving_with(velocity)
-        });
-        std::iter::once(BodyId::UNSTATED).chain(stated).collect()
+        other.bodies.ids().map(|body| self.of_stated(other.bodies.stated_velocity(body))).collect()
     }
 }
 

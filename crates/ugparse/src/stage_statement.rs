@@ -12,12 +12,12 @@ use ugscene::{
 };
 
 use crate::diagnostic::Diagnostic;
+use crate::number_text::push_number;
 use crate::reader::Document;
 use crate::source::Span;
 use crate::suggest::nearest;
 use crate::token::{Input, found, is_blank, number};
 use crate::wording::{shorten, word_help};
-use crate::writer::push_number;
 
 /// First word of the statement.
 const KEYWORD: &str = "ugstage";

@@ -3,14 +3,14 @@
 //! The formatter works on the text itself, token by token, and so keeps what the parser does not:
 //! the order of statements and the comments within them.
 
-use crate::diagnostic::Diagnostics;
+use crate::diagnostics::Diagnostics;
 use crate::grammar::KEYWORDS;
+use crate::number_text::push_number;
 use crate::parallel_reader::read_document;
 use crate::source::Source;
 use crate::token::{
     Input, comment, escape, found, integer, is_blank, line_end, number, skip_statement, word,
 };
-use crate::writer::push_number;
 use crate::{Options, check_length, refuse_errors, stage_statement};
 
 /// Indentation per enclosing scope.

@@ -4,13 +4,13 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
-use ugphysics::Velocity;
 use ugscene::{
     BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, NameId,
     Projection, Scene, SurfaceProperties,
 };
 
 use crate::chunked_writer::ChunkedWriter;
+use crate::number_text::{push_number, push_velocity};
 use crate::stage_statement;
 
 /// Number of rows per piece of text.
@@ -409,46 +409,4 @@ impl<'s> Writer<'s> {
         }
         self.text(";");
     }
-}
-
-/// Writes ` <x y z>` in units of c.
-fn push_velocity(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, velocity: Velocity) {
-    let mut mark: &[u8] = b" <";
-    for part in velocity.beta().to_array() {
-        out.extend_from_slice(mark);
-        push_number(out, numbers, part);
-        mark = b" ";
-    }
-    out.push(b'>');
-}
-
-/// Writes the shortest decimal that reads back to the same bits.
-pub(crate) fn push_number(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, value: f64) {
-    // Not `-0.0`, whose sign the general method keeps.
-    if value == value.trunc() && value.abs() < 1e6 && (value != 0.0 || value.is_sign_positive()) {
-        let mut digits = [0u8; 8];
-        out.extend_from_slice(short_integer(value as i32, &mut digits));
-        return;
-    }
-    let text = numbers.format_finite(value);
-    out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
-}
-
-/// Decimal digits of an integer of at most six digits.
-fn short_integer(value: i32, digits: &mut [u8; 8]) -> &[u8] {
-    let mut rest = value.unsigned_abs();
-    let mut start = digits.len();
-    loop {
-        start -= 1;
-        digits[start] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-        if rest == 0 {
-            break;
-        }
-    }
-    if value < 0 {
-        start -= 1;
-        digits[start] = b'-';
-    }
-    &digits[start..]
 }

@@ -54,7 +54,7 @@ impl Immersion {
     /// intersect, the one whose surface is nearer in the first direction is taken as inner.
     pub fn media(&self, world: &World, faces: Faces<'_>, event: Event) -> Media {
         let mut inside = self.solids.iter().filter(|(solid, [low, high])| {
-            let place = world.parts[solid.part].frame.to_rest(event).x;
+            let place = world.parts[solid.part].frame.rest_from_camera(event).x;
             place.cmpge(*low).all() && place.cmple(*high).all()
         });
         if inside.next().is_none() {

@@ -56,7 +56,6 @@ mod config;
 mod corridor;
 mod error;
 pub mod explain;
-mod frame;
 mod immersion;
 mod middles;
 mod moving_boxes;

@@ -4,7 +4,6 @@ use rayon::prelude::*;
 use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
 use ugscene::BodyId;
 
-use crate::frame::RestFrame;
 use crate::path::Ray;
 use crate::scenery::Scenery;
 
@@ -82,7 +81,7 @@ impl<'a> Middles<'a> {
             depth: s,
             time: ray.origin.t + s * ray.step.t,
             velocity: frames.velocity(body),
-            scene_from_axes: frames.scene_from_axes(body),
+            scene_from_axes: frames.of(body).scene_from_boosted(),
             in_medium: self.in_medium(&ray, body),
         };
         Some((item, emission))
@@ -91,10 +90,10 @@ impl<'a> Middles<'a> {
     /// Light of a body along a ray, if the eye is in a transparent solid.
     fn in_medium(&self, ray: &Ray, body: BodyId) -> Option<MediumLight> {
         self.scenery.media_at(ray.origin).innermost()?;
-        let frame = RestFrame::new(self.scenery.appearance.surface.frames(), body);
+        let frame = *self.scenery.appearance.surface.frames().of(body);
         Some(MediumLight {
             doppler: ray.wave.frequency / frame.wave_to_rest(ray.wave).frequency,
-            rest_direction: frame.to_rest(ray.step).x.normalize_or_zero(),
+            rest_direction: frame.rest_from_camera(ray.step).x.normalize_or_zero(),
         })
     }
 }

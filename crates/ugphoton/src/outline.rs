@@ -3,9 +3,7 @@
 //! Tests against it are fast, and skip parts that a ray misses. They do not change hits.
 
 use glam::DVec3;
-use ugphysics::Event;
-
-use crate::frame::RestFrame;
+use ugphysics::{Event, RestFrame};
 
 /// The sphere is larger than the box of the part by this part of its radius and of its distance
 /// from the eye: more than rounding errors of hits.
@@ -39,9 +37,14 @@ impl Outline {
         // NaN fails the comparison.
         let cone = (sin < 1.0).then(|| {
             let cos = libm::sqrt(1.0 - sin * sin);
-            frame.to_camera(Event { t: -cos, x: center / distance })
+            frame.camera_from_rest(Event { t: -cos, x: center / distance })
         });
-        Self { center, square: radius * radius, cone, slack: SLACK * frame.gamma() * frame.gamma() }
+        Self {
+            center,
+            square: radius * radius,
+            cone,
+            slack: SLACK * frame.velocity().gamma() * frame.velocity().gamma(),
+        }
     }
 
     /// False if light that arrives at the eye in a direction of the frame of the camera cannot come

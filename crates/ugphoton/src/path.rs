@@ -3,10 +3,8 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugphysics::{Event, Medium, WaveVector};
+use ugphysics::{Event, Medium, RestFrame, WaveVector};
 use ugscene::SurfaceId;
-
-use crate::frame::RestFrame;
 
 /// A ray, followed from the eye into the past.
 #[derive(Clone, Copy, Debug)]
@@ -77,8 +75,8 @@ impl Ray {
     pub fn in_part(&self, row: usize, frame: &RestFrame) -> (DVec3, DVec3) {
         match self.start {
             Start::Eye => (DVec3::ZERO, frame.light_to_rest(self.step.x)),
-            Start::Surface { part, place } if part == row => (place, frame.to_rest(self.step).x),
-            _ => (frame.to_rest(self.origin).x, frame.to_rest(self.step).x),
+            Start::Surface { part, place } if part == row => (place, frame.rest_from_camera(self.step).x),
+            _ => (frame.rest_from_camera(self.origin).x, frame.rest_from_camera(self.step).x),
         }
     }
 }

@@ -168,7 +168,7 @@ fn depths(scene: &Scene, camera: &CameraOptions, config: &Config) -> Result<Dept
     Ok(middles::depths(&scenery, coarse.picture.size, 1))
 }
 
-/// The scene with its vertices where they are seen, and the stage that says so.
+/// The scene with its vertices where they are seen and where they rest, and the stage that says so.
 pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     ugscene::repeat_vertices(&mut scene, config.repeat);
     let picture = &config.picture;
@@ -181,11 +181,15 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
             vertex.normal = vertex.normal.or((normal != glam::DVec3::ZERO).then_some(normal));
         }
     }
+    scene.rest.reserve_exact(rest.len());
     for ((vertex, rest), body) in scene.vertices.iter_mut().zip(rest).zip(&placed.bodies) {
         let motion = &placed.motions[body.index()];
         let is_unmoved = motion.is_at_rest() && placed.shifts[body.index()] == glam::DVec3::ZERO;
-        if !is_unmoved {
+        if is_unmoved {
+            scene.rest.push(vertex.position - placed.eye);
+        } else {
             vertex.position = motion.seen(RestPosition(rest)).0 + placed.eye;
+            scene.rest.push(motion.turned_back(rest));
         }
     }
     if let Some(vertex) = scene.vertices.iter().find(|vertex| !vertex.position.is_finite()) {

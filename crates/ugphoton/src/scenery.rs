@@ -5,13 +5,12 @@ use std::ops::Range;
 
 use glam::DVec3;
 use uglight::{Appearance, ColorShift, Interpolation, Lamp, Lamps};
-use ugphysics::{Event, Medium};
+use ugphysics::{Event, Medium, RestFrame};
 use ugpicture::PictureOptions;
 use ugscene::{Geometry, HueScale, Scene, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
-use crate::frame::RestFrame;
 use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
 use crate::path::{Media, Ray, Solid};
@@ -102,7 +101,7 @@ impl<'a> Scenery<'a> {
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
-        let lamp_frame = |lamp: &Lamp| Some(RestFrame::new(surface.frames(), lamp.motion.body()?));
+        let lamp_frame = |lamp: &Lamp| Some(*surface.frames().of(lamp.motion.body()?));
         let lamp_frames = lamps.iter().map(lamp_frame).collect();
         let is_uncut = appearance.palette.has_light() || config.picture.keeps_light();
         let appearance = if is_uncut { appearance } else { appearance.clipped() };
@@ -166,7 +165,7 @@ impl<'a> Scenery<'a> {
 
     /// The medium of a transparent solid, in the frame of the camera.
     fn medium(&self, solid: Solid) -> Medium {
-        let velocity = self.world.parts[solid.part].frame.velocity;
+        let velocity = self.world.parts[solid.part].frame.velocity();
         Medium { index: self.properties(solid.surface).refraction, velocity }
     }
 

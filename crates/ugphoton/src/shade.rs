@@ -87,9 +87,8 @@ impl<'a> Shader<'a> {
         self.diffuse.clear();
         self.highlights.clear();
         let scenery = self.scenery;
-        let frame = &scenery.world.parts[point.part].frame;
-        let element =
-            SurfaceElement { point: point.place, delay: point.delay, normal: point.normal, body: frame.body };
+        let body = scenery.scene.faces[point.face as usize].body;
+        let element = SurfaceElement { point: point.place, delay: point.delay, normal: point.normal, body };
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
@@ -118,11 +117,11 @@ impl<'a> Shader<'a> {
                 }
             }
         };
-        let lamp_shift = scenery.appearance.surface.frames().lamp_shift(frame.body);
+        let lamp_shift = scenery.appearance.surface.frames().lamp_shift(body);
         let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
             (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
                 let from = match &scenery.lamp_frames[row] {
-                    Some(frame) => frame.to_rest(point.event).x,
+                    Some(frame) => frame.rest_from_camera(point.event).x,
                     None => point.place,
                 };
                 let toward = ugphysics::unit_or_zero(shifted - from);
@@ -146,11 +145,11 @@ fn unshadowed(
     let frame = &scenery.world.parts[point.part].frame;
     // Beneath a smooth surface, faces in its light may be turned away from the lamp. The shadow
     // ray starts above them, so the limit of the light is as smooth as the normals.
-    let lift = frame.to_camera(Event { t: 0.0, x: point.lift });
+    let lift = frame.camera_from_rest(Event { t: 0.0, x: point.lift });
     let origin = Event { t: point.event.t + lift.t, x: point.event.x + lift.x };
     let ray = Ray {
         origin,
-        step: frame.to_camera(Event { t: -1.0, x: toward }),
+        step: frame.camera_from_rest(Event { t: -1.0, x: toward }),
         // Nothing depends on the frequency of a shadow ray.
         wave: WaveVector { frequency: 1.0, k: DVec3::ZERO },
         start: Start::Surface { part: point.part, place: point.place + point.lift },

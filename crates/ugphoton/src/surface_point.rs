@@ -53,9 +53,9 @@ impl SurfacePoint {
         let event = along(ray.origin, ray.step, found.s);
         let delay = match ray.start {
             Start::Eye => 0.0,
-            _ => part.frame.to_rest(event).t + ugphysics::length(place),
+            _ => part.frame.rest_from_camera(event).t + ugphysics::length(place),
         };
-        let is_moving = !part.frame.velocity.is_zero();
+        let is_moving = !part.frame.velocity().is_zero();
         let common = scenery.appearance.common_in_motion(&scenery.scene, face, is_moving);
         let color = scenery.appearance.color_at(&common, found.triangle.corners, found.weights);
         Self {

@@ -111,8 +111,8 @@ fn hits_are_those_of_testing_every_body() {
             n_hits[2] += usize::from(worlds.check(&primary, first.s..f64::INFINITY).is_some());
             let frame = &scenery.world.parts[first.part].frame;
             let event = along(primary.origin, primary.step, first.s);
-            let place = frame.to_rest(event).x;
-            let step = frame.to_camera(Event { t: -1.0, x: random.direction() });
+            let place = frame.rest_from_camera(event).x;
+            let step = frame.camera_from_rest(Event { t: -1.0, x: random.direction() });
             let from_surface = ray(event, step, Start::Surface { part: first.part, place });
             n_hits[3] += usize::from(worlds.check(&from_surface, 0.0..f64::INFINITY).is_some());
         }

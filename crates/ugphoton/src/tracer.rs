@@ -293,7 +293,7 @@ impl<'a> Tracer<'a> {
         }
         let frame = &self.scenery.world.parts[point.part].frame;
         let forward = medium(self.scenery, media.innermost(), point.part).step(wave);
-        let step = frame.to_camera(Event { t: -forward.t, x: -forward.x });
+        let step = frame.camera_from_rest(Event { t: -forward.t, x: -forward.x });
         let ray = Ray {
             origin: point.event,
             step,
@@ -363,7 +363,7 @@ fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, part: usize) -> Medium {
         return Medium { index, velocity: ugphysics::Velocity::ZERO };
     }
     let [of_solid, here] = [solid.part, part].map(|part| &scenery.world.parts[part].frame);
-    let velocity = here.turned_velocity(compose(of_solid.velocity, -here.velocity));
+    let velocity = here.turned_velocity(compose(of_solid.velocity(), -here.velocity()));
     Medium { index, velocity }
 }
 
@@ -374,5 +374,5 @@ fn absorption(scenery: &Scenery<'_>, solid: Option<Solid>, step: Event) -> f64 {
     if coefficient == 0.0 {
         return 0.0;
     }
-    coefficient * scenery.world.parts[solid.part].frame.to_rest(step).x.length()
+    coefficient * scenery.world.parts[solid.part].frame.rest_from_camera(step).x.length()
 }

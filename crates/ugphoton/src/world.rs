@@ -5,11 +5,10 @@ use std::ops::{ControlFlow, Range};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
-use ugphysics::Event;
+use ugphysics::{Event, RestFrame};
 use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, unit_normal};
 
 use crate::corridor::Corridor;
-use crate::frame::RestFrame;
 use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
 use crate::outline::Outline;
 use crate::path::Ray;
@@ -119,8 +118,7 @@ impl World {
             rows[part_of_body[face.body.index()]].push(row as u32);
         }
         let parts = first_bodies.into_iter().zip(rows).filter(|(_, rows)| !rows.is_empty());
-        let parts: Vec<Part> =
-            parts.map(|(body, rows)| Part::new(faces, RestFrame::new(frames, body), &rows)).collect();
+        let parts: Vec<Part> = parts.map(|(body, rows)| Part::new(faces, *frames.of(body), &rows)).collect();
         let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
         Self { boxes: (parts.len() > FEW_PARTS).then(boxes), parts }
     }
@@ -333,7 +331,7 @@ impl Part {
         let reach = low.abs().max(high.abs()).max_element();
         let size = (high - low).max_element();
         let corners = std::array::from_fn(corner);
-        MovingBox::new(corners, self.frame.velocity.beta(), self.frame.gamma(), size, reach)
+        MovingBox::new(corners, self.frame.velocity().beta(), self.frame.velocity().gamma(), size, reach)
     }
 
     /// The range of parameters that begins outside the surface at the ray's origin.

@@ -65,9 +65,11 @@ mod hyperbolic;
 mod illumination;
 mod lorentz;
 mod medium;
+mod rest_frame;
 mod retarded_position;
 mod vector;
 mod velocity;
+mod world_line;
 mod xyz;
 
 pub use aberration::aberrate;
@@ -83,9 +85,11 @@ pub use hyperbolic::HyperbolicMotion;
 pub use illumination::{IncidentLight, illumination, illumination_from_afar};
 pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use medium::{Medium, WaveVector};
+pub use rest_frame::RestFrame;
 pub use retarded_position::{
     Event, contracted, elongated, flight_time, observer_shift, rest_position, seen_event, seen_position,
 };
 pub use vector::{angle, length, unit_or_zero};
 pub use velocity::{Velocity, VelocityError};
+pub use world_line::{EmissionEvent, Orbit, Piece, Pose, WorldLine, WorldLineError};
 pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -45,6 +45,13 @@ impl Lorentz {
         ))
     }
 
+    /// The rotation of the axes by `turn`, which must be a unit quaternion.
+    #[must_use]
+    pub fn rotation(turn: DQuat) -> Lorentz {
+        let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| column(0.0, turn * axis));
+        Lorentz(DMat4::from_cols(DVec4::X, x, y, z))
+    }
+
     /// This transformation, followed by `next`.
     #[must_use]
     pub fn then(self, next: Lorentz) -> Lorentz {

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
-use ugscene::{BodyId, Geometry, RestFrames, Scene, View};
+use ugscene::{Geometry, RestFrames, Scene, View};
 
 use crate::depth_buffer::SurfaceSample;
 
@@ -18,7 +18,7 @@ pub struct Emission {
     /// Velocity of the body.
     pub velocity: Velocity,
     /// Turns rest coordinates of the body into the axes of the scene, see
-    /// [`RestFrames::scene_from_axes`].  Eq. (P25)
+    /// [`ugphysics::RestFrame::scene_from_boosted`].  Eq. (P25)
     pub scene_from_axes: DQuat,
     /// How the light is seen if it comes to the eye in a transparent medium; `None` in a vacuum.
     pub in_medium: Option<MediumLight>,
@@ -75,8 +75,9 @@ impl<'a> Emissions<'a> {
             None => self.scene.wires.get(item - n_faces).map(|wire| wire.body),
         };
         // Everything drawn is a face or a wire.
-        let body = body.unwrap_or(BodyId::UNSTATED);
-        let (velocity, scene_from_axes) = (self.frames.velocity(body), self.frames.scene_from_axes(body));
+        let body = body.unwrap_or(self.scene.bodies.unstated());
+        let (velocity, scene_from_axes) =
+            (self.frames.velocity(body), self.frames.of(body).scene_from_boosted());
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
         Emission { place, depth, time, velocity, scene_from_axes, in_medium: None }

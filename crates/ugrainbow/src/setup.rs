@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use uglight::{Appearance, ColorShift, Lighting};
 use ugpicture::PictureOptions;
 use ugraster::{SampleGrid, TileShape};
-use ugscene::{BodyId, Geometry, Scene, View};
+use ugscene::{Geometry, Scene, View};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -115,10 +115,9 @@ fn drawable(scene: &Scene) -> Cow<'_, Scene> {
     }
     let mut scene = scene.clone();
     if is_drawn_at_rest {
+        let at_rest = scene.bodies.unstated();
         let faces = scene.faces.iter_mut().map(|face| &mut face.body);
-        faces
-            .chain(scene.wires.iter_mut().map(|wire| &mut wire.body))
-            .for_each(|body| *body = BodyId::UNSTATED);
+        faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.body)).for_each(|body| *body = at_rest);
     }
     ugscene::separate_bodies(&mut scene);
     Cow::Owned(scene)

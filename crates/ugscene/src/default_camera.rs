@@ -102,7 +102,7 @@ fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
         }
     }
     if scene.faces.is_empty() && scene.wires.is_empty() {
-        bodies.fill(Some(BodyId::UNSTATED));
+        bodies.fill(Some(scene.bodies.unstated()));
     }
     let vertices = scene.vertices.iter().zip(bodies);
     vertices.filter_map(|(vertex, body)| Some((vertex.position, body?))).collect()

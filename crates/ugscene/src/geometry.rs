@@ -83,8 +83,11 @@ impl Geometry {
 }
 
 /// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of its
-/// body, with the axes of the scene. (P4), (P25)
+/// body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25).
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
+    if !scene.rest.is_empty() {
+        return scene.rest.clone();
+    }
     if frames.are_at_rest() {
         return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
     }
@@ -93,7 +96,7 @@ pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVe
     (scene.vertices.par_iter().zip(bodies.par_iter()))
         .map(|(vertex, &body)| {
             let seen = SeenPosition(vertex.position - eye);
-            frames.scene_from_axes(body) * geometry.rest(seen, frames.velocity(body)).0
+            frames.of(body).scene_from_boosted() * geometry.rest(seen, frames.velocity(body)).0
         })
         .collect()
 }

@@ -29,6 +29,7 @@
 //! ```
 
 mod area;
+mod builder;
 mod camera;
 mod camera_fit;
 mod camera_motion;
@@ -57,6 +58,7 @@ mod vtk_polygons;
 mod words;
 
 pub use area::{newell_normal, unit_normal};
+pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
 pub use camera::{CameraPoint, HalfSpace, Slab, View, view_distance};
 pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use camera_options::{CameraError, CameraOptions};

@@ -10,6 +10,6 @@ pub struct SeenPosition(pub DVec3);
 /// Where a point rests: relative to the eye, in the rest frame of its body, with the axes of a
 /// single boost to the frame of the camera. p' of (P3).
 ///
-/// [`crate::RestFrames::scene_from_axes`] turns it into the axes of the scene.
+/// [`ugphysics::RestFrame::scene_from_boosted`] turns it into the axes of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestPosition(pub DVec3);

@@ -1,24 +1,22 @@
 //! The motion of a body relative to the camera.
 
-use glam::{DQuat, DVec3};
-use ugphysics::{Velocity, elongated};
+use glam::DVec3;
+use ugphysics::{RestFrame, Velocity, elongated};
 
 use crate::{Geometry, RestPosition, SeenPosition};
 
 /// How one body moves relative to the camera, and which effects are shown.
 #[derive(Clone, Copy, Debug)]
 pub struct RelativeMotion {
-    /// In the frame of the camera.
-    velocity: Velocity,
+    frame: RestFrame,
     in_scene: Velocity,
-    axes_from_scene: DQuat,
     geometry: Geometry,
 }
 
 impl RelativeMotion {
     /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the scene.
     pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
-        RelativeMotion { velocity, in_scene: velocity, axes_from_scene: DQuat::IDENTITY, geometry }
+        RelativeMotion { frame: RestFrame::new(velocity), in_scene: velocity, geometry }
     }
 
     /// The motion of a body with `velocity` in the frame of the camera; `in_scene`, `camera`: velocities of the
@@ -29,13 +27,17 @@ impl RelativeMotion {
         camera: Velocity,
         geometry: Geometry,
     ) -> RelativeMotion {
-        let axes_from_scene = crate::axes_from_scene(velocity, camera);
-        RelativeMotion { in_scene, axes_from_scene, ..RelativeMotion::new(velocity, geometry) }
+        RelativeMotion { frame: crate::rest_frames::frame(velocity, camera), in_scene, geometry }
+    }
+
+    /// The rest frame of the body.
+    pub fn frame(&self) -> &RestFrame {
+        &self.frame
     }
 
     /// In the frame of the camera.
     pub fn velocity(&self) -> Velocity {
-        self.velocity
+        self.frame.velocity()
     }
 
     /// In the frame of the scene.
@@ -46,17 +48,17 @@ impl RelativeMotion {
     /// Rest coordinates, or a direction, in the axes of the rest positions of (P3); `p` is in the
     /// axes of the scene.  Eq. (P25)
     pub fn turned(&self, p: DVec3) -> DVec3 {
-        self.axes_from_scene * p
+        self.frame.boosted_from_scene() * p
     }
 
     /// The inverse of [`RelativeMotion::turned`].
     pub fn turned_back(&self, p: DVec3) -> DVec3 {
-        self.axes_from_scene.inverse() * p
+        self.frame.scene_from_boosted() * p
     }
 
     /// True if the body rests in the frame of the camera.
     pub fn is_at_rest(&self) -> bool {
-        self.velocity.is_zero()
+        self.frame.is_at_rest()
     }
 
     /// True if the time of flight of light is included, so that straight edges are seen as curves.
@@ -71,32 +73,32 @@ impl RelativeMotion {
 
     /// Where a point of the body is seen.
     pub fn seen(&self, rest: RestPosition) -> SeenPosition {
-        self.geometry.seen(rest, self.velocity)
+        self.geometry.seen(rest, self.velocity())
     }
 
     /// The rest position of what is seen at `seen`.
     pub fn rest(&self, seen: SeenPosition) -> RestPosition {
-        self.geometry.rest(seen, self.velocity)
+        self.geometry.rest(seen, self.velocity())
     }
 
     /// û.
     pub fn direction(&self) -> DVec3 {
-        self.velocity.direction()
+        self.velocity().direction()
     }
 
     /// γ.
     pub fn gamma(&self) -> f64 {
-        self.velocity.gamma()
+        self.velocity().gamma()
     }
 
     /// γβ.
     pub fn proper_speed(&self) -> f64 {
-        self.velocity.proper_speed()
+        self.velocity().proper_speed()
     }
 
     /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction
     /// it is `rest` elongated along the motion by γ, which cancels the contraction in (P3).
     pub fn boosted_rest(&self, rest: DVec3) -> DVec3 {
-        if self.geometry.contraction { rest } else { elongated(rest, self.velocity) }
+        if self.geometry.contraction { rest } else { elongated(rest, self.velocity()) }
     }
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::words::point;
-use crate::{Body, BodyId, ColorScale, HueScale, Motion, Scene};
+use crate::{BodyId, ColorScale, HueScale, Scene};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -48,9 +48,8 @@ pub fn has_moving_lights(scene: &Scene) -> bool {
 }
 
 fn any_moves(scene: &Scene, mut bodies: impl Iterator<Item = BodyId>) -> bool {
-    let moves = |body: &Body| body.motion != Motion::default();
     // In most scenes nothing moves, so their faces need not be visited.
-    scene.bodies.iter().any(moves) && bodies.any(|body| moves(&scene.bodies[body]))
+    scene.bodies.has_motion() && bodies.any(|body| scene.bodies.is_moving(body))
 }
 
 /// Refuses apparent positions.

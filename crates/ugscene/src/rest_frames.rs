@@ -1,59 +1,47 @@
 //! The rest frames of a scene's bodies, and which body a vertex is part of.
 
-use glam::{DQuat, DVec3};
-use ugphysics::Velocity;
+use glam::DVec3;
+use ugphysics::{RestFrame, Velocity};
 
-use crate::{BodyId, Motion, Scene, axes_from_scene, camera_velocity, split_vertices};
+use crate::{BodyId, Scene, axes_from_scene, camera_velocity, split_vertices};
 
-/// The rest frame of each body relative to the frame of the camera.
+/// The rest frame of each body, relative to the frame of the camera.
 #[derive(Clone, Debug)]
 pub struct RestFrames {
     /// In the order of [`Scene::bodies`].
-    velocities: Vec<Velocity>,
-    /// For each body, see [`RestFrames::scene_from_axes`].
-    scene_from_axes: Vec<DQuat>,
+    frames: Vec<RestFrame>,
     /// For each body, see [`RestFrames::lamp_shift`]; empty if all are 0.
     lamp_shifts: Vec<DVec3>,
-    /// Velocity of the camera, in the frame the scene was written in.
-    camera: Velocity,
 }
 
 impl RestFrames {
     /// The rest frames of the bodies of `scene`.
     pub fn new(scene: &Scene) -> Self {
-        let velocity = |motion: Motion| match motion {
-            Motion::Inertial(velocity) => velocity,
-        };
-        let velocities: Vec<Velocity> = scene.bodies.iter().map(|body| velocity(body.motion)).collect();
+        Self::with_default(scene, Velocity::ZERO)
+    }
+
+    /// Like [`RestFrames::new`], with `velocity` for bodies whose motion is not stated.
+    pub fn with_default(scene: &Scene, velocity: Velocity) -> Self {
         let camera = camera_velocity(scene);
-        let turned = |&velocity: &Velocity| axes_from_scene(velocity, camera).inverse();
-        let scene_from_axes = velocities.iter().map(turned).collect();
-        let shift = |velocity: &Velocity| {
-            let own = scene.lamp_shifts.iter().find(|shift| shift.velocity == *velocity);
+        let frame = |body| frame(scene.bodies.stated_velocity(body).unwrap_or(velocity), camera);
+        let frames: Vec<RestFrame> = scene.bodies.ids().map(frame).collect();
+        let shift = |frame: &RestFrame| {
+            let own = scene.lamp_shifts.iter().find(|shift| shift.velocity == frame.velocity());
             own.map_or(DVec3::ZERO, |own| own.shift)
         };
         let are_shifted = !scene.lamp_shifts.is_empty();
-        let lamp_shifts = velocities.iter().filter(|_| are_shifted).map(shift).collect();
-        Self { velocities, scene_from_axes, lamp_shifts, camera }
+        let lamp_shifts = frames.iter().filter(|_| are_shifted).map(shift).collect();
+        Self { frames, lamp_shifts }
     }
 
-    /// With `velocity` for bodies whose motion is not stated.
-    #[must_use]
-    pub fn with_unstated(mut self, velocity: Velocity) -> Self {
-        self.velocities[BodyId::UNSTATED.index()] = velocity;
-        self.scene_from_axes[BodyId::UNSTATED.index()] = axes_from_scene(velocity, self.camera).inverse();
-        self
+    /// The rest frame of a body.
+    pub fn of(&self, body: BodyId) -> &RestFrame {
+        &self.frames[body.index()]
     }
 
     /// The velocity of a body in the frame of the camera.
     pub fn velocity(&self, body: BodyId) -> Velocity {
-        self.velocities[body.index()]
-    }
-
-    /// Turns rest coordinates of a body, as (P4) gives them, into the axes of the scene, where
-    /// lights and normals are. The identity unless the camera moves in the scene.  Eq. (P25)
-    pub fn scene_from_axes(&self, body: BodyId) -> DQuat {
-        self.scene_from_axes[body.index()]
+        self.of(body).velocity()
     }
 
     /// What is added to the positions of lamps that rest with whatever they light, when they light
@@ -63,19 +51,30 @@ impl RestFrames {
         self.lamp_shifts.get(body.index()).copied().unwrap_or_default()
     }
 
+    /// The greatest rapidity of a body.
+    pub fn greatest_rapidity(&self) -> f64 {
+        self.frames.iter().map(|frame| frame.velocity().rapidity()).fold(0.0, f64::max)
+    }
+
     /// True if nothing moves.
     pub fn are_at_rest(&self) -> bool {
-        self.velocities.iter().all(|v| v.is_zero())
+        self.frames.iter().all(RestFrame::is_at_rest)
     }
 }
 
-/// The body of each vertex, from the faces and wires that use it; [`BodyId::UNSTATED`] for unused
+/// The rest frame of a body with `velocity` in the frame of a camera with the velocity `camera` in
+/// the scene, with the axes of the scene.  Eq. (P25)
+pub(crate) fn frame(velocity: Velocity, camera: Velocity) -> RestFrame {
+    RestFrame::turned(velocity, axes_from_scene(velocity, camera).inverse())
+}
+
+/// The body of each vertex, from the faces and wires that use it; [`Bodies::unstated`] for unused
 /// vertices.
 ///
 /// A vertex shared by several bodies is part of the first of them. [`separate_bodies`] removes such
 /// sharing.
 pub fn vertex_bodies(scene: &Scene) -> Vec<BodyId> {
-    let mut bodies = vec![BodyId::UNSTATED; scene.vertices.len()];
+    let mut bodies = vec![scene.bodies.unstated(); scene.vertices.len()];
     // In reverse, so that the first user is written last.
     for (rows, body) in users(scene).rev() {
         for corner in scene.contours.corners(rows) {

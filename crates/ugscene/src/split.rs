@@ -58,9 +58,7 @@ fn vertex_names(scene: &Scene) -> UniqueNames {
 }
 
 fn copy_vertex(scene: &mut Scene, original: VertexId, taken: &mut UniqueNames) -> VertexId {
-    let mut vertex = scene.vertices[original.index()];
-    let name = taken.fresh(scene.names.get(vertex.name));
-    vertex.name = scene.names.add(&name);
-    scene.vertices.push(vertex);
-    VertexId::from_index(scene.vertices.len() - 1)
+    let name = taken.fresh(scene.names.get(scene.vertices[original.index()].name));
+    let name = scene.names.add(&name);
+    scene.copy_vertex(original, name)
 }

@@ -8,7 +8,7 @@ use ugphysics::Velocity;
 use ugscene::Scene;
 
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
-use crate::diagnostic::Location;
+use crate::diagnostics::Location;
 use crate::parallel_reader::read_document;
 use crate::reader::line_marks;
 use crate::scope::Scope;

@@ -3,7 +3,8 @@
 use ugscene::{Camera, Face, Item, Light, Scene, Wire};
 
 use super::Expander;
-use crate::scope::{Counts, Rows};
+use crate::rows::Rows;
+use crate::scope::Counts;
 use crate::source::Span;
 
 impl Expander<'_, '_> {

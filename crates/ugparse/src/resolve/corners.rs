@@ -2,7 +2,6 @@
 
 use ugscene::VertexId;
 
-use super::degenerate::is_linked;
 use super::undefined::read_again;
 use crate::scope::{NO_ROW, PathCorner, Scope};
 use crate::source::Span;
@@ -25,6 +24,11 @@ pub(super) fn link_corners(scope: &mut Scope<'_>) -> bool {
     scope.vertex_names = names;
     scope.vertex_rows = rows;
     is_complete
+}
+
+/// True if all corners are rows of vertices.
+pub(super) fn is_linked(corners: &[VertexId]) -> bool {
+    !corners.contains(&VertexId(NO_ROW))
 }
 
 /// The corners that name vertices of instances.

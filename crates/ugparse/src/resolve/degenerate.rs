@@ -2,10 +2,10 @@
 
 use ugscene::{Contours, Face, Vertex, VertexId, Wire, newell_normal};
 
-use super::corners::LEAST_ROWS;
+use super::corners::{LEAST_ROWS, is_linked};
 use super::undefined::{read_again, show};
 use crate::diagnostic::Diagnostic;
-use crate::scope::{NO_ROW, Scope};
+use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::{References, Statement};
 
@@ -42,10 +42,6 @@ pub(super) fn remove_short_wires(
     let short = ugparallel::positions(wires.len(), LEAST_ROWS, is_short);
     findings.extend(short.iter().map(|&row| short_wire(text, scope.wires.spans[row])));
     scope.remove_wires(&short);
-}
-
-pub(super) fn is_linked(corners: &[VertexId]) -> bool {
-    !corners.contains(&VertexId(NO_ROW))
 }
 
 /// Why a face is degenerate, if it is.

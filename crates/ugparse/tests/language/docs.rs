@@ -18,7 +18,7 @@ fn the_first_example_is_a_scene() {
     assert_eq!((scene.faces.len(), scene.lights.len(), scene.cameras.len()), (9, 2, 1));
     assert_eq!(scene.names.get(scene.vertices[0].name), "floor#0:a");
     assert_eq!(scene.bodies.stated_velocity(scene.faces[8].body).unwrap().beta().to_array(), [0.6, 0.0, 0.0]);
-    assert!(scene.faces[..8].iter().all(|face| face.body == ugscene::BodyId::UNSTATED));
+    assert!(scene.faces[..8].iter().all(|face| face.body == scene.bodies.unstated()));
 }
 
 #[test]

@@ -211,8 +211,8 @@ impl Teller<'_> {
     fn surface(&self, sample: &ExplainedRay, visit: &Visit) -> ExplainedSurface {
         let point = &visit.point;
         let frame = &self.scenery.world.parts[point.part].frame;
-        let velocity: Velocity = frame.velocity;
-        let rest_time = frame.to_rest(point.event).t;
+        let velocity: Velocity = frame.velocity();
+        let rest_time = frame.rest_from_camera(point.event).t;
         let is_direct = visit.depth == 0 && !velocity.is_zero();
         let angles_deg = is_direct.then(|| {
             let moving = frame.turned_velocity(velocity).direction();
@@ -246,7 +246,7 @@ impl Teller<'_> {
             name: self.scenery.scene.names.get(surface.name).to_owned(),
             index: surface.refraction,
             left,
-            beta: self.scenery.world.parts[solid.part].frame.velocity.beta(),
+            beta: self.scenery.world.parts[solid.part].frame.velocity().beta(),
         }
     }
 

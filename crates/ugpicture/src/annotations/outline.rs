@@ -92,7 +92,7 @@ fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
         let velocity = seen.frames.velocity(body);
         bounds.filter(|_| !velocity.is_zero()).map(|[low, high]| {
             let center = 0.5 * low + 0.5 * high;
-            let rest = RestPosition(seen.frames.scene_from_axes(body).inverse() * center);
+            let rest = RestPosition(seen.frames.of(body).scene_from_boosted().inverse() * center);
             geometry.seen(rest, velocity).0 - center
         })
     };
@@ -110,7 +110,9 @@ fn ideal_scene(scene: &Scene, eye: DVec3, places: &[DVec3]) -> Scene {
     for (vertex, place) in ideal.vertices.iter_mut().zip(places) {
         vertex.position = eye + *place;
     }
-    ideal.faces.iter_mut().for_each(|face| face.body = BodyId::UNSTATED);
+    ideal.rest.clear();
+    let body = ideal.bodies.unstated();
+    ideal.faces.iter_mut().for_each(|face| face.body = body);
     ideal.wires.clear();
     ideal
 }

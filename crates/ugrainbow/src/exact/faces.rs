@@ -10,7 +10,7 @@ use ugscene::Face;
 
 use super::film::{Film, Form, Lengths, center};
 use super::footprint::{Rect, footprint};
-use super::frame::{Ray, RestFrameRays, frames};
+use super::frame::{PictureRays, Ray, frames};
 use super::look::Look;
 use super::nearest::{Nearest, PlaneRow, limited};
 use super::outline::Outline;
@@ -23,7 +23,7 @@ use crate::painter::Painter;
 pub struct Faces<'a, const N: usize> {
     painter: Painter<'a>,
     pack: Pack<N>,
-    frames: Vec<RestFrameRays>,
+    frames: Vec<PictureRays>,
     shapes: Vec<Shape>,
     bins: Bins,
     film: Film,
@@ -171,7 +171,7 @@ impl<'a, const N: usize> Faces<'a, N> {
 
     /// The values of a face where a ray meets it, in the packed layout.
     #[inline(always)] // As `Look::at`.
-    fn values<const SPECTRAL: bool>(&self, shape: &Shape, frame: &RestFrameRays, ray: &Ray) -> [f32; N] {
+    fn values<const SPECTRAL: bool>(&self, shape: &Shape, frame: &PictureRays, ray: &Ray) -> [f32; N] {
         let key = shape.outline.key(ray.rest);
         let (color, level) = shape.look.at::<SPECTRAL>(&self.painter, frame, ray, key);
         (self.pack)(&color, level).map(|number| number as f32)
@@ -266,14 +266,14 @@ impl Built {
     }
 }
 
-fn build(painter: &Painter<'_>, frames: &[RestFrameRays], row: usize, face: &Face) -> Built {
+fn build(painter: &Painter<'_>, frames: &[PictureRays], row: usize, face: &Face) -> Built {
     let at = face.body.index();
     let frame = &frames[at];
     let contours: Vec<Vec<DVec3>> = painter
         .scene
         .face_contours(face)
         .map(|contour| {
-            contour.iter().map(|&id| frame.axes_from_scene(painter.appearance.surface.rest(id))).collect()
+            contour.iter().map(|&id| frame.aligned_from_scene(painter.appearance.surface.rest(id))).collect()
         })
         .collect();
     let mut corners = contours.iter().flatten();
@@ -297,7 +297,7 @@ fn build(painter: &Painter<'_>, frames: &[RestFrameRays], row: usize, face: &Fac
 /// The faces of a scene for which `is_drawn` returns true, compiled once for all layouts.
 fn build_all(
     painter: &Painter<'_>,
-    frames: &[RestFrameRays],
+    frames: &[PictureRays],
     is_drawn: &(dyn Fn(&Face) -> bool + Sync),
 ) -> Vec<Built> {
     let faces = painter.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::frame::RestFrameRays;
+use super::frame::PictureRays;
 use super::outline::Outline;
 
 /// A rectangle of the picture, in samples.
@@ -68,7 +68,7 @@ impl Rect {
     }
 
     /// True if the convex hull of these points lies beyond one side of the rectangle, or behind the
-    /// eye. The points are homogeneous, as [`RestFrameRays::place`] returns them.
+    /// eye. The points are homogeneous, as [`PictureRays::place`] returns them.
     fn misses(&self, hull: &[DVec3; 3]) -> bool {
         let behind = |side: &dyn Fn(&DVec3) -> f64| hull.iter().all(|point| side(point) < 0.0);
         behind(&|p| p.z)
@@ -84,7 +84,7 @@ impl Rect {
 ///
 /// The visible part is bounded by arcs of the edges of the face and by sides of `rect`. The box
 /// therefore encloses the arcs within `rect` and those corners of `rect` at which the face is seen.
-pub fn footprint(frame: &RestFrameRays, outline: &Outline, rect: Rect) -> Option<Rect> {
+pub fn footprint(frame: &PictureRays, outline: &Outline, rect: Rect) -> Option<Rect> {
     let mut search = Search { rect: rect.grown(), found: Rect::EMPTY };
     for edge in outline.edges() {
         let [a, b] = edge.ends.map(DVec3::normalize_or_zero);

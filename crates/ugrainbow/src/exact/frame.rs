@@ -8,19 +8,20 @@ use super::film::{Form, center};
 use super::sections::Side;
 use crate::painter::Painter;
 
-/// The rest frame of a body. Its axes (û, e₁, e₂) begin with the direction of motion, so that a
-/// boost changes one coordinate only. All coordinates are relative to the eye.
+/// The rays of a picture in the rest frame of a body, in aligned axes (û, e₁, e₂): the first is the
+/// direction of motion, so that a boost changes one coordinate only. All coordinates are relative to
+/// the eye.
 #[derive(Clone, Debug)]
-pub struct RestFrameRays {
+pub struct PictureRays {
     /// The velocity of the body.
     pub velocity: Velocity,
     /// Rotates rest coordinates to the axes of the scene, in which lights and normals are given.
     /// Eq. (P25)
-    pub scene_from_axes: DMat3,
+    pub scene_from_aligned: DMat3,
     /// Displacement of lamps for the body, see [`ugscene::RestFrames::lamp_shift`].
     pub lamp_shift: DVec3,
     /// Rotates apparent coordinates to the axes of the camera's frame.
-    camera_from_axes: DMat3,
+    camera_from_aligned: DMat3,
     /// From apparent coordinates to samples: x and y times the depth, and the depth.
     samples_from_seen: DMat3,
     /// The ray through the corner of the picture, and its change per sample across and down; depth
@@ -39,34 +40,35 @@ pub struct Ray {
 }
 
 /// The rest frames of the bodies of a scene, in the order of the bodies.
-pub fn frames(painter: &Painter<'_>) -> Vec<RestFrameRays> {
-    painter.scene.bodies.ids().map(|body| RestFrameRays::new(painter, body)).collect()
+pub fn frames(painter: &Painter<'_>) -> Vec<PictureRays> {
+    painter.scene.bodies.ids().map(|body| PictureRays::new(painter, body)).collect()
 }
 
-impl RestFrameRays {
+impl PictureRays {
     fn new(painter: &Painter<'_>, body: BodyId) -> Self {
         let velocity = painter.appearance.surface.velocity(body);
         let along = velocity.direction();
         let (e1, e2) = along.any_orthonormal_pair();
-        let camera_from_axes = DMat3::from_cols(along, e1, e2);
-        let axes_from_camera = camera_from_axes.transpose();
-        let scene_from_camera = DMat3::from_quat(painter.appearance.surface.scene_from_axes(body));
+        let camera_from_aligned = DMat3::from_cols(along, e1, e2);
+        let aligned_from_camera = camera_from_aligned.transpose();
+        let scene_from_boosted =
+            DMat3::from_quat(painter.appearance.surface.frames().of(body).scene_from_boosted());
         let place = |axis: DVec3| {
             let place = painter.view.place(axis);
             DVec3::new(place.x, place.y, place.z)
         };
         Self {
             velocity,
-            scene_from_axes: scene_from_camera * camera_from_axes,
+            scene_from_aligned: scene_from_boosted * camera_from_aligned,
             lamp_shift: painter.appearance.surface.frames().lamp_shift(body),
-            camera_from_axes,
+            camera_from_aligned,
             samples_from_seen: DMat3::from_cols(place(along), place(e1), place(e2)),
-            rays: painter.view.rays().map(|ray| axes_from_camera * ray),
+            rays: painter.view.rays().map(|ray| aligned_from_camera * ray),
             exp_minus_rapidity: 1.0 / (velocity.gamma() + velocity.proper_speed()),
         }
     }
 
-    /// The rays of a row of samples, `y` down the picture; argument of [`RestFrameRays::ray`].
+    /// The rays of a row of samples, `y` down the picture; argument of [`PictureRays::ray`].
     pub fn row(&self, y: f64) -> DVec3 {
         self.rays[0] + y * self.rays[2]
     }
@@ -143,13 +145,13 @@ impl RestFrameRays {
     }
 
     /// Rotates rest coordinates from the axes of the scene to those of this frame.
-    pub fn axes_from_scene(&self, rest: DVec3) -> DVec3 {
-        self.scene_from_axes.transpose() * rest
+    pub fn aligned_from_scene(&self, rest: DVec3) -> DVec3 {
+        self.scene_from_aligned.transpose() * rest
     }
 
     /// Rotates apparent coordinates to the axes of the camera's frame.
     pub fn to_camera(&self, seen: DVec3) -> DVec3 {
-        self.camera_from_axes * seen
+        self.camera_from_aligned * seen
     }
 
     /// Projects an apparent position: its sample coordinates times the depth, and the depth.
@@ -158,7 +160,7 @@ impl RestFrameRays {
     }
 
     /// The apparent shape of a straight line at rest between two unit vectors: the three control
-    /// points of a rational Bézier curve, in the coordinates of [`RestFrameRays::place`]. `None` if the
+    /// points of a rational Bézier curve, in the coordinates of [`PictureRays::place`]. `None` if the
     /// line goes through the eye.
     ///
     /// The directions of the line form an arc of a great circle, with control points a,

@@ -4,7 +4,7 @@ use glam::DVec3;
 use uglight::{Appearance, Swatch};
 use ugscene::{Face, VertexId};
 
-use super::frame::{Ray, RestFrameRays};
+use super::frame::{PictureRays, Ray};
 use crate::painter::Painter;
 
 /// The appearance of a face, point by point.
@@ -70,7 +70,7 @@ struct Spot<'a> {
 
 impl Look {
     /// The appearance of `face`. `contours`: its corners at rest, in the axes of `frame`.
-    pub fn new(painter: &Painter<'_>, frame: &RestFrameRays, face: &Face, contours: &[Vec<DVec3>]) -> Self {
+    pub fn new(painter: &Painter<'_>, frame: &PictureRays, face: &Face, contours: &[Vec<DVec3>]) -> Self {
         let appearance = painter.appearance;
         let common = appearance.common_in_motion(painter.scene, face, !frame.velocity.is_zero());
         let normal = painter.seen_normal(face);
@@ -126,13 +126,13 @@ impl Look {
     pub fn at<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
-        frame: &RestFrameRays,
+        frame: &PictureRays,
         ray: &Ray,
         key: f64,
     ) -> (Swatch, DVec3) {
         let appearance = painter.appearance;
         let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
-        let place = || frame.scene_from_axes * (ray.rest * (1.0 / key));
+        let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
         if SPECTRAL && self.is_lit_by_spectra {
             let place = [place(), self.normal_at(spot), frame.lamp_shift];
             return (self.seen_spectrum(appearance, spot, ray.stretch, Some(place)), DVec3::ONE);

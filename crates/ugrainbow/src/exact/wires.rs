@@ -5,7 +5,7 @@ use uglight::{Appearance, Swatch};
 use ugphysics::doppler_at;
 use ugscene::BodyId;
 
-use super::frame::{RestFrameRays, frames};
+use super::frame::{PictureRays, frames};
 use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
 
@@ -25,7 +25,7 @@ const MOST_HALVINGS: u32 = 12;
 /// one Doppler factor.
 pub struct CurvedLines<'a> {
     painter: Painter<'a>,
-    frames: Vec<RestFrameRays>,
+    frames: Vec<PictureRays>,
 }
 
 impl<'a> CurvedLines<'a> {
@@ -39,7 +39,7 @@ impl LineShape for CurvedLines<'_> {
     fn joints(&self, line: &Line) -> Vec<Joint> {
         let painter = &self.painter;
         let frame = &self.frames[line.body.index()];
-        let rest = line.ends.map(|end| frame.axes_from_scene(painter.appearance.surface.rest(end)));
+        let rest = line.ends.map(|end| frame.aligned_from_scene(painter.appearance.surface.rest(end)));
         let near = painter.view.slab.near;
         let appearance = painter.appearance;
         let curve = Curve { frame, appearance, rest, colors: line.colors, rows: line.rows, near };
@@ -54,7 +54,7 @@ impl LineShape for CurvedLines<'_> {
 }
 
 struct Curve<'a> {
-    frame: &'a RestFrameRays,
+    frame: &'a PictureRays,
     appearance: &'a Appearance,
     /// The ends at rest, in the axes of the frame.
     rest: [DVec3; 2],

@@ -1,19 +1,16 @@
-//! Bodies, the parts of a scene that share a motion, and their motions.
+//! Bodies, the parts of a scene that move as one, and their motions.
 
-use std::ops::{Index, IndexMut};
+use std::ops::Index;
 
-use ugphysics::Velocity;
+use ugphysics::{Velocity, WorldLine};
+
+use super::ids::NameId;
 
 /// Row of [`Bodies`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId(u32);
 
 impl BodyId {
-    /// The first body of every scene: all faces and wires whose motion is not stated. The text
-    /// gives them no velocity. It rests in the frame of the scene, unless a program is given
-    /// another default (`-vel`).
-    pub const UNSTATED: Self = Self(0);
-
     /// The id of the body at position `idx` of its table.
     ///
     /// # Panics
@@ -28,82 +25,102 @@ impl BodyId {
     }
 }
 
-/// A part of the scene with one motion. Two bodies may have equal motions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Body {
-    /// Its motion in the frame of the scene.
-    pub motion: Motion,
-}
+/// Row of the motions in [`Bodies`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct MotionId(u32);
 
-impl Body {
-    /// A body of constant velocity.
-    pub fn inertial(velocity: Velocity) -> Self {
-        Self { motion: Motion::Inertial(velocity) }
-    }
-}
-
-/// The motion of a body.
+/// A part of the scene that moves as one.
+///
+/// Its name tells it from others that move alike. Bodies without a name are told apart by their
+/// velocity, since the text gives nothing else.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Motion {
-    /// Constant velocity. The text stores its β, from which [`Velocity::from_beta`] must recover it
-    /// exactly.
-    Inertial(Velocity),
+pub struct Body {
+    /// Its name, if it has one.
+    pub name: Option<NameId>,
+    /// How it moves, see [`Bodies::motion`].
+    motion: MotionId,
+    /// True if the text states its motion. If not, it rests in the frame of the scene, unless a
+    /// program is given another default (`-vel`).
+    is_stated: bool,
 }
 
-impl Default for Motion {
-    /// At rest.
-    fn default() -> Self {
-        Self::Inertial(Velocity::ZERO)
-    }
-}
-
-/// The bodies of a scene. [`BodyId::UNSTATED`] is always among them.
+/// The bodies of a scene, one or more, and their motions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies {
     rows: Vec<Body>,
+    motions: Vec<WorldLine>,
 }
 
 impl Default for Bodies {
-    /// [`BodyId::UNSTATED`] alone, at rest.
+    /// One body, of all faces and wires whose motion is not stated.
     fn default() -> Self {
-        Self { rows: vec![Body::default()] }
+        let body = Body { name: None, motion: MotionId(0), is_stated: false };
+        Self { rows: vec![body], motions: vec![WorldLine::REST] }
     }
 }
 
 impl Bodies {
-    /// Adds a body.
-    pub fn push(&mut self, body: Body) -> BodyId {
-        self.rows.push(body);
+    /// Adds a body whose motion is stated.
+    pub fn push(&mut self, name: Option<NameId>, motion: WorldLine) -> BodyId {
+        let row = u32::try_from(self.motions.len()).expect("tables have fewer than 2^32 rows");
+        self.motions.push(motion);
+        self.rows.push(Body { name, motion: MotionId(row), is_stated: true });
         BodyId::from_index(self.rows.len() - 1)
     }
 
-    /// Finds the first body whose stated motion is `motion`, or adds one.
+    /// The body of all faces and wires whose motion is not stated, and of vertices that none of them
+    /// uses.
+    pub fn unstated(&self) -> BodyId {
+        // The table begins with it.
+        BodyId(0)
+    }
+
+    /// Finds the body without a name whose stated motion has this velocity, or adds it.
     ///
     /// Scenes have few bodies, so the search is linear.
-    pub fn moving_with(&mut self, motion: Motion) -> BodyId {
-        let known = self.rows.iter().skip(1).position(|body| body.motion == motion);
-        known.map_or_else(|| self.push(Body { motion }), |idx| BodyId::from_index(idx + 1))
+    pub fn moving_with(&mut self, velocity: Velocity) -> BodyId {
+        let known = |&id: &BodyId| self[id].name.is_none() && self.stated_velocity(id) == Some(velocity);
+        match self.ids().find(known) {
+            Some(id) => id,
+            None => self.push(None, WorldLine::inertial(velocity)),
+        }
     }
 
-    /// The velocity that the text states for the parts of a body; `None` for [`BodyId::UNSTATED`]
-    /// at rest.
+    /// The motion of a body in the frame of the scene.
+    pub fn motion(&self, id: BodyId) -> &WorldLine {
+        &self.motions[self[id].motion.0 as usize]
+    }
+
+    /// The velocity of a body in the frame of the scene, at its own time 0; at all times if it neither
+    /// accelerates nor turns.
+    pub fn velocity(&self, id: BodyId) -> Velocity {
+        self.motion(id).initial_velocity()
+    }
+
+    /// The velocity that the text states for the parts of a body; `None` if it states none.
     pub fn stated_velocity(&self, id: BodyId) -> Option<Velocity> {
-        let Motion::Inertial(velocity) = self[id].motion;
-        (id != BodyId::UNSTATED || !velocity.is_zero()).then_some(velocity)
+        self[id].is_stated.then(|| self.velocity(id))
     }
 
-    /// All bodies, [`BodyId::UNSTATED`] first.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = &Body> + DoubleEndedIterator + Clone {
-        self.rows.iter()
+    /// Replaces the velocity of a body. It is part of the text from then on.
+    pub fn set_velocity(&mut self, id: BodyId, velocity: Velocity) {
+        let body = &mut self.rows[id.index()];
+        body.is_stated = true;
+        self.motions[body.motion.0 as usize] = WorldLine::inertial(velocity);
     }
 
-    /// All bodies, mutable.
-    pub fn iter_mut(&mut self) -> impl ExactSizeIterator<Item = &mut Body> + DoubleEndedIterator {
-        self.rows.iter_mut()
+    /// True if any body moves in the frame of the scene.
+    pub fn has_motion(&self) -> bool {
+        self.ids().any(|id| self.is_moving(id))
+    }
+
+    /// True if a body moves in the frame of the scene.
+    pub fn is_moving(&self, id: BodyId) -> bool {
+        *self.motion(id) != WorldLine::REST
     }
 
     /// The ids of all bodies, in order.
-    pub fn ids(&self) -> impl ExactSizeIterator<Item = BodyId> + Clone + use<> {
+    pub fn ids(&self) -> impl ExactSizeIterator<Item = BodyId> + DoubleEndedIterator + Clone + use<> {
         (0..self.rows.len() as u32).map(BodyId)
     }
 
@@ -119,11 +136,5 @@ impl Index<BodyId> for Bodies {
 
     fn index(&self, id: BodyId) -> &Body {
         &self.rows[id.index()]
-    }
-}
-
-impl IndexMut<BodyId> for Bodies {
-    fn index_mut(&mut self, id: BodyId) -> &mut Body {
-        &mut self.rows[id.index()]
     }
 }

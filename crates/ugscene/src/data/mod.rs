@@ -9,7 +9,7 @@ mod remarks;
 mod scene;
 mod stage;
 
-pub use body::{Bodies, Body, BodyId, Motion};
+pub use body::{Bodies, Body, BodyId};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
 pub use ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};

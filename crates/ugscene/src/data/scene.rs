@@ -43,10 +43,14 @@ pub struct Scene {
     pub mixes: Vec<Mix>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
-    /// The bodies and their motions: every distinct velocity in the text is a body.
+    /// The bodies and their motions.
     pub bodies: Bodies,
-    /// `v`.
+    /// `v`. Rows are added by [`Scene::add_vertex`], which keeps the columns below in step.
     pub vertices: Vec<Vertex>,
+    /// For each vertex of a scene as seen, its rest position relative to the eye, in the rest frame of
+    /// its body and the axes of the scene. Empty if rest positions follow from those seen by (P4), as
+    /// they do in a scene from text.
+    pub rest: Vec<DVec3>,
     /// Contours of faces and wires.
     pub contours: Contours,
     /// `f`.
@@ -352,6 +356,20 @@ impl Scene {
             Illum::Level(_) => None,
             Illum::Surface(surface) => Some(&self.surfaces[surface.index()]),
         }
+    }
+
+    /// Adds a vertex.
+    pub fn add_vertex(&mut self, vertex: Vertex) -> VertexId {
+        self.vertices.push(vertex);
+        VertexId::from_index(self.vertices.len() - 1)
+    }
+
+    /// Adds a copy of a vertex, with all that is known of it, under another name.
+    pub fn copy_vertex(&mut self, original: VertexId, name: NameId) -> VertexId {
+        if let Some(&rest) = self.rest.get(original.index()) {
+            self.rest.push(rest);
+        }
+        self.add_vertex(Vertex { name, ..self.vertices[original.index()] })
     }
 
     /// The polylines of a wire.

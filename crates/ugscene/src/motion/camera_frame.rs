@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use ugphysics::{Velocity, compose};
 
 use super::MotionError;
-use crate::{BodyId, Motion, Scene};
+use crate::{BodyId, Scene};
 
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's
 /// camera. It is removed from the scene, since the output is in the frame of the camera.
@@ -23,9 +23,9 @@ pub(super) fn take_camera_velocity(
 /// Makes all faces and wires parts of one body. If that is at rest, those whose motion is not
 /// stated stay what they are.
 pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
-    let body = scene.bodies.moving_with(Motion::Inertial(velocity));
+    let (body, unstated) = (scene.bodies.moving_with(velocity), scene.bodies.unstated());
     let set = |slot: &mut BodyId| {
-        if !velocity.is_zero() || *slot != BodyId::UNSTATED {
+        if !velocity.is_zero() || *slot != unstated {
             *slot = body;
         }
     };
@@ -34,12 +34,12 @@ pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
 }
 
 /// States the motion of all faces and wires: what rests in the scene moves in the frame of the
-/// camera. `default`: the velocity of [`BodyId::UNSTATED`].
+/// camera. `default`: the velocity of bodies whose motion is not stated.
 pub(super) fn state_motions(scene: &mut Scene, default: Velocity) {
-    let body = scene.bodies.moving_with(Motion::Inertial(default));
+    let (body, unstated) = (scene.bodies.moving_with(default), scene.bodies.unstated());
     let faces = scene.faces.iter_mut().map(|face| &mut face.body);
     for slot in faces.chain(scene.wires.iter_mut().map(|wire| &mut wire.body)) {
-        if *slot == BodyId::UNSTATED {
+        if *slot == unstated {
             *slot = body;
         }
     }
@@ -64,10 +64,10 @@ pub(super) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
 /// Transforms all velocities of a scene to the frame of the camera.
 pub(super) fn transform_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), MotionError> {
     if !camera.is_zero() {
-        // The first body has no faces and wires any more.
-        for body in scene.bodies.iter_mut().skip(1) {
-            let Motion::Inertial(velocity) = &mut body.motion;
-            *velocity = in_camera_frame(*velocity, camera)?;
+        for body in scene.bodies.ids() {
+            if let Some(velocity) = scene.bodies.stated_velocity(body) {
+                scene.bodies.set_velocity(body, in_camera_frame(velocity, camera)?);
+            }
         }
         for velocity in scene.cameras.iter_mut().filter_map(|other| other.velocity.as_mut()) {
             *velocity = in_camera_frame(*velocity, camera)?;

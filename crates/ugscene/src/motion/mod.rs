@@ -11,7 +11,7 @@ use ugphysics::{Velocity, VelocityError};
 
 use crate::camera_options::half_side;
 use crate::{
-    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Motion, Projection,
+    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Projection,
     RelativeMotion, RestFrames, Scene, SeenGeometry, StageError,
 };
 
@@ -162,17 +162,14 @@ impl PlacedBodies {
     }
 }
 
-/// One for each body, in their order. `default`: the velocity of [`BodyId::UNSTATED`].
+/// One for each body, in their order. `default`: the velocity of bodies whose motion is not stated.
 fn motions(
     scene: &Scene,
     default: Velocity,
     camera: Velocity,
     geometry: Geometry,
 ) -> Result<Vec<RelativeMotion>, MotionError> {
-    let velocity = |body: BodyId| match scene.bodies[body].motion {
-        _ if body == BodyId::UNSTATED => default,
-        Motion::Inertial(velocity) => velocity,
-    };
+    let velocity = |body: BodyId| scene.bodies.stated_velocity(body).unwrap_or(default);
     scene.bodies.ids().map(|body| seen_by(camera, velocity(body), geometry)).collect()
 }
 

@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugphysics::observer_shift;
 
 use super::{Anchor, MotionOptions, RelativeMotion};
-use crate::{BodyId, LampShift, LightKind, Motion, Scene, SeenPosition};
+use crate::{BodyId, LampShift, LightKind, Scene, SeenPosition};
 
 /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///
@@ -88,7 +88,7 @@ fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     }
     for light in &scene.lights {
         if let LightKind::Local { position, .. } = light.kind {
-            let body = light.motion.body().unwrap_or(BodyId::UNSTATED);
+            let body = light.motion.body().unwrap_or(scene.bodies.unstated());
             grow(&mut lamp_boxes[body.index()], position);
         }
     }
@@ -126,7 +126,7 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
         return;
     }
     let stated = |(body, shift): (BodyId, DVec3)| {
-        let Motion::Inertial(velocity) = scene.bodies[body].motion;
+        let velocity = scene.bodies.velocity(body);
         (shift != DVec3::ZERO).then_some(LampShift { velocity, shift })
     };
     scene.lamp_shifts = shifts.into_iter().filter_map(stated).collect();

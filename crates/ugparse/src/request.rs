@@ -1,0 +1,44 @@
+//! Requests of a scene for other texts, which the caller answers.
+
+use std::io;
+use std::path::Path;
+
+/// The kind of a requested text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RequestKind {
+    /// `include`: the bytes of a file.
+    Include,
+    /// `execute`: the standard output of a program.
+    Execute,
+}
+
+/// A text requested by a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Request<'r> {
+    /// A file, or the output of a program.
+    pub kind: RequestKind,
+    /// The file or program, relative to the current folder.
+    pub path: &'r Path,
+    /// The largest allowed size in bytes; of a longer text, only one byte more has to be read.
+    pub room: u64,
+}
+
+/// Failure of a [`Request`].
+#[derive(Debug)]
+pub enum RequestError {
+    /// The file cannot be read, or the program cannot be run.
+    System(io::Error),
+    /// The program has run, and failed.
+    Failed {
+        /// Its exit status: `exit status: 3`.
+        status: String,
+        /// The first line of its standard error; may be empty.
+        complaint: String,
+    },
+}
+
+impl From<io::Error> for RequestError {
+    fn from(error: io::Error) -> Self {
+        Self::System(error)
+    }
+}

@@ -1,0 +1,383 @@
+//! World lines of bodies: where their points are at every time, and when light of theirs is seen.
+//!
+//! A body follows the world line z(τ) of its reference point A, whose own time is τ. It has axes e₁,
+//! e₂, e₃ perpendicular to the four-velocity u = dz/dτ that are carried without turning
+//! (Fermi-Walker transport), in which it may spin.
+
+mod orbit;
+mod pieces;
+
+use glam::{DQuat, DVec3};
+
+pub use orbit::Orbit;
+pub use pieces::Piece;
+
+use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};
+use pieces::{Acceleration, Spin};
+
+/// The motion of a body in the frame of the scene.
+///
+/// Coordinates of a body are rest coordinates: those of the scene at the body's own time 0. A body of
+/// constant velocity is inertial; all others are rigid in the sense of Born, apart from their spin.
+///
+/// ```
+/// use glam::DVec3;
+/// use ugphysics::{Event, Piece, Velocity, WorldLine};
+///
+/// // A ship that leaves with half a unit of proper acceleration, for 4 units of its own time.
+/// let push = Piece { of: DVec3::new(0.5, 0.0, 0.0), from: 0.0, to: 4.0 };
+/// let ship = WorldLine::accelerated(DVec3::ZERO, Velocity::ZERO, &[push], &[])?;
+/// let seen = ship.emission(DVec3::Y, Event { t: 3.0, x: DVec3::ZERO })?;
+/// assert!((seen.own_time - 1.60943791243).abs() < 1e-11);
+/// assert!((seen.velocity.speed() - 2.0 / 3.0).abs() < 1e-12);
+/// # Ok::<(), ugphysics::WorldLineError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct WorldLine(Kind);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Kind {
+    Inertial(Velocity),
+    Moving(Box<Moving>),
+}
+
+/// A motion that is not inertial.
+#[derive(Clone, Debug, PartialEq)]
+struct Moving {
+    /// A, in the coordinates of the body.
+    at: DVec3,
+    /// The velocity at own time 0.
+    initial: Velocity,
+    path: Path,
+    spin: Spin,
+}
+
+/// The world line of A.
+#[derive(Clone, Debug, PartialEq)]
+enum Path {
+    Accelerated(Acceleration),
+    Orbit(Orbit),
+}
+
+/// The event of A at some own time, and the body's axes there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// z(τ), in the frame of the scene.
+    pub event: Event,
+    /// The frame of the scene from the axes (u; e₁, e₂, e₃).
+    pub scene_from_axes: Lorentz,
+    /// The turn R(τ) of the spin, in these axes.
+    pub turn: DQuat,
+}
+
+/// The event at which light left a point of a body, and how the body moves there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EmissionEvent {
+    /// The own time τ of A at which the light left, simultaneous in the frame of A.
+    pub own_time: f64,
+    /// The event, in the frame of the scene.
+    pub event: Event,
+    /// The velocity of the point in the frame of the scene.
+    pub velocity: Velocity,
+}
+
+/// Why a motion is impossible, or no event is found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WorldLineError {
+    /// A number is NaN or infinite.
+    NotFinite,
+    /// A piece ends before it begins.
+    EmptyPiece {
+        /// Its begin and end.
+        piece: [f64; 2],
+    },
+    /// Two pieces overlap.
+    Overlap {
+        /// The begin of the second.
+        from: f64,
+    },
+    /// A velocity is invalid, or its rapidity too large.
+    Velocity(VelocityError),
+    /// The axis of an orbit is the zero vector.
+    NoAxis,
+    /// A point would move at the speed of light or faster: it is too far from the axis of the spin,
+    /// or beyond the horizon of the acceleration, 1 + a·ξ ≤ |ω×ξ|.  Eq. (P41)
+    Horizon {
+        /// The own time at which this happens first.
+        own_time: f64,
+    },
+}
+
+impl core::fmt::Display for WorldLineError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NotFinite => write!(f, "a number of the motion is not finite"),
+            Self::EmptyPiece { piece: [from, to] } => write!(f, "a piece from {from} to {to} is empty"),
+            Self::Overlap { from } => write!(f, "the piece that begins at {from} overlaps the one before"),
+            Self::Velocity(error) => error.fmt(f),
+            Self::NoAxis => write!(f, "the axis is the zero vector"),
+            Self::Horizon { own_time } => {
+                write!(f, "at own time {own_time} the point would move at the speed of light or faster")
+            }
+        }
+    }
+}
+
+impl core::error::Error for WorldLineError {}
+
+impl From<VelocityError> for WorldLineError {
+    fn from(error: VelocityError) -> Self {
+        Self::Velocity(error)
+    }
+}
+
+impl WorldLine {
+    /// At rest in the scene.
+    pub const REST: Self = Self(Kind::Inertial(Velocity::ZERO));
+
+    /// Constant velocity.
+    #[must_use]
+    pub fn inertial(velocity: Velocity) -> Self {
+        Self(Kind::Inertial(velocity))
+    }
+
+    /// A motion with the velocity `velocity` at own time 0, with proper acceleration and spin.
+    ///
+    /// `at`: A, in the coordinates of the body. `accelerations`: proper acceleration along the carried
+    /// axes. `spins`: angular velocity about A in the carried axes, radians per unit of own time. Outside
+    /// all pieces the motion is inertial.
+    ///
+    /// # Errors
+    /// See [`WorldLineError`]; pieces may not overlap.
+    pub fn accelerated(
+        at: DVec3,
+        velocity: Velocity,
+        accelerations: &[Piece],
+        spins: &[Piece],
+    ) -> Result<Self, WorldLineError> {
+        if !at.is_finite() {
+            return Err(WorldLineError::NotFinite);
+        }
+        let axes = Lorentz::boost(velocity);
+        let start =
+            Pose { event: axes.apply(Event { t: 0.0, x: at }), scene_from_axes: axes, turn: DQuat::IDENTITY };
+        let acceleration = Acceleration::new(start, accelerations)?;
+        let spin = Spin::new(spins)?;
+        if acceleration.is_none() && spin.is_none() {
+            return Ok(Self::inertial(velocity));
+        }
+        Ok(Self(Kind::Moving(Box::new(Moving {
+            at,
+            initial: velocity,
+            path: Path::Accelerated(acceleration),
+            spin,
+        }))))
+    }
+
+    /// A motion whose reference point runs on a circle.
+    ///
+    /// # Errors
+    /// See [`WorldLineError`].
+    pub fn orbiting(orbit: Orbit, spins: &[Piece]) -> Result<Self, WorldLineError> {
+        let spin = Spin::new(spins)?;
+        let (at, initial) = (orbit.at(), orbit.velocity());
+        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path: Path::Orbit(orbit), spin }))))
+    }
+
+    /// The velocity of a body that neither accelerates nor turns; `None` for others.
+    #[must_use]
+    pub fn uniform_velocity(&self) -> Option<Velocity> {
+        match &self.0 {
+            Kind::Inertial(velocity) => Some(*velocity),
+            Kind::Moving(_) => None,
+        }
+    }
+
+    /// The velocity at own time 0.
+    #[must_use]
+    pub fn initial_velocity(&self) -> Velocity {
+        match &self.0 {
+            Kind::Inertial(velocity) => *velocity,
+            Kind::Moving(moving) => moving.initial,
+        }
+    }
+
+    /// Event and axes of the reference point at an own time; the origin for a uniform motion.
+    #[must_use]
+    pub fn pose(&self, own_time: f64) -> Pose {
+        match &self.0 {
+            Kind::Inertial(velocity) => {
+                let scene_from_axes = Lorentz::boost(*velocity);
+                let event = scene_from_axes.apply(Event { t: own_time, x: DVec3::ZERO });
+                Pose { event, scene_from_axes, turn: DQuat::IDENTITY }
+            }
+            Kind::Moving(moving) => moving.pose(own_time),
+        }
+    }
+
+    /// The event of a point of the body at an own time of its reference point.  Eq. (P41)
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn event(&self, point: DVec3, own_time: f64) -> Result<Event, WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(velocity) => Ok(Lorentz::boost(*velocity).apply(Event { t: own_time, x: point })),
+            Kind::Moving(moving) => Ok(moving.moment(point, own_time)?.event),
+        }
+    }
+
+    /// The event at which a point of the body sends the light that reaches `observer`, and its
+    /// velocity there: the root of (t_o − t_X) − |x_o − x_X|, of which there is one.  Eq. (P42)
+    ///
+    /// `point`: in the coordinates of the body. `observer`: an event in the frame of the scene.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(velocity) => {
+                let axes = Lorentz::boost(*velocity);
+                let Event { t, x } = axes.inverse().apply(observer);
+                let own_time = t - (x - point).length();
+                let event = axes.apply(Event { t: own_time, x: point });
+                Ok(EmissionEvent { own_time, event, velocity: *velocity })
+            }
+            Kind::Moving(moving) => moving.emission(point, observer),
+        }
+    }
+
+    /// The unit normal of a surface of the body in the rest frame of the surface element, with the
+    /// axes of a single boost from the frame of the scene. It differs from the normal of the body's
+    /// shape where the body spins.  Eq. (P43)
+    ///
+    /// `point`: of the surface, and `normal`: a unit vector, in the coordinates of the body.
+    #[must_use]
+    pub fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
+        match &self.0 {
+            Kind::Inertial(_) => normal,
+            Kind::Moving(moving) => moving.element_normal(point, normal, own_time),
+        }
+    }
+}
+
+/// A point of a body at an own time: its event and ∂X/∂τ.
+#[derive(Clone, Copy, Debug)]
+struct Moment {
+    event: Event,
+    rate: Event,
+}
+
+impl Moving {
+    fn pose(&self, own_time: f64) -> Pose {
+        let pose = match &self.path {
+            Path::Accelerated(acceleration) => acceleration.pose(own_time),
+            Path::Orbit(orbit) => orbit.pose(own_time),
+        };
+        Pose { turn: self.spin.turn(own_time), ..pose }
+    }
+
+    /// The proper acceleration in the carried axes.
+    fn acceleration(&self, own_time: f64) -> DVec3 {
+        match &self.path {
+            Path::Accelerated(acceleration) => acceleration.at(own_time),
+            Path::Orbit(orbit) => orbit.acceleration(own_time),
+        }
+    }
+
+    /// X(τ) = z(τ) + Σ ξⁱ e_i with ξ = R (p' − A), and ∂X/∂τ = (1 + a·ξ) u + (ω×ξ)ⁱ e_i.  Eq. (P41)
+    fn moment(&self, point: DVec3, own_time: f64) -> Result<Moment, WorldLineError> {
+        let pose = self.pose(own_time);
+        let xi = pose.turn * (point - self.at);
+        let offset = pose.scene_from_axes.apply(Event { t: 0.0, x: xi });
+        let pace = 1.0 + self.acceleration(own_time).dot(xi);
+        let swing = self.spin.rate(own_time).cross(xi);
+        if pace.partial_cmp(&swing.length()) != Some(core::cmp::Ordering::Greater) {
+            return Err(WorldLineError::Horizon { own_time });
+        }
+        let rate = pose.scene_from_axes.apply(Event { t: pace, x: swing });
+        let event = Event { t: pose.event.t + offset.t, x: pose.event.x + offset.x };
+        Ok(Moment { event, rate })
+    }
+
+    fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
+        let own_time = self.emission_time(point, observer)?;
+        let Moment { event, rate } = self.moment(point, own_time)?;
+        // |∂X/∂τ|² = t'² − x'² is (1 + a·ξ)² − |ω×ξ|².
+        let pose = self.pose(own_time);
+        let xi = pose.turn * (point - self.at);
+        let pace = 1.0 + self.acceleration(own_time).dot(xi);
+        let swing = self.spin.rate(own_time).cross(xi).length();
+        let clock = ((pace - swing) * (pace + swing)).sqrt();
+        Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
+    }
+
+    /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly: Newton's steps within a
+    /// bracket, halved where they leave it.
+    fn emission_time(&self, point: DVec3, observer: Event) -> Result<f64, WorldLineError> {
+        /// Relative to the larger of 1 and |τ|.
+        const TOLERANCE: f64 = 1e-15;
+        /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
+        const MOST_STEPS: usize = 2200;
+        let value = |own_time: f64| -> Result<(f64, f64), WorldLineError> {
+            let Moment { event, rate } = self.moment(point, own_time)?;
+            let way = observer.x - event.x;
+            let toward = unit_or_zero(way);
+            Ok((observer.t - event.t - way.length(), toward.dot(rate.x) - rate.t))
+        };
+        let mut guess = self.guess(observer, point);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut reach = 1.0_f64.max(0.125 * guess.abs());
+        for _ in 0..MOST_STEPS {
+            let (f, slope) = value(guess)?;
+            if f == 0.0 {
+                return Ok(guess);
+            }
+            if f > 0.0 {
+                low = guess
+            } else {
+                high = guess
+            }
+            let newton = guess - f / slope;
+            let next = if newton > low && newton < high {
+                // Far from the root a step may be too long, as pieces of the motion are passed over.
+                newton.clamp(guess - reach, guess + reach)
+            } else if low.is_finite() && high.is_finite() {
+                0.5 * low + 0.5 * high
+            } else {
+                if f > 0.0 { guess + reach } else { guess - reach }
+            };
+            reach *= 2.0;
+            if (next - guess).abs() <= TOLERANCE * next.abs().max(1.0) || next == low || next == high {
+                return Ok(next);
+            }
+            guess = next;
+        }
+        Ok(guess)
+    }
+
+    /// The root for a body that moves on as it does at own time 0.
+    fn guess(&self, observer: Event, point: DVec3) -> f64 {
+        let Pose { event, scene_from_axes, turn } = self.pose(0.0);
+        let from = Event { t: observer.t - event.t, x: observer.x - event.x };
+        let Event { t, x } = scene_from_axes.inverse().apply(from);
+        let guess = t - (x - turn * (point - self.at)).length();
+        if guess.is_finite() { guess } else { 0.0 }
+    }
+
+    /// N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), with w = ω×ξ/(1 + a·ξ): perpendicular to
+    /// ∂X/∂τ and to both tangents of the surface.  Eq. (P43)
+    fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
+        let pose = self.pose(own_time);
+        let (xi, n) = (pose.turn * (point - self.at), pose.turn * normal);
+        let pace = 1.0 + self.acceleration(own_time).dot(xi);
+        let w = self.spin.rate(own_time).cross(xi) / pace;
+        let lean = n.dot(w);
+        let scale = 1.0 / ((1.0 - lean) * (1.0 + lean)).sqrt();
+        let in_scene = pose.scene_from_axes.apply(Event { t: lean * scale, x: n * scale });
+        let rate = pose.scene_from_axes.apply(Event { t: 1.0, x: w });
+        // Where it rests, the time component is 0.
+        let velocity = Velocity::from_proper(rate.x / ((1.0 - w.length()) * (1.0 + w.length())).sqrt());
+        let boost = Lorentz::boost(velocity.unwrap_or_default());
+        unit_or_zero(boost.inverse().apply(in_scene).x)
+    }
+}

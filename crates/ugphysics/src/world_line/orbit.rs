@@ -1,0 +1,82 @@
+//! Motion on a circle.
+
+use glam::{DQuat, DVec3};
+
+use super::pieces::rotation;
+use super::{Pose, WorldLineError};
+use crate::{Event, Lorentz, Velocity};
+
+/// A circle on which a reference point runs with constant speed, and the axes that are carried along
+/// without turning. Seen from the scene they turn by −2π(γ − 1) a revolution (Thomas).  Eq. (P44)
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Orbit {
+    center: DVec3,
+    /// The unit vector about which the point runs counterclockwise.
+    axis: DVec3,
+    /// Radians per unit of the time of the scene.
+    rate: f64,
+    /// From the centre to the point at own time 0.
+    start: DVec3,
+    velocity: Velocity,
+}
+
+impl Orbit {
+    /// A circle about the axis `axis` through `center`, on which a point that is at `at` at time 0 runs
+    /// with `rate` radians per unit of the time of the scene.
+    ///
+    /// # Errors
+    /// [`WorldLineError::NotFinite`], [`WorldLineError::NoAxis`], or [`WorldLineError::Velocity`] if the
+    /// speed is not below that of light.
+    pub fn new(at: DVec3, center: DVec3, axis: DVec3, rate: f64) -> Result<Self, WorldLineError> {
+        if !(at.is_finite() && center.is_finite() && axis.is_finite() && rate.is_finite()) {
+            return Err(WorldLineError::NotFinite);
+        }
+        let axis = crate::unit_or_zero(axis);
+        if axis == DVec3::ZERO {
+            return Err(WorldLineError::NoAxis);
+        }
+        let start = at - center;
+        let velocity = Velocity::from_beta(rate * axis.cross(start))?;
+        Ok(Self { center, axis, rate, start, velocity })
+    }
+
+    pub(super) fn at(&self) -> DVec3 {
+        self.center + self.start
+    }
+
+    /// At own time 0.
+    pub(super) fn velocity(&self) -> Velocity {
+        self.velocity
+    }
+
+    /// The turn of the point's place about the axis.
+    fn progress(&self, own_time: f64) -> DQuat {
+        rotation(self.axis, self.rate * self.velocity.gamma() * own_time)
+    }
+
+    pub(super) fn pose(&self, own_time: f64) -> Pose {
+        let gamma = self.velocity.gamma();
+        let progress = self.progress(own_time);
+        let event = Event { t: gamma * own_time, x: self.center + progress * self.start };
+        let proper = progress * self.velocity.proper();
+        // A turn does not change the speed, whose square is below the limit.
+        let velocity = Velocity::from_proper(proper).unwrap_or(self.velocity);
+        let lag = rotation(self.axis, -self.velocity.gamma_minus_one() * gamma * self.rate * own_time);
+        Pose {
+            event,
+            scene_from_axes: Lorentz::boost(velocity) * Lorentz::rotation(lag),
+            turn: DQuat::IDENTITY,
+        }
+    }
+
+    /// Centripetal: γ²ω²ρ towards the axis.
+    pub(super) fn acceleration(&self, own_time: f64) -> DVec3 {
+        let pose = self.pose(own_time);
+        let from_axis = self.progress(own_time) * self.start;
+        let from_axis = from_axis - from_axis.dot(self.axis) * self.axis;
+        let own_rate = self.velocity.gamma() * self.rate;
+        let in_scene = Event { t: 0.0, x: -own_rate * own_rate * from_axis };
+        let in_axes = pose.scene_from_axes.inverse().apply(in_scene);
+        in_axes.x
+    }
+}

@@ -1,0 +1,213 @@
+//! Motions in pieces of own time: constant proper acceleration, and constant spin.
+
+use glam::{DQuat, DVec3};
+
+use super::{Pose, WorldLineError};
+use crate::{Event, HyperbolicMotion, Lorentz, VelocityError};
+
+/// The greatest rapidity that one piece adds; a piece without an end ends there. At 1 g it is reached
+/// after 48 years, at a distance of 10²¹ light years.
+const MOST_RAPIDITY: f64 = 50.0;
+
+/// A vector that is constant for a stretch of own time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Proper acceleration, or angular velocity.
+    pub of: DVec3,
+    /// Own time at which it begins; may be −∞.
+    pub from: f64,
+    /// Own time at which it ends; may be ∞.
+    pub to: f64,
+}
+
+impl Piece {
+    /// Sorted pieces, without those that are 0.
+    fn sorted(pieces: &[Piece]) -> Result<Vec<Piece>, WorldLineError> {
+        let mut sorted = pieces.to_vec();
+        for piece in pieces {
+            if !piece.of.is_finite() || piece.from.is_nan() || piece.to.is_nan() {
+                return Err(WorldLineError::NotFinite);
+            }
+            if piece.from >= piece.to {
+                return Err(WorldLineError::EmptyPiece { piece: [piece.from, piece.to] });
+            }
+        }
+        sorted.sort_by(|a, b| a.from.total_cmp(&b.from));
+        if let Some(pair) = sorted.windows(2).find(|pair| pair[0].to > pair[1].from) {
+            return Err(WorldLineError::Overlap { from: pair[1].from });
+        }
+        sorted.retain(|piece| piece.of != DVec3::ZERO);
+        Ok(sorted)
+    }
+}
+
+/// Pieces of the whole of own time around 0, those without acceleration or spin included: (begin,
+/// value), each up to the next.
+fn without_gaps(pieces: &[Piece]) -> Vec<(f64, DVec3)> {
+    let mut all = vec![(f64::NEG_INFINITY, DVec3::ZERO)];
+    let mut push = |from: f64, of: DVec3| {
+        match all.last_mut() {
+            Some(last) if last.0 == from => last.1 = of,
+            _ => all.push((from, of)),
+        };
+    };
+    for piece in pieces {
+        push(piece.from, piece.of);
+        push(piece.to, DVec3::ZERO);
+    }
+    all.retain(|&(from, _)| from < f64::INFINITY);
+    all
+}
+
+/// All of own time in stretches, in each of which a vector is constant, with a state that follows from
+/// it by `advance(vector, state, passed own time)`.
+#[derive(Clone, Debug, PartialEq)]
+struct Timeline<T>(Vec<Stretch<T>>);
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Stretch<T> {
+    from: f64,
+    of: DVec3,
+    /// Own time at which the state is known.
+    known_at: f64,
+    state: T,
+}
+
+impl<T: Copy> Timeline<T> {
+    /// `start`: the state at own time 0.
+    fn new(pieces: &[Piece], start: T, advance: impl Fn(DVec3, T, f64) -> T) -> Self {
+        let pieces = without_gaps(pieces);
+        let current = pieces.partition_point(|&(from, _)| from <= 0.0) - 1;
+        let (before, behind) = pieces.split_at(current);
+        let mut known_at = 0.0;
+        let mut last = Stretch { from: behind[0].0, of: behind[0].1, known_at, state: start };
+        let mut all = vec![last];
+        for &(from, of) in &behind[1..] {
+            last = Stretch {
+                from,
+                of,
+                known_at: from,
+                state: advance(last.of, last.state, from - last.known_at),
+            };
+            all.push(last);
+        }
+        // Backwards, each is known at its end.
+        let (mut state, mut end) = (start, behind[0].0);
+        let mut of_later = behind[0].1;
+        for &(from, of) in before.iter().rev() {
+            state = advance(of_later, state, end - known_at);
+            known_at = end;
+            all.insert(0, Stretch { from, of, known_at, state });
+            (of_later, end) = (of, from);
+        }
+        Self(all)
+    }
+
+    fn is_constant(&self) -> bool {
+        self.0.iter().all(|stretch| stretch.of == DVec3::ZERO)
+    }
+
+    fn at(&self, own_time: f64) -> &Stretch<T> {
+        let row = self.0.partition_point(|stretch| stretch.from <= own_time);
+        // The first begins at −∞.
+        &self.0[row.max(1) - 1]
+    }
+
+    fn state(&self, own_time: f64, advance: impl Fn(DVec3, T, f64) -> T) -> T {
+        let Stretch { of, known_at, state, .. } = *self.at(own_time);
+        advance(of, state, own_time - known_at)
+    }
+}
+
+/// The world line of A with constant proper acceleration in pieces.
+///
+/// A piece of acceleration a and own time d along the unit vector â is the shift (sinh(ad)/a, (cosh(ad)
+/// − 1)/a â) with the boost of rapidity ad along â, in the axes at its begin.  Eq. (P40)
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Acceleration(Timeline<Pose>);
+
+impl Acceleration {
+    /// `start`: at own time 0.
+    pub(super) fn new(start: Pose, accelerations: &[Piece]) -> Result<Self, WorldLineError> {
+        let mut pieces = Piece::sorted(accelerations)?;
+        pieces.iter_mut().try_for_each(limit_rapidity)?;
+        let timeline = Timeline::new(&pieces, start, accelerated);
+        let is_finite = |stretch: &Stretch<Pose>| {
+            stretch.state.event.x.is_finite() && stretch.state.scene_from_axes.matrix().is_finite()
+        };
+        if !timeline.0.iter().all(is_finite) {
+            return Err(WorldLineError::NotFinite);
+        }
+        Ok(Self(timeline))
+    }
+
+    pub(super) fn is_none(&self) -> bool {
+        self.0.is_constant()
+    }
+
+    pub(super) fn pose(&self, own_time: f64) -> Pose {
+        self.0.state(own_time, accelerated)
+    }
+
+    pub(super) fn at(&self, own_time: f64) -> DVec3 {
+        self.0.at(own_time).of
+    }
+}
+
+/// Ends a piece without an end where it has added [`MOST_RAPIDITY`], and refuses others that add more.
+fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
+    let most = MOST_RAPIDITY / piece.of.length();
+    let Piece { from, to, .. } = *piece;
+    if to - from <= most {
+        return Ok(());
+    }
+    if from.is_finite() && to.is_finite() {
+        return Err(VelocityError::RapidityTooLarge { rapidity: (to - from) * piece.of.length() }.into());
+    }
+    piece.to = to.min(from.max(0.0) + most);
+    piece.from = from.max(to.min(0.0) - most);
+    Ok(())
+}
+
+fn accelerated(acceleration: DVec3, pose: Pose, passed: f64) -> Pose {
+    let motion = HyperbolicMotion { acceleration };
+    let shift = pose.scene_from_axes.apply(motion.event(passed));
+    let event = Event { t: pose.event.t + shift.t, x: pose.event.x + shift.x };
+    // A piece adds no more than `MOST_RAPIDITY`.
+    let boost = motion.velocity(passed).map_or(Lorentz::IDENTITY, Lorentz::boost);
+    Pose { event, scene_from_axes: pose.scene_from_axes * boost, turn: pose.turn }
+}
+
+/// Spin in pieces: R(τ), with dR/dτ = [ω]× R and R(0) = 1.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Spin(Timeline<DQuat>);
+
+impl Spin {
+    pub(super) fn new(spins: &[Piece]) -> Result<Self, WorldLineError> {
+        Ok(Self(Timeline::new(&Piece::sorted(spins)?, DQuat::IDENTITY, turned)))
+    }
+
+    pub(super) fn is_none(&self) -> bool {
+        self.0.is_constant()
+    }
+
+    pub(super) fn turn(&self, own_time: f64) -> DQuat {
+        self.0.state(own_time, turned)
+    }
+
+    pub(super) fn rate(&self, own_time: f64) -> DVec3 {
+        self.0.at(own_time).of
+    }
+}
+
+fn turned(rate: DVec3, turn: DQuat, passed: f64) -> DQuat {
+    if rate == DVec3::ZERO { turn } else { rotation(rate, passed) * turn }
+}
+
+/// The rotation about `axis` by |axis| times `factor`.
+pub(super) fn rotation(axis: DVec3, factor: f64) -> DQuat {
+    let half = 0.5 * axis.length() * factor;
+    let (sin, cos) = (libm::sin(half), libm::cos(half));
+    let v = axis.normalize_or_zero() * sin;
+    DQuat::from_xyzw(v.x, v.y, v.z, cos)
+}

@@ -1,0 +1,296 @@
+//! World lines: published numbers, computed with 40 digits, and laws.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use glam::DVec3;
+use ugphysics::{Event, Orbit, Piece, Velocity, WorldLine, doppler_at};
+
+const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+fn piece(of: [f64; 3], [from, to]: [f64; 2]) -> Piece {
+    Piece { of: of.into(), from, to }
+}
+
+fn moving(at: [f64; 3], beta: [f64; 3], accelerations: &[Piece], spins: &[Piece]) -> WorldLine {
+    let velocity = Velocity::from_beta(beta.into()).unwrap();
+    WorldLine::accelerated(at.into(), velocity, accelerations, spins).unwrap()
+}
+
+/// Emission events, velocities and Doppler factors, seen by an eye at rest.
+#[test]
+fn light_is_seen_as_published() {
+    let check = |world_line: &WorldLine,
+                 point: [f64; 3],
+                 eye: [f64; 4],
+                 own_time: f64,
+                 place: [f64; 3],
+                 beta: [f64; 3],
+                 doppler: f64| {
+        let [t, x, y, z] = eye;
+        let observer = Event { t, x: DVec3::new(x, y, z) };
+        let seen = world_line.emission(point.into(), observer).unwrap();
+        let relative = seen.event.x - observer.x;
+        let d = doppler_at(relative, seen.velocity);
+        // The numbers are rounded to 10 decimals, or to more.
+        assert!((seen.own_time - own_time).abs() < 6e-11, "{point:?}: {} for {own_time}", seen.own_time);
+        let place: DVec3 = place.into();
+        assert!((relative - place).length() < 1e-9, "{point:?}: {relative} for {place}");
+        let beta: DVec3 = beta.into();
+        assert!(
+            (seen.velocity.beta() - beta).length() < 1e-10,
+            "{point:?}: {} for {beta}",
+            seen.velocity.beta()
+        );
+        assert!((d - doppler).abs() < 1e-10, "{point:?}: {d} for {doppler}");
+    };
+    let launch = moving([0.0; 3], [0.0; 3], &[piece([0.5, 0.0, 0.0], [0.0, 4.0])], &[]);
+    check(
+        &launch,
+        [0.0, 1.0, 0.0],
+        [3.0, 0.0, 0.0, 0.0],
+        1.60943791243,
+        [0.683281573, 1.0, 0.0],
+        [0.66666666667, 0.0, 0.0],
+        0.5416407865,
+    );
+    check(
+        &launch,
+        [0.0, 1.0, 0.0],
+        [8.0, 0.0, 0.0, 0.0],
+        3.18741054194,
+        [3.1251237606, 1.0, 0.0],
+        [0.92071551061, 0.0, 0.0],
+        0.207912717125,
+    );
+    check(
+        &launch,
+        [1.0, 1.0, 0.5],
+        [40.0, 0.0, 0.0, 0.0],
+        6.67963515099,
+        [19.00524971, 1.0, 0.5],
+        [0.96402758008, 0.0, 0.0],
+        0.135450026816,
+    );
+    let aslant = moving([1.0, 0.0, 0.0], [0.0, 0.6, 0.0], &[piece([0.5, 0.0, 0.0], [-2.0, 3.0])], &[]);
+    check(
+        &aslant,
+        [1.5, 0.25, 0.0],
+        [6.0, 0.0, -3.0, 1.0],
+        0.797775924943,
+        [1.7015406705, 4.0804069747, -1.0],
+        [0.30319764641, 0.6, 0.0],
+        0.447605168564,
+    );
+    let wheel = moving([0.0; 3], [0.8, 0.0, 0.0], &[], &[piece([0.0, 4.0 / 3.0, 0.0], ALWAYS)]);
+    check(
+        &wheel,
+        [0.0, 0.0, 0.54],
+        [0.0, 0.0, -4.0, 0.5],
+        -4.02643098573,
+        [-4.655482048, 4.0, -0.17054648282],
+        [0.9170161973, 0.0, -0.2532781712],
+        0.988288108042,
+    );
+    check(
+        &wheel,
+        [0.5, 0.0, -0.3],
+        [2.0, 0.0, -4.0, 0.5],
+        -1.50761240289,
+        [-1.9120985359, 4.0, 0.08011976081],
+        [0.97201534871, 0.0, -0.029073883795],
+        0.40168721013,
+    );
+    let orbit = |rate| {
+        WorldLine::orbiting(Orbit::new(3.0 * DVec3::X, DVec3::ZERO, DVec3::Z, rate).unwrap(), &[]).unwrap()
+    };
+    check(
+        &orbit(0.2),
+        [3.5, 0.0, 0.1],
+        [7.0, 0.0, -8.0, 1.0],
+        -0.999132766545,
+        [3.4154152082, 7.3268269037, -0.9],
+        [0.14831633107, 0.58137962291, 0.0],
+        0.504418784358,
+    );
+    check(
+        &orbit(0.3),
+        [3.0, 0.4, 0.0],
+        [-25.0, 10.0, 0.0, 2.0],
+        -16.1136769843,
+        [-10.598130244, 2.947707225, -2.0],
+        [-0.8959742816, 0.085029916619, 0.0],
+        0.232884164834,
+    );
+    let disc = moving([0.0; 3], [0.0; 3], &[], &[piece([0.0, 0.0, 0.25], ALWAYS)]);
+    check(
+        &disc,
+        [3.0, 0.0, 0.0],
+        [10.0, 0.0, -8.0, 1.0],
+        0.836657596078,
+        [2.9346142877, 8.6229277507, -1.0],
+        [-0.15573193768, 0.73365357192, 0.0],
+        0.403189933584,
+    );
+}
+
+/// What a camera with `-acc 0 .2 0 0 10` sees, in its axes.
+#[test]
+fn accelerated_observers_see_as_published() {
+    let camera = moving([0.0; 3], [0.0; 3], &[piece([0.0, 0.2, 0.0], [0.0, 10.0])], &[]);
+    let check = |own_time: f64, event: [f64; 4], beta: f64, seen: [f64; 3], doppler: f64| {
+        let pose = camera.pose(own_time);
+        let [t, x, y, z] = event;
+        let found = [pose.event.t, pose.event.x.x, pose.event.x.y, pose.event.x.z];
+        let close = |a: f64, b: f64| (a - b).abs() < 1e-10 * b.abs().max(1.0);
+        assert!(found.iter().zip([t, x, y, z]).all(|(a, b)| close(*a, b)), "{found:?}");
+        let velocity = pose.scene_from_axes.velocity_of_frame().unwrap();
+        assert!(close(velocity.speed(), beta));
+        // A point at rest at (1, 30, 2).
+        let place = DVec3::new(1.0, 30.0, 2.0) - pose.event.x;
+        let in_axes = pose.scene_from_axes.inverse().apply(Event { t: -place.length(), x: place });
+        assert!((in_axes.x - DVec3::from(seen)).length() < 1e-8, "{}", in_axes.x);
+        assert!(close(in_axes.x.length() / place.length(), doppler));
+    };
+    check(
+        2.0,
+        [2.05376162901, 0.0, 0.405361859192, 0.0],
+        0.379948962255,
+        [1.0, 44.1846609207, 2.0],
+        1.4906572448,
+    );
+    check(
+        10.0,
+        [18.1343020392, 0.0, 13.8109784554, 0.0],
+        0.964027580076,
+        [1.0, 120.17902252, 2.0],
+        7.35494707534,
+    );
+}
+
+/// A trip there and back.
+#[test]
+fn twins_meet_again() {
+    let push = [0.3, 0.0, 0.0];
+    let pull = [-0.3, 0.0, 0.0];
+    let trip = moving(
+        [0.0; 3],
+        [0.0; 3],
+        &[piece(push, [0.0, 2.0]), piece(pull, [2.0, 6.0]), piece(push, [6.0, 8.0])],
+        &[],
+    );
+    let home = trip.pose(8.0);
+    assert!(home.event.x.length() < 1e-14 && (home.event.t - 8.4887144286432).abs() < 1e-12);
+    assert!(home.scene_from_axes.velocity_of_frame().unwrap().speed() < 1e-15);
+}
+
+/// Thomas precession: the axes turn by −2π(γ − 1) a revolution.
+#[test]
+fn axes_on_an_orbit_turn_back() {
+    let orbit = Orbit::new(3.0 * DVec3::X, DVec3::ZERO, DVec3::Z, 0.3).unwrap();
+    let line = WorldLine::orbiting(orbit, &[]).unwrap();
+    let gamma = 1.0 / (1.0 - 0.81f64).sqrt();
+    let round = std::f64::consts::TAU / (0.3 * gamma);
+    let [start, end] = [0.0, round].map(|own_time| line.pose(own_time).scene_from_axes);
+    let turn = start.inverse() * end;
+    let x = turn.apply(Event { t: 0.0, x: DVec3::X }).x;
+    let angle = libm::atan2(x.y, x.x);
+    assert!((gamma - 2.294157338706).abs() < 1e-12 && (angle + 1.8482450685542).abs() < 1e-11, "{angle}");
+}
+
+/// A stretch of acceleration in two pieces is the same stretch, and light leaves on the light cone of
+/// the observer.
+#[test]
+fn pieces_join_without_a_trace() {
+    let (at, beta) = ([0.3, -1.0, 0.2], [0.1, 0.2, -0.4]);
+    let (push, spin) = ([0.2, -0.1, 0.3], [0.05, 0.1, -0.02]);
+    let whole = moving(at, beta, &[piece(push, [-3.0, 5.0])], &[piece(spin, [-1.0, 9.0])]);
+    let halves = moving(
+        at,
+        beta,
+        &[piece(push, [1.0, 5.0]), piece(push, [-3.0, 1.0])],
+        &[piece(spin, [-1.0, -0.5]), piece(spin, [-0.5, 4.0]), piece(spin, [4.0, 9.0])],
+    );
+    for step in -40..40 {
+        let observer = Event { t: f64::from(step), x: DVec3::new(1.0, -2.0, 3.0) };
+        let point = DVec3::new(0.5, -0.2, 0.1);
+        let [one, other] = [&whole, &halves].map(|line| line.emission(point, observer).unwrap());
+        assert!((one.own_time - other.own_time).abs() < 1e-12 * one.own_time.abs().max(1.0));
+        assert!((one.velocity.beta() - other.velocity.beta()).length() < 1e-12);
+        let way = observer.x - one.event.x;
+        assert!((observer.t - one.event.t - way.length()).abs() < 1e-12 * way.length().max(1.0));
+    }
+}
+
+/// Without acceleration and spin a motion is inertial, and sees what (P3) says.
+#[test]
+fn nothing_is_inertial() {
+    let velocity = Velocity::from_beta(DVec3::new(0.3, -0.4, 0.5)).unwrap();
+    let none = piece([0.0; 3], [0.0, 1.0]);
+    let line = WorldLine::accelerated(DVec3::X, velocity, &[none], &[none]).unwrap();
+    assert_eq!(line, WorldLine::inertial(velocity));
+    let point = DVec3::new(4.0, 1.0, -2.0);
+    let seen = line.emission(point, Event { t: 0.0, x: DVec3::ZERO }).unwrap();
+    assert!((seen.event.x - ugphysics::seen_position(point, velocity)).length() < 1e-14);
+}
+
+/// Points of a body without spin keep their distances in every momentary rest frame, and move with the
+/// velocity of the axes; normals of a spinning body are perpendicular to the surface as it moves.
+#[test]
+fn normals_are_perpendicular_to_the_motion_of_the_surface() {
+    let line = moving(
+        [1.0, 0.0, 0.0],
+        [0.0, 0.3, 0.0],
+        &[piece([0.2, 0.0, 0.1], ALWAYS_TO_TEN)],
+        &[piece([0.1, 0.2, -0.3], ALWAYS)],
+    );
+    let (point, normal) = (DVec3::new(1.5, 0.8, -0.4), DVec3::new(0.36, 0.48, 0.8));
+    let [first, second] = normal.any_orthonormal_pair().into();
+    for own_time in [-2.0, 0.0, 3.0] {
+        let found = line.element_normal(point, normal, own_time);
+        assert!((found.length() - 1.0).abs() < 1e-14);
+        let here = line.event(point, own_time).unwrap();
+        let h = 1e-6;
+        let difference = |plus: Event, minus: Event| Event {
+            t: (plus.t - minus.t) / (2.0 * h),
+            x: (plus.x - minus.x) / (2.0 * h),
+        };
+        let along = |d: DVec3| {
+            difference(
+                line.event(point + h * d, own_time).unwrap(),
+                line.event(point - h * d, own_time).unwrap(),
+            )
+        };
+        let rate =
+            difference(line.event(point, own_time + h).unwrap(), line.event(point, own_time - h).unwrap());
+        let velocity = Velocity::from_beta(rate.x / rate.t).unwrap();
+        let to_element = ugphysics::Lorentz::boost(velocity).inverse();
+        for tangent in [along(first), along(second)] {
+            let tangent = to_element.apply(tangent);
+            // At rest with the element, tangents at one time lie in the surface.
+            assert!(found.dot(tangent.x).abs() < 1e-8, "{own_time}: {found} {:?}", tangent);
+        }
+        assert!(here.t.is_finite());
+    }
+}
+
+const ALWAYS_TO_TEN: [f64; 2] = [f64::NEG_INFINITY, 10.0];
+
+#[test]
+fn impossible_motions_are_refused() {
+    use ugphysics::WorldLineError as Error;
+    let refused = |accelerations: &[Piece], spins: &[Piece]| {
+        WorldLine::accelerated(DVec3::ZERO, Velocity::ZERO, accelerations, spins).unwrap_err()
+    };
+    let x = [1.0, 0.0, 0.0];
+    assert_eq!(refused(&[piece(x, [2.0, 1.0])], &[]), Error::EmptyPiece { piece: [2.0, 1.0] });
+    assert_eq!(refused(&[piece(x, [0.0, 2.0]), piece(x, [1.0, 3.0])], &[]), Error::Overlap { from: 1.0 });
+    assert_eq!(refused(&[piece([f64::NAN, 0.0, 0.0], [0.0, 1.0])], &[]), Error::NotFinite);
+    assert!(matches!(refused(&[piece(x, [0.0, 1e6])], &[]), Error::Velocity(_)));
+    let observer = Event { t: 0.0, x: DVec3::ZERO };
+    let disc = moving([0.0; 3], [0.0; 3], &[], &[piece([0.0, 0.0, 0.5], ALWAYS)]);
+    assert!(matches!(disc.emission(2.0 * DVec3::X, observer), Err(Error::Horizon { .. })));
+    let ship = moving([0.0; 3], [0.0; 3], &[piece(x, [0.0, 1.0])], &[]);
+    assert!(matches!(ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }), Err(Error::Horizon { .. })));
+    assert!(matches!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::Z, 1.0), Err(Error::Velocity(_))));
+    assert_eq!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.5), Err(Error::NoAxis));
+}
