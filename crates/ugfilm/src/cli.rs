@@ -2,12 +2,14 @@
 
 use std::ffi::OsString;
 use std::hash::{DefaultHasher, Hasher};
+use std::path::Path;
 
 use clap::Parser;
 use ugimage::Format;
 use ugparse::pipe;
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, parse_words, sha256, whole,
+    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, parse_words, sha256,
+    shell_os_word, whole,
 };
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
@@ -151,7 +153,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let mut film = Film { subject, script: &script, format, blur, valid_since: None };
     if let Some(number) = args.print {
-        let input = Some(context.recorded_name()).filter(|name| name != "-");
+        let input = args.common.input().map(shell_path);
         let chosen = frames.into_iter().filter(|&frame| number == 0 || frame == number);
         let text = print::script(&film, chosen, &output.frame_names(), input.as_deref())?;
         if text.is_empty() {
@@ -191,6 +193,13 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     };
     tell(&summary, context);
     Ok(())
+}
+
+/// A path as a word of a command line, which is not an option.
+fn shell_path(path: &Path) -> String {
+    let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
+    let path = if is_option { Path::new(".").join(path) } else { path.to_owned() };
+    shell_os_word(path.as_os_str())
 }
 
 fn tell(summary: &Summary, context: &Context) {

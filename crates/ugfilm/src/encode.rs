@@ -2,10 +2,10 @@
 
 use std::io::{self, Read, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{ChildStdin, Command, Stdio};
 
 use ugimage::Frame;
-use ugpipe::{Failure, shorten};
+use ugpipe::{Failure, Running, shorten};
 
 use crate::animation::{AnimatedPng, Gif, Palette, Shape};
 
@@ -154,7 +154,7 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
 
 /// ffmpeg, which gets raw frames and writes a file.
 pub struct Ffmpeg {
-    child: Child,
+    program: Running,
     input: Option<ChildStdin>,
 }
 
@@ -193,7 +193,7 @@ impl Ffmpeg {
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(Stdio::piped());
-        let mut child = command.spawn().map_err(|error| match error.kind() {
+        let mut program = Running::spawn(&mut command).map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => Failure::failed(format!(
                 "there is no ffmpeg, which writes {} files: install it, or write frames (-fo frame_%04d.png), \
                  an animated PNG (film.apng) or a GIF",
@@ -201,8 +201,8 @@ impl Ffmpeg {
             )),
             _ => Failure::failed(format!("cannot run ffmpeg: {error}")),
         })?;
-        let input = child.stdin.take();
-        Ok(Self { child, input })
+        let input = program.child_mut().stdin.take();
+        Ok(Self { program, input })
     }
 
     /// Adds the next frame.
@@ -223,7 +223,7 @@ impl Ffmpeg {
     /// ffmpeg fails, for the reason it gives.
     pub fn finish(mut self) -> Result<(), Failure> {
         drop(self.input.take());
-        match self.child.wait() {
+        match self.program.child_mut().wait() {
             Ok(status) if status.success() => Ok(()),
             _ => Err(self.complaint()),
         }
@@ -233,10 +233,24 @@ impl Ffmpeg {
         drop(self.input.take());
         let mut text = String::new();
         // What it printed may be no text; its status says enough then.
-        let _ = self.child.stderr.take().map(|mut stream| stream.read_to_string(&mut text));
-        let status = self.child.wait().map_or_else(|error| error.to_string(), |status| status.to_string());
+        let _ = self.program.child_mut().stderr.take().map(|mut stream| stream.read_to_string(&mut text));
+        let status = self
+            .program
+            .child_mut()
+            .wait()
+            .map_or_else(|error| error.to_string(), |status| status.to_string());
         let line = text.lines().rev().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
         Failure::failed(format!("ffmpeg failed with {status}: {}", line.as_deref().unwrap_or("no message")))
+    }
+}
+
+impl Drop for Ffmpeg {
+    /// Stops it, if the film has no end.
+    fn drop(&mut self) {
+        if self.input.take().is_some() {
+            self.program.stop();
+            let _ = self.program.child_mut().wait();
+        }
     }
 }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::SystemTime;
 
-use ugimage::{Format, Frame, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
+use ugimage::{Format, Frame, Limits, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
 use ugpicture::Rendering;
 use ugpipe::{Context, Failure, Progress, Steps, Words};
 use ugsheet::{Motion, Picture};
@@ -12,7 +12,7 @@ use crate::animation::{Palette, Shape};
 use crate::blur::{MotionBlur, Shot};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
-use crate::frame_files::{Claim, FrameNames, is_done};
+use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
 use crate::note::Note;
 use crate::pipe::{Pipe, Subject};
 use crate::script::{DONE_TO_LIGHT, Script};
@@ -198,6 +198,7 @@ impl Film<'_> {
         names: &FrameNames,
         steps: &Steps<'_>,
     ) -> Result<Summary, Failure> {
+        remove_stale_claims(names);
         let mut summary = Summary::default();
         let write = |frame| self.write_file(frame, &names.path(frame));
         self.each(("drawing", steps), frames, write, |_, outcome| {
@@ -213,7 +214,7 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let Some(_claim) = Claim::new(path) else { return Ok(Outcome::Elsewhere) };
+        let Some(_claim) = claim(path) else { return Ok(Outcome::Elsewhere) };
         // Another process may have finished it before it was claimed.
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
@@ -257,7 +258,7 @@ impl Film<'_> {
         {
             let read = std::fs::read(path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
-            return Ok((read_png(&read).map_err(Failure::failed)?.0, Outcome::Done));
+            return Ok((read_png(&read, &Limits::default()).map_err(Failure::failed)?.0, Outcome::Done));
         }
         let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
         if let Some((path, _)) = &kept {
@@ -286,7 +287,7 @@ impl Film<'_> {
             },
         )?;
         let frame_of = |idx: usize| {
-            let read = read_png(&files[idx]).map(|(frame, _)| frame);
+            let read = read_png(&files[idx], &Limits::default()).map(|(frame, _)| frame);
             read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
         };
         let sheet = ugsheet::sheet(&ugsheet::Config::default(), &pictures, frame_of);

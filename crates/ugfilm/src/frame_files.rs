@@ -1,13 +1,13 @@
 //! Frames as numbered files: their names, which of them are done, and who draws which.
 
 use std::ffi::OsString;
-use std::fs::{self, File, OpenOptions, TryLockError};
+use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use ugimage::{Metadata, read_history};
-use ugpipe::{Context, Failure};
+use ugpipe::{Claim, Context, Failure, stale};
 
 /// Names of numbered files: `frame_%04d.png`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,6 +39,13 @@ impl FrameNames {
     pub fn path(&self, frame: u32) -> PathBuf {
         let Self { before, n_digits, after } = self;
         PathBuf::from(format!("{before}{frame:0n_digits$}{after}"))
+    }
+
+    /// True for the file name of a frame, without its folder.
+    fn is_one(&self, file_name: &str) -> bool {
+        let before = self.before.rsplit_once('/').map_or(self.before.as_str(), |(_, name)| name);
+        let number = file_name.strip_prefix(before).and_then(|rest| rest.strip_suffix(self.after.as_str()));
+        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
     }
 }
 
@@ -97,37 +104,29 @@ fn history_of_whole(mut file: File) -> io::Result<Option<String>> {
     Ok(read_history(&bytes).filter(|_| !is_png || bytes.ends_with(END)))
 }
 
-/// The right to draw a frame, against other processes that work on the same film. It ends when this
-/// is dropped, or with the process.
-pub struct Claim {
-    path: PathBuf,
-    /// Locked as long as it is open.
-    _file: Option<File>,
+/// Claims a frame against other processes that work on the same film, until the claim is dropped.
+/// `None` if another process draws it. Where files cannot be locked every process draws every frame,
+/// which does no harm: they write the same bytes.
+pub fn claim(frame: &Path) -> Option<Claim> {
+    Claim::new(&claim_of(frame))
 }
 
-impl Claim {
-    /// Claims a frame; `None` if another process draws it. Where files cannot be locked every
-    /// process draws every frame, which does no harm: they write the same bytes.
-    pub fn new(frame: &Path) -> Option<Self> {
-        let mut name = OsString::from(".");
-        name.push(frame.file_name()?);
-        name.push(".claim");
-        let path = frame.with_file_name(name);
-        let opened = OpenOptions::new().write(true).create(true).truncate(false).open(&path);
-        // Writing the frame will tell what is wrong with its folder.
-        let Ok(file) = opened else { return Some(Self { path, _file: None }) };
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => None,
-            Ok(()) | Err(TryLockError::Error(_)) => Some(Self { path, _file: Some(file) }),
-        }
-    }
+/// The file of a claim: `.frame_0001.png.claim`.
+fn claim_of(frame: &Path) -> PathBuf {
+    let mut name = OsString::from(".");
+    name.push(frame.file_name().unwrap_or_default());
+    name.push(".claim");
+    frame.with_file_name(name)
 }
 
-impl Drop for Claim {
-    fn drop(&mut self) {
-        // Another process may have removed it.
-        let _ = fs::remove_file(&self.path);
-    }
+/// Deletes the claims of this film that killed processes left.
+pub fn remove_stale_claims(names: &FrameNames) {
+    let first = names.path(1);
+    let folder = first.parent().filter(|folder| !folder.as_os_str().is_empty());
+    stale::remove(folder.unwrap_or(Path::new(".")), |name| {
+        let frame = name.strip_prefix('.').and_then(|name| name.strip_suffix(".claim"));
+        frame.is_some_and(|frame| names.is_one(frame))
+    });
 }
 
 #[cfg(test)]
@@ -177,17 +176,20 @@ mod tests {
     }
 
     #[test]
-    fn a_frame_is_drawn_by_one_process() {
+    fn claims_that_were_left_are_deleted() {
         let folder = tempfile::tempdir().unwrap();
-        let frame = folder.path().join("f_1.png");
-        let claim = Claim::new(&frame).unwrap();
-        assert!(Claim::new(&frame).is_none());
-        drop(claim);
-        assert!(Claim::new(&frame).is_some());
-        // Where nothing can be locked, all frames are drawn.
-        let nowhere = folder.path().join("no/f_1.png");
-        let claims = [Claim::new(&nowhere), Claim::new(&nowhere)];
-        assert!(claims.iter().all(Option::is_some));
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        let names = FrameNames::new(&format!("{}/f_%02d.png", folder.path().display())).unwrap();
+        let held = claim(&names.path(7)).unwrap();
+        assert!(claim(&names.path(7)).is_none());
+        for name in [".f_03.png.claim", ".f_x.png.claim", ".g_03.png.claim", "f_04.png.claim"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        remove_stale_claims(&names);
+        let found = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+        let mut found: Vec<String> = found.map(|name| name.into_string().unwrap()).collect();
+        found.sort();
+        assert_eq!(found, [".f_07.png.claim", ".f_x.png.claim", ".g_03.png.claim", "f_04.png.claim"]);
+        drop(held);
+        assert!(!claim_of(&names.path(7)).exists());
     }
 }

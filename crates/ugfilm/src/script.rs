@@ -154,7 +154,7 @@ impl Script {
         let programs = self.typed(frame)?.iter().enumerate();
         let programs = programs.map(|(row, typed)| typed(&self.numbers(row, frame)));
         let mut pipe = Pipe::new(programs.collect::<Result<_, _>>()?);
-        pipe.lines = commands.0.iter().map(|words| line(words)).collect();
+        pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
         pipe.picture.output = match pipe.picture.output {
             Output::Vector(_) => Output::Vector(format),
             _ => Output::Color(format),
@@ -273,12 +273,14 @@ impl Commands {
         }
     }
 
-    /// The pipe for a shell. `input`: the scene, `None` for standard input; `output`: the file.
+    /// The pipe for a shell. `input`: the scene, quoted, `None` for standard input; `output`: the
+    /// file.
     pub fn line(&self, input: Option<&str>, output: Option<&str>) -> String {
-        let mut first = self.0.first().cloned().unwrap_or_default();
-        first.splice(1..1, input.map(str::to_owned));
-        let lines = std::iter::once(&first).chain(self.0.iter().skip(1)).map(|words| line(words));
-        let mut line = lines.collect::<Vec<String>>().join(" | ");
+        let mut words: Vec<Vec<String>> = self.0.iter().map(|words| quoted(words)).collect();
+        if let (Some(first), Some(input)) = (words.first_mut(), input) {
+            first.insert(1, input.to_owned());
+        }
+        let mut line = words.iter().map(|words| words.join(" ")).collect::<Vec<String>>().join(" | ");
         if let Some(output) = output {
             // Writing to a string cannot fail.
             let _ = write!(line, " > {}", shell_word(output));
@@ -293,8 +295,8 @@ pub fn quantity(name: &str) -> Quantity {
 }
 
 /// The words of a command for a shell.
-fn line(words: &[String]) -> String {
-    words.iter().map(|word| shell_word(word)).collect::<Vec<String>>().join(" ")
+fn quoted(words: &[String]) -> Vec<String> {
+    words.iter().map(|word| shell_word(word)).collect()
 }
 
 /// An option as our documentation writes it.

@@ -32,8 +32,10 @@ pub fn in_order<T: Send>(
     let state = Mutex::new(State { next: 0, n_consumed: 0, ready: BTreeMap::new(), is_stopped: false });
     let changed = Condvar::new();
     let work = || {
+        // This thread is one of the pool, so that a worker needs no other if there are enough frames.
         // Without threads of its own a worker uses those of the process.
-        let pool = ThreadPoolBuilder::new().num_threads(n_threads / n_workers).build().ok();
+        let pool = ThreadPoolBuilder::new().num_threads(n_threads / n_workers).use_current_thread();
+        let pool = pool.build().ok();
         loop {
             let mut now = lock(&state);
             while !now.is_stopped && now.next < n_rows && now.next >= now.n_consumed + 2 * n_workers {

@@ -61,6 +61,7 @@ mod ppm;
 mod ps;
 mod quantizer;
 mod read;
+mod read_hdr;
 mod read_light;
 mod svg;
 
@@ -74,5 +75,5 @@ pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
 pub use png::{Compression, draw_png};
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
-pub use read::{MAX_PIXELS, ReadError, read_png, read_png_header};
+pub use read::{Limits, MAX_PIXELS, ReadError, read_png, read_png_header};
 pub use read_light::{Pixels, read_picture};

@@ -12,6 +12,43 @@ use crate::{Frame, Metadata};
 /// Largest number of pixels that is accepted.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
+/// Limits of a picture that is read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Most pixels; [`MAX_PIXELS`] at most.
+    pub pixels: u64,
+    /// Most bytes of pixels, decoded: 4 for a pixel with 8 bits per channel, and 16 for one of
+    /// light.
+    pub bytes: u64,
+}
+
+impl Default for Limits {
+    /// [`MAX_PIXELS`], and 2 GiB.
+    fn default() -> Self {
+        Self { pixels: MAX_PIXELS, bytes: 1 << 31 }
+    }
+}
+
+impl Limits {
+    /// Refuses pictures with too many pixels, or too many bytes if each has `n_bytes`.
+    pub(crate) fn check(&self, [width, height]: [usize; 2], n_bytes: u64) -> Result<[u32; 2], ReadError> {
+        let n_pixels = (width as u64).saturating_mul(height as u64);
+        let most = self.pixels.min(MAX_PIXELS);
+        let (Ok(columns), Ok(rows), true) = (u32::try_from(width), u32::try_from(height), n_pixels <= most)
+        else {
+            return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {most}")));
+        };
+        let n_bytes = n_bytes * n_pixels;
+        if n_bytes > self.bytes {
+            return Err(ReadError(format!(
+                "{width} x {height} pixels are {n_bytes} bytes, more than the limit memory, {}",
+                self.bytes
+            )));
+        }
+        Ok([columns, rows])
+    }
+}
+
 /// Largest number of bytes of a text that is read, unpacked.
 pub(crate) const MAX_TEXT: usize = 1 << 20;
 
@@ -36,11 +73,9 @@ impl std::error::Error for ReadError {}
 /// The size of the image of a PNG file, and the metadata of the file. The pixels are not decoded.
 ///
 /// # Errors
-/// [`ReadError`] if the file is not a PNG, or has more than 2²⁸ pixels.
+/// [`ReadError`] if the file is not a PNG, or exceeds the default [`Limits`].
 pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
-    let mut decoder = decoder(file)?;
-    let size = size(&mut decoder)?;
-    Ok((size, metadata(file)))
+    Ok((Limits::default().check(size(&mut decoder(file)?)?, 1)?, metadata(file)))
 }
 
 /// The image of a PNG file of any kind, converted to 8 bits per channel, and its metadata. Colours
@@ -48,22 +83,21 @@ pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
 /// longer ones are omitted.
 ///
 /// # Errors
-/// [`ReadError`] if the file is not a PNG, is truncated or corrupt, has more than 2²⁸ pixels, or
-/// does not fit in memory.
-pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
-    let Decoded { size: [width, height], data, n_channels } = decoded(decoder(file)?, file.len())?;
-    let is_opaque = matches!(n_channels, 1 | 3);
-    let mut pixels: Vec<[u8; 4]> = zeros(width as usize * height as usize)?;
-    for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(n_channels)) {
-        *pixel = match *channels {
+/// [`ReadError`] if the file is not a PNG, is truncated or corrupt, exceeds the limits, or does not
+/// fit in memory.
+pub fn read_png(file: &[u8], limits: &Limits) -> Result<(Frame, Metadata), ReadError> {
+    let mut is_opaque = false;
+    let (size, pixels) = decoded(decoder(file)?, file.len(), limits, |n_channels, row, pixels| {
+        is_opaque = matches!(n_channels, 1 | 3);
+        pixels.extend(row.chunks_exact(n_channels).map(|channels| match *channels {
             [grey] => [grey, grey, grey, 255],
             [grey, alpha] => [grey, grey, grey, alpha],
             [red, green, blue] => [red, green, blue, 255],
             [red, green, blue, alpha, ..] => [red, green, blue, alpha],
-            [] => *pixel,
-        };
-    }
-    Ok((Frame::new([width, height], is_opaque, pixels), metadata(file)))
+            [] => [0; 4],
+        }));
+    })?;
+    Ok((Frame::new(size, is_opaque, pixels), metadata(file)))
 }
 
 /// The light of a PNG file with 16 bits per channel, not multiplied by alpha. Colours are assumed
@@ -71,25 +105,24 @@ pub fn read_png(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
 ///
 /// # Errors
 /// See [`read_png`].
-pub(crate) fn read_png_light(file: &[u8]) -> Result<Vec<[f32; 4]>, ReadError> {
+pub(crate) fn read_png_light(file: &[u8], limits: &Limits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     let mut decoder = decoder(file)?;
     decoder.set_transformations(Transformations::EXPAND);
-    let Decoded { size, data, n_channels } = decoded(decoder, file.len())?;
-    let mut pixels: Vec<[f32; 4]> = zeros(size[0] as usize * size[1] as usize)?;
     let curve: Vec<f32> =
         (0..=u16::MAX).map(|level| srgb_decode(f64::from(level) / 65535.0) as f32).collect();
-    for (pixel, bytes) in pixels.iter_mut().zip(data.chunks_exact(2 * n_channels)) {
-        let level = |idx: usize| u16::from_be_bytes([bytes[2 * idx], bytes[2 * idx + 1]]);
-        let light = |idx: usize| curve[usize::from(level(idx))];
-        let alpha = |idx: usize| f32::from(level(idx)) / 65535.0;
-        *pixel = match n_channels {
-            1 => [light(0), light(0), light(0), 1.0],
-            2 => [light(0), light(0), light(0), alpha(1)],
-            3 => [light(0), light(1), light(2), 1.0],
-            _ => [light(0), light(1), light(2), alpha(3)],
-        };
-    }
-    Ok(pixels)
+    decoded(decoder, file.len(), limits, |n_channels, row, pixels| {
+        pixels.extend(row.chunks_exact(2 * n_channels).map(|bytes| {
+            let level = |idx: usize| u16::from_be_bytes([bytes[2 * idx], bytes[2 * idx + 1]]);
+            let light = |idx: usize| curve[usize::from(level(idx))];
+            let alpha = |idx: usize| f32::from(level(idx)) / 65535.0;
+            match n_channels {
+                1 => [light(0), light(0), light(0), 1.0],
+                2 => [light(0), light(0), light(0), alpha(1)],
+                3 => [light(0), light(1), light(2), 1.0],
+                _ => [light(0), light(1), light(2), alpha(3)],
+            }
+        }));
+    })
 }
 
 /// True if a PNG file has 16 bits per channel, by its header.
@@ -97,30 +130,46 @@ pub(crate) fn is_png_deep(file: &[u8]) -> bool {
     file.get(24) == Some(&16)
 }
 
-/// The bytes of an image.
-struct Decoded {
-    size: [u32; 2],
-    data: Vec<u8>,
-    n_channels: usize,
-}
-
-/// `n_file`: the size of the file.
-fn decoded(mut decoder: Decoder<Cursor<&[u8]>>, n_file: usize) -> Result<Decoded, ReadError> {
-    let size = size(&mut decoder)?;
+/// The size and the pixels of an image. `append` is passed the number of channels, the bytes of a
+/// row and the pixels so far. `n_file`: the size of the file.
+fn decoded<P>(
+    mut decoder: Decoder<Cursor<&[u8]>>,
+    n_file: usize,
+    limits: &Limits,
+    mut append: impl FnMut(usize, &[u8], &mut Vec<P>),
+) -> Result<([u32; 2], Vec<P>), ReadError> {
+    let size = limits.check(size(&mut decoder)?, size_of::<P>() as u64)?;
     let mut reader = decoder.read_info().map_err(broken)?;
-    let n_bytes = reader.output_buffer_size().ok_or_else(|| ReadError("too large".to_owned()))?;
     // As stored: a pixel may have one bit.
     check_packed(n_file, reader.info().raw_bytes() as u64, MOST_INFLATED)?;
-    let mut data = zeros(n_bytes)?;
-    let output = reader.next_frame(&mut data).map_err(broken)?;
-    data.truncate(output.buffer_size());
-    let n_channels = match output.color_type {
+    let n_channels = match reader.output_color_type().0 {
         ColorType::Grayscale => 1,
         ColorType::GrayscaleAlpha => 2,
         ColorType::Rgb | ColorType::Indexed => 3,
         ColorType::Rgba => 4,
     };
-    Ok(Decoded { size, data, n_channels })
+    // Memory that is reserved is used only for the rows that the file has.
+    let n_pixels = size[0] as usize * size[1] as usize;
+    let mut pixels = reserved(n_pixels)?;
+    if reader.info().interlaced {
+        // Rows come in seven passes, so the bytes of all are decoded first.
+        let too_large = || ReadError("too large".to_owned());
+        let n_bytes = reader.output_buffer_size().ok_or_else(too_large)?;
+        let n_bytes_of_pixel = size_of::<P>() + n_bytes / n_pixels.max(1);
+        limits.check(size.map(|side| side as usize), n_bytes_of_pixel as u64)?;
+        drop(reserved::<u8>(n_bytes)?);
+        let mut data = vec![0; n_bytes];
+        let output = reader.next_frame(&mut data).map_err(broken)?;
+        data.chunks_exact(output.line_size).for_each(|row| append(n_channels, row, &mut pixels));
+    } else {
+        while let Some(row) = reader.next_row().map_err(broken)? {
+            append(n_channels, row.data(), &mut pixels);
+        }
+    }
+    if pixels.len() != n_pixels {
+        return Err(ReadError("not a readable PNG file: rows are missing".to_owned()));
+    }
+    Ok((size, pixels))
 }
 
 fn broken(error: png::DecodingError) -> ReadError {
@@ -141,13 +190,9 @@ fn decoder(file: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, ReadError> {
     Ok(decoder)
 }
 
-fn size(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<[u32; 2], ReadError> {
+fn size(decoder: &mut Decoder<Cursor<&[u8]>>) -> Result<[usize; 2], ReadError> {
     let info = decoder.read_header_info().map_err(broken)?;
-    let (width, height) = (info.width, info.height);
-    if u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {MAX_PIXELS}")));
-    }
-    Ok([width, height])
+    Ok([info.width as usize, info.height as usize])
 }
 
 /// DEFLATE packs at most this many bytes into one.
@@ -164,15 +209,14 @@ pub(crate) fn check_packed(n_file: usize, n_decoded: u64, ratio: u64) -> Result<
     )))
 }
 
-/// `len` zeros, or an error if there is not enough memory.
-pub(crate) fn zeros<T: Clone + Default>(len: usize) -> Result<Vec<T>, ReadError> {
-    let mut zeros = Vec::new();
-    let reserved = zeros.try_reserve_exact(len);
-    reserved.map_err(|_| {
-        ReadError(format!("there is not enough memory for its pixels, {} bytes", len * size_of::<T>()))
+/// An empty table with room for `len` rows, or an error if there is not enough memory.
+pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>, ReadError> {
+    let mut rows = Vec::new();
+    rows.try_reserve_exact(len).map_err(|_| {
+        let n_bytes = (len as u64).saturating_mul(size_of::<T>() as u64);
+        ReadError(format!("there is not enough memory for its pixels, {n_bytes} bytes"))
     })?;
-    zeros.resize(len, T::default());
-    Ok(zeros)
+    Ok(rows)
 }
 
 /// The first texts with the keywords `Software` and `Comment`. Invalid chunks are omitted.
@@ -242,15 +286,16 @@ mod tests {
     use crate::Format;
     use crate::frame::test_frames;
 
+    fn read(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
+        read_png(file, &Limits::default())
+    }
+
     #[test]
     fn png_round_trip() {
         for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
             let metadata = Metadata { software: "ug 1".into(), comment: comment.into() };
             for frame in test_frames() {
-                assert_eq!(
-                    read_png(&Format::Png.encode(&frame, &metadata)).unwrap(),
-                    (frame, metadata.clone())
-                );
+                assert_eq!(read(&Format::Png.encode(&frame, &metadata)).unwrap(), (frame, metadata.clone()));
             }
         }
     }
@@ -258,7 +303,7 @@ mod tests {
     #[test]
     fn sixteen_bits_and_greys_are_read() {
         for frame in test_frames() {
-            let (deep, _) = read_png(&Format::Png16.encode(&frame, &Metadata::default())).unwrap();
+            let (deep, _) = read(&Format::Png16.encode(&frame, &Metadata::default())).unwrap();
             let near = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1);
             assert!(deep.pixels().iter().zip(frame.pixels()).all(near));
         }
@@ -267,27 +312,22 @@ mod tests {
         encoder.set_color(ColorType::Grayscale);
         encoder.set_depth(png::BitDepth::Two);
         encoder.write_header().unwrap().write_image_data(&[0b0001_1100]).unwrap();
-        let (frame, _) = read_png(&file).unwrap();
+        let (frame, _) = read(&file).unwrap();
         assert_eq!(frame.pixels(), [[0, 0, 0, 255], [85, 85, 85, 255], [255, 255, 255, 255]]);
     }
 
     #[test]
     fn broken_files_are_refused() {
         let file = Format::Png.encode(&test_frames()[2], &Metadata::default());
-        assert!(read_png(b"").is_err());
-        assert_eq!(
-            read_png(b"GIF89a").unwrap_err().to_string(),
-            "not a PNG file, the only kind that is read"
-        );
-        assert!(
-            read_png(b"\x89PNG\r\n\x1a\n").unwrap_err().to_string().starts_with("not a readable PNG file: ")
-        );
+        assert!(read(b"").is_err());
+        assert_eq!(read(b"GIF89a").unwrap_err().to_string(), "not a PNG file, the only kind that is read");
+        assert!(read(b"\x89PNG\r\n\x1a\n").unwrap_err().to_string().starts_with("not a readable PNG file: "));
         for length in 0..file.len() - 30 {
-            assert!(read_png(&file[..length]).is_err(), "{length}");
+            assert!(read(&file[..length]).is_err(), "{length}");
         }
         let mut huge = file;
         huge[16..20].copy_from_slice(&0x7fff_ffff_u32.to_be_bytes());
-        assert!(read_png(&huge).is_err());
+        assert!(read(&huge).is_err());
     }
 
     /// A PNG of one pixel with these chunks after its header.
@@ -323,7 +363,7 @@ mod tests {
         let comment = |chunks: &[(&[u8; 4], Vec<u8>)]| {
             let file = with_chunks(chunks);
             let (size, metadata) = read_png_header(&file).unwrap();
-            assert_eq!((size, read_png(&file).unwrap().1), ([1, 1], metadata.clone()));
+            assert_eq!((size, read(&file).unwrap().1), ([1, 1], metadata.clone()));
             metadata.comment
         };
         assert_eq!(comment(&[(b"tEXt", b"Comment\0caf\xe9".to_vec())]), "café");
@@ -358,6 +398,6 @@ mod tests {
             (b"iTXt", [b"Comment\0\x01\0\0\0", &bomb[..]].concat()),
             (b"zTXt", [b"Other\0\0", &bomb[..]].concat()),
         ]);
-        assert_eq!(read_png(&profile).unwrap(), (Frame::opaque(1, 1), Metadata::default()));
+        assert_eq!(read(&profile).unwrap(), (Frame::opaque(1, 1), Metadata::default()));
     }
 }

@@ -2,18 +2,19 @@
 
 use std::io::Cursor;
 
+use exr::compression::Compression;
+use exr::meta::attribute::ChannelDescription;
+use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader};
-use image::ImageDecoder;
-use image::codecs::hdr::HdrDecoder;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::read::{
-    MAX_PIXELS, MOST_INFLATED, ReadError, check_packed, is_png_deep, read_png, read_png_header,
-    read_png_light, zeros,
+    Limits, MOST_INFLATED, ReadError, check_packed, is_png_deep, read_png, read_png_light, reserved,
 };
+use crate::read_hdr;
 
 /// The pixels of a picture, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,42 +26,40 @@ pub enum Pixels {
     Light(Vec<[f32; 4]>),
 }
 
+impl Pixels {
+    /// Their bytes in memory.
+    pub fn n_bytes(&self) -> u64 {
+        match self {
+            Self::Srgb(pixels) => size_of_val(pixels.as_slice()) as u64,
+            Self::Light(pixels) => size_of_val(pixels.as_slice()) as u64,
+        }
+    }
+}
+
 /// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR or OpenEXR. Returns its
-/// size and its pixels. `max_pixels`: at most [`MAX_PIXELS`].
+/// size and its pixels. Memory is used only for pixels that the file has.
 ///
 /// Colours of PNG and JPEG are assumed to be sRGB; PNG files with 16 bits per channel are converted
 /// to light. Those of HDR and OpenEXR are assumed to be linear light with the primaries of sRGB.
 /// Colour profiles and the orientation that cameras note are not used.
 ///
 /// # Errors
-/// [`ReadError`] if the file is of another kind, is truncated or corrupt, has more than
-/// `max_pixels` pixels, or does not fit in memory.
-pub fn read_picture(file: &[u8], max_pixels: u64) -> Result<([u32; 2], Pixels), ReadError> {
-    let limit = max_pixels.min(MAX_PIXELS);
+/// [`ReadError`] if the file is of another kind, is truncated or corrupt, exceeds the limits, or
+/// does not fit in memory.
+pub fn read_picture(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
     match file {
+        [0x89, b'P', b'N', b'G', ..] if is_png_deep(file) => {
+            read_png_light(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels)))
+        }
         [0x89, b'P', b'N', b'G', ..] => {
-            let (size, _) = read_png_header(file)?;
-            checked(size.map(|side| side as usize), limit)?;
-            if is_png_deep(file) {
-                return Ok((size, Pixels::Light(read_png_light(file)?)));
-            }
-            let (frame, _) = read_png(file)?;
+            let (frame, _) = read_png(file, limits)?;
             let size = [frame.width(), frame.height()];
             Ok((size, Pixels::Srgb(frame.into_pixels())))
         }
-        [0xff, 0xd8, 0xff, ..] => jpeg(file, limit),
-        [b'#', b'?', ..] => hdr(file, limit),
-        [0x76, 0x2f, 0x31, 0x01, ..] => exr(file, limit),
+        [0xff, 0xd8, 0xff, ..] => jpeg(file, limits),
+        [b'#', b'?', ..] => read_hdr::read(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels))),
+        [0x76, 0x2f, 0x31, 0x01, ..] => exr(file, limits),
         _ => Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR or EXR")),
-    }
-}
-
-/// Refuses pictures with too many pixels.
-fn checked([width, height]: [usize; 2], limit: u64) -> Result<[u32; 2], ReadError> {
-    let n_pixels = (width as u64).saturating_mul(height as u64);
-    match (u32::try_from(width), u32::try_from(height)) {
-        (Ok(width), Ok(height)) if n_pixels <= limit => Ok([width, height]),
-        _ => Err(ReadError::new(&format!("{width} x {height} pixels exceed the limit of {limit}"))),
     }
 }
 
@@ -69,49 +68,61 @@ fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
     ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
 }
 
-fn jpeg(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
+fn jpeg(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
+    /// Bytes of a pixel: red, green, blue and alpha.
+    const N_BYTES: usize = 4;
+    /// Bytes of its coefficients, which a progressive file needs all at once.
+    const N_BYTES_OF_COEFFICIENTS: usize = 6;
     let broken = |error: &dyn std::fmt::Display| broken("JPEG", error);
     // The decoder fills what is missing of a truncated file with grey.
-    let Some(n_packed) = packed_bytes(file) else { return Err(broken(&"the file is truncated")) };
+    let Some(Packed { n_bytes: n_packed, is_progressive }) = packed(file) else {
+        return Err(broken(&"the file is truncated"));
+    };
     let options = DecoderOptions::default()
-        .jpeg_set_out_colorspace(ColorSpace::RGB)
+        .jpeg_set_out_colorspace(ColorSpace::RGBA)
         .set_max_width(usize::from(u16::MAX))
         .set_max_height(usize::from(u16::MAX));
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
     decoder.decode_headers().map_err(|error| broken(&error))?;
     let (width, height) = decoder.dimensions().ok_or_else(|| broken(&"it has no size"))?;
-    let size = checked([width, height], limit)?;
+    let n_bytes = N_BYTES + if is_progressive { N_BYTES_OF_COEFFICIENTS } else { 0 };
+    let size = limits.check([width, height], n_bytes as u64)?;
     let n_pixels = width * height;
     // Each block of 64 pixels has a bit or more.
     check_packed(n_packed, n_pixels as u64, 8 * 64)?;
-    // Reserved before the decoder allocates as much.
-    let mut pixels: Vec<[u8; 4]> = zeros(n_pixels)?;
-    let data = decoder.decode().map_err(|error| broken(&error))?;
-    if data.len() != 3 * n_pixels {
+    if decoder.output_buffer_size() != Some(N_BYTES * n_pixels) {
         return Err(broken(&"its colours are not red, green and blue"));
     }
-    for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(3)) {
-        *pixel = [channels[0], channels[1], channels[2], 255];
-    }
+    // Reserved before the decoder allocates as much.
+    drop(reserved::<u8>(n_bytes * n_pixels)?);
+    let mut pixels = vec![[0; N_BYTES]; n_pixels];
+    decoder.decode_into(pixels.as_flattened_mut()).map_err(|error| broken(&error))?;
     Ok((size, Pixels::Srgb(pixels)))
 }
 
-/// The number of bytes of a JPEG file that are not in segments with a length of their own, so hold
-/// pixels; `None` if no end-of-image marker ends its segments. What follows it, such as a film that
-/// telephones append, is not looked at.
-fn packed_bytes(file: &[u8]) -> Option<usize> {
-    let (mut at, mut n_packed) = (2, 0);
+/// What holds the pixels of a JPEG file.
+struct Packed {
+    /// Number of bytes that are not in segments with a length of their own.
+    n_bytes: usize,
+    is_progressive: bool,
+}
+
+/// Finds the bytes of a JPEG file that hold its pixels; `None` if no end-of-image marker ends its
+/// segments. What follows it, such as a film that telephones append, is not looked at.
+fn packed(file: &[u8]) -> Option<Packed> {
+    let (mut at, mut n_bytes, mut is_progressive) = (2, 0, false);
     loop {
         // The next marker: in compressed data FF is followed by 0 or by a restart marker.
         let mut pairs = file.get(at..)?.windows(2);
         let skip = pairs.position(|pair| pair[0] == 0xff && !matches!(pair[1], 0 | 0xd0..=0xd7 | 0xff))?;
         at += skip + 2;
-        n_packed += skip;
+        n_bytes += skip;
         match file[at - 1] {
-            0xd9 => return Some(n_packed),
+            0xd9 => return Some(Packed { n_bytes, is_progressive }),
             // Markers without a length.
             0x01 | 0xd8 => {}
-            _ => {
+            marker => {
+                is_progressive |= marker == 0xc2;
                 let &[high, low] = file.get(at..at + 2)? else { return None };
                 at += usize::from(u16::from_be_bytes([high, low])).max(2);
             }
@@ -119,39 +130,13 @@ fn packed_bytes(file: &[u8]) -> Option<usize> {
     }
 }
 
-fn hdr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
-    let broken = |error: &dyn std::fmt::Display| broken("HDR", error);
-    let decoder = HdrDecoder::new(Cursor::new(file)).map_err(|error| broken(&error))?;
-    let (width, height) = decoder.dimensions();
-    let size = checked([width as usize, height as usize], limit)?;
-    let n_pixels = width as usize * height as usize;
-    // Runs have up to 127 equal bytes, or in the old format 255 equal pixels for four bytes; so a short
-    // file cannot ask for much memory. (Longer runs of the old format are not used for whole pictures.)
-    check_packed(file.len(), 4 * u64::from(height) * u64::from(width).div_ceil(256), 1)?;
-    let mut data: Vec<u8> = zeros(12 * n_pixels)?;
-    decoder.read_image(&mut data).map_err(|error| broken(&error))?;
-    let mut pixels: Vec<[f32; 4]> = zeros(n_pixels)?;
-    for (pixel, channels) in pixels.iter_mut().zip(data.chunks_exact(12)) {
-        let part = |idx: usize| {
-            let bytes = &channels[4 * idx..4 * idx + 4];
-            f32::from_ne_bytes([bytes[0], bytes[1], bytes[2], bytes[3]])
-        };
-        *pixel = [part(0), part(1), part(2), 1.0];
-    }
-    Ok((size, Pixels::Light(pixels)))
-}
-
-fn exr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
+fn exr(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
     let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
     let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), false);
     let headers = headers.map_err(|error| broken(&error))?;
     // The first layer with these channels is read, so none may be too large.
     for header in headers.headers.iter().filter(|header| !header.deep) {
-        let size = checked([header.layer_size.width(), header.layer_size.height()], limit)?;
-        let n_pixels = size[0] as usize * size[1] as usize;
-        // Three channels of two bytes or more.
-        check_packed(file.len(), 6 * n_pixels as u64, MOST_INFLATED)?;
-        zeros::<[f32; 4]>(n_pixels)?;
+        check_layer(header, file.len(), limits)?;
     }
     let image = exr_reader()
         .no_deep_data()
@@ -174,7 +159,7 @@ fn exr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
         .from_buffered(Cursor::new(file));
     let image = image.map_err(|error| broken(&error))?;
     let data = image.layer_data.channel_data.pixels;
-    let size = checked([data.resolution.width(), data.resolution.height()], limit)?;
+    let size = limits.check([data.resolution.width(), data.resolution.height()], N_BYTES_OF_LIGHT)?;
     let mut pixels = data.pixels;
     // Colours of EXR files are multiplied by alpha.
     for [red, green, blue, alpha] in &mut pixels {
@@ -183,6 +168,34 @@ fn exr(file: &[u8], limit: u64) -> Result<([u32; 2], Pixels), ReadError> {
         }
     }
     Ok((size, Pixels::Light(pixels)))
+}
+
+/// Bytes of a pixel of light.
+const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
+
+/// Refuses a layer that is too large, or for which a file of `n_file` bytes has not enough.
+fn check_layer(header: &Header, n_file: usize, limits: &Limits) -> Result<(), ReadError> {
+    /// Bytes in the file for each block of pixels: its place, its row, its size.
+    const N_BYTES_OF_BLOCK: u64 = 16;
+    let size = limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
+    let n_pixels = size[0] as usize * size[1] as usize;
+    let n_bytes = |channel: &ChannelDescription| {
+        let n_samples = channel.subsampled_resolution(header.layer_size).area() as u64;
+        channel.sample_type.bytes_per_sample() as u64 * n_samples
+    };
+    let n_stored = header.channels.list.iter().map(n_bytes).fold(0, u64::saturating_add);
+    let ratio = match header.compression {
+        Compression::Uncompressed => 1,
+        // Runs of 128 bytes have two.
+        Compression::RLE => 64,
+        // Some store 3 of 4 bytes first.
+        _ => MOST_INFLATED * 4 / 3,
+    };
+    check_packed(n_file, n_stored, ratio)?;
+    check_packed(n_file, N_BYTES_OF_BLOCK * header.chunk_count as u64, 1)?;
+    // Reserved before the decoder allocates as much; it is used only for pixels that are read.
+    drop(reserved::<[f32; 4]>(n_pixels)?);
+    Ok(())
 }
 
 #[cfg(test)]
@@ -194,7 +207,7 @@ mod tests {
     const BARS: &[u8] = include_bytes!("../tests/bars.jpg");
 
     fn read(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
-        read_picture(file, MAX_PIXELS)
+        read_picture(file, &Limits::default())
     }
 
     #[test]
@@ -241,7 +254,7 @@ mod tests {
             let pixel = |idx: u32| [0.002 + 1e-5 * idx as f32, 0.5 + 1e-4 * idx as f32, 1.0, alpha];
             let frame = LinearFrame::new([8, 4], is_opaque, (0..32).map(pixel).collect());
             let file = Format::Png16.encode_linear(&frame, &Metadata::default(), Compression::Fast);
-            let (size, pixels) = read_picture(&file, MAX_PIXELS).unwrap();
+            let (size, pixels) = read(&file).unwrap();
             let Pixels::Light(pixels) = pixels else { panic!("light") };
             assert_eq!(size, [8, 4]);
             for (found, expected) in pixels.iter().zip(frame.pixels()) {
@@ -249,7 +262,7 @@ mod tests {
                 assert!(error < 2e-5, "{found:?} {expected:?}");
             }
             for length in (0..file.len() - 12).step_by(7) {
-                assert!(read_picture(&file[..length], MAX_PIXELS).is_err(), "{length}");
+                assert!(read(&file[..length]).is_err(), "{length}");
             }
         }
     }

@@ -133,6 +133,11 @@ impl CommonArgs {
         &self.limit
     }
 
+    /// The limit `memory` that was set, in bytes.
+    pub fn memory_limit(&self) -> Option<u64> {
+        self.limit.iter().rev().find(|(name, _)| name == "memory").map(|(_, bytes)| *bytes)
+    }
+
     /// The options for reading as they would be given to another program.
     pub fn reading_words(&self) -> Vec<String> {
         let flags = [

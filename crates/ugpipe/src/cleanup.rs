@@ -1,19 +1,37 @@
 //! Nothing is left behind when a signal ends the program: temporary files are deleted and
-//! programs that an input named are stopped.
+//! programs that an input named are stopped. What SIGKILL leaves, the next run deletes.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command};
-use std::sync::{Mutex, MutexGuard, Once, PoisonError};
+use std::sync::atomic::AtomicBool;
+use std::sync::mpsc;
+use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
 use std::thread;
 
 use rustix::process::{Pid, Signal, kill_process_group};
-use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+use signal_hook::consts::{
+    SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM,
+    SIGXCPU, SIGXFSZ,
+};
+use signal_hook::flag;
 use signal_hook::iterator::Signals;
-use signal_hook::low_level::emulate_default_handler;
+use signal_hook::low_level::{emulate_default_handler, exit};
 use tempfile::NamedTempFile;
+
+use crate::identity::folder_of;
+use crate::stale::{self, lock};
+
+/// Signals that end a program and do not come from a fault in it. SIGKILL cannot be handled;
+/// SIGABRT ends a program without memory, see [`crate::main`].
+const SIGNALS: [i32; 12] = [
+    SIGALRM, SIGHUP, SIGINT, SIGPROF, SIGQUIT, SIGSYS, SIGTERM, SIGTRAP, SIGUSR1, SIGUSR2, SIGVTALRM, SIGXCPU,
+];
+
+/// More of them on Linux: SIGSTKFLT, SIGIO, SIGPWR and the real-time signals.
+const OF_LINUX: [std::ops::RangeInclusive<i32>; 3] = [16..=16, 29..=30, 34..=64];
 
 /// What to remove. A signal is handled with this locked, so that nothing is created meanwhile.
 static LEFTOVERS: Mutex<Leftovers> = Mutex::new(Leftovers { files: BTreeSet::new(), groups: Vec::new() });
@@ -27,17 +45,35 @@ fn leftovers() -> MutexGuard<'static, Leftovers> {
     LEFTOVERS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A temporary file that a signal deletes.
+/// What temporary files of outputs begin with.
+pub(crate) const PREFIX: &str = ".ug-";
+
+/// Characters that `tempfile` adds to [`PREFIX`].
+const N_RANDOM: usize = 6;
+
+/// A temporary file that a signal deletes. It is locked as long as its process runs, so that other
+/// processes can tell it from what was left.
 pub(crate) struct Temporary(NamedTempFile);
 
 impl Temporary {
-    /// Creates one with `create`.
-    pub(crate) fn new(create: impl FnOnce() -> io::Result<NamedTempFile>) -> io::Result<Self> {
+    /// Creates one with `create`, in the folder of `target`. Before the first one in a folder, those
+    /// that killed processes left there are deleted.
+    pub(crate) fn new(target: &Path, create: impl Fn() -> io::Result<NamedTempFile>) -> io::Result<Self> {
+        static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
         handle_signals();
+        let folder = folder_of(target);
+        if CLEANED.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned()) {
+            stale::remove(folder, is_temporary);
+        }
         let mut leftovers = leftovers();
-        let file = create()?;
-        leftovers.files.insert(file.path().to_owned());
-        Ok(Self(file))
+        loop {
+            let file = create()?;
+            // Another process may have deleted it before it was locked.
+            if lock(file.as_file()) {
+                leftovers.files.insert(file.path().to_owned());
+                return Ok(Self(file));
+            }
+        }
     }
 
     pub(crate) fn file_mut(&mut self) -> &mut fs::File {
@@ -58,14 +94,60 @@ impl Temporary {
     }
 }
 
+/// True for names of temporary files: `.ug-a1b2C3.png`.
+fn is_temporary(name: &str) -> bool {
+    let Some((random, ending)) = name.strip_prefix(PREFIX).and_then(|rest| rest.split_at_checked(N_RANDOM))
+    else {
+        return false;
+    };
+    random.bytes().all(|byte| byte.is_ascii_alphanumeric()) && (ending.is_empty() || ending.starts_with('.'))
+}
+
+/// A file that marks what one process works on. It is deleted when this is dropped, or by a signal.
+pub struct Claim {
+    path: PathBuf,
+    /// Locked as long as it is open.
+    _file: Option<fs::File>,
+}
+
+impl Claim {
+    /// Creates and locks the file; `None` if another process has locked it. Where files cannot be
+    /// created or locked, every process has the claim.
+    pub fn new(path: &Path) -> Option<Self> {
+        handle_signals();
+        let mut leftovers = leftovers();
+        let opened = fs::OpenOptions::new().write(true).create(true).truncate(false).open(path);
+        let file = match opened {
+            Ok(file) if matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)) => return None,
+            Ok(file) => Some(file),
+            Err(_) => None,
+        };
+        leftovers.files.insert(path.to_owned());
+        Some(Self { path: path.to_owned(), _file: file })
+    }
+}
+
+impl Drop for Claim {
+    fn drop(&mut self) {
+        let mut leftovers = leftovers();
+        // Another process may have removed it.
+        let _ = fs::remove_file(&self.path);
+        leftovers.files.remove(&self.path);
+    }
+}
+
 /// A running program in a process group of its own, which a signal stops.
-pub(crate) struct Running {
+pub struct Running {
     child: Child,
     group: Pid,
 }
 
 impl Running {
-    pub(crate) fn spawn(command: &mut Command) -> io::Result<Self> {
+    /// Starts a program.
+    ///
+    /// # Errors
+    /// Those of [`Command::spawn`].
+    pub fn spawn(command: &mut Command) -> io::Result<Self> {
         use std::os::unix::process::CommandExt;
         handle_signals();
         let mut leftovers = leftovers();
@@ -75,12 +157,13 @@ impl Running {
         Ok(Self { child, group })
     }
 
-    pub(crate) fn child_mut(&mut self) -> &mut Child {
+    /// The program.
+    pub fn child_mut(&mut self) -> &mut Child {
         &mut self.child
     }
 
     /// Ends the program and those it has started.
-    pub(crate) fn stop(&self) {
+    pub fn stop(&self) {
         // It may have ended by itself.
         let _ = kill_process_group(self.group, Signal::KILL);
     }
@@ -96,17 +179,30 @@ impl Drop for Running {
 fn handle_signals() {
     static STARTED: Once = Once::new();
     STARTED.call_once(|| {
-        let ignored = ignored_signals();
-        let signals = [SIGINT, SIGTERM, SIGHUP].into_iter().filter(|signal| ignored >> (signal - 1) & 1 == 0);
-        // Without the thread a signal ends the program as before, and may leave a file.
-        if let Ok(mut signals) = Signals::new(signals) {
-            let _ = thread::Builder::new().name("signals".to_owned()).spawn(move || {
-                if let Some(signal) = signals.forever().next() {
-                    end(signal);
-                }
-            });
+        let (sender, receiver) = mpsc::channel();
+        let work = move || {
+            let ignored = ignored_signals();
+            let of_linux = OF_LINUX.into_iter().flatten().filter(|_| cfg!(target_os = "linux"));
+            let signals = SIGNALS.into_iter().chain(of_linux);
+            let signals = Signals::new(signals.filter(|signal| ignored >> (signal - 1) & 1 == 0));
+            let _ = sender.send(());
+            if let Some(signal) = signals.ok().and_then(|mut signals| signals.forever().next()) {
+                end(signal);
+            }
+        };
+        // Signals are handled only where there is a thread: otherwise they would be lost. Without it a
+        // signal ends the program as before, and may leave a file.
+        if thread::Builder::new().name("signals".to_owned()).spawn(work).is_ok() {
+            let _ = receiver.recv();
         }
     });
+}
+
+/// Makes writing beyond the limit of the size of files (`ulimit -f`) an error, instead of a signal
+/// that ends the program.
+pub(crate) fn survive_size_limits() {
+    // Without the handler the signal ends the program as before.
+    let _ = flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false)));
 }
 
 /// Removes everything and ends the program as the signal would have.
@@ -119,6 +215,8 @@ fn end(signal: i32) {
         let _ = fs::remove_file(file);
     }
     let _ = emulate_default_handler(signal);
+    // Its default action is not known here.
+    exit(128 + signal);
 }
 
 /// Bit n − 1 is set if signal n is ignored; zero on systems other than Linux, which do not say.
@@ -126,4 +224,34 @@ fn ignored_signals() -> u64 {
     let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
     mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok()).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn temporary_files_are_known_by_their_names() {
+        for name in [".ug-a1b2C3", ".ug-abcdef.png", ".ug-000000.tar.gz"] {
+            assert!(is_temporary(name), "{name}");
+        }
+        for name in ["ug-a1b2C3", ".ug-a1b2C", ".ug-a1b2C3x", ".ug-a1b2-3.png", ".ug-é12345", ".ug-"] {
+            assert!(!is_temporary(name), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_claim_is_held_by_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("claim");
+        let claim = Claim::new(&path).unwrap();
+        assert!(Claim::new(&path).is_none());
+        drop(claim);
+        assert!(Claim::new(&path).is_some());
+        // Where nothing can be created, all have it.
+        let nowhere = folder.path().join("no/claim");
+        let claims = [Claim::new(&nowhere), Claim::new(&nowhere)];
+        assert!(claims.iter().all(Option::is_some));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
 }

@@ -125,7 +125,7 @@ impl Context {
     ///
     /// Options have the historical spelling and the user's order. Options for files, threads and
     /// messages (`-fi -fo -fm -nt -qt -vb`) are omitted, since equal content must give equal bytes.
-    /// Braces and control characters are replaced by `?`.
+    /// Arguments with braces or control characters are quoted as `$'…'`.
     pub fn command_line(&self) -> &str {
         &self.command_line
     }

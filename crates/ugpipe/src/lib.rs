@@ -43,9 +43,9 @@
 //!   affect the content, and [`Context::recorded_name`] the name of the input.
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
-//! run. A program that SIGKILL or lack of memory ends while it writes a file leaves the temporary
-//! file, `.ug-` and six letters, in the same folder; other signals do not. A program that is
-//! started with standard output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens
+//! run. A program that SIGKILL, a fault or lack of memory ends while it writes a file leaves the
+//! temporary file, `.ug-` and six letters, in the same folder; the next one that writes a file there
+//! deletes it. Other signals leave nothing. A program that is started with standard output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens
 //! in its place.
 //!
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
@@ -123,6 +123,8 @@ pub mod remedies;
 #[cfg(feature = "cli")]
 mod run;
 #[cfg(feature = "cli")]
+pub mod stale;
+#[cfg(feature = "cli")]
 mod steps;
 #[cfg(feature = "cli")]
 mod streams;
@@ -132,6 +134,8 @@ mod usage;
 
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ToolArgs, count, finite, number, one_of, vector, view_angle, whole};
+#[cfg(feature = "cli")]
+pub use cleanup::{Claim, Running};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]
@@ -148,7 +152,7 @@ pub use manual::{Entry, Group, Manual, Value, manual};
 pub use numbers::{Assign, SetNumbers, set_numbers};
 pub use progress::{Progress, Stopped};
 #[cfg(feature = "cli")]
-pub use provenance::{sha256, shell_word};
+pub use provenance::{sha256, shell_os_word, shell_word};
 #[cfg(feature = "cli")]
 pub use run::{main, parse_words};
 #[cfg(feature = "cli")]

@@ -7,7 +7,7 @@ use std::os::fd::AsFd;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use crate::cleanup::Temporary;
+use crate::cleanup::{PREFIX, Temporary};
 use crate::failure::Failure;
 use crate::identity::{folder_of, resolve_links};
 
@@ -116,17 +116,17 @@ impl Sink {
     fn temporary(path: &Path, permissions: Option<Permissions>) -> io::Result<Self> {
         let target = resolve_links(path);
         let all_may = Permissions::from_mode(0o666);
-        let temporary = Temporary::new(|| {
+        let temporary = Temporary::new(&target, || {
             let mut builder = tempfile::Builder::new();
             let ending = target.extension().map_or_else(OsString::new, |ending| {
                 let mut with_point = OsString::from(".");
                 with_point.push(ending);
                 with_point
             });
-            builder.prefix(".ug-").suffix(&ending).permissions(all_may);
+            builder.prefix(PREFIX).suffix(&ending).permissions(all_may.clone());
             let file = builder.tempfile_in(folder_of(&target))?;
-            if let Some(permissions) = permissions {
-                file.as_file().set_permissions(permissions)?;
+            if let Some(permissions) = &permissions {
+                file.as_file().set_permissions(permissions.clone())?;
             }
             Ok(file)
         })?;

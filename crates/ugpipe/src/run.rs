@@ -10,6 +10,7 @@ use std::thread;
 
 use clap::{ArgMatches, Command};
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
+use rustix::process::{Resource, getrlimit};
 use signal_hook::consts::{SIGABRT, SIGPIPE};
 use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
@@ -19,7 +20,7 @@ use crate::argv::StrayNumber;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::messages::Messages;
-use crate::{argv, help, provenance, streams, usage};
+use crate::{argv, cleanup, help, provenance, streams, usage};
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;
@@ -79,6 +80,7 @@ const BAD_USAGE: u8 = 2;
 /// ```
 pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
     exit_on_abort();
+    cleanup::survive_size_limits();
     let mut command = help::install(argv::prepare(A::command()), A::ESSENTIAL);
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
@@ -157,15 +159,25 @@ fn refuse(command: &Command, message: String) -> ExitCode {
     BAD_USAGE.into()
 }
 
+/// Address space that is set aside for each thread, in bytes: the allocator of the system maps 64 to
+/// 128 MB for one, and its stack has 2 MB. Where that fails, so do the smallest allocations.
+const SPACE_PER_THREAD: u64 = 200 << 20;
+
+/// The number of threads for which the address space suffices that `ulimit -v` leaves.
+fn n_threads_in_space() -> usize {
+    let space = getrlimit(Resource::As).current.map_or(u64::MAX, |bytes| bytes / SPACE_PER_THREAD);
+    usize::try_from(space).unwrap_or(usize::MAX)
+}
+
 /// Starts the worker threads of the process: `n_threads`, or as many as the system allows, up to
-/// one per core. The variable of rayon has no effect.
+/// one per core; fewer where there is little address space. The variable of rayon has no effect.
 ///
 /// The run itself stays on the main thread with its larger stack, for any value of `-nt`.
 fn start_threads(n_threads: Option<usize>) -> Result<(), Failure> {
     let wanted = n_threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
     // rayon panics if a thread cannot be started, so the threads are started first.
     let mut waiting = Vec::new();
-    for _ in 0..wanted {
+    for _ in 0..wanted.min(n_threads_in_space()) {
         match waiting_thread() {
             Ok(thread) => waiting.push(thread),
             Err(error) if n_threads.is_some() => {

@@ -411,7 +411,17 @@ fn is_ignored(signal: i32) -> bool {
 
 #[test]
 fn signals_leave_no_files_and_no_programs() {
-    for (signal, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
+    let signals = [
+        ("INT", 2),
+        ("TERM", 15),
+        ("HUP", 1),
+        ("QUIT", 3),
+        ("ALRM", 14),
+        ("XCPU", 24),
+        ("USR1", 10),
+        ("VTALRM", 26),
+    ];
+    for (signal, number) in signals {
         // What ignores a signal, as a job in the background does, passes that on to its children.
         if is_ignored(number) {
             assert_ne!(signal, "TERM");
@@ -429,6 +439,60 @@ fn signals_leave_no_files_and_no_programs() {
         assert_eq!(child.wait().unwrap().signal(), Some(number));
         assert_eq!(files(&folder), ["pid", "program", "ship.ug"], "{signal}");
         await_end(pid.trim(), signal);
+    }
+}
+
+#[test]
+fn a_limit_on_the_size_of_files_leaves_nothing() {
+    let folder = folder();
+    fs::write(folder.path().join("large.ug"), "# \n".repeat(100_000)).unwrap();
+    let output = shell(&folder, "ulimit -f 100; $ugcat large.ug -fo out.ug");
+    assert_run(&output, 1, "", "ugcat: error: cannot write `out.ug`: File too large\n");
+    assert_eq!(files(&folder), ["large.ug", "ship.ug"]);
+}
+
+/// A program that is killed leaves its temporary file; the next one in the folder deletes it, and
+/// keeps those of programs that run.
+#[test]
+fn the_next_run_deletes_what_was_left() {
+    let folder = folder();
+    let temporary = || {
+        let names = files(&folder).into_iter().filter(|name| name.starts_with(".ug-"));
+        names.collect::<Vec<_>>()
+    };
+    let linger = |seconds: &str| {
+        let n_before = temporary().len();
+        let child = command(&folder, &["ship.ug", "-fo", "out.ug", "-linger", seconds]).spawn().unwrap();
+        for _ in 0..2000 {
+            if temporary().len() > n_before {
+                return child;
+            }
+            thread::sleep(Duration::from_millis(5));
+        }
+        panic!("no temporary file appears");
+    };
+    let mut killed = linger("100");
+    killed.kill().unwrap();
+    killed.wait().unwrap();
+    assert_eq!(temporary().len(), 1);
+    fs::write(folder.path().join(".ug-notes"), "of a person").unwrap();
+    let left = temporary();
+    assert_run(&run(&folder, &["ship.ug", "-fo", "other.ug"]), 0, "", "");
+    assert_eq!(temporary(), [".ug-notes"], "{left:?}");
+    let mut running = linger("100");
+    assert_run(&run(&folder, &["ship.ug", "-fo", "other.ug"]), 0, "", "");
+    assert_eq!(temporary().len(), 2);
+    running.kill().unwrap();
+    running.wait().unwrap();
+}
+
+/// Threads are started as far as the address space suffices.
+#[test]
+fn little_address_space_is_enough_for_many_threads() {
+    let folder = folder();
+    for kib in [30_000, 100_000, 500_000] {
+        let output = shell(&folder, &format!("ulimit -v {kib}; $ugcat -nt 64 ship.ug"));
+        assert_run(&output, 0, SHIP, "");
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::{Format, ReadError, read_history, read_png, read_png_header};
+use ugimage::{Format, Limits, ReadError, read_history, read_png, read_png_header};
 use ugphysics::Hsv;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
@@ -166,6 +166,12 @@ impl Args {
         Ok(color.to_rgb().map(|part| (255.0 * part).round() as u8))
     }
 
+    /// The limits of each picture that is read.
+    fn limits(&self) -> Limits {
+        let default = Limits::default();
+        Limits { bytes: self.common.memory_limit().unwrap_or(default.bytes), ..default }
+    }
+
     fn format(&self, file: Option<&Path>) -> Result<Format, Failure> {
         let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
         match (self.dt, ending) {
@@ -193,6 +199,7 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if args.format(context.output_name())? != Format::Png {
         return Err(Failure::usage("--tiles writes the picture as PNG, the format of its tiles"));
     }
+    let limits = args.limits();
     let mut inputs = vec![context.input()?];
     for path in &args.files {
         inputs.push(context.input_file(path)?);
@@ -205,7 +212,7 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let frame_of = |idx: usize| {
         // Each file is needed once.
         let input = Input { text: std::mem::take(&mut inputs[idx].text), ..inputs[idx].clone() };
-        read_png(&input.text).map(|(frame, _)| frame).map_err(|error| unreadable(&input, &error))
+        read_png(&input.text, &limits).map(|(frame, _)| frame).map_err(|error| unreadable(&input, &error))
     };
     let (frame, history) = join(&tiles, frame_of).map_err(|error| Failure::failed(error.words()))?;
     context.write(&Format::Png.encode(&frame, &history))
@@ -290,7 +297,7 @@ pub fn main() -> ExitCode {
         if args.tiles {
             return print_joined(args, context);
         }
-        let config = args.config()?;
+        let (config, limits) = (args.config()?, args.limits());
         let format = args.format(context.output_name())?;
         if context.output_is_terminal() && format.is_binary() {
             return Err(Failure::usage(NO_TERMINAL));
@@ -305,7 +312,7 @@ pub fn main() -> ExitCode {
         // The pixels of a picture need much more memory than its file.
         let frame_of = |idx: usize| {
             let input: &Input = &inputs[idx];
-            read_png(&input.text).map(|(frame, _)| frame).map_err(|error| unreadable(input, &error))
+            read_png(&input.text, &limits).map(|(frame, _)| frame).map_err(|error| unreadable(input, &error))
         };
         let frame = sheet(&config, &pictures, frame_of).map_err(|error| match error {
             Error::Count { .. } | Error::Text { .. } => Failure::usage(error.words()),

@@ -15,36 +15,73 @@ pub enum Token {
 }
 
 /// The tokens of a line as a POSIX shell splits it. Supports what recorded command lines contain:
-/// plain words, single quotes, backslashes, pipes, and a comment at the end.
+/// plain words, single quotes, `$'…'`, backslashes, pipes, and a comment at the end.
 pub fn tokens(line: &str) -> Vec<Token> {
-    let (mut tokens, mut word) = (Vec::new(), None::<String>);
-    let (mut is_quoted, mut is_escaped) = (false, false);
-    for (at, character) in line.char_indices() {
-        let is_plain = !is_quoted && !is_escaped;
-        match character {
-            '\'' if !is_escaped => {
-                is_quoted = !is_quoted;
-                word.get_or_insert_default();
+    let mut rest = line;
+    // As bytes: escapes may be parts of a character, or of none.
+    let (mut tokens, mut word) = (Vec::new(), None::<Vec<u8>>);
+    let text = |word: Vec<u8>| Token::Word(String::from_utf8_lossy(&word).into_owned());
+    while let Some(c) = rest.chars().next() {
+        let after = &rest[c.len_utf8()..];
+        rest = after;
+        match c {
+            '\'' => {
+                let (quoted, behind) = after.split_once('\'').unwrap_or((after, ""));
+                word.get_or_insert_default().extend_from_slice(quoted.as_bytes());
+                rest = behind;
             }
-            '\\' if is_plain => {
-                is_escaped = true;
-                continue;
+            '$' if after.starts_with('\'') => {
+                rest = unescape(&after[1..], word.get_or_insert_default());
             }
-            ' ' if is_plain => tokens.extend(word.take().map(Token::Word)),
-            '|' if is_plain => {
-                tokens.extend(word.take().map(Token::Word));
+            '\\' => {
+                let escaped = after.chars().next();
+                rest = escaped.map_or("", |c| &after[c.len_utf8()..]);
+                push(word.get_or_insert_default(), escaped.unwrap_or(c));
+            }
+            ' ' => tokens.extend(word.take().map(text)),
+            '|' => {
+                tokens.extend(word.take().map(text));
                 tokens.push(Token::Pipe);
             }
-            '#' if is_plain && word.is_none() => {
-                tokens.push(Token::Comment(line[at + 1..].trim().to_owned()));
+            '#' if word.is_none() => {
+                tokens.push(Token::Comment(after.trim().to_owned()));
                 return tokens;
             }
-            other => word.get_or_insert_default().push(other),
+            c => push(word.get_or_insert_default(), c),
         }
-        is_escaped = false;
     }
-    tokens.extend(word.map(Token::Word));
+    tokens.extend(word.map(text));
     tokens
+}
+
+fn push(word: &mut Vec<u8>, c: char) {
+    word.extend_from_slice(c.encode_utf8(&mut [0; 4]).as_bytes());
+}
+
+/// Appends the text of `$'…'` to a word; returns what follows the closing quote. `text`: what
+/// follows the opening quote.
+fn unescape<'t>(text: &'t str, word: &mut Vec<u8>) -> &'t str {
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        rest = &rest[c.len_utf8()..];
+        match c {
+            '\'' => return rest,
+            '\\' => {
+                let n_digits = rest.bytes().take(3).take_while(|byte| matches!(byte, b'0'..=b'7')).count();
+                let Some(escaped) = rest.chars().next() else { break };
+                match (n_digits, escaped) {
+                    (0, 't') => word.push(b'\t'),
+                    (0, 'n') => word.push(b'\n'),
+                    (0, c) => push(word, c),
+                    // Of numbers above 255 a shell keeps the last 8 bits.
+                    _ => word.push(u32::from_str_radix(&rest[..n_digits], 8).unwrap_or(0) as u8),
+                }
+                rest = &rest[n_digits.max(escaped.len_utf8())..];
+            }
+            c => push(word, c),
+        }
+    }
+    rest
 }
 
 /// The words of a line.
@@ -66,6 +103,9 @@ mod tests {
     fn quoted_words_are_not_split() {
         assert_eq!(split("a -cap 'b  -vel' '' c"), ["a", "-cap", "b  -vel", "", "c"]);
         assert_eq!(split(r"'it'\''s' x"), ["it's", "x"]);
+        assert_eq!(split(r"$'a\tb\n\175\'' $'\342\200\2561'2 $a"), ["a\tb\n}'", "\u{202e}12", "$a"]);
+        assert_eq!(split(r"$'a\"), ["a"]);
+        assert_eq!(split(r"a\"), ["a\\"]);
     }
 
     #[test]

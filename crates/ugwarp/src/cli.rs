@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugimage::Format;
+use ugimage::{Format, Limits};
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::Output;
@@ -260,7 +260,9 @@ impl Args {
         let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
         context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
         let arrangement = self.from.unwrap_or_default();
-        let mut opened = open(&files, arrangement, self.extent()).map_err(|error| match error {
+        let mut limits = Limits::default();
+        limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
+        let mut opened = open(&files, arrangement, self.extent(), limits).map_err(|error| match error {
             Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
             error => Failure::of(error),
         })?;
@@ -271,7 +273,7 @@ impl Args {
                 ));
             }
             let file = context.input_file(path)?;
-            let band = open(&[&file.text], arrangement, self.extent())
+            let band = open(&[&file.text], arrangement, self.extent(), limits)
                 .map_err(|error| Failure::Failed(format!("`{}`: {}", file.name, error.words())))?;
             opened.notes.extend(band.notes);
             opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));

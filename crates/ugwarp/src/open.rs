@@ -1,6 +1,6 @@
 //! From the bytes of files to a sky.
 
-use ugimage::{MAX_PIXELS, Pixels, read_picture};
+use ugimage::{Limits, Pixels, read_picture};
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
@@ -25,20 +25,26 @@ impl<'s> From<&'s Opened> for Sky<'s> {
 }
 
 /// Reads a panorama from the bytes of PNG, JPEG, HDR or EXR files. `extent`: the angles that an
-/// equirectangular one shows; without it the whole sphere.
+/// equirectangular one shows; without it the whole sphere. `limits`: of all files together.
 ///
 /// # Errors
 /// - [`Error::Read`]: a file is no picture that can be read.
 /// - [`Error::Panorama`]: the pictures do not suit the arrangement, are too small, or their angles
 ///   are impossible.
-pub fn open(files: &[&[u8]], arrangement: Arrangement, extent: Option<Extent>) -> Result<Opened, Error> {
+pub fn open(
+    files: &[&[u8]],
+    arrangement: Arrangement,
+    extent: Option<Extent>,
+    mut limits: Limits,
+) -> Result<Opened, Error> {
     let mut notes = Vec::new();
     let mut pictures = Vec::new();
     if files.len() != arrangement.n_files() {
         return Err(PanoramaError::Sides { n_files: files.len() }.into());
     }
     for (idx, file) in files.iter().enumerate() {
-        let (size, pixels) = read_picture(file, MAX_PIXELS).map_err(|error| Error::Read { idx, error })?;
+        let (size, pixels) = read_picture(file, &limits).map_err(|error| Error::Read { idx, error })?;
+        limits.bytes -= pixels.n_bytes().min(limits.bytes);
         pictures.push((size, texels(pixels, &mut notes)));
     }
     let panorama = Panorama::arranged(pictures, arrangement, extent)?;
@@ -97,7 +103,8 @@ mod tests {
     fn arrangements_agree() {
         let light = |files: &[Vec<u8>], arrangement: Arrangement| {
             let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-            let opened = open(&files, arrangement, None).unwrap_or_else(|error| panic!("{error}"));
+            let opened =
+                open(&files, arrangement, None, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
             let config = crate::Config { lens: crate::Lens::Panorama, ..crate::Config::default() };
             let picture = crate::PictureOptions { size: [40, 20], samples: 1, ..config.picture.clone() };
             crate::light(&opened, &crate::Config { picture, ..config }).unwrap()
@@ -127,7 +134,10 @@ mod tests {
         let file = |size: [u32; 2]| png(size, |_| [9, 9, 9, 255]);
         let message = |files: &[Vec<u8>], arrangement: Arrangement| {
             let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-            open(&files, arrangement, None).err().map(|error| error.to_string()).unwrap_or_default()
+            open(&files, arrangement, None, Limits::default())
+                .err()
+                .map(|error| error.to_string())
+                .unwrap_or_default()
         };
         let mut sides = vec![file([16, 16]); 6];
         assert!(message(&sides[..5], Arrangement::Sides).contains("5 files"));

@@ -135,8 +135,8 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
     }
 }
 
-/// Pixels of a picture above which [`picture`] does not read it.
-const MAX_PIXELS: u64 = 1 << 14;
+/// Limits of pictures: larger ones take long and reach no further code.
+const LIMITS: ugimage::Limits = ugimage::Limits { pixels: 1 << 14, bytes: 1 << 18 };
 
 /// A panorama as an observer in motion sees it, with options that follow from `seed`: every number
 /// of the light is finite, and another number of threads gives the same.
@@ -144,13 +144,13 @@ const MAX_PIXELS: u64 = 1 << 14;
 /// # Errors
 /// What does not hold.
 pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
-    if ugimage::read_picture(bytes, MAX_PIXELS).is_err() {
+    if ugimage::read_picture(bytes, &LIMITS).is_err() {
         return Ok(());
     }
     let mut random = Random(seed);
     let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
     let config = config::warp(&mut random);
-    let Ok(opened) = ugwarp::open(&[bytes], arrangement, None) else { return Ok(()) };
+    let Ok(opened) = ugwarp::open(&[bytes], arrangement, None, LIMITS) else { return Ok(()) };
     sky((&opened).into(), &config, seed)
 }
 
@@ -207,15 +207,7 @@ pub fn history(bytes: &[u8]) -> Result<(), String> {
 /// # Errors
 /// What is refused or differs.
 pub fn picture(bytes: &[u8]) -> Result<(), String> {
-    // Width and height follow the signature and the head of the first chunk.
-    let side =
-        |at: usize| bytes.get(at..at + 4).and_then(|side| side.try_into().ok()).map(u32::from_be_bytes);
-    if let (Some(width), Some(height)) = (side(16), side(20))
-        && u64::from(width) * u64::from(height) > MAX_PIXELS
-    {
-        return Ok(());
-    }
-    let Ok((frame, history)) = ugimage::read_png(bytes) else { return Ok(()) };
+    let Ok((frame, history)) = ugimage::read_png(bytes, &LIMITS) else { return Ok(()) };
     let size = [frame.width(), frame.height()];
     let picture =
         ugsheet::Picture { name: "a".to_owned(), size, motion: ugsheet::Motion::recorded(&history), history };
@@ -225,7 +217,7 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
         return Ok(());
     };
     let metadata = ugsheet::history(&pictures, Some("ugsheet"));
-    match ugimage::read_png(&Format::Png.encode(&sheet, &metadata)) {
+    match ugimage::read_png(&Format::Png.encode(&sheet, &metadata), &ugimage::Limits::default()) {
         Ok((frame, _)) if frame == sheet => Ok(()),
         Ok(_) => Err("a sheet is read with other pixels than were written".to_owned()),
         Err(error) => Err(format!("a sheet is refused: {error}")),

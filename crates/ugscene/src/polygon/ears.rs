@@ -51,8 +51,21 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 
 /// The distance of `p` to the left of the line from a to b; 0 if these coincide.
 fn left(a: DVec2, b: DVec2, p: DVec2) -> f64 {
-    let length = (b - a).length();
-    if length > 0.0 { turn(a, b, p) / length } else { 0.0 }
+    Side { a, b, length: (b - a).length() }.left(p)
+}
+
+/// The line from a to b, and the distance of these.
+struct Side {
+    a: DVec2,
+    b: DVec2,
+    length: f64,
+}
+
+impl Side {
+    /// See [`left`].
+    fn left(&self, p: DVec2) -> f64 {
+        if self.length > 0.0 { turn(self.a, self.b, p) / self.length } else { 0.0 }
+    }
 }
 
 /// Can a corner be cut off? Its neighbours see each other, and no corner is between. `tolerance`:
@@ -65,9 +78,11 @@ fn is_ear(polygon: &[Corner], at: usize, tolerance: f64) -> bool {
     if turn(a, b, c) <= sine * (b - a).length() * (c - b).length() {
         return false;
     }
-    let is_inside = |p: DVec2| [(a, b), (b, c), (c, a)].iter().all(|&(a, b)| left(a, b, p) >= -tolerance);
+    let sides = [(a, b), (b, c), (c, a)].map(|(a, b)| Side { a, b, length: (b - a).length() });
+    let is_inside = |p: DVec2| sides.iter().all(|side| side.left(p) >= -tolerance);
     let is_corner = |p: DVec2| [a, b, c].iter().any(|corner| corner.distance(p) <= tolerance.abs());
-    polygon.iter().all(|&(_, p)| is_corner(p) || !is_inside(p))
+    // Few corners are inside, so that is tested first.
+    polygon.iter().all(|&(_, p)| !is_inside(p) || is_corner(p))
 }
 
 /// The first corner of a hole that sees a corner of the polygon, and the first that it sees: the

@@ -1,0 +1,235 @@
+//! Reads Radiance HDR files: red, green and blue with a common exponent, in runs.
+//!
+//! Not with a crate, because those allocate the whole picture, twice, before they find that a short
+//! file has no pixels.
+
+use crate::read::{Limits, ReadError, reserved};
+
+/// The size and the light of a file.
+///
+/// # Errors
+/// [`ReadError`] if the file is truncated or corrupt, or exceeds a limit.
+pub(crate) fn read(file: &[u8], limits: &Limits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+    let ([width, height], mut rest) = header(file)?;
+    let size = limits.check([width, height], 16)?;
+    // A row is a pixel or more.
+    if rest.len() as u64 / 4 < height as u64 {
+        return Err(truncated());
+    }
+    let mut pixels = reserved(width * height)?;
+    if width > 0 {
+        for _ in 0..height {
+            row(&mut rest, width, &mut pixels)?;
+        }
+    }
+    Ok((size, pixels))
+}
+
+fn broken(what: &str) -> ReadError {
+    ReadError::new(&format!("not a readable HDR file: {what}"))
+}
+
+fn truncated() -> ReadError {
+    broken("the file is truncated, or its header is wrong")
+}
+
+/// Width and height, and the bytes of the pixels.
+fn header(file: &[u8]) -> Result<([usize; 2], &[u8]), ReadError> {
+    let mut lines = Lines(file);
+    if !matches!(lines.next(), Some(b"#?RADIANCE" | b"#?RGBE")) {
+        return Err(broken("it begins with another word than #?RADIANCE"));
+    }
+    loop {
+        let line = lines.next().ok_or_else(truncated)?;
+        if line.is_empty() {
+            break;
+        }
+        if let Some(format) = line.strip_prefix(b"FORMAT=")
+            && format.trim_ascii() != b"32-bit_rle_rgbe"
+        {
+            return Err(broken("its FORMAT is not 32-bit_rle_rgbe"));
+        }
+    }
+    let line = String::from_utf8_lossy(lines.next().ok_or_else(truncated)?);
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let size = match words[..] {
+        ["-Y", height, "+X", width] => width.parse().ok().zip(height.parse().ok()),
+        _ => return Err(broken("its rows do not run from left to right and from top to bottom (-Y, +X)")),
+    };
+    let (width, height): (u32, u32) = size.ok_or_else(|| broken("its size is not two numbers"))?;
+    Ok(([width, height].map(|side| side as usize), lines.0))
+}
+
+/// Lines, each without its line feed.
+struct Lines<'f>(&'f [u8]);
+
+impl<'f> Lines<'f> {
+    fn next(&mut self) -> Option<&'f [u8]> {
+        let end = self.0.iter().position(|&byte| byte == b'\n')?;
+        let line = &self.0[..end];
+        self.0 = &self.0[end + 1..];
+        Some(line)
+    }
+}
+
+/// Reads the first `N` bytes.
+fn take<const N: usize>(rest: &mut &[u8]) -> Result<[u8; N], ReadError> {
+    let (bytes, behind) = rest.split_first_chunk().ok_or_else(truncated)?;
+    *rest = behind;
+    Ok(*bytes)
+}
+
+/// Appends the pixels of a row.
+fn row(rest: &mut &[u8], width: usize, pixels: &mut Vec<[f32; 4]>) -> Result<(), ReadError> {
+    match take(rest)? {
+        // A pixel that does not occur announces runs of each channel.
+        [2, 2, 0..=127, _] => {
+            let start = pixels.len();
+            for channel in 0..4 {
+                channel_of_row(rest, width, channel, start, pixels)?;
+            }
+            for pixel in &mut pixels[start..] {
+                *pixel = light(pixel.map(|byte| byte as u8));
+            }
+            Ok(())
+        }
+        first => pixels_of_row(rest, width, first, pixels),
+    }
+}
+
+/// Reads one of the four bytes of every pixel of a row. The first channel appends the pixels.
+fn channel_of_row(
+    rest: &mut &[u8],
+    width: usize,
+    channel: usize,
+    start: usize,
+    pixels: &mut Vec<[f32; 4]>,
+) -> Result<(), ReadError> {
+    let mut at = 0;
+    let mut set = |byte: u8| {
+        if channel == 0 {
+            pixels.push([0.0; 4]);
+        }
+        pixels[start + at][channel] = f32::from(byte);
+        at += 1;
+        at
+    };
+    let mut n_set = 0;
+    while n_set < width {
+        let [code] = take(rest)?;
+        let is_run = code > 128;
+        let count = usize::from(if is_run { code - 128 } else { code });
+        if n_set + count > width {
+            return Err(broken("a row has more pixels than its width"));
+        }
+        if is_run {
+            let [byte] = take(rest)?;
+            (0..count).for_each(|_| n_set = set(byte));
+        } else {
+            let (bytes, behind) = rest.split_at_checked(count).ok_or_else(truncated)?;
+            *rest = behind;
+            bytes.iter().for_each(|&byte| n_set = set(byte));
+        }
+    }
+    Ok(())
+}
+
+/// Appends a row of pixels and of pixels `1 1 1 n`, which repeat the one before n times. Several
+/// of these in a row have the digits of a number with base 256, the last first.
+fn pixels_of_row(
+    rest: &mut &[u8],
+    width: usize,
+    first: [u8; 4],
+    pixels: &mut Vec<[f32; 4]>,
+) -> Result<(), ReadError> {
+    let end = pixels.len() + width;
+    let (mut last, mut digit) = (light(first), 0_u32);
+    if first[..3] == [1, 1, 1] {
+        return Err(broken("a row begins with a run"));
+    }
+    pixels.push(last);
+    while pixels.len() < end {
+        match take(rest)? {
+            [1, 1, 1, count] => {
+                let count = usize::from(count).checked_shl(8 * digit).filter(|_| digit < 4);
+                let count = count.filter(|count| *count <= end - pixels.len());
+                let count = count.ok_or_else(|| broken("a row has more pixels than its width"))?;
+                pixels.resize(pixels.len() + count, last);
+                digit += 1;
+            }
+            pixel => {
+                (last, digit) = (light(pixel), 0);
+                pixels.push(last);
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Linear light: m · 2^(e − 136), and black without an exponent.
+fn light([red, green, blue, exponent]: [u8; 4]) -> [f32; 4] {
+    // 2^(e − 128), which is subnormal for e = 1.
+    let bits = if exponent > 1 { u32::from(exponent - 1) << 23 } else { u32::from(exponent) << 22 };
+    let unit = f32::from_bits(bits) / 256.0;
+    let [red, green, blue] = [red, green, blue].map(|part| unit * f32::from(part));
+    [red, green, blue, 1.0]
+}
+
+#[cfg(test)]
+mod tests {
+    use image::ImageDecoder;
+    use image::codecs::hdr::HdrDecoder;
+
+    use super::*;
+
+    fn file(size: [u32; 2], rows: &[u8]) -> Vec<u8> {
+        let [width, height] = size;
+        let header = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n");
+        [header.as_bytes(), rows].concat()
+    }
+
+    /// The pixels that `image` reads.
+    fn expected(file: &[u8], n_pixels: usize) -> Option<Vec<[f32; 3]>> {
+        let mut bytes = vec![0; 12 * n_pixels];
+        HdrDecoder::new(std::io::Cursor::new(file)).ok()?.read_image(&mut bytes).ok()?;
+        let parts: Vec<f32> =
+            bytes.chunks_exact(4).map(|part| f32::from_ne_bytes(part.try_into().unwrap())).collect();
+        Some(parts.chunks_exact(3).map(|part| part.try_into().unwrap()).collect())
+    }
+
+    #[test]
+    fn pixels_are_those_of_another_reader() {
+        #[track_caller]
+        fn check(size: [u32; 2], rows: &[u8]) {
+            let file = file(size, rows);
+            let n_pixels = size[0] as usize * size[1] as usize;
+            let found = read(&file, &Limits::default()).ok().map(|(_, pixels)| pixels);
+            let found = found.map(|pixels| pixels.iter().map(|&[r, g, b, _]| [r, g, b]).collect());
+            assert_eq!(found, expected(&file, n_pixels), "{rows:?}");
+        }
+        let every = |exponent: u8| [200, 100, 50, exponent];
+        let all: Vec<u8> = (0..=255).flat_map(every).collect();
+        check([256, 1], &all);
+        check([16, 16], &all);
+        // Runs of channels.
+        let channel = [[131, 7].as_slice(), &[2, 8, 9], &[0], &[129, 130]].concat();
+        check([6, 1], &[[2, 2, 0, 6].as_slice(), &channel, &channel, &channel, &channel].concat());
+        check([5, 1], &[[2, 2, 0, 6].as_slice(), &channel, &channel, &channel, &channel].concat());
+        // Runs of pixels.
+        check([4, 1], &[9, 9, 9, 130, 1, 1, 1, 3]);
+        check([301, 1], &[[9, 9, 9, 130], [1, 1, 1, 44], [1, 1, 1, 1]].concat());
+        check([3, 1], &[9, 9, 9, 130, 1, 1, 1, 3]);
+        check([4, 1], &[1, 1, 1, 3]);
+        // Truncated.
+        check([4, 1], &[9, 9, 9, 130, 1, 1, 1, 2]);
+        check([4, 2], &[9, 9, 9, 130, 1, 1, 1, 3]);
+        check([0, 0], &[]);
+    }
+
+    /// Ten zeros of a run, whose number would need 80 bits.
+    #[test]
+    fn numbers_of_runs_do_not_overflow() {
+        let rows = [[9, 9, 9, 130].as_slice(), &[1, 1, 1, 0].repeat(10), &[1, 1, 1, 1]].concat();
+        assert!(read(&file([4, 1], &rows), &Limits::default()).is_err());
+    }
+}
