@@ -51,8 +51,8 @@ impl Samples {
 }
 
 impl LinearFrame {
-    /// A frame of the given pixels, without extra planes. Infinite numbers become the largest
-    /// finite ones of their sign, and NaN 0.
+    /// A frame of the given pixels, without extra planes. NaN becomes 0. A pixel with an infinite
+    /// number has lost its colour: there that becomes the largest number, and negative ones 0.
     ///
     /// # Panics
     /// If a side is 0, or the number of pixels is not width × height.
@@ -60,8 +60,10 @@ impl LinearFrame {
         let [width, height] = size;
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
         assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
-        for number in pixels.iter_mut().flatten().filter(|number| !number.is_finite()) {
-            *number = if number.is_nan() { 0.0 } else { number.clamp(-f32::MAX, f32::MAX) };
+        let is_finite = |pixel: &[f32; 4]| pixel.iter().all(|number| number.is_finite());
+        for pixel in pixels.iter_mut().filter(|pixel| !is_finite(pixel)) {
+            let least = if pixel.iter().any(|number| number.is_infinite()) { 0.0 } else { -f32::MAX };
+            *pixel = pixel.map(|number| if number.is_nan() { 0.0 } else { number.clamp(least, f32::MAX) });
         }
         Self { width, height, is_opaque, pixels, planes: Vec::new() }
     }
@@ -168,8 +170,15 @@ mod tests {
 
     #[test]
     fn a_new_frame_is_finite() {
-        let frame = LinearFrame::new([1, 1], true, vec![[f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0]]);
-        assert_eq!(frame.pixels(), [[0.0, f32::MAX, -f32::MAX, 1.0]]);
+        #[track_caller]
+        fn check(pixel: [f32; 4], expected: [f32; 4]) {
+            assert_eq!(LinearFrame::new([1, 1], true, vec![pixel]).pixels(), [expected]);
+        }
+        check([f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.0], [0.0, f32::MAX, 0.0, 1.0]);
+        check([-3e38, f32::INFINITY, 2.0, 1.0], [0.0, f32::MAX, 2.0, 1.0]);
+        check([f32::NAN, -0.5, 2.0, 1.0], [0.0, -0.5, 2.0, 1.0]);
+        // A colour outside of the gamut.
+        check([-0.5, 1.0, 2.0, 1.0], [-0.5, 1.0, 2.0, 1.0]);
     }
 
     #[test]

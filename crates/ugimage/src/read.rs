@@ -36,14 +36,15 @@ impl Limits {
         let most = self.pixels.min(MAX_PIXELS);
         let (Ok(columns), Ok(rows), true) = (u32::try_from(width), u32::try_from(height), n_pixels <= most)
         else {
-            return Err(ReadError(format!("{width} x {height} pixels exceed the limit of {most}")));
+            return Err(ReadError::new(&format!("{width} x {height} pixels exceed the limit of {most}")));
         };
         let n_bytes = n_bytes * n_pixels;
         if n_bytes > self.bytes {
-            return Err(ReadError(format!(
-                "{width} x {height} pixels are {n_bytes} bytes, more than the limit memory, {}",
+            let text = format!(
+                "{width} x {height} pixels are {n_bytes} bytes, more than the limit of memory, {}",
                 self.bytes
-            )));
+            );
+            return Err(ReadError { text, needed_memory: Some(n_bytes) });
         }
         Ok([columns, rows])
     }
@@ -54,17 +55,25 @@ pub(crate) const MAX_TEXT: usize = 1 << 20;
 
 /// Why a file cannot be read as an image.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReadError(String);
+pub struct ReadError {
+    text: String,
+    needed_memory: Option<u64>,
+}
 
 impl ReadError {
     pub(crate) fn new(text: &str) -> Self {
-        Self(text.to_owned())
+        Self { text: text.to_owned(), needed_memory: None }
+    }
+
+    /// The bytes of the decoded pixels, if they exceed the limit of memory.
+    pub fn needed_memory(&self) -> Option<u64> {
+        self.needed_memory
     }
 }
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
+        f.write_str(&self.text)
     }
 }
 
@@ -153,7 +162,7 @@ fn decoded<P>(
     let mut pixels = reserved(n_pixels)?;
     if reader.info().interlaced {
         // Rows come in seven passes, so the bytes of all are decoded first.
-        let too_large = || ReadError("too large".to_owned());
+        let too_large = || ReadError::new("too large");
         let n_bytes = reader.output_buffer_size().ok_or_else(too_large)?;
         let n_bytes_of_pixel = size_of::<P>() + n_bytes / n_pixels.max(1);
         limits.check(size.map(|side| side as usize), n_bytes_of_pixel as u64)?;
@@ -167,19 +176,19 @@ fn decoded<P>(
         }
     }
     if pixels.len() != n_pixels {
-        return Err(ReadError("not a readable PNG file: rows are missing".to_owned()));
+        return Err(ReadError::new("not a readable PNG file: rows are missing"));
     }
     Ok((size, pixels))
 }
 
 fn broken(error: png::DecodingError) -> ReadError {
     let problem = error.to_string();
-    ReadError(format!("not a readable PNG file: {}", problem.trim_end_matches('.')))
+    ReadError::new(&format!("not a readable PNG file: {}", problem.trim_end_matches('.')))
 }
 
 fn decoder(file: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, ReadError> {
     if !file.starts_with(b"\x89PNG") {
-        return Err(ReadError("not a PNG file, the only kind that is read".to_owned()));
+        return Err(ReadError::new("not a PNG file, the only kind that is read"));
     }
     let mut decoder = Decoder::new(Cursor::new(file));
     decoder.set_transformations(Transformations::normalize_to_color8());
@@ -204,7 +213,7 @@ pub(crate) fn check_packed(n_file: usize, n_decoded: u64, ratio: u64) -> Result<
     if (n_file as u64).saturating_mul(ratio) >= n_decoded {
         return Ok(());
     }
-    Err(ReadError(format!(
+    Err(ReadError::new(&format!(
         "{n_file} bytes cannot hold its pixels: the file is truncated, or its header is wrong"
     )))
 }
@@ -214,7 +223,7 @@ pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>, ReadError> {
     let mut rows = Vec::new();
     rows.try_reserve_exact(len).map_err(|_| {
         let n_bytes = (len as u64).saturating_mul(size_of::<T>() as u64);
-        ReadError(format!("there is not enough memory for its pixels, {n_bytes} bytes"))
+        ReadError::new(&format!("there is not enough memory for its pixels, {n_bytes} bytes"))
     })?;
     Ok(rows)
 }

@@ -272,8 +272,10 @@ mod tests {
     fn large_headers_are_refused() {
         let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n";
         assert!(read(hdr).unwrap_err().to_string().contains("exceed the limit"));
-        let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10000 +X 20000\n";
+        let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 5000 +X 20000\n";
         assert!(read(hdr).unwrap_err().to_string().contains("truncated"));
+        let hdr = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 10000 +X 20000\n";
+        assert_eq!(read(hdr).unwrap_err().needed_memory(), Some(3_200_000_000));
         // The size in the header of a small file, changed.
         let frame = LinearFrame::new([8, 4], true, vec![[0.25, 1.5, 0.0, 1.0]; 32]);
         let mut exr = Format::Exr.encode_linear(&frame, &Metadata::default(), Compression::Fast);

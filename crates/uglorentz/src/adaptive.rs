@@ -33,6 +33,17 @@ use crate::split::split;
 /// The limit of pieces of a scene: about half a gigabyte of text.
 pub(crate) const MAX_PIECES: usize = 4_000_000;
 
+/// Pieces beyond the faces of the scene that a picture may have without pixels, and for each pixel.
+const PIECES_OF_PICTURE: [usize; 2] = [1 << 16, 64];
+
+/// The limit of pieces for a picture of this size: more than can be seen in it, and
+/// [`MAX_PIECES`] at most.
+pub(crate) fn max_pieces(n_faces: usize, [width, height]: [u32; 2]) -> usize {
+    let [least, per_pixel] = PIECES_OF_PICTURE;
+    let n_pixels = (width as usize).saturating_mul(height as usize);
+    per_pixel.saturating_mul(n_pixels).saturating_add(least + n_faces).min(MAX_PIECES)
+}
+
 /// Subdivides faces and wires until every error is within `bounds`, or `max_pieces` would be
 /// exceeded.
 ///

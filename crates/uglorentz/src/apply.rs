@@ -63,10 +63,9 @@ pub fn apply_with(
     let bounds = Bounds::new(tolerances, near_lamps, view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
     let evenness = Evenness::new(&scene, config.repeat);
+    let max_pieces = adaptive::max_pieces(n_faces, config.size);
     let outcome = match config.pieces {
-        Pieces::UpTo(_) => {
-            adaptive::cut(&scene, &evenness, &mut mesh, &bounds, adaptive::MAX_PIECES, progress)?
-        }
+        Pieces::UpTo(_) => adaptive::cut(&scene, &evenness, &mut mesh, &bounds, max_pieces, progress)?,
         Pieces::PerEdge(n) => uniform::cut(&scene, &evenness, &mut mesh, n)
             .map_err(|n_pieces| Error::TooManyPieces { n_pieces })?,
     };
@@ -96,6 +95,7 @@ pub fn apply_with(
         n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
         is_full: outcome.is_full,
+        max_pieces,
         remaining_errors,
         default_camera: *default_camera,
     };

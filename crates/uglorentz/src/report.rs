@@ -20,6 +20,8 @@ pub struct Report {
     pub n_too_deep: usize,
     /// Subdivision stopped at the limit of pieces.
     pub is_full: bool,
+    /// The limit of pieces for a picture of this size.
+    pub max_pieces: usize,
     /// The errors left, if they were requested ([`crate::Config::measure`]) or exceed a bound.
     pub remaining_errors: Option<RemainingErrors>,
     /// The camera that was chosen because the scene has none.

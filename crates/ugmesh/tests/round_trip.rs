@@ -319,3 +319,48 @@ fn the_brightest_light_has_a_colour() {
     let obj = String::from_utf8(to_mesh(Target::Obj, text.as_bytes())).unwrap();
     assert!(obj.contains("v 0 0 0 1 1 1\n"), "{obj}");
 }
+
+/// A scene whose names and comments have what readers of other programs trip over.
+const HOSTILE: &str = "{ a\u{c}b\u{2028}c\u{2029}d\u{85}e\u{fffe}f\u{ffff}\u{fdd0} \\\n  next \\ }
+c_rgb red\\ 1 0 0.2; c_rgb gre\u{2028}en\u{fffe} 0 0.6 0.4;
+v a 0 0 0; v b 1 0 0; v c 1 1 0.5; v d 0 1 0.5;
+f #left\\ (a b c) red\\; f r\u{85}ight\u{2029} (a c d) gre\u{2028}en\u{fffe};";
+
+/// Lines by the longest list of line ends that readers have (that of Python's `splitlines`).
+fn all_lines(text: &str) -> Vec<&str> {
+    const ENDS: [char; 10] =
+        ['\n', '\r', '\u{b}', '\u{c}', '\u{1c}', '\u{1d}', '\u{1e}', '\u{85}', '\u{2028}', '\u{2029}'];
+    text.split(ENDS).collect()
+}
+
+/// What is written is read by other readers: tobj, ply-rs, and one that ends lines wherever any
+/// reader does.
+#[test]
+fn other_readers_read_what_is_written() {
+    let obj = to_mesh(Target::Obj, HOSTILE.as_bytes());
+    let text = String::from_utf8(obj.clone()).unwrap();
+    let no_materials =
+        |_: &std::path::Path| tobj::MTLLoadResult::Ok((Vec::new(), std::collections::HashMap::default()));
+    let (models, _) =
+        tobj::load_obj_buf(&mut obj.as_slice(), &tobj::LoadOptions::default(), no_materials).unwrap();
+    assert_eq!(models.len(), 2, "{text}");
+    assert_eq!(models.iter().map(|model| model.mesh.indices.len()).sum::<usize>(), 6);
+    assert!(models[0].mesh.positions.starts_with(&[0.0, 0.0, 0.0, 1.0]));
+    for line in all_lines(&text) {
+        let keyword = line.split(' ').next().unwrap_or_default();
+        assert!(["#", "v", "g", "usemtl", "f", ""].contains(&keyword) && !line.ends_with('\\'), "{line:?}");
+    }
+    for is_ascii in [true, false] {
+        let ply = to_mesh(Target::Ply { is_ascii }, HOSTILE.as_bytes());
+        let read = ply_rs_bw::parser::Parser::<ply_rs_bw::ply::DefaultElement>::new()
+            .read_ply(&mut std::io::Cursor::new(&ply))
+            .unwrap();
+        assert_eq!([read.payload["vertex"].len(), read.payload["face"].len()], [6, 2]);
+        let header = String::from_utf8_lossy(&ply).into_owned();
+        let header = header.split("end_header").next().unwrap();
+        for line in all_lines(header) {
+            let keyword = line.split(' ').next().unwrap_or_default();
+            assert!(["ply", "format", "comment", "element", "property", ""].contains(&keyword), "{line:?}");
+        }
+    }
+}

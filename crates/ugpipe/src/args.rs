@@ -138,6 +138,11 @@ impl CommonArgs {
         self.limit.iter().rev().find(|(name, _)| name == "memory").map(|(_, bytes)| *bytes)
     }
 
+    /// What to add to the message about an input that needs more than the limit `memory`.
+    pub fn memory_remedy(needed: Option<u64>) -> String {
+        needed.map_or_else(String::new, |bytes| format!("; allow it with --limit memory={bytes}"))
+    }
+
     /// The options for reading as they would be given to another program.
     pub fn reading_words(&self) -> Vec<String> {
         let flags = [

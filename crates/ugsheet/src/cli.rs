@@ -219,7 +219,8 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 fn unreadable(input: &Input, error: &ReadError) -> Error {
-    Error::Picture(format!("`{}`: {error}", input.name))
+    let remedy = CommonArgs::memory_remedy(error.needed_memory());
+    Error::Picture(format!("`{}`: {error}{remedy}", input.name))
 }
 
 impl Words for Error {

@@ -1,5 +1,7 @@
 //! The weights of an elliptical footprint on the sphere.
 
+use core::f64::consts::PI;
+
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16};
 use glam::DVec3;
@@ -38,6 +40,15 @@ pub(crate) struct Kernel {
     pub matrix: [f64; 3],
     /// The larger semi-axis, radians.
     pub radius: f64,
+}
+
+impl Kernel {
+    /// The integral of its weights over the sphere, in steradians.
+    pub fn integral(&self) -> f64 {
+        let [see, sen, snn] = self.matrix;
+        // Over q from 0 to 1, (1 − q)² has the integral 1/3, and times q that of 1/12.
+        PI * (see * snn - sen * sen).max(0.0).sqrt() * (1.0 / 3.0 - f64::from(self.c) / 12.0)
+    }
 }
 
 /// The ellipse of a pixel in a plane.

@@ -20,6 +20,9 @@ pub struct Sampler<'a> {
     /// The weights of all runs, each in whole chunks.
     chunks: Vec<Weights>,
     moments: Moments,
+    /// The sum of all weights of a footprint much larger than the panorama, of which only the texels
+    /// are weighed.
+    total: Option<f32>,
 }
 
 /// Weights of neighbouring texels, which are 0 after the end of a run.
@@ -58,6 +61,7 @@ impl Panorama {
             runs: Vec::new(),
             chunks: Vec::new(),
             moments: Moments::default(),
+            total: None,
         }
     }
 }
@@ -111,8 +115,16 @@ impl Sampler<'_> {
         let is_curved = kernel.radius * center.z.abs() > CURVED * cos;
         let top = sky.extent().latitudes[1];
         let place = |latitude: f64| (top - latitude) * grid.rows_per_radian - 0.5;
-        let first = place((latitude + reach).min(FRAC_PI_2)).ceil() as i64;
-        let last = place((latitude - reach).max(-FRAC_PI_2)).floor() as i64;
+        let mut first = place((latitude + reach).min(FRAC_PI_2)).ceil() as i64;
+        let mut last = place((latitude - reach).max(-FRAC_PI_2)).floor() as i64;
+        let (n_rows, pad) = (grid.rows.len() as i64, PAD as i64);
+        self.total = None;
+        if first < -pad || last >= n_rows + pad {
+            // So many rows have nothing that their weights are summed as an integral instead.
+            (first, last) = (first.max(0), last.min(n_rows - 1));
+            self.total =
+                Some((kernel.integral() * grid.rows_per_radian * sky.ladder[level].per_radian) as f32);
+        }
         for idx in first..=last {
             let inside = usize::try_from(idx).ok().filter(|idx| *idx < grid.rows.len());
             let beyond;
@@ -224,6 +236,8 @@ impl Sampler<'_> {
         let sky = self.panorama;
         let moments = self.moments.0.map(|lanes| lanes.iter().sum::<f32>());
         let [across, along] = correction_of(self.simd, moments);
+        // Of a part of a footprint the first moments do not vanish.
+        let [across, along] = if self.total.is_some() { [0.0; 2] } else { [across, along] };
         let (mut light, mut total) = ([0.0_f32; 4], [0.0_f32; CHUNK]);
         let mut chunks = self.chunks.iter();
         for run in &self.runs {
@@ -243,7 +257,7 @@ impl Sampler<'_> {
                 rest -= count;
             }
         }
-        let total: f32 = total.iter().sum();
+        let total: f32 = self.total.unwrap_or_else(|| total.iter().sum());
         if total > 0.0 { light.map(|part| part / total) } else { [0.0; 4] }
     }
 }

@@ -101,6 +101,39 @@ fn a_uniform_sky_is_uniform_at_every_level() {
     assert_eq!(sky.sampler().light(&ray(DVec3::Z, [0.11, 0.01], 0.0), 1.0), None);
 }
 
+/// A part much smaller than a footprint adds its light to each that it is in: over a grid of
+/// footprints its solid angle. The time does not depend on its size.
+#[test]
+fn a_tiny_part_keeps_its_light() {
+    const SPACING: f64 = 0.005;
+    const SIDE: f64 = 0.02;
+    for half in [1e-2, 1e-3, 1e-5, 1e-9] {
+        let extent = Extent { longitudes: [0.7 - half, 0.7 + half], latitudes: [0.3 - half, 0.3 + half] };
+        let sky = panorama([16, 16], extent, |_| 0.25);
+        let (sin, cos) = libm::sincos(0.3);
+        let solid_angle = 4.0 * half * half * cos;
+        let center = DVec3::new(cos * libm::sin(0.7), cos * libm::cos(0.7), sin);
+        let one = center.any_orthonormal_vector();
+        let axes = [one, center.cross(one)];
+        let mut sums = [0.0; 2];
+        for idx in 0..41 * 41 {
+            // Off the middle of the grid.
+            let [across, down] = [idx % 41 - 20, idx / 41 - 20].map(|at| SPACING * (f64::from(at) + 0.3));
+            let ray = SkyRay {
+                direction: (center + across * axes[0] + down * axes[1]).normalize(),
+                slopes: axes.map(|axis| SIDE * axis),
+                doppler: 1.0,
+            };
+            let [light, _, _, alpha] = sky.sampler().light(&ray, 1.0).unwrap();
+            sums[0] += f64::from(light);
+            sums[1] += f64::from(alpha);
+        }
+        let [light, alpha] = sums.map(|sum| sum * SPACING * SPACING / solid_angle);
+        assert!((alpha - 1.0).abs() < 0.05, "{half}: {alpha}");
+        assert!((light - 0.25).abs() < 0.0125, "{half}: {light}");
+    }
+}
+
 /// A part of the sphere shows the same as the whole, and nothing outside of it.
 #[test]
 fn a_part_ends_at_its_angles() {

@@ -263,7 +263,10 @@ impl Args {
         let mut limits = Limits::default();
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
         let mut opened = open(&files, arrangement, self.extent(), limits).map_err(|error| match error {
-            Error::Read { idx, error } => Failure::Failed(format!("`{}`: {error}", inputs[idx].name)),
+            Error::Read { idx, error } => {
+                let remedy = CommonArgs::memory_remedy(error.needed_memory());
+                Failure::Failed(format!("`{}`: {error}{remedy}", inputs[idx].name))
+            }
             error => Failure::of(error),
         })?;
         for (path, range_nm) in self.bands() {

@@ -81,8 +81,9 @@ impl Report {
         };
         if self.is_full {
             warnings.push(format!(
-                "subdivision stopped at {MAX_PIECES} pieces: the error of some edges is above the bound; \
-                 a larger bound (-se) needs fewer pieces{left}"
+                "subdivision stopped at {} pieces: the error of some edges is above the bound; \
+                 a larger bound (-se) needs fewer pieces{left}",
+                self.max_pieces
             ));
         }
         if self.n_uncut > 0 {

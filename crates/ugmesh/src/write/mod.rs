@@ -30,15 +30,30 @@ pub(crate) fn write(scene: Scene, target: Target, is_placed: bool) -> Result<(Ve
 
 type Writer = fn(&mut PolygonMesh) -> Result<Vec<u8>, Error>;
 
-/// The lines of the scene's head comments (licence and history). Control characters are replaced,
-/// because some readers would take them for line ends.
+/// The lines of the scene's head comments (licence and history).
 fn head_lines(scene: &Scene) -> impl Iterator<Item = String> {
-    let printable = |line: &str| line.trim().replace(char::is_control, " ");
     scene
         .remarks
         .head
         .iter()
         .flat_map(|comment| comment.lines())
-        .map(printable)
+        .map(|line| one_line(line.trim()))
         .filter(|line| !line.is_empty())
+}
+
+/// Text that every reader takes for the rest of one line. Some end lines at form feeds or at the
+/// separators of Unicode, refuse characters that it leaves undefined, or continue a line at a
+/// backslash.
+fn one_line(text: &str) -> String {
+    let is_plain = |c: char| {
+        !c.is_control()
+            && !matches!(c, '\u{2028}' | '\u{2029}' | '\u{feff}' | '\u{fdd0}'..='\u{fdef}')
+            && u32::from(c) & 0xfffe != 0xfffe
+    };
+    let mut line: String = text.chars().map(|c| if is_plain(c) { c } else { ' ' }).collect();
+    line.truncate(line.trim_end().len());
+    if line.ends_with('\\') {
+        line.push('.');
+    }
+    line
 }
