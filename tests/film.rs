@@ -104,6 +104,61 @@ fn every_frame_is_the_picture_of_its_pipe() {
     }
 }
 
+/// Names of files and captions that shells, terminals and comments of scenes would take apart.
+const NAMES: [&str; 9] =
+    ["two words", "it's", "a\tb", "a\nb", "{a}", "$(touch made)", "\u{202e}gnp", "\u{1b}[2J\\", "-vel"];
+
+/// The printed command draws the same bytes, and so does the one that a picture records.
+#[test]
+fn commands_draw_the_same_whatever_names_are() {
+    let shell = Shell::new();
+    let bash = |script: &str| {
+        let path = format!("{}:{}", shell.programs.display(), std::env::var("PATH").unwrap());
+        let mut bash = Command::new("bash");
+        bash.args(["-e", "-o", "pipefail", "-c", script])
+            .current_dir(shell.folder.path())
+            .env("PATH", path)
+            .output()
+    };
+    if bash("true").is_err() {
+        return;
+    }
+    let path = |name: &str| shell.folder.path().join(name);
+    for name in NAMES {
+        fs::copy(path("dice.ug"), path(name)).unwrap();
+        let film = |last: &[&str]| {
+            let mut film = Command::new(shell.programs.join("ugfilm"));
+            film.args([
+                "-frames", "2", "-ti", "0..1", "-vel", ".5", "0", "0", "-in", "-sz", "40", "30", "-cap", name,
+            ])
+            .args(last)
+            .current_dir(shell.folder.path());
+            let output = film.output().unwrap();
+            assert!(output.status.success(), "{name:?}: {}", String::from_utf8_lossy(&output.stderr));
+            String::from_utf8(output.stdout).unwrap()
+        };
+        film(&["-fo", "drawn_%d.png", "-fi", name]);
+        let printed = film(&["-fo", "piped_%d.png", "--print", "2", "-fi", name]);
+        let ran = bash(&printed).unwrap();
+        assert!(ran.status.success(), "{printed}: {}", String::from_utf8_lossy(&ran.stderr));
+        let [drawn, piped] = ["drawn_2.png", "piped_2.png"].map(|name| fs::read(path(name)).unwrap());
+        assert!(drawn == piped, "{name:?}: {printed}");
+        // The recorded command reads the scene from standard input.
+        fs::copy(path(name), path("scene.ug")).unwrap();
+        let [recorded, _] = shell.run("ugsheet --history drawn_2.png");
+        let recorded = recorded.lines().last().unwrap();
+        let ran = bash(&format!("{recorded} < scene.ug > again.png")).unwrap();
+        assert!(ran.status.success(), "{recorded}: {}", String::from_utf8_lossy(&ran.stderr));
+        let pixels =
+            |name: &str| ugimage::read_png(&fs::read(path(name)).unwrap(), &ugimage::Limits::default());
+        assert!(pixels("again.png").unwrap().0 == pixels("drawn_2.png").unwrap().0, "{recorded}");
+        fs::remove_file(path("drawn_1.png")).unwrap();
+        fs::remove_file(path("drawn_2.png")).unwrap();
+        fs::remove_file(path(name)).unwrap();
+    }
+    assert!(!path("made").exists());
+}
+
 #[test]
 fn frames_that_are_done_are_not_drawn_again() {
     let shell = Shell::new();

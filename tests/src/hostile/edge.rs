@@ -17,6 +17,8 @@ pub enum Edge {
     Messages(&'static str),
     /// The output file cannot be written.
     File(&'static str),
+    /// A limit of the shell: address space in KiB, blocks of a file, processes.
+    Limit(&'static str),
     /// A signal comes after this many milliseconds, while a file is written.
     Signal {
         /// Its name, without SIG.
@@ -28,11 +30,15 @@ pub enum Edge {
     },
 }
 
+/// Signals that end a program, without SIG, and their numbers on Linux.
+const SIGNALS: [(&str, i32); 7] =
+    [("INT", 2), ("TERM", 15), ("HUP", 1), ("QUIT", 3), ("ALRM", 14), ("XCPU", 24), ("USR1", 10)];
+
 fn word(random: &mut Random, some: &[&'static str]) -> &'static str {
     some[random.below(some.len())]
 }
 
-/// The output file of a stage that a signal interrupts.
+/// The output file of a stage that a signal or a limit interrupts.
 pub const INTERRUPTED: &str = "interrupted.out";
 
 /// Closed standard input: Rust opens `/dev/null` in its place, so it is read as an empty scene.
@@ -48,18 +54,36 @@ impl Edge {
             4 => Self::Messages(word(random, &["2>&-", "2>/dev/full", "2</dev/null"])),
             5 => Self::File(word(random, &["/dev/full", ".", "missing/out", "scene.ug/out", ""])),
             6 | 7 => {
-                let (name, number) = *random.pick(&[("INT", 2), ("TERM", 15), ("HUP", 1)]);
+                let (name, number) = *random.pick(&SIGNALS);
                 Self::Signal { name, number, after_ms: random.below(12) as u64 }
             }
+            8 | 9 => Self::Limit(word(
+                random,
+                &[
+                    "ulimit -v 60000;",
+                    "ulimit -v 120000;",
+                    "ulimit -v 300000;",
+                    "ulimit -v 700000;",
+                    "ulimit -f 0;",
+                    "ulimit -f 1;",
+                    "ulimit -f 3;",
+                    "ulimit -u 2;",
+                ],
+            )),
             _ => Self::Plain,
         }
+    }
+
+    /// The command of the shell that sets a limit.
+    pub fn limit(self) -> &'static str {
+        if let Self::Limit(words) = self { words } else { "" }
     }
 
     /// The redirection in words of a shell.
     pub fn redirection(self) -> &'static str {
         match self {
             Self::Output(words) | Self::Input(words) | Self::Messages(words) => words,
-            Self::Plain | Self::Unread | Self::File(_) | Self::Signal { .. } => "",
+            Self::Plain | Self::Unread | Self::File(_) | Self::Limit(_) | Self::Signal { .. } => "",
         }
     }
 
@@ -67,7 +91,7 @@ impl Edge {
     pub fn arguments(self) -> Vec<String> {
         match self {
             Self::File(path) => vec!["-fo".to_owned(), path.to_owned()],
-            Self::Signal { .. } => vec!["-fo".to_owned(), INTERRUPTED.to_owned()],
+            Self::Limit(_) | Self::Signal { .. } => vec!["-fo".to_owned(), INTERRUPTED.to_owned()],
             _ => Vec::new(),
         }
     }
@@ -79,6 +103,6 @@ impl Edge {
 
     /// True if messages are kept.
     pub fn keeps_messages(self) -> bool {
-        !matches!(self, Self::Messages(_))
+        !matches!(self, Self::Messages(_)) && !self.limit().contains("-f")
     }
 }

@@ -2,7 +2,7 @@
 
 use ugrandom::Random;
 
-use super::options::{camera, flags, maybe, motion, numbers, word, words as line_of};
+use super::options::{camera, fisheye, flags, maybe, motion, numbers, word, words as line_of};
 use super::words;
 
 /// Numbered files that a film writes begin so.
@@ -50,6 +50,12 @@ pub fn film(random: &mut Random, kind: &str) -> Vec<String> {
     maybe(random, 12, &mut line, "-moments", moments);
     let count = word(random, &["1", "2", "9", "0"]);
     maybe(random, 15, &mut line, "-sheet", count);
+    let lens = word(random, &["-pan", "-cube", "-fish=360", "-fish=1e-300"]);
+    if random.one_in(10) {
+        line.extend(lens);
+    }
+    let caption = vec![words::name(random)];
+    maybe(random, 10, &mut line, "-cap", caption);
     flags(random, 8, &mut line, &["-loop", "-sp", "-lg", "-tb"]);
     output(random, &mut line);
     line
@@ -107,10 +113,10 @@ pub fn warp(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
         let arrangement = word(random, &["panorama", "strip", "cross", "sides"]);
         maybe(random, 6, &mut line, "-from", arrangement);
     }
-    let angles = if random.one_in(2) {
-        ["-180", "180", "-90", "90"].map(str::to_owned).to_vec()
-    } else {
-        numbers::<4>(random)
+    let angles = match random.below(4) {
+        0 | 1 => ["-180", "180", "-90", "90"].map(str::to_owned).to_vec(),
+        2 => ["-1e-9", "1e-9", "0", "1e-7"].map(str::to_owned).to_vec(),
+        _ => numbers::<4>(random),
     };
     maybe(random, 5, &mut line, "-part", angles);
     let law = word(random, &["report", "photon", "bolometric", "none"]);
@@ -123,7 +129,7 @@ pub fn warp(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     maybe(random, 4, &mut line, "--basis", basis);
     let format = word(random, &["ppm", "exr", "pfm", "hdr", "png16", "svg"]);
     maybe(random, 4, &mut line, "-dt", format);
-    let angle = if random.one_in(2) { word(random, &["180"]) } else { numbers::<1>(random) };
+    let angle = fisheye(random);
     maybe(random, 8, &mut line, "-fish", angle);
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);

@@ -6,7 +6,9 @@
 //! no input may break:
 //!
 //! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and
-//!   [`MEMORY_LIMIT`];
+//!   [`MEMORY_LIMIT`], and allocates no more than 64 MiB and 16 times the bytes of its input and
+//!   output;
+//! - limits of the shell (address space, processes, the size of files) cause errors, not panics;
 //! - with status 0 it has written something, and every program downstream reads it;
 //! - with another status it has written nothing to standard output, and says why;
 //! - if its output is lost (a full disk, a closed pipe), the status is not 0;

@@ -194,6 +194,14 @@ pub fn motion(random: &mut Random, line: &mut Vec<String>) {
     maybe(random, 8, line, "-an", anchor);
 }
 
+/// The angle of a fisheye: mostly possible.
+pub fn fisheye(random: &mut Random) -> Vec<String> {
+    match random.below(3) {
+        0 => numbers::<1>(random),
+        _ => word(random, &["180", "360", "359.99999999999994", "1e-300", "5e-324", "361"]),
+    }
+}
+
 /// Options of `ugphoton`.
 fn photon(random: &mut Random) -> Vec<String> {
     let side = |random: &mut Random| random.pick(&["1", "6", "7", "16"]).to_string();
@@ -211,7 +219,7 @@ fn photon(random: &mut Random) -> Vec<String> {
     maybe(random, 8, &mut line, "-rc", part);
     let distance = numbers::<1>(random);
     maybe(random, 10, &mut line, "--film-shutter", distance);
-    let angle = numbers::<1>(random);
+    let angle = fisheye(random);
     maybe(random, 10, &mut line, "-fish", angle);
     let distance = numbers::<1>(random);
     maybe(random, 6, &mut line, "-stereo", distance);
@@ -219,8 +227,8 @@ fn photon(random: &mut Random) -> Vec<String> {
     maybe(random, 12, &mut line, "--explain", pixel);
     let contrast = word(random, &["0", "0.1", "1", "2", "nan"]);
     maybe(random, 6, &mut line, "-ad", contrast);
-    let part = word(random, &["0", "1", "7", "4294967295"]);
-    maybe(random, 10, &mut line, "-crop", [part.clone(), part.clone(), part.clone(), part].concat());
+    let part = [(); 4].map(|()| random.pick(&["0", "1", "5", "7", "4294967295"]).to_string());
+    maybe(random, 10, &mut line, "-crop", part.to_vec());
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);
     flags(

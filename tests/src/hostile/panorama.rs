@@ -5,7 +5,7 @@ use std::fmt::Write;
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugrandom::Random;
 
-use super::{Files, bytes, words};
+use super::{Files, bytes, picture, words};
 
 /// A JPEG file of 64 x 32 pixels.
 const JPEG: &[u8] = include_bytes!("../../../crates/ugimage/tests/bars.jpg");
@@ -53,10 +53,68 @@ pub fn stars(random: &mut Random) -> String {
     text
 }
 
-/// A panorama of any format, sometimes of a shape that is none, or with light that is not finite.
+/// A panorama of any format, sometimes of a shape that is none, with light that is not finite, or
+/// with a header that lies about its size.
 pub fn file(random: &mut Random) -> Vec<u8> {
     let size = *random.pick(&[[64, 32], [16, 8], [2, 1], [48, 8], [32, 24], [8, 8], [1, 1], [40, 1]]);
-    encoded(random, size)
+    let mut bytes = encoded(random, size);
+    if random.one_in(5) {
+        let stated = *random.pick(&[
+            [1 << 14, 1 << 13],
+            [1 << 28, 1],
+            [1, 1 << 28],
+            [65_535, 4096],
+            [4000, 2000],
+            [0, 0],
+            [u32::MAX, u32::MAX],
+        ]);
+        state_size(&mut bytes, stated);
+        // Bytes without meaning, so that a file is long enough to be believed.
+        if random.one_in(3) {
+            let n_bytes = 1000 << random.below(10);
+            bytes.extend((0..n_bytes).map(|_| random.below(256) as u8));
+        }
+    }
+    bytes
+}
+
+/// Writes another size into the header of a picture.
+fn state_size(bytes: &mut Vec<u8>, [width, height]: [u32; 2]) {
+    match bytes.get(..4) {
+        Some([0x89, b'P', b'N', b'G']) => {
+            bytes[16..24].copy_from_slice(&[width.to_be_bytes(), height.to_be_bytes()].concat());
+            let checksum = picture::crc(&bytes[12..29]);
+            bytes[29..33].copy_from_slice(&checksum.to_be_bytes());
+        }
+        Some([0xff, 0xd8, ..]) => {
+            if let Some(at) = bytes.windows(2).position(|pair| matches!(pair, [0xff, 0xc0..=0xc2])) {
+                let [width, height] = [width, height].map(|side| side.min(65_535) as u16);
+                // Progressive, or not.
+                bytes[at + 1] = if width.is_multiple_of(2) { 0xc0 } else { 0xc2 };
+                bytes[at + 5..at + 9].copy_from_slice(&[height.to_be_bytes(), width.to_be_bytes()].concat());
+            }
+        }
+        Some([b'#', b'?', ..]) => {
+            if let Some(start) = bytes.windows(3).position(|word| word == b"-Y ")
+                && let Some(length) = bytes[start..].iter().position(|&byte| byte == b'\n')
+            {
+                let line = format!("-Y {height} +X {width}").into_bytes();
+                drop(bytes.splice(start..start + length, line));
+            }
+        }
+        Some([0x76, 0x2f, 0x31, 0x01]) => {
+            const KIND: &[u8] = b"Window\0box2i\0";
+            let ends = [width, height].map(|side| side.wrapping_sub(1).to_le_bytes()).concat();
+            for at in 0..bytes.len().saturating_sub(KIND.len() + 20) {
+                if bytes[at..].starts_with(KIND) {
+                    // The length of the attribute, and the first corner, come before the other.
+                    let corner = at + KIND.len() + 12;
+                    bytes[corner..corner + 8].copy_from_slice(&ends);
+                }
+            }
+        }
+        _ => {}
+    }
 }
 
 /// A panorama of a format in which all pixels are valid.

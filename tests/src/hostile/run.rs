@@ -25,6 +25,13 @@ const WAITING_LIMIT: Duration = Duration::from_secs(1800);
 /// Address space of each program, in KiB: 8 GB.
 pub const MEMORY_LIMIT: u64 = 8 << 20;
 
+/// Memory that each program may allocate, in KiB, and times the bytes of its input and output.
+const ALLOCATED: u64 = 64 << 10;
+const TIMES: u64 = 16;
+
+/// Memory for each thread, in KiB: its stack, and what the allocator keeps for it.
+const PER_THREAD: u64 = 4 << 10;
+
 /// SIGPIPE.
 const PIPE: i32 = 13;
 
@@ -80,7 +87,10 @@ fn pipe(
         let is_last = idx + 1 == case.stages.len();
         let edge = if is_last { case.edge } else { Edge::Plain };
         let mut words = words.clone();
-        words.extend(edge.arguments());
+        // Frames are files already.
+        if !words.iter().any(|word| word.starts_with(FRAMES)) {
+            words.extend(edge.arguments());
+        }
         if let Some(threads) = threads {
             // In place of a number that the case gives.
             if let Some(at) = words.iter().position(|word| word == "-nt") {
@@ -88,8 +98,9 @@ fn pipe(
             }
             words.extend(["-nt".to_owned(), threads.to_owned()]);
         }
-        let ended = stage(programs, &words, &input, folder, edge)?;
         let about = |finding: String| format!("{} ({edge:?}): {finding}", words.join(" "));
+        let n_read = input.len() + case.files.iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
+        let ended = within_memory(programs, &words, &input, folder, edge, n_read as u64).map_err(about)?;
         // Nothing is to be said of a scene that is right, and an empty one stays empty.
         // The frames of a film may be files.
         let is_silent = words.iter().any(|word| word == "check" || word.starts_with(FRAMES))
@@ -110,7 +121,7 @@ fn pipe(
         input = ended.output;
         if edge == Edge::Plain {
             for reader in readers(&words) {
-                let read = stage(programs, &reader, &input, folder, Edge::Plain)?;
+                let read = stage(programs, &reader, &input, folder, Edge::Plain, MEMORY_LIMIT)?;
                 let messages = String::from_utf8_lossy(&read.messages).into_owned();
                 // A valid scene may be empty.
                 if read.status.code() != Some(0) && !messages.contains("there is nothing to draw") {
@@ -121,6 +132,55 @@ fn pipe(
         }
     }
     Ok(Some(input))
+}
+
+/// Runs a stage within the memory for its input, and if that does not suffice within that for its
+/// output as well. `n_read`: bytes of its input.
+fn within_memory(
+    programs: &Path,
+    words: &[String],
+    input: &[u8],
+    folder: &Path,
+    edge: Edge,
+    n_read: u64,
+) -> Result<Ended, String> {
+    let allowed = |n_bytes: u64| ALLOCATED + n_threads(words) * PER_THREAD + TIMES * n_bytes / 1024;
+    let run = |memory: u64| stage(programs, words, input, folder, edge, memory);
+    let ended = run(allowed(n_read))?;
+    // Where a limit or a signal ends a program its output is not known.
+    if !lacks_memory(&ended.messages) || matches!(edge, Edge::Limit(_) | Edge::Signal { .. }) {
+        return Ok(ended);
+    }
+    let whole = run(MEMORY_LIMIT)?;
+    let n_frames = fs::read_dir(folder).map_err(self::words)?.flatten();
+    let n_frames = n_frames.filter(|entry| entry.file_name().to_string_lossy().starts_with(FRAMES));
+    let n_frames: u64 = n_frames.filter_map(|entry| Some(entry.metadata().ok()?.len())).sum();
+    let memory = allowed(n_read + whole.output.len() as u64 + n_frames);
+    let ended = run(memory)?;
+    if lacks_memory(&ended.messages) && !lacks_memory(&whole.messages) {
+        let messages = String::from_utf8_lossy(&ended.messages).into_owned();
+        return Err(format!("needs more than {memory} KiB\n{messages}"));
+    }
+    Ok(whole)
+}
+
+/// The threads of a program: those that it is told to start, and those of the machine.
+fn n_threads(words: &[String]) -> u64 {
+    let given = words.iter().position(|word| word == "-nt").and_then(|at| words.get(at + 1)?.parse().ok());
+    given.unwrap_or(0).min(1024) + thread::available_parallelism().map_or(1, |n| n.get() as u64) + 2
+}
+
+/// True if messages say that there is not enough memory.
+fn lacks_memory(messages: &[u8]) -> bool {
+    const WORDS: [&str; 5] = [
+        "memory allocation of ",
+        "not enough memory",
+        "out of memory",
+        "Cannot allocate memory",
+        "Resource temporarily unavailable",
+    ];
+    let messages = String::from_utf8_lossy(messages);
+    WORDS.iter().any(|words| messages.contains(words))
 }
 
 fn is_lax(words: &[String]) -> bool {
@@ -172,7 +232,7 @@ fn is_diagnostic(messages: &[u8]) -> bool {
 /// `is_silent`: success may come without output.
 fn check(program: &str, ended: &Ended, is_silent: bool, edge: Edge, folder: &Path) -> Result<(), String> {
     let messages = String::from_utf8_lossy(&ended.messages);
-    if let Edge::Signal { .. } = edge {
+    if matches!(edge, Edge::Limit(_) | Edge::Signal { .. }) {
         check_file(ended, folder)?;
     }
     let status = match (ended.status.code(), ended.status.signal(), edge) {
@@ -184,8 +244,11 @@ fn check(program: &str, ended: &Ended, is_silent: bool, edge: Edge, folder: &Pat
         }
         (None, signal, _) => return Err(format!("died of signal {signal:?}\n{messages}")),
     };
-    // A program that aborts ends with status 1. With this much memory, no case may.
-    if ["memory allocation of ", "overflowed its stack"].iter().any(|abort| messages.contains(abort)) {
+    // A program that aborts ends with status 1. With enough memory, no case may.
+    let is_short = matches!(edge, Edge::Limit(limit) if limit.contains("-v"));
+    if !is_short
+        && ["memory allocation of ", "overflowed its stack"].iter().any(|abort| messages.contains(abort))
+    {
         return Err(format!("aborted\n{messages}"));
     }
     match (status, ended.output.is_empty(), edge) {
@@ -253,11 +316,13 @@ fn stage(
     input: &[u8],
     folder: &Path,
     edge: Edge,
+    memory: u64,
 ) -> Result<Ended, String> {
     let messages = tempfile::tempfile().map_err(self::words)?;
     let output = tempfile::tempfile().map_err(self::words)?;
     let script = format!(
-        "ulimit -v {MEMORY_LIMIT}; ulimit -S -t {PROCESSOR_LIMIT}; exec \"$@\" {}",
+        "ulimit -v {MEMORY_LIMIT}; ulimit -d {memory}; ulimit -S -t {PROCESSOR_LIMIT}; {} exec \"$@\" {}",
+        edge.limit(),
         edge.redirection()
     );
     let mut child = Command::new("sh")

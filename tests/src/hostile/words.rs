@@ -69,6 +69,9 @@ pub fn name(random: &mut Random) -> String {
         4 => "ship:wing#2".to_owned(),
         5 => "\u{3b3}\u{2067}".to_owned(),
         6 => "\u{200f}a\u{200b}\u{2028}\u{61c}".to_owned(),
+        7 => {
+            (*random.pick(&["a\u{c}b", "a\u{fffe}", "a\\", "#a", "'a'", "$a", "a\u{85}b\u{2029}"])).to_owned()
+        }
         _ => format!("{}{}", random.pick(&["a", "b", "v", "red"]), random.below(12)),
     }
 }
