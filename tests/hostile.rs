@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use rayon::prelude::*;
 use ugmesh::Format;
 use ugrandom::Random;
-use ugtests::hostile::{Case, File};
+use ugtests::hostile::{Case, File, renderers};
 use ugtests::programs;
 
 /// Fails with all findings at once.
@@ -26,6 +26,18 @@ fn programs_hold() {
     // Cases that are all refused would test the messages alone.
     let n_drawn = results.iter().filter(|result| **result == Ok(true)).count();
     assert!((250..400).contains(&n_drawn), "{n_drawn} pipes succeed");
+}
+
+#[test]
+fn renderers_agree() {
+    const CASES: u64 = 150;
+    let results: Vec<_> = (0..CASES)
+        .into_par_iter()
+        .map(|seed| renderers::check(seed).map_err(|why| format!("{seed}: {why}")))
+        .collect();
+    assert_none(&results.iter().filter_map(|result| result.clone().err()).collect::<Vec<_>>());
+    let n_drawn = results.iter().filter(|result| **result == Ok(true)).count();
+    assert!(n_drawn > 75, "{n_drawn} show something");
 }
 
 #[test]

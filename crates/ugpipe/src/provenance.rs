@@ -66,6 +66,10 @@ pub(crate) fn recorded_name(path: Option<&Path>) -> String {
         Some(path) if is_below(path) => path.as_os_str(),
         Some(path) => path.file_name().unwrap_or_default(),
     };
+    if name.as_bytes().len() > 1 && name.as_bytes().starts_with(b"-") {
+        // Not an option.
+        return shell_os_word(Path::new(".").join(name).as_os_str());
+    }
     shell_os_word(name)
 }
 
@@ -218,6 +222,7 @@ mod tests {
         check(Some("/scenes/ship.ug"), "ship.ug");
         check(Some("../ship.ug"), "ship.ug");
         check(Some("a/../../ship.ug"), "ship.ug");
+        check(Some("-vel"), "./-vel");
         check(Some("}.ug"), r"$'\175.ug'");
     }
 

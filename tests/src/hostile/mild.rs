@@ -56,6 +56,12 @@ fn velocity(random: &mut Random) -> [String; 3] {
     (random.direction() * speed * 0.999_999_999_9).to_array().map(|part| part.to_string())
 }
 
+/// A scene of faces alone: one renderer draws no wires.
+pub fn faces(random: &mut Random) -> String {
+    let text = statements(random);
+    text.lines().filter(|line| !line.starts_with("w ")).map(|line| format!("{line}\n")).collect()
+}
+
 /// Bodies of tetrahedra and polygons, with colours, lights and velocities.
 fn statements(random: &mut Random) -> String {
     let mut text = String::new();

@@ -30,6 +30,7 @@ mod mild;
 mod options;
 mod panorama;
 mod picture;
+pub mod renderers;
 mod run;
 mod scene;
 mod words;

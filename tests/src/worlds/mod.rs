@@ -14,7 +14,7 @@ mod generate;
 mod light;
 mod mirror;
 mod parts;
-mod picture;
+pub mod picture;
 mod renderers;
 mod solids;
 pub mod spacetime;
