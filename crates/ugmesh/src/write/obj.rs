@@ -49,12 +49,12 @@ fn write_all(mesh: &PolygonMesh, groups: &[Group], text: &mut String) -> std::fm
         let group = &groups[group_of[row as usize]];
         if *name != group.name {
             name = &group.name;
-            writeln!(text, "g {}", word(name.as_deref()))?;
+            writeln!(text, "g {}", name.as_deref().unwrap_or("default"))?;
         }
         if *color != group.color {
             color = &group.color;
             // Programs that know no material of this name keep the colours of the vertices.
-            writeln!(text, "usemtl {}", word(color.as_deref()))?;
+            writeln!(text, "usemtl {}", color.as_deref().unwrap_or("default"))?;
         }
         // A face has normals at all its corners or at none.
         let has_normals = corners.iter().all(|corner| normals[corner.index()].is_some());
@@ -68,10 +68,4 @@ fn write_all(mesh: &PolygonMesh, groups: &[Group], text: &mut String) -> std::fm
         text.push('\n');
     }
     Ok(())
-}
-
-/// A name as one word.
-fn word(name: Option<&str>) -> String {
-    let word = super::one_line(name.unwrap_or("default")).replace(char::is_whitespace, "_");
-    if word.is_empty() { "_".to_owned() } else { word }
 }
