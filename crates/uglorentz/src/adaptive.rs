@@ -34,7 +34,7 @@ use crate::split::split;
 pub(crate) const MAX_PIECES: usize = 4_000_000;
 
 /// Pieces beyond the faces of the scene that a picture may have without pixels, and for each pixel.
-const PIECES_OF_PICTURE: [usize; 2] = [1 << 16, 64];
+const PIECES_OF_PICTURE: [usize; 2] = [1 << 18, 64];
 
 /// The limit of pieces for a picture of this size: more than can be seen in it, and
 /// [`MAX_PIECES`] at most.
