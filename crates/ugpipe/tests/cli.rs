@@ -463,13 +463,12 @@ fn the_next_run_deletes_what_was_left() {
     let linger = |seconds: &str| {
         let n_before = temporary().len();
         let child = command(&folder, &["ship.ug", "-fo", "out.ug", "-linger", seconds]).spawn().unwrap();
-        for _ in 0..2000 {
-            if temporary().len() > n_before {
-                return child;
-            }
+        let has_begun = (0..2000).any(|_| {
             thread::sleep(Duration::from_millis(5));
-        }
-        panic!("no temporary file appears");
+            temporary().len() > n_before
+        });
+        assert!(has_begun, "no temporary file appears");
+        child
     };
     let mut killed = linger("100");
     killed.kill().unwrap();
