@@ -132,7 +132,7 @@ fn commands_draw_the_same_whatever_names_are() {
             let mut film = Command::new(shell.programs.join("ugfilm"));
             film.args([
                 "-frames", "2", "-ti", "0..1", "-vel", ".5", "0", "0", "-in", "-sz", "160", "120", "-cap",
-                name,
+                &caption,
             ])
             .args(last)
             .current_dir(shell.folder.path());

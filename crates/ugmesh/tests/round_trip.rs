@@ -322,9 +322,9 @@ fn the_brightest_light_has_a_colour() {
 
 /// A scene with names and comments that readers of other programs trip over.
 const HOSTILE: &str = "{ a\u{c}b\u{2028}c\u{2029}d\u{85}e\u{fffe}f\u{ffff}\u{fdd0} \\\n  next \\ }
-c_rgb red#2 1 0 0.2; c_rgb grün 0 0.6 0.4;
+c_rgb red#2 1 0 0.2; c_rgb green_2 0 0.6 0.4;
 v a 0 0 0; v b 1 0 0; v c 1 1 0.5; v d 0 1 0.5;
-f #left (a b c) red#2; f right:船 (a c d) grün;";
+f #left (a b c) red#2; f right:wing (a c d) green_2;";
 
 /// Lines by the longest list of line ends that readers have (that of Python's `splitlines`).
 fn all_lines(text: &str) -> Vec<&str> {
