@@ -125,8 +125,8 @@ fn commands_draw_the_same_whatever_names_are() {
     }
     let path = |name: &str| shell.folder.path().join(name);
     for name in NAMES {
-        // In captions of films braces are places for numbers.
-        let caption = name.replace(['{', '}'], "?");
+        // In captions of films braces are places for numbers, and the font has no signs of direction.
+        let caption = name.replace(['{', '}', '\u{202e}', '\u{1b}'], "?");
         fs::copy(path("dice.ug"), path(name)).unwrap();
         let film = |last: &[&str]| {
             let mut film = Command::new(shell.programs.join("ugfilm"));
