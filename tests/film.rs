@@ -106,7 +106,7 @@ fn every_frame_is_the_picture_of_its_pipe() {
 
 /// Names of files and captions that shells, terminals and comments of scenes would take apart.
 const NAMES: [&str; 9] =
-    ["two words", "it's", "a\tb", "a\nb", "{a}", "$(touch made)", "\u{202e}gnp", "\u{1b}[2J\\", "-vel"];
+    ["two words", "it's", "a\tb", "a\nb", "{a}", "$(touch made)", "\u{202e}gnp", "\u{1b}[2J\\", "./-vel"];
 
 /// The printed command draws the same bytes, and so does the one that a picture records.
 #[test]
