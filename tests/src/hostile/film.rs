@@ -2,7 +2,7 @@
 
 use ugrandom::Random;
 
-use super::options::{camera, fisheye, flags, maybe, motion, numbers, word, words as line_of};
+use super::line::{camera, fisheye, flags, maybe, motion, numbers, word, words as line_of};
 use super::words;
 
 /// Numbered files that a film writes begin so.

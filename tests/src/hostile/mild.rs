@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use ugrandom::Random;
 
-use super::options::{MEASURED, flags, maybe, word, words};
+use super::line::{MEASURED, flags, maybe, word, words};
 use super::{Files, film, mesh, panorama, picture, scene};
 
 /// Files, the first of which is the input, and the stages of a pipe.

@@ -24,6 +24,7 @@ mod bytes;
 pub mod config;
 mod edge;
 mod film;
+mod line;
 pub mod memory;
 mod mesh;
 mod mild;

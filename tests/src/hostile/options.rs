@@ -2,10 +2,8 @@
 
 use ugrandom::Random;
 
-use super::{film, words};
-
-/// A second output file.
-pub const MEASURED: &str = "measured.csv";
+use super::line::{MEASURED, betas, camera, fisheye, flags, maybe, motion, numbers, word, words};
+use super::{film, words as text};
 
 /// The stages for an input of a kind.
 pub fn stages(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec<Vec<String>> {
@@ -58,35 +56,6 @@ fn programs(random: &mut Random, kind: &str, files: &[(String, Vec<u8>)]) -> Vec
     stages
 }
 
-/// A program and its options.
-pub fn words(program: &str, options: &[&str]) -> Vec<String> {
-    std::iter::once(program).chain(options.iter().copied()).map(str::to_owned).collect()
-}
-
-/// An option with some values, now and then.
-pub fn maybe(random: &mut Random, one_in: usize, line: &mut Vec<String>, option: &str, values: Vec<String>) {
-    if random.one_in(one_in) {
-        line.push(option.to_owned());
-        line.extend(values);
-    }
-}
-
-/// Numbers as text.
-pub fn numbers<const N: usize>(random: &mut Random) -> Vec<String> {
-    [(); N].map(|()| words::number(random)).to_vec()
-}
-
-fn betas(random: &mut Random) -> Vec<String> {
-    words::velocity(random).to_vec()
-}
-
-/// Some of these options without values, each now and then.
-pub fn flags(random: &mut Random, one_in: usize, line: &mut Vec<String>, options: &[&str]) {
-    for option in options {
-        maybe(random, one_in, line, option, Vec::new());
-    }
-}
-
 /// Limits on the size of scenes, possible and not.
 const LIMITS: [&str; 10] = [
     "text=100",
@@ -101,11 +70,6 @@ const LIMITS: [&str; 10] = [
     "\u{1b}[2J=1",
 ];
 
-/// One of some words.
-pub fn word(random: &mut Random, some: &[&str]) -> Vec<String> {
-    vec![(*random.pick(some)).to_owned()]
-}
-
 /// Options of every program.
 fn common(random: &mut Random, line: &mut Vec<String>) {
     flags(random, 20, line, &["-lax"]);
@@ -114,39 +78,24 @@ fn common(random: &mut Random, line: &mut Vec<String>) {
     maybe(random, 60, line, "-nt", threads);
 }
 
-/// Options of the camera.
-pub fn camera(random: &mut Random, line: &mut Vec<String>) {
-    let center = numbers::<3>(random);
-    maybe(random, 6, line, "-vc", center);
-    let eye = numbers::<3>(random);
-    maybe(random, 8, line, "-ep", eye);
-    let up = numbers::<3>(random);
-    maybe(random, 10, line, "-ud", up);
-    let angle = if random.one_in(3) { numbers::<2>(random) } else { numbers::<1>(random) };
-    maybe(random, 8, line, "-va", angle);
-    let name = vec![words::name(random)];
-    maybe(random, 30, line, "-cam", name);
-    flags(random, 8, line, &["-og"]);
-}
-
 fn sheet(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     let mut line = words("ugsheet", &[]);
     line.extend(files.iter().map(|(name, _)| name.clone()));
     let cols = vec![random.below(5).to_string()];
     maybe(random, 3, &mut line, "-cols", cols);
-    let title = vec![words::name(random)];
+    let title = vec![text::name(random)];
     maybe(random, 3, &mut line, "-title", title);
     let gap = if random.one_in(2) { numbers::<1>(random) } else { word(random, &["0", "3", "10000"]) };
     maybe(random, 5, &mut line, "-gap", gap);
     if random.one_in(4) {
         // Sometimes fewer than there are pictures.
         for _ in 0..files.len() - random.below(2) {
-            line.extend(["-label".to_owned(), words::name(random)]);
+            line.extend(["-label".to_owned(), text::name(random)]);
         }
     }
     let kind = word(random, &["auto", "names", "none"]);
     maybe(random, 6, &mut line, "-lb", kind);
-    let caption = vec![words::name(random)];
+    let caption = vec![text::name(random)];
     maybe(random, 5, &mut line, "-cap", caption);
     let size = word(random, &["4", "11.5", "1000", "1e300"]);
     maybe(random, 6, &mut line, "-ts", size);
@@ -165,7 +114,7 @@ fn mesh(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     maybe(random, 4, &mut line, "-fit", fit);
     let scale = numbers::<1>(random);
     maybe(random, 6, &mut line, "-scale", scale);
-    let name = vec![words::name(random)];
+    let name = vec![text::name(random)];
     maybe(random, 6, &mut line, "-name", name);
     let up = word(random, &["x", "y", "z"]);
     maybe(random, 6, &mut line, "-up", up);
@@ -177,29 +126,6 @@ fn mesh(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
 fn parse(random: &mut Random) -> Vec<String> {
     let command = *random.pick(&["check", "tidy", "flatten", "count"]);
     words("ugparse", &[command])
-}
-
-/// Options of motion.
-pub fn motion(random: &mut Random, line: &mut Vec<String>) {
-    let velocity = betas(random);
-    maybe(random, 2, line, "-vel", velocity);
-    let camera = betas(random);
-    maybe(random, 5, line, "-cv", camera);
-    let time = numbers::<1>(random);
-    maybe(random, 6, line, "-ti", time);
-    let anchor = match random.below(3) {
-        0 => numbers::<3>(random),
-        _ => word(random, &["eye", "origin", "center", "middle"]),
-    };
-    maybe(random, 8, line, "-an", anchor);
-}
-
-/// The angle of a fisheye: mostly possible.
-pub fn fisheye(random: &mut Random) -> Vec<String> {
-    match random.below(3) {
-        0 => numbers::<1>(random),
-        _ => word(random, &["180", "360", "359.99999999999994", "1e-300", "5e-324", "361"]),
-    }
 }
 
 /// Options of `ugphoton`.
@@ -229,7 +155,7 @@ fn photon(random: &mut Random) -> Vec<String> {
     maybe(random, 6, &mut line, "-ad", contrast);
     let part = [(); 4].map(|()| random.pick(&["0", "1", "5", "7", "4294967295"]).to_string());
     maybe(random, 10, &mut line, "-crop", part.to_vec());
-    let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
+    let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { text::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);
     flags(
         random,
@@ -293,7 +219,7 @@ fn rainbow(random: &mut Random) -> Vec<String> {
     maybe(random, 8, &mut line, "-bg", background);
     let curve = word(random, &["clip", "filmic"]);
     maybe(random, 8, &mut line, "-tc", curve);
-    let caption = vec![words::name(random)];
+    let caption = vec![text::name(random)];
     maybe(random, 10, &mut line, "-cap", caption);
     let width = numbers::<1>(random);
     maybe(random, 12, &mut line, "-lw", width);
@@ -306,7 +232,7 @@ fn rainbow(random: &mut Random) -> Vec<String> {
     let law = word(random, &["report", "photon", "bolometric", "none"]);
     maybe(random, 15, &mut line, "-br", law);
     flags(random, 20, &mut line, &["-pz", "-dp", "-vr", "-sp", "--no-doppler", "--no-flux"]);
-    let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { words::number(random) }];
+    let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { text::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);
     let samples = vec![(1 + random.below(3)).to_string()];
     maybe(random, 4, &mut line, "-aa", samples);

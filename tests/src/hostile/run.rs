@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use super::Case;
 use super::edge::{CLOSED, Edge, INTERRUPTED};
 use super::film::FRAMES;
-use super::options::MEASURED;
+use super::line::MEASURED;
 
 /// Processor time of each program, in seconds, on however busy a machine. Usual cases take
 /// milliseconds; the largest number of pieces of `uglorentz` takes half a minute in a development
