@@ -17,8 +17,8 @@ use ugscene::{MotionOptions, Scene};
 
 const SIZE: [u32; 2] = [64, 48];
 
-/// Exact pictures interpolate in single precision, and tabulate spectra over D: two thousandths of a
-/// channel, relative to the brightest of the picture.
+/// Exact pictures interpolate in single precision, and tabulate spectra over D: two thousandths of
+/// a channel, relative to the brightest of the picture.
 const EXACT: f64 = 2e-3;
 
 /// The pipe interpolates D and light within its tolerances.

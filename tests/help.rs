@@ -1,4 +1,4 @@
-//! What the programs print for `-h` and `--help`.
+//! The texts of `-h` and `--help`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 

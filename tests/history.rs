@@ -106,7 +106,7 @@ fn changed_and_missing_scenes_are_noted() {
     shell.run("mkdir sub; ugrainbow -sz 60 40 dice.ug > a.png; ugrainbow -sz 60 40 sub/../dice.ug > b.png");
     let messages = |script: &str| shell.run(script)[1].clone();
     assert_eq!(messages("ugsheet --history a.png"), "");
-    // Of a path with `..` only the file name is recorded.
+    // A path with `..` is recorded as its file name.
     assert_eq!(messages("ugsheet --history b.png"), "");
     let elsewhere = "ugsheet: note: `dice.ug` is not in this folder: run the pipe in its folder\n";
     assert_eq!(messages("cd sub; ugsheet --history ../a.png"), elsewhere);

@@ -70,7 +70,7 @@ fn stl(size: f64, place: DVec3) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// What `ugmesh` makes of a mesh.
+/// The scene that `ugmesh` makes of a mesh.
 fn converted(mesh: &[u8], format: Format, target: Target, stage: bool) -> Vec<u8> {
     let config = ugmesh::Config { format: Some(format), target, stage, ..ugmesh::Config::default() };
     ugmesh::run(&config, &Input::new("blob", mesh)).unwrap().bytes

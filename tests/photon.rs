@@ -118,7 +118,7 @@ fn check(name: &str, motion: Motion, shift: ColorShift) {
         if of_pipe[at] == of_rays[at] && difference <= 2e-3 * size {
             continue;
         }
-        // Of two coplanar faces rounding decides which one is seen.
+        // Rounding decides which of two coplanar faces is seen.
         let (of_pipe_depth, of_rays_depth) = (depths(&pipe)[at], depths(&rays)[at]);
         let is_coplanar = (of_pipe_depth - of_rays_depth).abs() <= 1e-6 * of_pipe_depth;
         if is_coplanar && of_pipe[at] != of_rays[at] {

@@ -15,8 +15,8 @@ use ugtests::programs;
 
 static PROGRAMS: LazyLock<PathBuf> = LazyLock::new(programs::of_this_profile);
 
-/// What stands for `@` in a template: characters that a terminal obeys, those that separate words
-/// as well, and a line end before what looks like a message.
+/// The replacements of `@` in a template: characters that a terminal obeys, those that separate
+/// words as well, and a line end before what looks like a message.
 const PAYLOADS: [&str; 3] = [
     "a\u{1b}[2J\u{1b}]0;t\u{7}\u{8}\u{7f}\u{80}\u{9b}31m\u{61c}\u{200b}\u{200e}\u{200f}\u{202a}\u{202e}\u{2066}\u{2069}\u{feff}b",
     "a\r\u{85}\t\u{b}\u{2028}\u{2029}b",

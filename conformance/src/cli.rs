@@ -99,7 +99,7 @@ impl ToolArgs for Args {
     }
 }
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }

@@ -24,8 +24,8 @@ struct Mistake {
     found_by: &'static str,
 }
 
-/// Some mistakes have no exact equivalent in our programs. M10 concerns renderers of panoramas; here
-/// it is introduced into the aberration itself, which the suite asks for.
+/// Some mistakes have no exact equivalent in our programs. M10 concerns renderers of panoramas;
+/// here it is introduced into the aberration itself, which the suite asks for.
 const MISTAKES: [Mistake; 17] = [
     Mistake {
         name: "M1",

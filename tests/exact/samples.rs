@@ -261,7 +261,8 @@ fn scenes_are_exact_for_a_camera_that_moves() {
     check(Case { camera: Some(0.3 * DVec3::NEG_Y), ..Case::new("dice") });
 }
 
-/// A black body at T seen with D is one at D·T: its light at T, times the ratio of their Y.  Eq. (P13)
+/// A black body at T seen with D is one at D·T: its light at T, times the ratio of their Y.  Eq.
+/// (P13)
 #[test]
 fn a_black_body_is_seen_at_another_temperature() {
     const KELVIN: f64 = 4000.0;

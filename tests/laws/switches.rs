@@ -55,7 +55,8 @@ fn near(got: f64, want: f64) -> bool {
 }
 
 /// Runs `ugdoppler` with default options and with a change, and compares the colours of every
-/// vertex. `law` receives [hue, saturation, value, factor] at rest, by default and with the change, and D.
+/// vertex. `law` receives [hue, saturation, value, factor] at rest, by default and with the change,
+/// and D.
 fn check_colors(
     change: impl Fn(&mut ugdoppler::Config),
     law: impl Fn([f64; 4], [f64; 4], [f64; 4], f64) -> bool,
@@ -118,7 +119,7 @@ fn brightness_laws_are_powers_of_d() {
             |config| config.shift = ColorShift::hues(true, law),
             |[_, saturation, value, _], full, changed, doppler| {
                 let power = libm::pow(doppler, power);
-                // Of linear light, or of display-encoded values.
+                // Linear light, or display-encoded values.
                 let [value, factor] = if law.acts_on_light() { [value, power] } else { [value * power, 1.0] };
                 let is_bright = near(changed[2], value) && near(changed[3], factor);
                 changed[..2] == [full[0], saturation] && is_bright

@@ -12,8 +12,8 @@ use ugtests::scenes::parse;
 
 const SIZE: [u32; 2] = [40, 30];
 
-/// Bodies in view of the origin, in one motion or in several; two lamps that rest with whatever they
-/// light, and one that has a velocity.
+/// Bodies in view of the origin, in one motion or in several; two lamps that rest with whatever
+/// they light, and one that has a velocity.
 fn scene(random: &mut Random, is_one_body: bool) -> String {
     let velocity = |random: &mut Random| {
         let beta = random.in_ball(0.6);

@@ -5,8 +5,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Imports between the modules of one folder: from each module to those it uses, each with the first
-/// file that imports it.
+/// Imports between the modules of one folder: from each module to those it uses, each with the
+/// first file that imports it.
 type Imports = BTreeMap<String, BTreeMap<String, String>>;
 
 /// The circles of imports in a crate, one message each. `files`: paths below its `src`, and their
@@ -128,8 +128,8 @@ fn exports(code: &str) -> BTreeMap<String, String> {
     exports
 }
 
-/// What a module uses of its crate, as names from the root: paths that begin with `crate`, `self` or
-/// `super`.
+/// The parts of its crate that a module uses, as names from the root: paths that begin with
+/// `crate`, `self` or `super`.
 fn used(module: &[String], code: &str) -> Vec<Vec<String>> {
     let mut used = Vec::new();
     for begin in ["crate::", "self::", "super::"] {
@@ -151,8 +151,8 @@ fn from_root(module: &[String], path: &[String]) -> Vec<String> {
     [base, &path[n_begin..]].concat()
 }
 
-/// The paths of a tree of imports: `a::b` and `a::c` of `a::{b, c}`, by their original names. The text
-/// may go on behind it.
+/// The paths of a tree of imports: `a::b` and `a::c` of `a::{b, c}`, by their original names. The
+/// text may go on behind it.
 fn tree(text: &str) -> Vec<Vec<String>> {
     let mut paths = Vec::new();
     // The names before each open brace, and those of the current path.

@@ -13,7 +13,7 @@ const PAGES: [(&str, [u32; 2]); 2] = [("docs/gallery.md", [640, 480]), ("docs/st
 /// Folder of the small pictures, beside the large ones.
 const SMALL: &str = "small";
 
-/// What to draw.
+/// The subject to draw.
 #[derive(clap::Args)]
 pub struct Args {
     /// Only pages whose path contains TEXT

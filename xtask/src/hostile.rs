@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use ugtests::hostile::Case;
 use ugtests::programs;
 
-/// What to run.
+/// The job to run.
 #[derive(clap::Args)]
 pub struct Args {
     /// Cases to run

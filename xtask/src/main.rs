@@ -79,8 +79,8 @@ enum Task {
         #[arg(long)]
         halves: bool,
     },
-    /// Write a textured sphere, and beside it the same as an observer in motion towards its pole sees
-    /// it from its middle
+    /// Write a textured sphere, and beside it the same as an observer in motion towards its pole
+    /// sees it from its middle
     Directions {
         /// Speed of the observer
         #[arg(long, value_name = "BETA", default_value_t = 0.9)]

@@ -126,7 +126,7 @@ impl Bodies {
     }
 }
 
-/// What a picture costs.
+/// The cost of a picture.
 #[derive(Clone, Copy)]
 struct Cost {
     /// From text to PNG.

@@ -57,7 +57,7 @@ pub struct Axis {
     pub label: fn(f64) -> String,
 }
 
-/// What is drawn at places x, y in the coordinates of the axes.
+/// Elements at places x, y in the coordinates of the axes.
 pub enum Mark {
     /// Points connected by lines of this width in pixels.
     Line(Vec<[f64; 2]>, RGBColor, u32),

@@ -25,7 +25,7 @@ use crate::mesh;
 /// Runs of each program alternately; the median counts.
 const ROUNDS: usize = 21;
 
-/// What is measured.
+/// The measured quantity.
 const ROWS: [&str; 3] = ["building", "single rays", "packets"];
 
 const WIDTH: usize = 1280;

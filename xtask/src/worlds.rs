@@ -6,7 +6,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 use ugtests::worlds::{LAWS, Law};
 
-/// What to check.
+/// The check to make.
 #[derive(clap::Args)]
 pub struct Args {
     /// Number of the first world; those of the tests begin at 0

@@ -69,7 +69,7 @@ struct Item {
     triangle: u32,
 }
 
-/// What is shared by all parts.
+/// Data that all parts share.
 struct Mesh<'a> {
     triangles: &'a [[u32; 3]],
     /// Positions in box coordinates.

@@ -148,7 +148,8 @@ impl Walk {
 /// Continues a search until it stops. With `EACH` it stops at every hit, otherwise it keeps the
 /// nearest.
 ///
-/// Parts of the ray are copied where they are used: by reference, single rays took a fifth more time.
+/// Parts of the ray are copied where they are used: by reference, single rays took a fifth more
+/// time.
 #[inline(always)]
 fn walk_on<S: Simd, const EACH: bool>(
     simd: S,

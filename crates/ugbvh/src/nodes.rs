@@ -12,9 +12,9 @@ pub const WIDTH: usize = 8;
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Node {
-    /// Rows 0 to 5: bits of the least x of each child, the greatest x, the least y, and so on; where
-    /// there is no child, of +∞ and −∞, which no ray hits. Row 6: the children. Row 7 is unused: with
-    /// eight rows, an index of three bits needs no bounds check.
+    /// Rows 0 to 5: bits of the least x of each child, the greatest x, the least y, and so on;
+    /// where there is no child, of +∞ and −∞, which no ray hits. Row 6: the children. Row 7 is
+    /// unused: with eight rows, an index of three bits needs no bounds check.
     rows: [[u32; WIDTH]; 8],
 }
 

@@ -283,7 +283,7 @@ impl<S: Simd> Frustum<S> {
     }
 }
 
-/// What a traversal does not change.
+/// The constants of a traversal.
 struct Search<'a, S: Simd> {
     simd: S,
     bvh: &'a Bvh,

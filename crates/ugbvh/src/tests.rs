@@ -310,7 +310,8 @@ fn among_coincident_triangles_the_first_is_hit() {
     assert!(bvh.nodes.len() < 200_000, "{}", bvh.nodes.len());
 }
 
-/// Of the rays that meet the outermost box, as many meet a box within it as its share of the surface.
+/// Of the rays that meet the outermost box, as many meet a box within it as its share of the
+/// surface.
 #[test]
 fn work_grows_with_the_logarithm_of_the_number_of_triangles() {
     let surface = |node: &Node, child| {

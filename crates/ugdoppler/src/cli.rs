@@ -90,7 +90,7 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// What the options ask for.
+    /// The configuration of the options.
     ///
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
@@ -128,7 +128,7 @@ impl Args {
     }
 }
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }

@@ -1,11 +1,11 @@
-//! What to compute, apart from the scene.
+//! The options of the filter.
 
 use glam::DVec3;
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugscene::HueScale;
 
-/// What to compute. [`Config::default`] is what the program does without options.
+/// The options of the filter. [`Config::default`] is what the program does without options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
     /// Velocity of faces and wires that carry none (`-vel`).
@@ -14,8 +14,8 @@ pub struct Config {
     pub eye: Option<DVec3>,
     /// Write wavelengths in nm instead of hues (`-gw`).
     pub wavelengths: bool,
-    /// How motion changes colours (`-sp`, `-br`, `--no-doppler`, `--no-flux`). With spectra, X, Y, Z
-    /// are written, and nothing is clipped.
+    /// How motion changes colours (`-sp`, `-br`, `--no-doppler`, `--no-flux`). With spectra, X, Y,
+    /// Z are written, and nothing is clipped.
     pub shift: ColorShift,
     /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
     pub repeat: bool,

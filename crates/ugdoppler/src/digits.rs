@@ -4,7 +4,7 @@
 /// distinguish it from others that are `step` apart, all if there is no step.
 pub(crate) fn digits(doppler: f64, step: Option<f64>) -> String {
     let Some(step) = step else { return format!("{doppler}").replace('.', "_") };
-    // So many that a unit in the last is below a step.
+    // The number of digits at which a unit in the last place is below a step.
     let places = (-libm::log10(step)).ceil().clamp(0.0, 20.0) as usize;
     few_digits(doppler, places).unwrap_or_else(|| format!("{doppler:.places$}").replace('.', "_"))
 }

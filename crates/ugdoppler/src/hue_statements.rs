@@ -215,7 +215,7 @@ impl<'s> HueStatements<'s> {
                         let tint = Tint::Wavelength(hue_to_wavelength(hue));
                         ColorValue::Hsv { value, tint, saturation, factor }
                     }
-                    // Of a grey any number will do.
+                    // A grey may have any hue.
                     other => other.with_tint_in(HueScale::Wavelengths),
                 };
             }

@@ -67,10 +67,10 @@ fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3]) -> Option<DVec3> {
 }
 
 impl VertexIrradiance {
-    /// What the lamps of a scene cause at its vertices.
+    /// The irradiance by the lamps of a scene at its vertices.
     ///
-    /// `rest`: position of each vertex, relative to the eye, (P4). `normals`: of [`split`]. Vertices
-    /// stay unlit if the caller stops it.
+    /// `rest`: position of each vertex, relative to the eye, (P4). `normals`: of [`split`].
+    /// Vertices stay unlit if the caller stops it.
     pub fn new(
         scene: &Scene,
         eye: DVec3,

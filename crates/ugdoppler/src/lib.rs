@@ -26,7 +26,8 @@
 //! let (scene, _) = ugdoppler::apply(scene, &config)?;
 //! let seen = String::from_utf8(ugparse::write(&scene))?;
 //! // It moves straight at the eye, so D = √3 and 546.1 nm is seen at 315.3 nm.
-//! assert!(seen.contains("c green#1_73205080756887") && seen.contains(" 1 315.29098200445"), "{seen}");
+//! assert!(seen.contains("c green#1_73205080756887") && seen.contains(" 1 315.29098200445"),
+//! "{seen}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -68,7 +69,7 @@ use vertices::doppler_factors;
 pub const PROVENANCE: Provenance<'static> =
     Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
-/// What a user should know about a scene that was coloured.
+/// A note on a coloured scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// In the order in which they are shown.

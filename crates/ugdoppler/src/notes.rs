@@ -1,8 +1,8 @@
-//! What a user should know about a scene that was coloured.
+//! Notes on a coloured scene.
 
 use std::fmt;
 
-/// What a user should know about a scene that was coloured.
+/// A note on a coloured scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// About the scene itself.

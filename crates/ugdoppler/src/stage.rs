@@ -1,4 +1,4 @@
-//! What the output says was done to it.
+//! The stage of the output.
 
 use glam::DVec3;
 use ugphysics::Velocity;

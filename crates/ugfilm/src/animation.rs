@@ -6,7 +6,7 @@ use gif::{Encoder as GifEncoder, Frame as GifFrame, Repeat};
 use png::{BitDepth, ColorType, Compression, Encoder as PngEncoder, Writer};
 use ugimage::Frame;
 
-/// What a film is made of.
+/// The frames of a film, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Shape {
     /// Width and height in pixels.

@@ -39,7 +39,7 @@ pub struct Shot {
 }
 
 impl Shot {
-    /// What the file of the frame says about its making.
+    /// The record in the file of the frame.
     pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
         if self.moments.is_empty() {
             return self.frame.metadata(subject);
@@ -83,7 +83,7 @@ impl Shot {
     }
 }
 
-/// What the file says about its making. No single pipe draws it, so it has none of the lines that
+/// The record in the file. No single pipe draws it, so it has none of the lines that
 /// can be run; the hash is that of the records of all moments.
 fn metadata(frame: &Pipe, moments: &[Pipe], subject: Subject<'_>) -> Metadata {
     let records: Vec<String> = moments.iter().map(|pipe| pipe.metadata(subject).comment).collect();

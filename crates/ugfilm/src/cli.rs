@@ -125,7 +125,7 @@ impl ToolArgs for Args {
     }
 }
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }
@@ -215,7 +215,7 @@ fn tell(summary: &Summary, context: &Context) {
     }
 }
 
-/// What was read.
+/// The input that was read.
 enum Read {
     /// A scene, and the SHA-256 of its whole text if it includes files.
     Scene(Box<Scene>, Option<String>),

@@ -29,7 +29,7 @@ const MEASURED_SIDE: u32 = 128;
 
 /// A film that can be drawn.
 pub struct Film<'s> {
-    /// What it shows.
+    /// The subject.
     pub subject: Subject<'s>,
     /// The commands of its frames.
     pub script: &'s Script,
@@ -41,7 +41,7 @@ pub struct Film<'s> {
     pub valid_since: Option<SystemTime>,
 }
 
-/// What became of the frames.
+/// The outcome of all frames.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Frames that were drawn.
@@ -54,7 +54,7 @@ pub struct Summary {
     pub notes: Vec<Note>,
 }
 
-/// What became of a frame.
+/// The outcome of a frame.
 enum Outcome {
     Drawn(Vec<Note>),
     Done,

@@ -105,8 +105,8 @@ fn history_of_whole(mut file: File) -> io::Result<Option<String>> {
 }
 
 /// Claims a frame against other processes that work on the same film, until the claim is dropped.
-/// `None` if another process draws it. Where files cannot be locked every process draws every frame,
-/// which does no harm: they write the same bytes.
+/// `None` if another process draws it. Where files cannot be locked every process draws every
+/// frame, which does no harm: they write the same bytes.
 pub fn claim(frame: &Path) -> Option<Claim> {
     Claim::new(&claim_of(frame))
 }

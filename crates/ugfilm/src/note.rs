@@ -1,6 +1,6 @@
-//! What the programs of a frame say about it.
+//! Notes of the programs of a frame.
 
-/// What a program says about a frame.
+/// A note of a program on a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// From `uglorentz`.

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::note::Note;
 use crate::program::{Item, Program};
 
-/// What a film shows.
+/// The subject of a film.
 #[derive(Clone, Copy)]
 pub enum Subject<'s> {
     /// A scene at rest.
@@ -41,7 +41,7 @@ impl Pipe {
         &self.programs
     }
 
-    /// What the file of the frame says about its making. Of a scene only the comments are used.
+    /// The record in the file of the frame. Of a scene only the comments are used.
     pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
         let mut remarks = match subject {
             Subject::Scene(Scene { remarks: Remarks { head, origin, .. }, .. }) => {

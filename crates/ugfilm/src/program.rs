@@ -7,7 +7,8 @@ use ugscene::{MotionOptions, Provenance, Scene};
 
 use crate::note::Note;
 
-/// Declares the programs: a variant for each with the options of its crate, and one with its errors.
+/// Declares the programs: a variant for each with the options of its crate, and one with its
+/// errors.
 macro_rules! programs {
     ($($(#[doc = $doc:literal])* $variant:ident($krate:ident): $error:literal,)+) => {
         /// A program of the family with its options, whose functions are called in this process.
@@ -59,7 +60,7 @@ programs! {
     Warp(ugwarp): "The panorama cannot be drawn.",
 }
 
-/// What goes from one program to the next.
+/// The data between two programs.
 pub enum Item<'s> {
     Scene(Box<Scene>),
     Panorama(&'s ugwarp::Opened),
@@ -86,7 +87,7 @@ impl Program {
         }
     }
 
-    /// What it makes of an item, and its warnings and notes; `None` if it reads something else.
+    /// Its output for an item, with its warnings and notes; `None` if it reads something else.
     ///
     /// # Errors
     /// The program fails.

@@ -24,7 +24,7 @@ const CAPTION: &str = "cap";
 /// Options for what is done to the light of a picture.
 pub const DONE_TO_LIGHT: &[&str] = &[CAPTION, "ex", "tc"];
 
-/// What is drawn in every frame.
+/// The subject of every frame.
 pub struct Script {
     /// The programs of the pipe, the last of which draws.
     tools: &'static [&'static Tool],
@@ -289,7 +289,7 @@ impl Commands {
     }
 }
 
-/// What the numbers of an option are.
+/// The kind of an option's numbers.
 pub fn quantity(name: &str) -> Quantity {
     if VELOCITIES.contains(&name) { Quantity::Velocity } else { Quantity::Plain }
 }

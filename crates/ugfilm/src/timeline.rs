@@ -13,7 +13,7 @@ pub enum Ease {
     Smooth,
 }
 
-/// What the numbers of an option are, which decides what lies between two of them.
+/// The kind of an option's numbers, which decides what lies between two of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Numbers of any kind.
@@ -41,7 +41,7 @@ impl Timeline {
     /// of time: `-10..10`.
     ///
     /// # Errors
-    /// What is wrong with the values.
+    /// The error in the values.
     pub fn new(words: Vec<String>, quantity: Quantity) -> Result<Self, String> {
         let values = |word: &String| word.split("..").map(finite).collect::<Result<Vec<f64>, _>>();
         if !words.iter().any(|word| word.contains("..") && values(word).is_ok()) {

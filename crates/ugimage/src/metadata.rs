@@ -1,6 +1,6 @@
 //! The text written beside the pixels.
 
-/// What a file records about its origin.
+/// The record in a file of its origin.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Metadata {
     /// Name and version of the program.

@@ -290,7 +290,8 @@ mod tests {
         assert!(read(&jpeg).unwrap_err().to_string().contains("header is wrong"));
     }
 
-    /// The smallest files of large pictures are read: of one colour, as packed as their formats allow.
+    /// The smallest files of large pictures are read: of one colour, as packed as their formats
+    /// allow.
     #[test]
     fn plain_pictures_are_read() {
         let frame = LinearFrame::new([2048, 1024], true, vec![[0.0, 0.0, 0.0, 1.0]; 2048 * 1024]);

@@ -33,7 +33,7 @@ impl SurfaceColor {
 pub enum Light<'a> {
     /// White light of this level, from no lamp.
     Level(f64),
-    /// What each of the lamps contributes.
+    /// The contribution of each lamp.
     Lamps(&'a [Irradiance], &'a Lamps),
 }
 
@@ -161,8 +161,9 @@ impl Appearance {
         HueColor { hue, wavelength_nm, saturation, value, factor: rest.factor }
     }
 
-    /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light. Under
-    /// a law that names a quantity it is given as light, since the light of lamps adds up.  Eq. (P14)
+    /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light.
+    /// Under a law that names a quantity it is given as light, since the light of lamps adds
+    /// up.  Eq. (P14)
     pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
         let doppler = 1.0 / stretch;
         if self.hue_shift.law.acts_on_light() {
@@ -231,8 +232,8 @@ impl Appearance {
     /// Linear red, green and blue of a weighted mean of spectra, where wavelengths are stretched by
     /// `stretch` = 1/D. White unless colours are spectra.
     ///
-    /// `parts`: rows of spectra with their weights. `place`: for the light of coloured lamps at rest
-    /// with the surface, point, normal and shift of lamps as for [`crate::Lighting::level`].
+    /// `parts`: rows of spectra with their weights. `place`: for the light of coloured lamps at
+    /// rest with the surface, point, normal and shift of lamps as for [`crate::Lighting::level`].
     pub fn seen_light(
         &self,
         parts: impl IntoIterator<Item = (u32, f64)>,

@@ -1,4 +1,4 @@
-//! What a colour statement stands for: a hue, light, or a spectrum.
+//! The value of a colour statement: a hue, light, or a spectrum.
 
 use glam::DVec3;
 use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
@@ -46,7 +46,7 @@ impl RestColor {
     /// Equal for equal colours.
     pub fn key(&self) -> [u64; 5] {
         let Hsv { hue, saturation, value } = self.hsv;
-        // Of light, the hue is clipped.
+        // The hue of light is clipped.
         let [a, b, c] = self.light.unwrap_or([hue, saturation, value]);
         let is_light = f64::from(u8::from(self.light.is_some()));
         [is_light, a, b, c, self.translucency].map(f64::to_bits)
@@ -148,8 +148,8 @@ pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
     }
 }
 
-/// The note on a scene where something is drawn or lit with a black body or spectrum, of which [`hsv`]
-/// uses the colour at rest only.
+/// The note on a scene where something is drawn or lit with a black body or spectrum, of which
+/// [`hsv`] uses the colour at rest only.
 pub fn spectra_note(scene: &Scene) -> Option<Note> {
     let has_spectrum =
         |color: &Color| matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });

@@ -5,7 +5,7 @@ use ugscene::{Face, Scene, VertexId};
 
 use crate::{Appearance, SurfaceColor, Swatch};
 
-/// What the corners of a face have in common.
+/// The common attributes of the corners of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Common {
     /// The tint of grey corners for interpolation: the mean of the coloured corners, so that the
@@ -36,7 +36,7 @@ impl Swatch {
 }
 
 impl Appearance {
-    /// What the corners of a face have in common.
+    /// The common attributes of the corners of a face.
     #[inline]
     pub fn common(&self, scene: &Scene, face: &Face) -> Common {
         let corners = scene.contours.corners(face.contours.clone());
@@ -53,8 +53,8 @@ impl Appearance {
         Common { grey_tint, translucency, is_light }
     }
 
-    /// As [`Appearance::common`], of a face that moves or not. Colours given as light have no hue to
-    /// shift: on moving bodies they are replaced by the nearest hue, except in spectral mode.
+    /// As [`Appearance::common`], of a face that moves or not. Colours given as light have no hue
+    /// to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode.
     pub fn common_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> Common {
         let common = self.common(scene, face);
         let is_light = common.is_light && (self.keeps_light() || !is_moving);

@@ -23,7 +23,7 @@ pub struct HueColor {
     pub factor: f64,
 }
 
-/// What motion changes in a colour that is a hue: wavelengths by (P11), the brightness by (P12).
+/// The changes by motion in a colour that is a hue: wavelengths by (P11), the brightness by (P12).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct HueShift {
     /// Wavelengths are divided by D.
@@ -94,8 +94,8 @@ impl HueShift {
     ///
     /// The light of each lamp is reflected and seen by itself: the colour of the surface times that
     /// of the lamp, its wavelength divided by D_l D, its brightness changed by the brightness law
-    /// for both factors, (P14). Then the colours are added: as linear light under a law that names a
-    /// quantity, else by [`HueColor::sum`].
+    /// for both factors, (P14). Then the colours are added: as linear light under a law that names
+    /// a quantity, else by [`HueColor::sum`].
     #[must_use]
     pub fn seen_lit(self, base: HueColor, doppler: f64, light: &[Irradiance], lamps: &[Lamp]) -> HueColor {
         let shift = Self { law: Brightness::None, ..self };
@@ -221,8 +221,8 @@ impl HueColor {
         Self { factor: most, ..Self::amplified(mixed, srgb_encode(all / most)) }
     }
 
-    /// The first of the strongest parts, where nothing is visible: its wavelength is kept, since another
-    /// shift may bring it into view.
+    /// The first of the strongest parts, where nothing is visible: its wavelength is kept, since
+    /// another shift may bring it into view.
     fn strongest(parts: &[Self], first: &Self, strength: impl Fn(&Self) -> f64) -> Self {
         parts.iter().fold(*first, |best, part| if strength(part) > strength(&best) { *part } else { best })
     }

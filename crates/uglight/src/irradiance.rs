@@ -1,4 +1,4 @@
-//! What lamps, at rest and in motion, contribute to the light on a point of a surface.  Eq. (P14)
+//! Contributions of lamps, at rest and in motion, to the light on a point of a surface.  Eq. (P14)
 
 use glam::DVec3;
 use ugphysics::{SkyRing, ambient_illumination, compose, illumination, illumination_from_afar};
@@ -50,7 +50,7 @@ pub struct IncidentLamp {
 }
 
 impl SurfaceElement {
-    /// What each lamp contributes, in their order; nothing from those behind the surface.
+    /// The contribution of each lamp, in their order; none of those behind the surface.
     #[must_use]
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());

@@ -18,7 +18,7 @@ pub const DEFAULT_FROM_EYE: f64 = 0.7;
 /// A light of a scene, ready to compute with.
 #[derive(Clone, Debug)]
 pub struct Lamp {
-    /// What kind of light, and where.
+    /// The kind of light, and its place.
     pub place: LampPlace,
     /// Level of its light on a white surface at normal incidence.
     pub intensity: f64,
@@ -49,17 +49,17 @@ pub struct FallOff {
 }
 
 impl FallOff {
-    /// The light of a lamp of that radius, whose level is its intensity at the distance `reference`,
-    /// above 0. The level is largest at the surface of the lamp; for a point it is limited to 10¹²
-    /// times the intensity, so no light is infinite.
+    /// The light of a lamp of that radius, whose level is its intensity at the distance
+    /// `reference`, above 0. The level is largest at the surface of the lamp; for a point it is
+    /// limited to 10¹² times the intensity, so no light is infinite.
     pub fn new(reference: f64, radius: f64) -> Self {
         /// Least distance, in units of the reference distance.
         const LEAST: f64 = 1e-6;
         Self { reference, least: radius.max(LEAST * reference) }
     }
 
-    /// The part of the intensity that arrives at a distance in the rest frame of the lamp: r₀²/r''².
-    /// Eq. (P14)
+    /// The part of the intensity that arrives at a distance in the rest frame of the lamp:
+    /// r₀²/r''². Eq. (P14)
     #[inline]
     pub fn at(self, rest_distance: f64) -> f64 {
         let part = self.reference / rest_distance.max(self.least);
@@ -125,8 +125,8 @@ impl std::ops::Deref for Lamps {
     }
 }
 
-/// True if light of the scene has another spectrum than daylight, so that with spectra it multiplies
-/// colours wavelength by wavelength.
+/// True if light of the scene has another spectrum than daylight, so that with spectra it
+/// multiplies colours wavelength by wavelength.
 #[must_use]
 pub fn has_colored_lamps(scene: &Scene) -> bool {
     scene.lights.iter().filter_map(|light| light.color).any(|id| {

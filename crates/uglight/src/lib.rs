@@ -7,13 +7,14 @@
 //! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`],
 //! [`spectrum`]).
 //!
-//! What motion makes of a colour depends on the model: a [`HueColor`] has one wavelength, which a
-//! [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a
+//! The effect of motion on a colour depends on the model: a [`HueColor`] has one wavelength, which
+//! a [`HueShift`] divides by the Doppler factor D; a [`SpectralColor`] is shifted as a whole by a
 //! [`SpectralShift`]; a [`ColorShift`] is either. All hold for a vertex, a sample or a ray.
 //!
-//! A renderer has the colours of a scene as an [`Appearance`]. It interpolates them between corners;
-//! [`Appearance::seen`] is the apparent colour of a sample, which is lit afterwards, and
-//! [`Appearance::light`] the light that a ray meets, of a [`SurfaceColor`] under lamps behind filters.
+//! A renderer has the colours of a scene as an [`Appearance`]. It interpolates them between
+//! corners; [`Appearance::seen`] is the apparent colour of a sample, which is lit afterwards, and
+//! [`Appearance::light`] the light that a ray meets, of a [`SurfaceColor`] under lamps behind
+//! filters.
 //!
 //! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
 //! statements of a [`Scene`].

@@ -2,7 +2,7 @@
 
 use ugscene::{LightKind, Scene};
 
-/// What the lights of a scene are called, in their order: as in their statement, else by their kind
+/// The names of the lights of a scene, in their order: as in their statement, else by their kind
 /// and their number among those of this kind, such as `local 2`. In a scene without lights, the
 /// default ones.
 pub fn light_names(scene: &Scene) -> Vec<String> {

@@ -12,8 +12,8 @@ use crate::{Irradiance, Lamp, LampPlace, Lamps, light_names};
 /// the rest frame of a face, with rest positions (P4) and rest normals, so a moving face is lit as
 /// if it stood still. Local lights are points, without a fall-off with distance.
 ///
-/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or linear light: a
-/// colour given as light, and every colour under a law that names a quantity. So every light has
+/// The level multiplies the value of a hue, which is display-encoded, as in 1988; or linear light:
+/// a colour given as light, and every colour under a law that names a quantity. So every light has
 /// its colour in both forms.
 #[derive(Clone, Debug)]
 pub struct Lighting {
@@ -29,8 +29,8 @@ pub struct Lighting {
 impl Lighting {
     /// The lights of the scene, or the default ones, see [`Lamps::or_default`].
     ///
-    /// `eye`: in scene coordinates. `forward`: unit vector along the view. `law`: the brightness law
-    /// of hues, which determines whether levels multiply their linear light.
+    /// `eye`: in scene coordinates. `forward`: unit vector along the view. `law`: the brightness
+    /// law of hues, which determines whether levels multiply their linear light.
     pub fn new(scene: &Scene, eye: DVec3, forward: DVec3, law: Brightness) -> Self {
         let all = Lamps::or_default(scene, eye, forward, false);
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
@@ -55,7 +55,7 @@ impl Lighting {
         self.colored.as_deref().unwrap_or_default()
     }
 
-    /// What each of the [coloured lamps](Self::colored_lamps) contributes. The arguments: as of
+    /// The contributions of the [coloured lamps](Self::colored_lamps). The arguments: as of
     /// [`Lighting::level`].
     pub fn irradiances(&self, point: DVec3, normal: DVec3, shift: DVec3) -> Vec<Irradiance> {
         let irradiance = |(row, lamp): (usize, &Lamp)| Irradiance {
@@ -92,8 +92,8 @@ impl Lighting {
     /// on the side that is seen, or zero for a surface without one.
     /// `shift`: of lamps for the body of the surface, see [`ugscene::RestFrames::lamp_shift`].
     /// `is_light`: of a colour given as light. Levels are linear for those, and for hues if the
-    /// lighting [acts on light](Self::acts_on_light); otherwise they multiply display-encoded values.
-    /// Level = Σ ambient + Σ intensity · max(0, n·l).
+    /// lighting [acts on light](Self::acts_on_light); otherwise they multiply display-encoded
+    /// values. Level = Σ ambient + Σ intensity · max(0, n·l).
     #[inline]
     pub fn level(&self, point: DVec3, normal: DVec3, shift: DVec3, is_light: bool) -> DVec3 {
         // Two loops, each with its colour inlined, because this runs for every corner of the scene.

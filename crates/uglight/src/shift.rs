@@ -52,7 +52,7 @@ impl ColorShift {
         matches!(self, Self::Spectra(_))
     }
 
-    /// What a scene says of colours that it was applied to. `unit`: of their hues. `lights`: the light
+    /// The stage of colours that it was applied to. `unit`: of their hues. `lights`: the light
     /// of lamps is in them.
     #[must_use]
     pub fn seen_colors(self, unit: HueScale, lights: bool) -> SeenColors {

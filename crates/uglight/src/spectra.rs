@@ -57,9 +57,9 @@ impl Spectra {
 
     /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P14), (P19)
     ///
-    /// `place`: under the [coloured lamps](Self::with_lamps), if the row is to be seen in their light:
-    /// point, normal and shift of lamps as for [`crate::Lighting::level`], and ln D is then within
-    /// the reach. Black bodies and samples are not lit.
+    /// `place`: under the [coloured lamps](Self::with_lamps), if the row is to be seen in their
+    /// light: point, normal and shift of lamps as for [`crate::Lighting::level`], and ln D is then
+    /// within the reach. Black bodies and samples are not lit.
     pub fn light(&self, row: u32, ln_doppler: f64, place: Option<[DVec3; 3]>) -> DVec3 {
         // Rounding may exceed the rapidity slightly.
         let is_near = ln_doppler.abs() <= self.reach + 1e-9;
@@ -120,8 +120,8 @@ impl Spectra {
         self.colors[color_row(strongest.and_then(|(color, _)| color))].spectrum()
     }
 
-    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue. `seen`: of the row
-    /// of a colour.
+    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue. `seen`: of the
+    /// row of a colour.
     fn mean(&self, row: u32, seen: impl Fn(usize) -> DVec3) -> DVec3 {
         let parts = self.rows[row as usize].parts();
         let xyz: DVec3 = parts.map(|(color, share)| share * seen(color_row(color))).sum();

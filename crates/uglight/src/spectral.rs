@@ -6,8 +6,8 @@ use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
 
 use crate::{Irradiance, Lamp, spectrum};
 
-/// What motion changes in a spectrum, L(λ) = D⁵ L'(λD): wavelengths, and the radiance at each.  Eq.
-/// (P12)
+/// The changes by motion in a spectrum, L(λ) = D⁵ L'(λD): wavelengths, and the radiance at
+/// each.  Eq. (P12)
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SpectralShift {
     /// L'(λD) instead of L'(λ).

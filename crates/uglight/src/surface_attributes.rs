@@ -1,4 +1,4 @@
-//! What vertices look like and where they rest.
+//! Colours and rest positions of vertices.
 
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ pub struct SurfaceAttributes {
     swatches: Vec<Swatch>,
     /// For each vertex a row of the swatches; most vertices share theirs with others.
     rows: Vec<u32>,
-    /// Row of the colour of what has none; behind those of the scene.
+    /// Row of white, the default colour; it follows the scene's colours.
     white: u32,
     rest: Vec<DVec3>,
     frames: RestFrames,
@@ -53,8 +53,8 @@ impl SurfaceAttributes {
         mixtures.into_iter().map(|shares| shares.of_spectra(scene)).collect()
     }
 
-    /// True if hues are shifted, and a face or one of `wires` that moves has a black body or a sampled
-    /// spectrum, which has no hue.
+    /// True if hues are shifted, and a face or one of `wires` that moves has a black body or a
+    /// sampled spectrum, which has no hue.
     pub fn has_moving_spectra(&self, scene: &Scene, wires: &[Wire], shift: ColorShift) -> bool {
         let is_hue = matches!(shift, ColorShift::Hues(shift) if shift != HueShift::NONE);
         let is_spectrum = |color: ColorId| {

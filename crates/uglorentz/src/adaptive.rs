@@ -160,7 +160,8 @@ fn in_order((a, b): (u32, u32)) -> (u32, u32) {
     (a.min(b), a.max(b))
 }
 
-/// The squared length of an edge in rest coordinates. Infinite values are replaced by the largest number.
+/// The squared length of an edge in rest coordinates. Infinite values are replaced by the largest
+/// number.
 fn length_squared(mesh: &RefinedMesh, (a, b): (u32, u32)) -> f64 {
     (mesh.point(a).rest - mesh.point(b).rest).length_squared().min(f64::MAX)
 }

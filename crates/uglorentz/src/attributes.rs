@@ -53,7 +53,8 @@ pub(crate) fn add_vertices(
 }
 
 /// The shades of the vertices of a scene, and the colours in them, from which those of new vertices
-/// are interpolated; `None` if no new vertex needs that, because vertices and faces have their colours and meet no others.
+/// are interpolated; `None` if no new vertex needs that, because vertices and faces have their
+/// colours and meet no others.
 pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shares)>> {
     let mut has_color = scene.vertices.iter().map(|vertex| vertex.color.is_some());
     let first = has_color.next()?;
@@ -72,7 +73,7 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
     Some(shades.zip(shares).collect())
 }
 
-/// What a vertex looks like at rest.
+/// The look of a vertex at rest.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shade {
     /// The statement it is given by, or `Some(None)` for white; `None` if there is no statement.
@@ -238,7 +239,7 @@ impl ColorMixer {
         let color = ColorId::from_index(scene.colors.len());
         let RestColor { translucency, .. } = shade.rest;
         scene.colors.push(Color { name, value: shade.rest.value(), translucency });
-        // Of colours in ascending order, as the scene requires.
+        // Colours in ascending order, as the scene requires.
         scene.mixes.push(Mix { color, parts });
         color
     }

@@ -113,7 +113,7 @@ const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 .9 0 -ti -2 street.ug | ugrainbow > earlier.png   # two units of time earlier
   uglorentz -cv 0 .7 0 -an center traffic.ug | ugrainbow > drive.png   # the camera moves";
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }
@@ -177,7 +177,7 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// What the options ask for.
+    /// The configuration of the options.
     ///
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.

@@ -1,4 +1,4 @@
-//! What `apply` does: velocities, eye, time, subdivision.
+//! Options of `apply`: velocities, eye, time, subdivision.
 
 use glam::DVec3;
 use ugscene::{Anchor, CameraOptions, Geometry, MotionOptions};
@@ -11,7 +11,7 @@ pub const DEFAULT_ERROR: f64 = 0.1e-3;
 /// to distinguish wavelengths that differ by 1 nm (W. D. Wright and F. H. G. Pitt, 1934).
 pub const DEFAULT_COLOR_ERROR: f64 = 1.5e-3;
 
-/// What to do.
+/// The options of the filter.
 #[derive(Clone, Debug)]
 pub struct Config {
     /// Velocity of everything, fraction of c; overrides velocities in the scene (`-vel`).

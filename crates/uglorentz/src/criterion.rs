@@ -50,7 +50,7 @@ impl Bounds {
         &self.tolerances[point.body.index()]
     }
 
-    /// What is visible of a flat piece and its edges; `None` if it is outside the view.
+    /// The visible parts of a flat piece and its edges; `None` if it is outside the view.
     pub(crate) fn shown(&self, motion: &RelativeMotion, corners: &[&Point]) -> Option<Shown> {
         if self.view_volume.is_outside(motion, corners) {
             return None;
@@ -189,7 +189,7 @@ impl Criterion<'_, '_> {
         line.edges().map(|(a, b)| self.bends(a, b)).collect()
     }
 
-    /// What bends in a piece, and is visible.
+    /// The bent and visible parts of a piece.
     pub(crate) fn piece(&self, shape: &Shape) -> Verdict {
         let mut verdict = Verdict::default();
         let motion = self.mesh.motion(shape.corners()[0]);

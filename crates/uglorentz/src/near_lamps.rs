@@ -3,7 +3,8 @@
 //! Programs downstream add light to the colours of vertices and interpolate it linearly. The light
 //! of a lamp on a face with normal n is n·l D_l F, with l towards the lamp, D_l of (P14), and F the
 //! fall-off of its light with distance, if it has one. Faces that share an edge have different
-//! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional and ambient light do not change along an edge.
+//! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional and
+//! ambient light do not change along an edge.
 
 use glam::DVec3;
 use uglight::{FallOff, LampPlace, Lamps};
@@ -106,8 +107,8 @@ impl NearLamps {
 
 impl NearLamp {
     /// The relative errors of light and wavelength, interpolated linearly between the ends. That of
-    /// light is relative to the light at the point if it is brighter than the intensity of the lamp,
-    /// else to that.  (E6)
+    /// light is relative to the light at the point if it is brighter than the intensity of the
+    /// lamp, else to that.  (E6)
     fn error(&self, a: DVec3, b: DVec3, motion: &RelativeMotion, shift: DVec3) -> f64 {
         let light = |point: DVec3| self.light(point, motion, shift);
         // At the lamp itself the direction is undefined.

@@ -87,8 +87,8 @@ pub(crate) enum Cut {
 
 /// A face as triangles and convex quadrilaterals, in its rest plane. `None` if it has no corners.
 ///
-/// `is_even`: its corners have the same colour and normal. Only then is a quadrilateral cut as such:
-/// else a renderer interpolates in its triangles, and so do new vertices.
+/// `is_even`: its corners have the same colour and normal. Only then is a quadrilateral cut as
+/// such: else a renderer interpolates in its triangles, and so do new vertices.
 pub(crate) fn shape(
     scene: &Scene,
     face: &Face,

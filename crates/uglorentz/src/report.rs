@@ -1,10 +1,10 @@
-//! What was done.
+//! Statistics of a run.
 
 use std::fmt::{self, Display, Formatter};
 
 use ugscene::DefaultCamera;
 
-/// What [`crate::apply`] did.
+/// Statistics of [`crate::apply`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Vertices added by subdivision.

@@ -136,8 +136,8 @@ mod tests {
     use crate::near_lamps::NearLamps;
     use crate::relative_motion::{Point, RelativeMotion};
 
-    /// A triangle is divided into four in the way whose inner edges have the smallest sum of errors,
-    /// and the pieces cover it.
+    /// A triangle is divided into four in the way whose inner edges have the smallest sum of
+    /// errors, and the pieces cover it.
     #[test]
     fn inner_edges_have_the_smallest_errors() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;

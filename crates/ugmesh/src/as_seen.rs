@@ -1,4 +1,4 @@
-//! What a scene as seen has for other programs: normals of its seen shape, and its camera.
+//! Data of a scene as seen for other programs: normals of its seen shape, and its camera.
 
 use glam::DVec3;
 use ugscene::{

@@ -14,7 +14,7 @@ pub enum Error {
     UnknownFormat {
         /// The name of the input for messages.
         name: String,
-        /// What it is instead of a mesh, if that is known.
+        /// The kind of file it is instead of a mesh, if that is known.
         foreign: Option<Foreign>,
     },
     /// Input and output are both UniGrafix.
@@ -25,7 +25,7 @@ pub enum Error {
         name: String,
         /// The format it was read as.
         format: Format,
-        /// What is wrong, and where.
+        /// The error, and its place.
         problem: Problem,
     },
     /// The UniGrafix text has errors.
@@ -43,7 +43,7 @@ pub enum Error {
 pub struct Problem {
     /// The line of a text file, counted from 1.
     pub line: Option<usize>,
-    /// What is wrong, and what to do.
+    /// The error, and the remedy.
     pub what: String,
 }
 

@@ -95,7 +95,7 @@ pub struct Input<'a> {
     pub read_file: ReadFile<'a>,
     /// Resolves the `include` statements of UniGrafix.
     pub resolve_includes: ResolveIncludes<'a>,
-    /// What the history begins with, unless a scene has one.
+    /// The origin with which the history begins, unless a scene has one.
     pub origin: Option<Origin>,
     /// For the history of the scene.
     pub provenance: Provenance<'a>,

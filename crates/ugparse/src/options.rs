@@ -134,8 +134,8 @@ impl Limits {
         self
     }
 
-    /// The remedy if a limit is reached, and whether it can be raised; `else_do`: the alternative to
-    /// that.
+    /// The remedy if a limit is reached, and whether it can be raised; `else_do`: the alternative
+    /// to that.
     pub(crate) fn remedy(&self, limit: Limit, else_do: &str) -> (String, bool) {
         let value = self.get(limit);
         let unit = if value == 1 { limit.unit().trim_end_matches('s') } else { limit.unit() };

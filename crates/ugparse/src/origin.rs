@@ -1,4 +1,5 @@
-//! What the history of a scene begins with: the hash and the name of the first input of a pipe.
+//! The origin of a scene, with which its history begins: the hash and the name of the first input
+//! of a pipe.
 
 use std::thread;
 

@@ -517,7 +517,7 @@ struct Next<'t> {
     at: Input<'t>,
     /// The end of the last word before it.
     end: Input<'t>,
-    /// What was expected there.
+    /// The expected input there.
     wanted: &'static str,
 }
 

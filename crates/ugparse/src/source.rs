@@ -11,7 +11,7 @@ pub struct Source {
     pub name: String,
     /// The bytes of the file. Comments and escapes may contain any bytes.
     pub text: Vec<u8>,
-    /// What the history of the scene will begin with, unless it has one.
+    /// The origin with which the history of the scene will begin, unless it has one.
     pub origin: Option<Origin>,
 }
 

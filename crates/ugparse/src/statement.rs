@@ -76,7 +76,7 @@ pub(crate) struct ColorStatement {
     pub translucency: f64,
 }
 
-/// What a colour is mixed of: its name, and those of the parts with their shares.
+/// The parts of a mixed colour: its name, and those of the parts with their shares.
 #[derive(Debug)]
 pub(crate) struct MixStatement {
     pub color: Span,

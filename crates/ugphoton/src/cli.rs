@@ -58,8 +58,8 @@ pub struct Args {
 
     /// Accepted as in 1988, without effect: cells of a spatial subdivision
     ///
-    /// Rays find what they hit in a bounding-volume hierarchy, which needs no options. In 1988, too,
-    /// any N had the effect of -1: no subdivision.
+    /// Rays find what they hit in a bounding-volume hierarchy, which needs no options. In 1988,
+    /// too, any N had the effect of -1: no subdivision.
     #[arg(long, value_name = "N", allow_hyphen_values = true, value_parser = integer, help_heading = RAYS)]
     cn: Option<i32>,
 
@@ -165,7 +165,7 @@ const EXAMPLES: &str = "Examples:
   ugphoton -vel .6 0 0 -in --no-shadows -lg ship.ug > legend.png
   ugphoton -vel 0 -.2 0 -in -dt exr -ch D,time ship.ug > light.exr";
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }
@@ -192,8 +192,8 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// What the options ask for. `output`: the file whose ending is the format unless an option
-    /// gives it.
+    /// The configuration of the options. `output`: the file whose ending is the format unless an
+    /// option gives it.
     ///
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.

@@ -18,7 +18,7 @@ pub struct Config {
     pub picture: PictureOptions,
     /// Reflection, refraction and shadows.
     pub rays: RayOptions,
-    /// What is interpolated between corners of different colour.
+    /// The quantity that is interpolated between corners of different colour.
     pub interpolation: Interpolation,
     /// Meaning of the hue fields of `c` statements.
     pub hue_scale: HueScale,

@@ -11,8 +11,8 @@ use crate::world::{Faces, World};
 
 /// Rays from a point inside a closed surface leave it once more than they enter it, in every
 /// direction. Surfaces that are not closed, such as a single pane, are told apart by the
-/// directions: they cover some of them only. One is near each half of an axis; none is along an axis
-/// or a diagonal.
+/// directions: they cover some of them only. One is near each half of an axis; none is along an
+/// axis or a diagonal.
 const DIRECTIONS: [DVec3; 7] = [
     DVec3::new(0.307, 0.531, 0.790),
     DVec3::new(-0.913, 0.227, 0.339),

@@ -1,4 +1,4 @@
-//! What is seen at the middles of pixels: for channels, legends and outlines.
+//! Surfaces at the middles of pixels: for channels, legends and outlines.
 
 use rayon::prelude::*;
 use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
@@ -7,7 +7,7 @@ use ugscene::BodyId;
 use crate::path::Ray;
 use crate::scenery::Scenery;
 
-/// What is seen at the middle of each pixel.
+/// The surface at the middle of each pixel.
 pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
     let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
     (0..middles.len()).into_par_iter().map(|idx| middles.item(idx)).collect()

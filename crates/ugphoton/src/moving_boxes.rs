@@ -76,7 +76,7 @@ impl MovingBox {
         }
     }
 
-    /// What similar boxes have in common: the centre at the reference time, `time` before the
+    /// The common data of similar boxes: the centre at the reference time, `time` before the
     /// picture, and how far they move meanwhile.
     fn key(&self, axis: usize, time: f64) -> f64 {
         match axis {

@@ -55,8 +55,8 @@ impl Statistics {
     }
 }
 
-/// The light of a picture, or of a part of it, with the requested channels. Tiles are missing if the
-/// caller stopped it.
+/// The light of a picture, or of a part of it, with the requested channels. Tiles are missing if
+/// the caller stopped it.
 pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) -> (LinearFrame, Statistics) {
     let painting = Painting::new(scenery, config);
     let [width, height] = painting.area.clone().map(|range| range.len() as u32);
@@ -152,7 +152,7 @@ pub fn explained(scenery: &Scenery<'_>, config: &Config, pixel: [u32; 2]) -> Vec
     places.map(|[column, row]| [pixel[0] * n + column, pixel[1] * n + row]).filter_map(ray).collect()
 }
 
-/// What is the same for all tiles of a picture.
+/// Data that all tiles of a picture share.
 struct Painting<'a> {
     scenery: &'a Scenery<'a>,
     /// Pixels of the whole picture.

@@ -134,7 +134,8 @@ impl<'a> Shader<'a> {
 }
 
 /// The part of a lamp's light that arrives at a point, in the unit in which levels add up: linear
-/// for spectra and for laws that act on linear light, else display-encoded. The shadow ray runs back in time to the lamp.  Eq. (P24)
+/// for spectra and for laws that act on linear light, else display-encoded. The shadow ray runs
+/// back in time to the lamp.  Eq. (P24)
 fn unshadowed(
     scenery: &Scenery<'_>,
     point: &SurfacePoint,
@@ -218,8 +219,8 @@ fn left_by_solids(mut crossings: Vec<Crossing>, end: f64) -> f64 {
     libm::exp(-depth)
 }
 
-/// Updates the solids that a ray is in, the innermost last. Returns a crossing out of a solid that it
-/// is not in.
+/// Updates the solids that a ray is in, the innermost last. Returns a crossing out of a solid that
+/// it is not in.
 fn cross<'c>(inside: &mut Vec<&'c Crossing>, crossing: &'c Crossing) -> Option<&'c Crossing> {
     if !crossing.is_exit {
         inside.push(crossing);

@@ -1,4 +1,4 @@
-//! What a ray sees of a face at a point: place, normals, colour, Doppler factor.
+//! The point of a face that a ray meets: place, normals, colour, Doppler factor.
 
 use glam::DVec3;
 use uglight::SurfaceColor;

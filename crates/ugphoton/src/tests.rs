@@ -41,7 +41,7 @@ fn scenery(text: &str) -> Scenery<'static> {
     Scenery::new(Cow::Owned(as_seen(scene, &config).unwrap()), &config).unwrap()
 }
 
-/// What a search found, with all digits.
+/// The result of a search, with all digits.
 fn digits(found: &Intersection) -> String {
     format!("{found:?}")
 }

@@ -29,7 +29,7 @@ pub struct World {
     pub boxes: Option<MovingBoxes>,
 }
 
-/// So many parts are tested one by one.
+/// The greatest number of parts that are tested one by one.
 const FEW_PARTS: usize = 4;
 
 /// The faces of all bodies with one velocity.

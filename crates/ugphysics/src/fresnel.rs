@@ -132,8 +132,8 @@ mod tests {
         WaveVector { frequency: 1.0, k: index * direction.normalize() }
     }
 
-    /// Textbook values: Brewster's angle, where only one polarisation is reflected, and the critical
-    /// angle.
+    /// Textbook values: Brewster's angle, where only one polarisation is reflected, and the
+    /// critical angle.
     #[test]
     fn glass_at_rest_follows_fresnels_equations() {
         let glass = at_rest(1.5);
@@ -144,8 +144,8 @@ mod tests {
         assert_eq!(reflectance(glass, Medium::VACUUM, light(1.5, DVec3::new(0.7, 0.0, 0.7)), DVec3::Z), 1.0);
     }
 
-    /// The equations for fields give the same as Fresnel's where no medium moves, and media that move
-    /// along their boundary reflect as they do in their common rest frame.
+    /// The equations for fields give the same as Fresnel's where no medium moves, and media that
+    /// move along their boundary reflect as they do in their common rest frame.
     #[test]
     fn a_boundary_that_slides_reflects_as_at_rest() {
         for (before, behind) in [(1.0, 1.5), (1.33, 1.5), (1.7, 1.2), (1.5, 1.0)] {
@@ -184,8 +184,9 @@ mod tests {
         }
     }
 
-    /// No energy is lost at a boundary at rest: what is not reflected into a direction from the front
-    /// comes from behind. Both parts are computed from fields, each with the other side as `before`.
+    /// No energy is lost at a boundary at rest: what is not reflected into a direction from the
+    /// front comes from behind. Both parts are computed from fields, each with the other side as
+    /// `before`.
     #[test]
     fn light_from_both_sides_adds_up() {
         for v in [beta(0.4, 0.0, 0.3), beta(-0.2, 0.5, -0.4), beta(0.0, 0.3, 0.1)] {

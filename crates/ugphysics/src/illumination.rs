@@ -31,13 +31,12 @@ pub struct IncidentLight {
 /// at `p_rest` in S', at the event (−|p'| + `delay`, p') of S'. `None` if the source is at the
 /// surface point at that moment, or so close that no direction can be computed.  Eq. (P14)
 ///
-/// `delay`: 0 if the eye, at the origin at t = 0, sees the point directly through a vacuum. Then the
-/// event is on the past light cone of the eye, and its place x'' in S'' is (P4) of its position
+/// `delay`: 0 if the eye, at the origin at t = 0, sees the point directly through a vacuum. Then
+/// the event is on the past light cone of the eye, and its place x'' in S'' is (P4) of its position
 /// in S. A point at rest in S' moves through S'' with the 4-velocity of **v** composed with
-/// −**v**_l, so a delay adds its spatial part times the delay. The source rests in S'', so
-/// q'' = l'' − x'' points at it, and it emitted the light |q''| earlier. (−|q''|, q'') is a past
-/// null vector, so (P3) and then (P4) transform it through S to S'. D_l = |q'|/|q''|, as for the
-/// eye.
+/// −**v**_l, so a delay adds its spatial part times the delay. The source rests in S'', so q'' =
+/// l'' − x'' points at it, and it emitted the light |q''| earlier. (−|q''|, q'') is a past null
+/// vector, so (P3) and then (P4) transform it through S to S'. D_l = |q'|/|q''|, as for the eye.
 ///
 /// If both velocities are equal no transformation is computed, so a light that moves with the
 /// surface gives the same bits as a light and surface at rest. Otherwise the error is about

@@ -64,13 +64,13 @@ impl Medium {
         Event { t: wave.frequency + drag * self.velocity.gamma(), x: wave.k + drag * self.velocity.proper() }
     }
 
-    /// The light of frequency 1 that moves along `direction`, a unit vector; `None` if no light in the
-    /// medium does. Where the medium moves faster than light in it, light of two speeds moves along
-    /// some directions, and along others none: this is the faster one.  Eq. (P35), (P37)
+    /// The light of frequency 1 that moves along `direction`, a unit vector; `None` if no light in
+    /// the medium does. Where the medium moves faster than light in it, light of two speeds moves
+    /// along some directions, and along others none: this is the faster one.  Eq. (P35), (P37)
     ///
-    /// A step (T, **n**) of light, T the time for each unit of length, has in the frame of the medium
-    /// the time T' = γT − **u**·**n** and the length T'/N. As its interval is the same in all frames,
-    /// T² − 1 = (1 − 1/N²) T'².
+    /// A step (T, **n**) of light, T the time for each unit of length, has in the frame of the
+    /// medium the time T' = γT − **u**·**n** and the length T'/N. As its interval is the same in
+    /// all frames, T² − 1 = (1 − 1/N²) T'².
     ///
     /// ```
     /// use glam::DVec3;

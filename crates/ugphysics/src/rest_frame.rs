@@ -39,15 +39,15 @@ impl RestFrame {
         turn: None,
     };
 
-    /// The rest frame of a body with `velocity` in the frame of the camera, with the axes of a single
-    /// boost.
+    /// The rest frame of a body with `velocity` in the frame of the camera, with the axes of a
+    /// single boost.
     #[must_use]
     pub fn new(velocity: Velocity) -> Self {
         Self::turned(velocity, DQuat::IDENTITY)
     }
 
-    /// Like [`RestFrame::new`], with other axes. `scene_from_boosted`: the turn from the axes of a single
-    /// boost to the axes of the scene.  Eq. (P25)
+    /// Like [`RestFrame::new`], with other axes. `scene_from_boosted`: the turn from the axes of a
+    /// single boost to the axes of the scene.  Eq. (P25)
     #[must_use]
     pub fn turned(velocity: Velocity, scene_from_boosted: DQuat) -> Self {
         let turn = DMat3::from_quat(scene_from_boosted);
@@ -62,8 +62,8 @@ impl RestFrame {
         self.velocity
     }
 
-    /// Turns rest coordinates from the axes of a single boost, in which (P4) gives them, to the axes
-    /// of the scene. The identity unless the camera moves in the scene.  Eq. (P25)
+    /// Turns rest coordinates from the axes of a single boost, in which (P4) gives them, to the
+    /// axes of the scene. The identity unless the camera moves in the scene.  Eq. (P25)
     #[must_use]
     pub fn scene_from_boosted(&self) -> DQuat {
         self.scene_from_boosted

@@ -197,8 +197,8 @@ fn axes_on_an_orbit_turn_back() {
     assert!((gamma - 2.294157338706).abs() < 1e-12 && (angle + 1.8482450685542).abs() < 1e-11, "{angle}");
 }
 
-/// A stretch of acceleration in two pieces is the same stretch, and light leaves on the light cone of
-/// the observer.
+/// A stretch of acceleration in two pieces is the same stretch, and light leaves on the light cone
+/// of the observer.
 #[test]
 fn pieces_join_without_a_trace() {
     let (at, beta) = ([0.3, -1.0, 0.2], [0.1, 0.2, -0.4]);
@@ -233,8 +233,9 @@ fn nothing_is_inertial() {
     assert!((seen.event.x - ugphysics::seen_position(point, velocity)).length() < 1e-14);
 }
 
-/// Points of a body without spin keep their distances in every momentary rest frame, and move with the
-/// velocity of the axes; normals of a spinning body are perpendicular to the surface as it moves.
+/// Points of a body without spin keep their distances in every momentary rest frame, and move with
+/// the velocity of the axes; normals of a spinning body are perpendicular to the surface as it
+/// moves.
 #[test]
 fn normals_are_perpendicular_to_the_motion_of_the_surface() {
     let line = moving(

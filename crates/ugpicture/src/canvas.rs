@@ -22,15 +22,15 @@ pub struct Canvas {
     layout: Layout,
 }
 
-/// What a renderer draws on a [`Canvas`].
+/// The drawing of a renderer on a [`Canvas`].
 pub struct Drawn<'a, E> {
     /// Light, pixels or areas.
     pub content: DrawnContent,
     /// The brightest channel before light is clipped.
     pub brightest: f32,
-    /// What the user should know about the scene.
+    /// Notes on the scene.
     pub notes: Vec<Note>,
-    /// What annotations tell about.
+    /// The subject of annotations.
     pub annotated: Annotated<'a, E>,
 }
 

@@ -47,7 +47,7 @@ impl Emission {
     }
 }
 
-/// What is seen at the middle of a pixel: the row of the face in the scene (wires are counted after
+/// The surface at the middle of a pixel: the row of the face in the scene (wires are counted after
 /// the faces), and the emission event.
 pub type SeenItem = (u32, Emission);
 
@@ -83,7 +83,7 @@ impl<'a> Emissions<'a> {
         Emission { place, depth, time, velocity, scene_from_axes, in_medium: None }
     }
 
-    /// What is seen at the middle of a pixel, as channels need it. `seen`: the surfaces at the
+    /// The surface at the middle of a pixel, for channels. `seen`: the surfaces at the
     /// middles of pixels, row after row, in pictures of `width` pixels across with `samples` ×
     /// `samples` samples each.
     pub fn at_pixel(

@@ -1,4 +1,4 @@
-//! What every renderer of the ug programs shares, whatever it renders a scene with.
+//! The parts that all renderers of the ug programs share.
 //!
 //! A renderer turns a scene into linear light for each pixel. Everything before and after that is
 //! here:

@@ -1,4 +1,4 @@
-//! What a picture says about its making.
+//! The record in a picture of how it was made.
 
 use ugimage::Metadata;
 use ugscene::{Provenance, Remarks};

@@ -1,8 +1,8 @@
-//! What a user should know about a picture, above all why it is empty.
+//! Notes on a picture, above all why it is empty.
 
 use std::fmt;
 
-/// What a user should know about a picture.
+/// A note on a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// About its scene.

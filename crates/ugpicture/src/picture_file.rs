@@ -1,4 +1,4 @@
-//! What a renderer makes of a scene.
+//! The file of a picture, with notes and warnings.
 
 use ugparse::Diagnostics;
 
@@ -9,7 +9,7 @@ use crate::note::Note;
 pub struct PictureFile {
     /// The whole file.
     pub bytes: Vec<u8>,
-    /// What the user should know about it.
+    /// Notes on it.
     pub notes: Vec<Note>,
     /// Warnings about the text of the scene.
     pub warnings: Diagnostics,

@@ -17,9 +17,9 @@ pub struct Rendering {
     content: Content,
     output: Output,
     compression: Compression,
-    /// What the file says about its making.
+    /// The record in the file of how it was made.
     pub metadata: Metadata,
-    /// What the user should know about it.
+    /// Notes on it.
     pub notes: Vec<Note>,
 }
 

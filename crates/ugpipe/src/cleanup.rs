@@ -33,7 +33,7 @@ const SIGNALS: [i32; 12] = [
 /// More of them on Linux: SIGSTKFLT, SIGIO, SIGPWR and the real-time signals.
 const OF_LINUX: [std::ops::RangeInclusive<i32>; 3] = [16..=16, 29..=30, 34..=64];
 
-/// What to remove. A signal is handled with this locked, so that nothing is created meanwhile.
+/// The files to remove. A signal is handled with this locked, so that nothing is created meanwhile.
 static LEFTOVERS: Mutex<Leftovers> = Mutex::new(Leftovers { files: BTreeSet::new(), groups: Vec::new() });
 
 struct Leftovers {
@@ -56,8 +56,8 @@ const N_RANDOM: usize = 6;
 pub(crate) struct Temporary(NamedTempFile);
 
 impl Temporary {
-    /// Creates one with `create`, in the folder of `target`. Before the first one in a folder, those
-    /// that killed processes left there are deleted.
+    /// Creates one with `create`, in the folder of `target`. Before the first one in a folder,
+    /// those that killed processes left there are deleted.
     pub(crate) fn new(target: &Path, create: impl Fn() -> io::Result<NamedTempFile>) -> io::Result<Self> {
         static CLEANED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
         handle_signals();

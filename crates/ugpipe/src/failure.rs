@@ -22,7 +22,7 @@ pub enum Failure {
     Read {
         /// The name of the input for messages.
         name: String,
-        /// What the system said.
+        /// The message of the system.
         error: io::Error,
     },
     /// An output cannot be written. Status 1; but if the reading end of a pipe was closed, the
@@ -30,7 +30,7 @@ pub enum Failure {
     Write {
         /// The name of the output for messages.
         name: String,
-        /// What the system said.
+        /// The message of the system.
         error: io::Error,
     },
 }
@@ -66,7 +66,7 @@ impl Failure {
 /// The `Display` of a library's error says what is wrong. Only the command line knows the options
 /// that correct it.
 pub trait Words {
-    /// What is wrong, and the options that correct it.
+    /// The error, and the options that correct it.
     fn words(&self) -> String;
 
     /// True if the command line is wrong, whatever the input.

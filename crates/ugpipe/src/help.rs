@@ -118,7 +118,7 @@ pub(crate) fn long(manual: &Manual) -> String {
     text + &format!("\n{}\n{}", heading("Documentation"), wrapped(DOCUMENTATION, 2))
 }
 
-/// What the program does, and its usage.
+/// The purpose of the program, and its usage.
 fn head(manual: &Manual) -> String {
     let usage = heading("Usage");
     format!("{}\n\n{usage} {}\n", wrapped(&manual.about, 0).trim_end(), manual.usage)
@@ -129,7 +129,7 @@ fn heading(text: &str) -> String {
     format!("{style}{text}:{style:#}")
 }
 
-/// What an option does, with the words that are valid.
+/// The effect of an option, with its valid words.
 fn about(entry: &Entry) -> String {
     let is_told = entry.words.iter().all(|(word, _)| entry.about.contains(word.as_str()));
     let words: Vec<&str> = entry.words.iter().map(|(word, _)| word.as_str()).collect();

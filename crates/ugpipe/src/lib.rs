@@ -6,7 +6,7 @@
 //! uglorentz -vel .6 0 0 -in < ship.ug | ugdoppler | ugrainbow > ship.png
 //! ```
 //!
-//! What a well-behaved filter has to do is the same for all of them. It is implemented here once.
+//! The duties of a well-behaved filter, implemented once for all programs.
 //! The programs use a [`Context`], and never arguments, streams or the exit status directly.
 //!
 //! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
@@ -44,9 +44,9 @@
 //!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
 //! run. A program that SIGKILL, a fault or lack of memory ends while it writes a file leaves the
-//! temporary file, `.ug-` and six letters, in the same folder; the next one that writes a file there
-//! deletes it. Other signals leave nothing. A program that is started with standard output closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens
-//! in its place.
+//! temporary file, `.ug-` and six letters, in the same folder; the next one that writes a file
+//! there deletes it. Other signals leave nothing. A program that is started with standard output
+//! closed (`>&-`) cannot tell that from `/dev/null`, which Rust opens in its place.
 //!
 //! A library that only reports progress disables the feature `cli`. Then only [`Progress`],
 //! [`printable`] and the messages of [`remedies`] are compiled, and clap is not built.

@@ -1,4 +1,4 @@
-//! What the help, the man page and the completions of a program say, as data.
+//! The contents of the help, the man page and the completions of a program, as data.
 
 use clap::{Arg, Command, CommandFactory};
 
@@ -50,7 +50,7 @@ pub struct Entry {
     pub is_repeated: bool,
     /// One line on what it does.
     pub about: String,
-    /// What happens without it, as in `the scene's, else 0`, or empty.
+    /// The default, as in `the scene's, else 0`, or empty.
     pub default: String,
     /// More about it, one paragraph each.
     pub details: Vec<String>,

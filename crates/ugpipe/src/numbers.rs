@@ -4,7 +4,8 @@ use crate::args::ToolArgs;
 use crate::failure::Failure;
 use crate::usage::in_documented_form;
 
-/// Arguments whose numbers can be changed after parsing. [`numbers!`](crate::numbers) implements it.
+/// Arguments whose numbers can be changed after parsing. [`numbers!`](crate::numbers) implements
+/// it.
 pub trait SetNumbers {
     /// Sets the numbers of the option with a long name, as many as were parsed. False if none of
     /// the options with numbers has this name.

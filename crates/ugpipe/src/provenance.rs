@@ -1,4 +1,4 @@
-//! What is recorded in the output about its making: the command line, and what the first program
+//! The record in the output of how it was made: the command line, and what the first program
 //! read.
 
 use std::ffi::OsStr;

@@ -159,8 +159,8 @@ fn refuse(command: &Command, message: String) -> ExitCode {
     BAD_USAGE.into()
 }
 
-/// Address space that is set aside for each thread, in bytes: the allocator of the system maps 64 to
-/// 128 MB for one, and its stack has 2 MB. Where that fails, so do the smallest allocations.
+/// Address space that is set aside for each thread, in bytes: the allocator of the system maps 64
+/// to 128 MB for one, and its stack has 2 MB. Where that fails, so do the smallest allocations.
 const SPACE_PER_THREAD: u64 = 200 << 20;
 
 /// The number of threads for which the address space suffices that `ulimit -v` leaves.

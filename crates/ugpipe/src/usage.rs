@@ -11,7 +11,7 @@ use clap::{Arg, Command};
 use crate::argv::StrayNumber;
 use crate::remedies;
 
-/// What to say about an error of clap: one line, without the name of the program.
+/// The message for an error of clap: one line, without the name of the program.
 pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
     let argument = context(error, ContextKind::InvalidArg).unwrap_or_default();
     let value = context(error, ContextKind::InvalidValue).unwrap_or_default();
@@ -70,7 +70,7 @@ pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
     }
 }
 
-/// What to say about a number after an option without values.
+/// The message for a number after an option without values.
 pub(crate) fn stray_number(stray: &StrayNumber) -> String {
     let (option, number) = (in_documented_form(&stray.option), stray.number.to_string_lossy());
     format!("`{option}` takes no value: leave out `{number}`")

@@ -1,4 +1,4 @@
-//! What annotations tell about a scene.
+//! The subject of a scene's annotations.
 
 use ugpicture::{Annotated, DepthBuffer, DepthsOf, SceneState, Subject};
 use ugraster::Center;
@@ -10,7 +10,7 @@ use crate::front::of_surface;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// What annotations tell about a prepared scene.
+/// The subject of a prepared scene's annotations.
 pub fn annotated<'a>(
     setup: &'a Setup<'_>,
     config: &'a Config,

@@ -170,8 +170,8 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// What the options ask for. `output`: the file whose ending is the format unless an option
-    /// gives it.
+    /// The configuration of the options. `output`: the file whose ending is the format unless an
+    /// option gives it.
     ///
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
@@ -246,7 +246,7 @@ impl Args {
     }
 }
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }

@@ -9,7 +9,7 @@ use ugscene::{HueScale, Scene};
 /// Everything besides the scene that affects the bytes of a picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Config {
-    /// What is interpolated between the corners of a face.
+    /// The values that are interpolated between the corners of a face.
     pub interpolation: Interpolation,
     /// Meaning of the hue fields of `c` statements. If they are wavelengths, wavelengths are
     /// interpolated whatever [`Config::interpolation`] says.

@@ -13,8 +13,8 @@ use crate::clip::{ClipCounts, Vertex, clip_polygon};
 use crate::packing::Pack;
 use crate::painter::Painter;
 
-/// Faces and triangles classified together: several blocks of triangles, so that one block is filled while
-/// another is classified.
+/// Faces and triangles classified together: several blocks of triangles, so that one block is
+/// filled while another is classified.
 const TOGETHER: usize = 4 * BLOCK;
 
 /// Least and greatest number of faces per task. Small tasks balance the load of threads; large ones

@@ -1,4 +1,4 @@
-//! What is drawn of a scene.
+//! The drawn parts of a scene.
 
 use ugpicture::DrawnContent;
 use ugraster::SampleStats;

@@ -1,4 +1,5 @@
-//! What is interpolated between the corners of a face, packed as an array for the rasterizer.
+//! The values that are interpolated between the corners of a face, packed as an array for the
+//! rasterizer.
 //!
 //! The fewest interpolants that a scene needs are used:
 //!

@@ -51,7 +51,7 @@ impl Painter<'_> {
         unit_normal(seen).dot(forward.unwrap_or_default()) > 0.0
     }
 
-    /// What the corners of a face have in common.
+    /// The common attributes of the corners of a face.
     #[inline]
     pub fn common(&self, face: &Face) -> Common {
         self.appearance.common(self.scene, face)

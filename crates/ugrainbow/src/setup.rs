@@ -12,7 +12,7 @@ use crate::error::Error;
 use crate::painter::Painter;
 use crate::shade::Shader;
 
-/// What is computed once for a picture.
+/// Data computed once for a picture.
 pub struct Setup<'a> {
     scene: Cow<'a, Scene>,
     pub view: View,

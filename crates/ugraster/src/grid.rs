@@ -8,8 +8,8 @@ use crate::depth_fade::DepthFade;
 const TILE_SAMPLES: u32 = 1 << 15;
 
 /// Limit of the samples in one row of pixels of a tile: for wide tiles, and for tall ones. The
-/// second was the fastest with 10⁵ and 10⁶ triangles. It makes tall tiles eight pixels high, or less
-/// if a pixel has very many samples.
+/// second was the fastest with 10⁵ and 10⁶ triangles. It makes tall tiles eight pixels high, or
+/// less if a pixel has very many samples.
 const MAX_ROW_SAMPLES: [u32; 2] = [1 << 19, 1 << 12];
 
 /// Most bands of a picture. More would cost memory for the bins and gain nothing.

@@ -95,7 +95,7 @@ impl<const N: usize, C: CornerTable<N> + ?Sized> PolygonLayer<'_, N, C> {
                     }
                 }
                 ShapeRef::Polygon(contours) => {
-                    // Of equal keys the first drawn wins, so the order must stay.
+                    // Ties between keys go to the first drawn, so the order must stay.
                     flush(&mut queue, target);
                     scanner.scan(contours, rows[0], rows[1], |row, left, right| {
                         target.draw_span(row, left, right, is_perspective, item);

@@ -13,8 +13,8 @@ use crate::shading::{SampleStats, Shading};
 use crate::tile::{Area, Tile};
 use crate::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
 
-/// What is drawn. The methods differ in what they make of the samples; their output does not depend
-/// on the number of threads.
+/// The shapes to draw. The methods differ in what they make of the samples; their output does not
+/// depend on the number of threads.
 #[derive(Clone, Copy)]
 pub struct Rasterizer<'a, const N: usize> {
     /// The sample grid.
@@ -143,7 +143,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     }
 }
 
-/// What is kept of the samples of a tile.
+/// The parts of a tile's samples that are kept.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Keep {
     /// Light only.

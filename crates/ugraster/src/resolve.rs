@@ -14,11 +14,11 @@ pub struct PixelSamples<'a> {
     pub sum: [f32; 3],
     /// Number of covered samples; samples with only transparent fragments count in part.
     pub covered: f32,
-    /// What is visible at the centre, if that is asked for.
+    /// The item visible at the centre, if it is requested.
     pub center: Center<'a>,
 }
 
-/// What is visible at the sample nearest to the centre of a pixel; ties go to the lower-right
+/// The item visible at the sample nearest to the centre of a pixel; ties go to the lower-right
 /// sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Center<'a> {
@@ -337,7 +337,7 @@ fn pixel_samples<'t, const N: usize>(
     PixelSamples { sum: [red, green, blue], covered, center: center(grid, tile, transparency, pixel) }
 }
 
-/// What is visible at the centre of a pixel, if items are kept.
+/// The item visible at the centre of a pixel, if items are kept.
 #[inline]
 pub fn center<'t, const N: usize>(
     grid: &SampleGrid,

@@ -74,7 +74,7 @@ struct VisibleLanes<S: Simd> {
     first: usize,
     /// Distances to the right from the highest corner.
     across: f64x8<S>,
-    /// What undoes the multiplication of values by the key.
+    /// The factor that undoes the multiplication of values by the key.
     scale: f64x8<S>,
     is_visible: mask32x8<S>,
 }

@@ -57,7 +57,7 @@ impl Area {
     }
 }
 
-/// What is visible at a sample.
+/// The item visible at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Its depth key.
@@ -191,7 +191,7 @@ impl<const N: usize> Tile<N> {
         (&self.keys[samples.clone()], self.values.each_ref().map(|all| &all[samples.clone()]))
     }
 
-    /// What is visible at a sample. Always `None` if items are not kept.
+    /// The item visible at a sample. Always `None` if items are not kept.
     #[inline]
     pub(crate) fn hit(&self, row: u32, column: u32) -> Option<Hit> {
         let sample = self.area.index(row, column);

@@ -15,8 +15,8 @@ use crate::{
 /// The most vertices, corners or rows of any other table: ids have 32 bits, and one is for nothing.
 const MAX_ROWS: usize = u32::MAX as usize - 1;
 
-/// Builds a [`Scene`] and checks what is added, so that the scene is complete: ids resolve, numbers are
-/// finite and in range, names are unique and can be written as text.
+/// Builds a [`Scene`] and checks what is added, so that the scene is complete: ids resolve, numbers
+/// are finite and in range, names are unique and can be written as text.
 ///
 /// ```
 /// use glam::DVec3;
@@ -56,8 +56,8 @@ pub struct Mesh<'a> {
     pub normals: &'a [DVec3],
     /// Colours of the vertices; empty if they have none of their own.
     pub colors: &'a [ColorId],
-    /// Rows of the positions: the corners of the first face, counterclockwise seen from outside, then
-    /// those of the second, ….
+    /// Rows of the positions: the corners of the first face, counterclockwise seen from outside,
+    /// then those of the second, ….
     pub corners: &'a [u32],
     /// The number of corners of each face, 3 or more; empty for triangles.
     pub sizes: &'a [u32],
@@ -69,7 +69,7 @@ pub struct Mesh<'a> {
     pub body: Option<BodyId>,
 }
 
-/// What of a mesh has become part of the scene.
+/// The part of a scene that a mesh has become.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct AddedMesh {
     /// Rows of its vertices.
@@ -83,8 +83,8 @@ pub struct AddedMesh {
 /// Why something cannot be part of a scene. Rows are counted from 0.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum BuildError {
-    /// A name is empty or has other characters than letters, digits, `:`, `_` and `#`, or begins with a
-    /// digit.
+    /// A name is empty or has other characters than letters, digits, `:`, `_` and `#`, or begins
+    /// with a digit.
     #[error("`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit")]
     Name {
         /// The name.
@@ -103,7 +103,7 @@ pub enum BuildError {
         what: &'static str,
         /// The row in it.
         row: usize,
-        /// What is allowed.
+        /// The allowed range.
         range: &'static str,
     },
     /// An array has not as many rows as another.
@@ -165,8 +165,8 @@ impl SceneBuilder {
         self.add_color(name, value, translucency)
     }
 
-    /// Adds a colour by its spectrum. `samples`: wavelengths in nm, increasing, with values of 0 or more;
-    /// linear between them, 0 outside.
+    /// Adds a colour by its spectrum. `samples`: wavelengths in nm, increasing, with values of 0 or
+    /// more; linear between them, 0 outside.
     ///
     /// # Errors
     /// See [`BuildError`].

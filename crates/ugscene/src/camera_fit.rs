@@ -14,7 +14,7 @@ const N_PASSES: usize = 6;
 /// that no distance is enough.
 const FARTHEST: f64 = 64.0;
 
-/// What is seen, in any unit, relative to any origin.
+/// The seen point, in any unit, relative to any origin.
 pub(crate) struct Subject<'s> {
     /// Points and their bodies.
     pub points: &'s [(DVec3, BodyId)],

@@ -213,7 +213,7 @@ fn law(word: &str) -> Result<Brightness, String> {
         .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
 }
 
-/// What happens where faces of different colours meet: flatten it into the arguments of a program.
+/// Colours where faces of different colours meet: flatten it into the arguments of a program.
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RepeatArgs {
     /// Keep colours of faces apart where they share vertices

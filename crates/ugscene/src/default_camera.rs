@@ -11,8 +11,8 @@ use crate::{BodyId, Scene};
 /// axis is within [`CLEAR`] of it.
 const TOWARD_EYE: DVec3 = DVec3::new(3.0, -4.0, 2.0);
 
-/// The part of the picture's width, from a tenth to nine tenths, and of its height that is filled at
-/// most. A picture of 16:9 from the distance for 4:3 has nine tenths of its height filled.
+/// The part of the picture's width, from a tenth to nine tenths, and of its height that is filled
+/// at most. A picture of 16:9 from the distance for 4:3 has nine tenths of its height filled.
 const FILLED: [f64; 2] = [0.8, 2.0 / 3.0];
 
 /// The part of the picture's shorter side that the sphere around everything fills from the least
@@ -36,13 +36,14 @@ pub struct DefaultCamera {
 
 impl DefaultCamera {
     /// The default camera: from the front, the right and above, as near as everything is seen from
-    /// a tenth to nine tenths of the width, and in two thirds of the height of the picture. It looks at the middle of
-    /// what is seen, or at `options.center`. `None` if the eye point is known, the scene has a
-    /// camera, or is empty.
+    /// a tenth to nine tenths of the width, and in two thirds of the height of the picture. It
+    /// looks at the middle of what is seen, or at `options.center`. `None` if the eye point is
+    /// known, the scene has a camera, or is empty.
     ///
-    /// `size`: of the picture, of which only the aspect ratio matters. `motions`: of a body, each as
-    /// in one of the pictures; none at rest. A moving body is fitted as it is seen when its middle
-    /// is seen where it is at rest (`-in`). If one moves toward the eye, the eye is on another side.
+    /// `size`: of the picture, of which only the aspect ratio matters. `motions`: of a body, each
+    /// as in one of the pictures; none at rest. A moving body is fitted as it is seen when its
+    /// middle is seen where it is at rest (`-in`). If one moves toward the eye, the eye is on
+    /// another side.
     ///
     /// # Errors
     /// [`CameraError::ViewAngle`].

@@ -23,7 +23,7 @@ impl Default for Geometry {
 }
 
 impl Geometry {
-    /// What the stage of a scene says.
+    /// The effects that the stage of a scene states.
     pub fn of(scene: &Scene) -> Self {
         match scene.stage.seen_geometry() {
             Some(seen) => Self { contraction: seen.contraction, flight_time: seen.flight_time },
@@ -82,8 +82,8 @@ impl Geometry {
     }
 }
 
-/// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of its
-/// body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25).
+/// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of
+/// its body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25).
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
     if !scene.rest.is_empty() {
         return scene.rest.clone();

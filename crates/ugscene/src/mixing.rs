@@ -56,7 +56,7 @@ pub fn n_mixing_vertices(scene: &Scene) -> usize {
 /// For each vertex, whether it has no colour of its own and faces of different colours meet there;
 /// empty if there is none.
 pub fn mixing_vertices(scene: &Scene) -> Vec<bool> {
-    // Of most scenes no vertex needs a colour, or all faces have the same.
+    // In most scenes no vertex needs a colour, or all faces have the same.
     let has_one_color = || scene.faces.windows(2).all(|pair| pair[0].color == pair[1].color);
     if scene.vertices.iter().all(|vertex| vertex.color.is_some()) || has_one_color() {
         return Vec::new();

@@ -1,11 +1,11 @@
-//! What a user should know about a scene.
+//! Notes on a scene.
 
 use std::fmt;
 
 use crate::words::point;
 use crate::{DefaultCamera, Scene, n_mixing_vertices};
 
-/// What a user should know about a scene.
+/// A note on a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Note {
     /// The scene has no camera.

@@ -14,13 +14,14 @@ pub struct RelativeMotion {
 }
 
 impl RelativeMotion {
-    /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the scene.
+    /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the
+    /// scene.
     pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
         RelativeMotion { frame: RestFrame::new(velocity), in_scene: velocity, geometry }
     }
 
-    /// The motion of a body with `velocity` in the frame of the camera; `in_scene`, `camera`: velocities of the
-    /// body and the camera in the frame of the scene.
+    /// The motion of a body with `velocity` in the frame of the camera; `in_scene`, `camera`:
+    /// velocities of the body and the camera in the frame of the scene.
     pub(crate) fn composed(
         velocity: Velocity,
         in_scene: Velocity,

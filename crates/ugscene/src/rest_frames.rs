@@ -44,7 +44,7 @@ impl RestFrames {
         self.of(body).velocity()
     }
 
-    /// What is added to the positions of lamps that rest with whatever they light, when they light
+    /// The displacement of lamps that rest with whatever they light, when they light
     /// this body, in the axes of the scene.
     #[inline]
     pub fn lamp_shift(&self, body: BodyId) -> DVec3 {

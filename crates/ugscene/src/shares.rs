@@ -10,8 +10,8 @@ use crate::{ColorId, Scene, VertexId, corner_angle};
 pub enum Shares {
     /// Its own, or that of all its faces.
     One(Option<ColorId>),
-    /// The colours of its faces, in their order, each once and with its share by the angles of the faces,
-    /// or those of a mixture (`c_mix`). Shares add up to 1.
+    /// The colours of its faces, in their order, each once and with its share by the angles of the
+    /// faces, or those of a mixture (`c_mix`). Shares add up to 1.
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
 

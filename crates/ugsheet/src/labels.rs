@@ -78,7 +78,7 @@ fn differ(texts: &[Option<String>]) -> bool {
     texts.windows(2).any(|pair| pair[0] != pair[1])
 }
 
-/// What a picture shows of motion, as far as it is known.
+/// The motion in a picture, as far as it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
     /// The velocity of what is seen, or of the camera.

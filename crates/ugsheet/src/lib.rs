@@ -2,8 +2,8 @@
 //! label under each.
 //!
 //! Labels are given, or made of the [`Motion`] of the pictures: if they differ in velocity or time,
-//! these are the labels, otherwise the file names ([`Labels`]). Opaque pixels are copied unchanged; transparent ones are composited
-//! over the background.
+//! these are the labels, otherwise the file names ([`Labels`]). Opaque pixels are copied unchanged;
+//! transparent ones are composited over the background.
 //!
 //! It also joins the tiles of a large picture to the whole ([`join`]).
 //!
@@ -52,7 +52,7 @@ pub struct Picture {
     pub name: String,
     /// Its width and height in pixels.
     pub size: [u32; 2],
-    /// What it shows of motion, for labels.
+    /// The motion that it shows, for labels.
     pub motion: Motion,
     /// The history recorded in its file.
     pub history: Metadata,

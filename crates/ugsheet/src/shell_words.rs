@@ -1,6 +1,6 @@
 //! Splits recorded command lines into words.
 
-/// What the comment behind a recorded pipe begins with.
+/// The first words of the comment behind a recorded pipe.
 pub const HASH: &str = "SHA-256 ";
 
 /// A part of a line.

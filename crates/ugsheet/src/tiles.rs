@@ -6,11 +6,11 @@ use crate::error::Error;
 use crate::shell_words::split;
 use crate::{Picture, copy};
 
-/// What a renderer records of the part that it drew, before its left column, upper row, width and
-/// height.
+/// The words that a renderer records of the part that it drew, before its left column, upper row,
+/// width and height.
 const PART: &str = "--crop";
 
-/// What a renderer records before the width and height of the whole picture.
+/// The words that a renderer records before the width and height of the whole picture.
 const SIZE: &str = "-sz";
 
 /// Joins tiles to the whole picture. Each is at the place that its history states, and what else

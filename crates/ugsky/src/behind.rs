@@ -78,9 +78,9 @@ pub struct SkyRays<'a> {
 }
 
 impl SkyRays<'_> {
-    /// The light seen in a pixel: linear red, green and blue times the part of the pixel where there
-    /// is sky, and that part. `seen`: unit vector to the middle of the pixel in the frame of the
-    /// observer; `slopes`: its changes per column and per row, perpendicular to it.
+    /// The light seen in a pixel: linear red, green and blue times the part of the pixel where
+    /// there is sky, and that part. `seen`: unit vector to the middle of the pixel in the frame of
+    /// the observer; `slopes`: its changes per column and per row, perpendicular to it.
     ///
     /// A star is a Gaussian profile of the angle to it, normalised so that light times solid angle,
     /// added up over pixels, is its irradiance.

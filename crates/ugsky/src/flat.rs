@@ -245,7 +245,7 @@ pub(crate) fn footprints<S: Simd>(
     (Footprints { a: lanes_of(a), b: lanes_of(b), c: c.into(), windows }, doppler.into())
 }
 
-/// What the grids of the mip levels of sixteen footprints have.
+/// The grids of the mip levels of sixteen footprints.
 struct GridsOf<S: Simd> {
     levels: [u32; EACH],
     texel: f32x16<S>,
@@ -292,7 +292,7 @@ impl<S: Simd> GridsOf<S> {
     }
 }
 
-/// What the columns of the rows of sixteen windows have.
+/// The columns of the rows of sixteen windows.
 struct LadderOf<S: Simd> {
     /// Index in the ladder.
     idx: [u32; EACH],

@@ -85,8 +85,8 @@ impl PlaneEllipse {
         Self { matrix, squares: [small, large] }
     }
 
-    /// The matrix of the kernel on a level with texels of this size, and its c; `finest`: the texels
-    /// of level 0.
+    /// The matrix of the kernel on a level with texels of this size, and its c; `finest`: the
+    /// texels of level 0.
     #[inline(always)]
     pub fn kernel(&self, texel: f64, finest: f64) -> ([f64; 3], f64) {
         let margin = RADIUS * RADIUS * texel * texel;

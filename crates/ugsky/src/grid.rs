@@ -91,7 +91,7 @@ pub(crate) struct Row {
     pub area: f32,
 }
 
-/// What the weights of the texels of rows depend on. Lists of numbers have [`LINES_AT_ONCE`] more
+/// The arguments of the weights of the texels of rows. Lists of numbers have [`LINES_AT_ONCE`] more
 /// entries than there are rows.
 pub(crate) struct Lines {
     /// Tangent of the latitude in the middle of the row.

@@ -131,8 +131,8 @@ fn attenuation<S: Simd>(simd: S, nm: f32x16<S>) -> f32x16<S> {
 /// Cells of a [`Table`].
 const CELLS: usize = 4096;
 
-/// A function in a range, with linear interpolation between points. Arguments outside of it count as
-/// its ends.
+/// A function in a range, with linear interpolation between points. Arguments outside of it count
+/// as its ends.
 struct Table {
     first: f32,
     per_unit: f32,

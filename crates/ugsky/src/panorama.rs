@@ -37,7 +37,7 @@ pub enum PanoramaError {
     Shape {
         /// Its pixels across and down.
         size: [u32; 2],
-        /// What it should be.
+        /// The expected value.
         arrangement: Arrangement,
     },
     /// There are not as many files as a cube has sides, or more than one for other arrangements.

@@ -20,8 +20,8 @@ pub struct Sampler<'a> {
     /// The weights of all runs, each in whole chunks.
     chunks: Vec<Weights>,
     moments: Moments,
-    /// The sum of all weights of a footprint much larger than the panorama, of which only the texels
-    /// are weighed.
+    /// The sum of all weights of a footprint much larger than the panorama, of which only the
+    /// texels are weighed.
     total: Option<f32>,
 }
 
@@ -30,8 +30,8 @@ pub struct Sampler<'a> {
 struct Weights {
     /// Weights by the kernel.
     kernel: [f32; CHUNK],
-    /// Weights by its positive part, (1 − q)², times the coordinates s = a·d and t = b·d, which away
-    /// from poles are divided by the cosine of the latitude, as in windows.
+    /// Weights by its positive part, (1 − q)², times the coordinates s = a·d and t = b·d, which
+    /// away from poles are divided by the cosine of the latitude, as in windows.
     across: [f32; CHUNK],
     along: [f32; CHUNK],
 }
@@ -284,7 +284,7 @@ fn row_beyond(sky: &Panorama, grid: &Grid, level: usize, idx: i64) -> Row {
     Row { ladder: level, sin, cos, latitude, area: cos.max(0.0) as f32 }
 }
 
-/// What the weights of a row have in common: a·d and b·d are linear in the cosine and the sine of
+/// The common factors of the weights of a row: a·d and b·d are linear in the cosine and the sine of
 /// the longitude.
 struct RowWeights {
     across: [f32; 3],

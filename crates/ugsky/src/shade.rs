@@ -150,7 +150,7 @@ fn spectra<S: Simd>(
 /// Tables are made for this step in ln D, so that the frames of an acceleration share them.
 const REACH_STEP: f64 = 0.25;
 
-/// What a spectral table depends on.
+/// The key of a spectral table.
 type TableKey = (Basis, [bool; 2], f64, Range<f64>);
 
 /// Tables that are kept: those of visible, infrared and ultraviolet light.

@@ -53,8 +53,8 @@ pub struct Layer<'s> {
 
 impl<'s> Sky<'s> {
     /// The panorama, then infrared and ultraviolet light, as an observer with a velocity in the
-    /// frame of the sky sees them. Their light adds up. `range_nm`: wavelengths at rest at which the
-    /// panorama has light, without those of bands; `keeps_light`: see [`Shade::new`].
+    /// frame of the sky sees them. Their light adds up. `range_nm`: wavelengths at rest at which
+    /// the panorama has light, without those of bands; `keeps_light`: see [`Shade::new`].
     ///
     /// # Errors
     /// [`BasisError`].

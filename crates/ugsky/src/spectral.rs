@@ -271,7 +271,8 @@ struct SmoothTable {
     /// needed, because a picture uses few of all tabulated colours.
     surfaces: Vec<OnceLock<Spectrum>>,
     /// Their light relative to that of white, by block, brightest channel and first ratio; each has
-    /// all second ratios. Computed when first needed, because a view uses few of all Doppler factors.
+    /// all second ratios. Computed when first needed, because a view uses few of all Doppler
+    /// factors.
     strips: Vec<OnceLock<Box<[LightBlock]>>>,
 }
 

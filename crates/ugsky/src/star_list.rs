@@ -80,11 +80,11 @@ impl StarColumn {
 pub struct StarListError {
     /// Bytes of the file that are wrong.
     pub place: Range<usize>,
-    /// What is wrong.
+    /// The error.
     pub mistake: StarListMistake,
 }
 
-/// What is wrong in a list of stars.
+/// An error in a list of stars.
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum StarListMistake {
     /// There is no line but comments.

@@ -39,9 +39,9 @@ pub struct SkyLight<'a, 's, F> {
 }
 
 impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
-    /// The light seen in a square of the picture, `side` samples wide: red, green and blue times the
-    /// covered part, and that part. It is exact at poles, at edges and for squares that see most of
-    /// the sky.
+    /// The light seen in a square of the picture, `side` samples wide: red, green and blue times
+    /// the covered part, and that part. It is exact at poles, at edges and for squares that see
+    /// most of the sky.
     pub fn square(&mut self, place: [f64; 2], side: f64) -> [f32; 4] {
         self.part(place, side, 0)
     }

@@ -272,8 +272,8 @@ fn weigh<S: Simd>(
     }
 }
 
-/// Sums over the texels of a window: weight; and red, green, blue and alpha times weight. Passed are
-/// the factors of [`correction`].
+/// Sums over the texels of a window: weight; and red, green, blue and alpha times weight. Passed
+/// are the factors of [`correction`].
 #[inline(always)]
 fn sum<S: Simd>(
     simd: S,

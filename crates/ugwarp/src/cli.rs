@@ -72,9 +72,9 @@ pub struct Args {
     /// Spectra of colours: smooth, blackbody, or three temperatures [default: smooth]
     ///
     /// A picture has three numbers per colour and no infrared or ultraviolet light, so its spectra
-    /// are an assumption. smooth: daylight on surfaces with smooth reflectances. blackbody: each colour is a black
-    /// body. Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies
-    /// -sp.
+    /// are an assumption. smooth: daylight on surfaces with smooth reflectances. blackbody: each
+    /// colour is a black body. Three temperatures in kelvins, such as 3500 5900 10000: sums of
+    /// black bodies. Implies -sp.
     #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,
@@ -165,7 +165,7 @@ const EXAMPLES: &str = "Examples:
   ugwarp -cv 0 .5 0 -dt exr -ch D,direction sky.png > light.exr
   ugwarp -cv 0 .9 0 -fish 180 -sz 900 900 stars.csv > stars.png";
 
-/// What the help, the man page and the completions of the program say.
+/// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {
     ugpipe::manual::<Args>()
 }
@@ -180,8 +180,8 @@ impl ToolArgs for Args {
 }
 
 impl Args {
-    /// What the options ask for. `output`: the file whose ending is the format unless an option
-    /// gives it.
+    /// The configuration of the options. `output`: the file whose ending is the format unless an
+    /// option gives it.
     ///
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.

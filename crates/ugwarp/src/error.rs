@@ -13,7 +13,7 @@ pub enum Error {
     Read {
         /// Which of several files.
         idx: usize,
-        /// What is wrong.
+        /// The error.
         error: ReadError,
     },
     /// The pictures cannot be a panorama.

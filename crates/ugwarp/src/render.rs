@@ -81,7 +81,7 @@ fn push_channels(frame: &mut LinearFrame, warp: &Warp<'_>, config: &Config) {
 pub const PROVENANCE: Provenance<'static> =
     Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
-/// What a picture says about its making. `origin`: hash and name of the panorama.
+/// The record in a picture of how it was made. `origin`: hash and name of the panorama.
 pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
     let remarks = Remarks { origin: origin.map(str::to_owned), ..Remarks::default() };
     ugpicture::metadata(&remarks, provenance)

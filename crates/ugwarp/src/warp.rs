@@ -50,7 +50,7 @@ pub struct Warp<'s> {
     pub(crate) is_up_replaced: bool,
 }
 
-/// What was found in a picture.
+/// The findings in a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Statistics {
     /// The brightest channel of a pixel.
@@ -254,7 +254,7 @@ impl<'s> Warp<'s> {
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 
-    /// What is seen at the middles of pixels, as channels and legends need it: light that was
+    /// The surfaces at the middles of pixels, for channels and legends: light that was
     /// emitted far away, in the frame of the sky.
     pub(crate) fn seen_item(&self, idx: usize) -> Option<SeenItem> {
         let n = f64::from(self.samples);

@@ -13,7 +13,7 @@ pub fn film(random: &mut Random, kind: &str) -> Vec<String> {
     let [width, height] = [(); 2].map(|()| random.pick(&["1", "7", "16"]).to_string());
     let mut line = line_of("ugfilm", &["-sz", &width, &height]);
     match random.below(12) {
-        // So many are only printed or drawn in part.
+        // More frames are only printed or drawn in part.
         0 => line.extend(
             ["-frames", "10000000", "-only", *random.pick(&["3..4", "9999999,1,1", "10000001"])]
                 .map(str::to_owned),

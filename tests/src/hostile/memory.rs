@@ -1,4 +1,4 @@
-//! What must hold of hostile inputs in memory, without programs and files: thousands a second.
+//! Laws of hostile inputs in memory, without programs and files: thousands a second.
 //!
 //! Fuzz targets and the tests share these functions. Each returns the first finding in words; a
 //! panic is left to the caller.
@@ -100,7 +100,7 @@ fn again(program: &str, scene: &Scene) -> Result<Scene, String> {
 /// mesh refers to has the same content, so that an OBJ file can hold its materials.
 ///
 /// # Errors
-/// What is refused.
+/// The refused input.
 pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
     let convert = |format, target, bytes: &[u8]| {
         let config = ugmesh::Config {
@@ -142,7 +142,7 @@ const LIMITS: ugimage::Limits = ugimage::Limits { pixels: 1 << 14, bytes: 1 << 1
 /// of the light is finite, and another number of threads gives the same.
 ///
 /// # Errors
-/// What does not hold.
+/// The violation.
 pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     if ugimage::read_picture(bytes, &LIMITS).is_err() {
         return Ok(());
@@ -157,7 +157,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
 /// A list of stars as an observer in motion sees them, as [`panorama`].
 ///
 /// # Errors
-/// What does not hold.
+/// The violation.
 pub fn stars(seed: u64, bytes: &[u8]) -> Result<(), String> {
     match ugwarp::read_stars("stars.csv", bytes) {
         Ok(stars) => sky(stars.as_slice().into(), &config::warp(&mut Random(seed)), seed),
@@ -188,7 +188,7 @@ fn sky(sky: ugwarp::Sky<'_>, config: &ugwarp::Config, seed: u64) -> Result<(), S
 /// again.
 ///
 /// # Errors
-/// What differs.
+/// The difference.
 pub fn history(bytes: &[u8]) -> Result<(), String> {
     let Some(history) = ugimage::read_history(bytes) else { return Ok(()) };
     // Text in PNG files ends at NUL.
@@ -205,7 +205,7 @@ pub fn history(bytes: &[u8]) -> Result<(), String> {
 /// A PNG file: what is read is put on a sheet, and the sheet is read again as it was written.
 ///
 /// # Errors
-/// What is refused or differs.
+/// The refusal or the difference.
 pub fn picture(bytes: &[u8]) -> Result<(), String> {
     let Ok((frame, history)) = ugimage::read_png(bytes, &LIMITS) else { return Ok(()) };
     let size = [frame.width(), frame.height()];

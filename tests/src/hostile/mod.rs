@@ -141,10 +141,10 @@ impl File {
         bytes
     }
 
-    /// What must hold of such a file in memory: the function of [`memory`] for it.
+    /// The law for such a file in memory: the function of [`memory`] for it.
     ///
     /// # Errors
-    /// What does not hold.
+    /// The violation.
     pub fn check(self, bytes: &[u8]) -> Result<(), String> {
         match self {
             Self::Scene => memory::pipe(seed_of(bytes), bytes),

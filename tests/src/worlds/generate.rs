@@ -6,7 +6,7 @@ use ugrandom::Random;
 use super::spacetime::{Change, Event, aberrated, boost, rest_place};
 use super::world::{Body, Camera, Lamp, LampPlace, Surface, World};
 
-/// What a world may have.
+/// Limits of a random world.
 #[derive(Clone, Copy, Debug)]
 pub struct Recipe {
     /// The greatest speed of bodies and lamps.

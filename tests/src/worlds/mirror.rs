@@ -43,7 +43,8 @@ impl Plane {
         place.dot(self.normal) + self.height
     }
 
-    /// A velocity that does not lead away from the mirror, so that what is in front of it always was.
+    /// A velocity that does not lead away from the mirror, so that what is in front of it always
+    /// was.
     fn toward(&self, velocity: DVec3) -> DVec3 {
         velocity - (2.0 * velocity.dot(self.normal).max(0.0)) * self.normal
     }

@@ -43,7 +43,7 @@ impl Law {
     /// Checks the law in the world of this number.
     ///
     /// # Errors
-    /// What does not hold, with commands and scenes to draw it by hand.
+    /// A violation, with commands and scenes to draw it by hand.
     pub fn check(&self, seed: u64) -> Outcome {
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d) ^ 0x5eed);
         let found = catch_unwind(AssertUnwindSafe(|| (self.check)(&mut random)));

@@ -50,7 +50,7 @@ pub struct Picture {
     pub samples: u32,
     /// How motion changes colours.
     pub shift: ColorShift,
-    /// What `ugphoton` has besides.
+    /// Additional options of `ugphoton`.
     pub rays: RayOptions,
     /// The lens of `ugphoton`.
     pub lens: Lens,
@@ -102,7 +102,7 @@ impl Picture {
     /// Draws it.
     ///
     /// # Errors
-    /// What a program says instead.
+    /// The answer of a program instead.
     pub fn draw(&self) -> Result<Drawn, String> {
         let frame = match self.renderer {
             Renderer::Rays => self.traced(),
@@ -180,7 +180,7 @@ impl Picture {
     /// corners and not others.
     ///
     /// # Errors
-    /// What a program says instead.
+    /// The answer of a program instead.
     pub fn pieces_with_dusk(&self) -> Result<Vec<bool>, String> {
         let pieces = self.pieces()?;
         let mut has_dusk = vec![false; pieces.faces.len()];

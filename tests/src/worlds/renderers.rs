@@ -22,8 +22,8 @@ pub fn painted_exact(random: &mut Random) -> Outcome {
     check_exact(random, painted)
 }
 
-/// Rays and the whole pipe, off edges, and off pieces of faces in which a lamp sets. Bodies have one
-/// colour, and lamps are white.
+/// Rays and the whole pipe, off edges, and off pieces of faces in which a lamp sets. Bodies have
+/// one colour, and lamps are white.
 pub fn pipe(random: &mut Random) -> Outcome {
     check_pipe(random, white_lamps)
 }

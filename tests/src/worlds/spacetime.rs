@@ -24,7 +24,7 @@ pub struct Change {
 }
 
 impl Change {
-    /// What a frame becomes that moves with `beta` in the old frame: its velocity in the new one,
+    /// Transforms a frame that moves with `beta` in the old frame: its velocity in the new one,
     /// and the map of its rest coordinates to those of the boost with that velocity.
     pub fn of_frame(&self, beta: DVec3) -> (DVec3, RestChange) {
         let moved = self.linear * boost(beta);

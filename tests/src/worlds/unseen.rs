@@ -1,5 +1,5 @@
-//! What is not seen changes nothing: bodies out of sight, unused colours, comments, another order
-//! of statements, definitions instead of bodies.
+//! Laws of the unseen, which changes nothing: bodies out of sight, unused colours, comments,
+//! another order of statements, definitions instead of bodies.
 
 use glam::{DMat3, DVec3};
 use ugrandom::Random;

@@ -37,7 +37,7 @@ pub struct Body {
     pub velocity: Option<DVec3>,
 }
 
-/// What faces do with light.
+/// The reflection of light by faces.
 #[derive(Clone, Copy, Debug)]
 pub enum Surface {
     /// They scatter all of it.
@@ -229,7 +229,8 @@ impl Body {
         }
     }
 
-    /// Its scene as an instance, with the transformation `words`, of a definition with other places.
+    /// Its scene as an instance, with the transformation `words`, of a definition with other
+    /// places.
     pub fn as_instance(&self, row: usize, words: &str, of: &Self) -> String {
         let mut inner = Vec::new();
         Self { velocity: None, ..of.clone() }.write(row, DVec3::ZERO, &mut inner);

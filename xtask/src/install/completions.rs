@@ -2,7 +2,7 @@
 
 use ugpipe::{Entry, Manual};
 
-/// What completes the values of an option.
+/// The completion of an option's values.
 enum Values<'m> {
     Files,
     Words(Vec<&'m str>),

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 use ugpipe::Manual;
 use ugtests::programs;
 
-/// What to install, and where.
+/// The files to install, and their places.
 #[derive(clap::Args)]
 pub struct Args {
     /// Folder in which bin and share are made, such as ~/.local
@@ -107,7 +107,7 @@ mod tests {
         folder
     }
 
-    /// What a script prints, in a folder with two files.
+    /// The output of a script, in a folder with two files.
     fn printed(shell: &str, options: &[&str], script: &str) -> String {
         let place = tempfile::tempdir().expect("a folder");
         fs::write(place.path().join("ship one.ug"), "").expect("a file");

@@ -104,7 +104,7 @@ impl Report {
         warnings
     }
 
-    /// What was chosen for the user.
+    /// The choices made for the user.
     pub fn notes(&self) -> Vec<String> {
         self.default_camera.iter().map(|camera| Note::DefaultCamera(*camera).words()).collect()
     }

@@ -329,7 +329,7 @@ impl<'t> Grammar<'t> {
     }
 }
 
-/// What a name begins with, for messages.
+/// The first characters of a name, for messages.
 pub(crate) const NAME: &str = "a name that begins with a letter, `:`, `_` or `#`";
 
 const SHARE: &str = "use a number from 0 to 1";

@@ -28,7 +28,7 @@ pub use text::text;
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// What every renderer tells. Mirrors and refraction are left out of its surfaces.
+    /// The facts common to all renderers. Mirrors and refraction are left out of its surfaces.
     pub pixel: ExplainedPixel,
     /// How motion changes colours; `None` if it does not.
     pub colors: Option<SeenColors>,

@@ -115,8 +115,8 @@ fn moving_glass_delays_light() {
     }
 }
 
-/// Checks how much later than in a vacuum light from z = −20 arrives at the eye. The delay is seen in
-/// the place of the edge of a wall that moves along x with 0.8 c.
+/// Checks how much later than in a vacuum light from z = −20 arrives at the eye. The delay is seen
+/// in the place of the edge of a wall that moves along x with 0.8 c.
 fn check_delay(glass: &str, delay: f64) {
     let edge = |x: f64| {
         let x = x / 0.6;

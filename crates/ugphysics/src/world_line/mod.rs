@@ -1,7 +1,7 @@
 //! World lines of bodies: where their points are at every time, and when light of theirs is seen.
 //!
-//! A body follows the world line z(τ) of its reference point A, whose own time is τ. It has axes e₁,
-//! e₂, e₃ perpendicular to the four-velocity u = dz/dτ that are carried without turning
+//! A body follows the world line z(τ) of its reference point A, whose own time is τ. It has axes
+//! e₁, e₂, e₃ perpendicular to the four-velocity u = dz/dτ that are carried without turning
 //! (Fermi-Walker transport), in which it may spin.
 
 mod orbit;
@@ -17,8 +17,9 @@ use pieces::{Acceleration, Spin};
 
 /// The motion of a body in the frame of the scene.
 ///
-/// Coordinates of a body are rest coordinates: those of the scene at the body's own time 0. A body of
-/// constant velocity is inertial; all others are rigid in the sense of Born, apart from their spin.
+/// Coordinates of a body are rest coordinates: those of the scene at the body's own time 0. A body
+/// of constant velocity is inertial; all others are rigid in the sense of Born, apart from their
+/// spin.
 ///
 /// ```
 /// use glam::DVec3;
@@ -143,9 +144,9 @@ impl WorldLine {
 
     /// A motion with the velocity `velocity` at own time 0, with proper acceleration and spin.
     ///
-    /// `at`: A, in the coordinates of the body. `accelerations`: proper acceleration along the carried
-    /// axes. `spins`: angular velocity about A in the carried axes, radians per unit of own time. Outside
-    /// all pieces the motion is inertial.
+    /// `at`: A, in the coordinates of the body. `accelerations`: proper acceleration along the
+    /// carried axes. `spins`: angular velocity about A in the carried axes, radians per unit of own
+    /// time. Outside all pieces the motion is inertial.
     ///
     /// # Errors
     /// See [`WorldLineError`]; pieces may not overlap.

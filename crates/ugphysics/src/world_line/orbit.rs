@@ -6,8 +6,9 @@ use super::pieces::rotation;
 use super::{Pose, WorldLineError};
 use crate::{Event, Lorentz, Velocity};
 
-/// A circle on which a reference point runs with constant speed, and the axes that are carried along
-/// without turning. Seen from the scene they turn by −2π(γ − 1) a revolution (Thomas).  Eq. (P44)
+/// A circle on which a reference point runs with constant speed, and the axes that are carried
+/// along without turning. Seen from the scene they turn by −2π(γ − 1) a revolution (Thomas).  Eq.
+/// (P44)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Orbit {
     center: DVec3,
@@ -21,12 +22,12 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// A circle about the axis `axis` through `center`, on which a point that is at `at` at time 0 runs
-    /// with `rate` radians per unit of the time of the scene.
+    /// A circle about the axis `axis` through `center`, on which a point that is at `at` at time 0
+    /// runs with `rate` radians per unit of the time of the scene.
     ///
     /// # Errors
-    /// [`WorldLineError::NotFinite`], [`WorldLineError::NoAxis`], or [`WorldLineError::Velocity`] if the
-    /// speed is not below that of light.
+    /// [`WorldLineError::NotFinite`], [`WorldLineError::NoAxis`], or [`WorldLineError::Velocity`]
+    /// if the speed is not below that of light.
     pub fn new(at: DVec3, center: DVec3, axis: DVec3, rate: f64) -> Result<Self, WorldLineError> {
         if !(at.is_finite() && center.is_finite() && axis.is_finite() && rate.is_finite()) {
             return Err(WorldLineError::NotFinite);

@@ -5,8 +5,8 @@ use glam::{DQuat, DVec3};
 use super::{Pose, WorldLineError};
 use crate::{Event, HyperbolicMotion, Lorentz, VelocityError};
 
-/// The greatest rapidity that one piece adds; a piece without an end ends there. At 1 g it is reached
-/// after 48 years, at a distance of 10²¹ light years.
+/// The greatest rapidity that one piece adds; a piece without an end ends there. At 1 g it is
+/// reached after 48 years, at a distance of 10²¹ light years.
 const MOST_RAPIDITY: f64 = 50.0;
 
 /// A vector that is constant for a stretch of own time.
@@ -59,8 +59,8 @@ fn without_gaps(pieces: &[Piece]) -> Vec<(f64, DVec3)> {
     all
 }
 
-/// All of own time in stretches, in each of which a vector is constant, with a state that follows from
-/// it by `advance(vector, state, passed own time)`.
+/// All of own time in stretches, in each of which a vector is constant, with a state that follows
+/// from it by `advance(vector, state, passed own time)`.
 #[derive(Clone, Debug, PartialEq)]
 struct Timeline<T>(Vec<Stretch<T>>);
 
@@ -121,8 +121,8 @@ impl<T: Copy> Timeline<T> {
 
 /// The world line of A with constant proper acceleration in pieces.
 ///
-/// A piece of acceleration a and own time d along the unit vector â is the shift (sinh(ad)/a, (cosh(ad)
-/// − 1)/a â) with the boost of rapidity ad along â, in the axes at its begin.  Eq. (P40)
+/// A piece of acceleration a and own time d along the unit vector â is the shift (sinh(ad)/a,
+/// (cosh(ad) − 1)/a â) with the boost of rapidity ad along â, in the axes at its begin.  Eq. (P40)
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Acceleration(Timeline<Pose>);
 
@@ -154,7 +154,8 @@ impl Acceleration {
     }
 }
 
-/// Ends a piece without an end where it has added [`MOST_RAPIDITY`], and refuses others that add more.
+/// Ends a piece without an end where it has added [`MOST_RAPIDITY`], and refuses others that add
+/// more.
 fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
     let most = MOST_RAPIDITY / piece.of.length();
     let Piece { from, to, .. } = *piece;

@@ -89,8 +89,8 @@ fn bisection_finds_the_same_emission_event() {
     }
 }
 
-/// Light that a mirror or glass brings to the eye leaves the surface at another time than light that
-/// reaches the eye directly.
+/// Light that a mirror or glass brings to the eye leaves the surface at another time than light
+/// that reaches the eye directly.
 #[test]
 fn a_surface_is_lit_at_the_event_at_which_it_scatters() {
     for (p, v, l, v_light) in settings() {

@@ -32,15 +32,15 @@ use seen::{SeenScene, velocities};
 use style::Style;
 use visible::VisibleLines;
 
-/// What the annotations of a picture tell about. `E`: the error of a renderer.
+/// The subject of a picture's annotations. `E`: the error of a renderer.
 pub struct Annotated<'a, E> {
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
-    /// What is in the picture.
+    /// The content of the picture.
     pub subject: Subject<'a, E>,
 }
 
-/// What is in an annotated picture.
+/// The content of an annotated picture.
 pub enum Subject<'a, E> {
     /// A scene seen by a pinhole camera, which all annotations suit.
     Scene {
@@ -51,11 +51,11 @@ pub enum Subject<'a, E> {
         /// Renders the depth buffer of a picture of the same size.
         depths: &'a DepthsOf<'a, E>,
     },
-    /// What is seen through any lens, which captions and legends suit.
+    /// Surfaces seen through any lens, for captions and legends.
     Items {
         /// The axes of the camera.
         view: &'a View,
-        /// What is seen at the middle of each pixel.
+        /// The surface at the middle of each pixel.
         items: &'a (dyn Fn() -> Vec<Option<SeenItem>> + 'a),
         /// The scene whose bodies a legend lists if none is seen.
         scene: Option<&'a Scene>,

@@ -11,7 +11,7 @@ use ugscene::Scene;
 
 use crate::{Background, PictureOptions};
 
-/// What the explanation of a pixel tells in every renderer.
+/// The part of a pixel's explanation that all renderers share.
 #[derive(Clone, Debug)]
 pub struct ExplainedPixel {
     /// Column and row from the upper left.

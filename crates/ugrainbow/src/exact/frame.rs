@@ -9,8 +9,8 @@ use super::sections::Side;
 use crate::painter::Painter;
 
 /// The rays of a picture in the rest frame of a body, in aligned axes (û, e₁, e₂): the first is the
-/// direction of motion, so that a boost changes one coordinate only. All coordinates are relative to
-/// the eye.
+/// direction of motion, so that a boost changes one coordinate only. All coordinates are relative
+/// to the eye.
 #[derive(Clone, Debug)]
 pub struct PictureRays {
     /// The velocity of the body.
@@ -160,8 +160,8 @@ impl PictureRays {
     }
 
     /// The apparent shape of a straight line at rest between two unit vectors: the three control
-    /// points of a rational Bézier curve, in the coordinates of [`PictureRays::place`]. `None` if the
-    /// line goes through the eye.
+    /// points of a rational Bézier curve, in the coordinates of [`PictureRays::place`]. `None` if
+    /// the line goes through the eye.
     ///
     /// The directions of the line form an arc of a great circle, with control points a,
     /// (a+b)/(1+a·b) of weight κ = cos φ/2, and b. With the time −1 they are points of a plane in

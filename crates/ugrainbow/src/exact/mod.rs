@@ -2,9 +2,9 @@
 //!
 //! After T. Müller, S. Grottel and D. Weiskopf, *Special relativistic visualization by local ray
 //! tracing* (2010): the viewing direction of a sample is transformed to the rest frame of a face
-//! (P6) and intersected with the plane of the face there. Outline, depth, Doppler factor, colour and
-//! light are those of the intersection; faces need no subdivision, and nothing is interpolated in
-//! the picture. The steps, one file each:
+//! (P6) and intersected with the plane of the face there. Outline, depth, Doppler factor, colour
+//! and light are those of the intersection; faces need no subdivision, and nothing is interpolated
+//! in the picture. The steps, one file each:
 //!
 //! 1. [`frame`]: rays of a row of samples in the rest frame of a body;
 //! 2. [`film`]: linear functions of these rays: side of an edge, depth, and D;

@@ -29,7 +29,7 @@ pub use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wave
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
 pub struct Explanation {
-    /// What every renderer tells.
+    /// The facts common to all renderers.
     pub pixel: ExplainedPixel,
     /// The command lines that produced the scene, oldest first.
     pub history: Vec<String>,
@@ -52,8 +52,8 @@ pub struct ExplainedSample {
     pub gamma: f64,
     /// Time and position of emission, relative to the eye, in the frame of the camera.
     pub emission: (f64, DVec3),
-    /// The emission event in the rest frame of the body and the axes of the scene; without a time if
-    /// contraction or time of flight was left out.
+    /// The emission event in the rest frame of the body and the axes of the scene; without a time
+    /// if contraction or time of flight was left out.
     pub rest: (Option<f64>, DVec3),
     /// Angle in degrees between the line of sight and the motion, in the frames of the camera and
     /// of the body; `None` at rest.

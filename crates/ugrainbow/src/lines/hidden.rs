@@ -89,8 +89,8 @@ pub struct Occluders {
 }
 
 impl Occluders {
-    /// The edges of some polygons, given as their contours, that lie near one of the lines whose boxes
-    /// are given. `size`: of the picture, in samples.
+    /// The edges of some polygons, given as their contours, that lie near one of the lines whose
+    /// boxes are given. `size`: of the picture, in samples.
     pub fn new(
         outlines: impl Iterator<Item = Vec<Vec<DepthPoint>>>,
         lines: impl Iterator<Item = [[f64; 2]; 2]>,

@@ -68,8 +68,8 @@ impl Bodies {
         BodyId::from_index(self.rows.len() - 1)
     }
 
-    /// The body of all faces and wires whose motion is not stated, and of vertices that none of them
-    /// uses.
+    /// The body of all faces and wires whose motion is not stated, and of vertices that none of
+    /// them uses.
     pub fn unstated(&self) -> BodyId {
         // The table begins with it.
         BodyId(0)
@@ -91,8 +91,8 @@ impl Bodies {
         &self.motions[self[id].motion.0 as usize]
     }
 
-    /// The velocity of a body in the frame of the scene, at its own time 0; at all times if it neither
-    /// accelerates nor turns.
+    /// The velocity of a body in the frame of the scene, at its own time 0; at all times if it
+    /// neither accelerates nor turns.
     pub fn velocity(&self, id: BodyId) -> Velocity {
         self.motion(id).initial_velocity()
     }

@@ -13,8 +13,8 @@ pub struct Provenance<'s> {
     pub program: &'s str,
     /// Version of the program.
     pub version: &'s str,
-    /// The command line, which begins with the name of the program. Without it nothing is added to a
-    /// history.
+    /// The command line, which begins with the name of the program. Without it nothing is added to
+    /// a history.
     pub command: Option<&'s str>,
 }
 
@@ -36,17 +36,17 @@ impl Remarks {
         self.entries().filter_map(|entry| entry.command).collect()
     }
 
-    /// The history in one line for a shell, with the input of the first program, and with the hash of
-    /// that input and the versions of all programs behind it:
+    /// The history in one line for a shell, with the input of the first program, and with the hash
+    /// of that input and the versions of all programs behind it:
     ///
     /// ```text
     /// uglorentz ship.ug -vel .9 0 0 | ugrainbow # SHA-256 3b1c… ship.ug; uglorentz 0.1.0, ugrainbow
     /// 0.1.0
     /// ```
     ///
-    /// `last`: the last program of the pipe. `None` if it has no command, or if the origin of the scene
-    /// is unknown. The comments of a scene may have been written by anybody, so check a line before a
-    /// shell runs it.
+    /// `last`: the last program of the pipe. `None` if it has no command, or if the origin of the
+    /// scene is unknown. The comments of a scene may have been written by anybody, so check a line
+    /// before a shell runs it.
     pub fn recipe(&self, last: Provenance<'_>) -> Option<String> {
         last.command?;
         let origin = self.recorded_origin().or(self.origin.as_deref())?;
@@ -62,7 +62,7 @@ impl Remarks {
         Some(format!("{} # {origin}; {}", commands.join(" | "), versions.join(", ")))
     }
 
-    /// What programs recorded, oldest first; each has a command.
+    /// The records of programs, oldest first; each has a command.
     fn entries(&self) -> impl Iterator<Item = Provenance<'_>> {
         self.head.iter().filter_map(|comment| recorded(comment))
     }
@@ -73,8 +73,8 @@ impl Remarks {
     }
 }
 
-/// What a program recorded in a comment: `name version: command line`, where the name is one of the family's and the
-/// command line begins with it.
+/// The record of a program in a comment: `name version: command line`, where the name is one of the
+/// family's and the command line begins with it.
 pub fn recorded(comment: &str) -> Option<Provenance<'_>> {
     let (title, command) = comment.trim().split_once(": ")?;
     let (program, version) = title.split_once(' ')?;

@@ -1,4 +1,4 @@
-//! What the text of a scene says besides the scene: comments, history, statements for other programs.
+//! Text beside the statements of a scene: comments, history, statements for other programs.
 
 #[cfg(doc)]
 use crate::Scene;

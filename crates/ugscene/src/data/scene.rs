@@ -27,7 +27,7 @@ use super::stage::{HueScale, LampShift, Stage};
 /// differ.
 #[derive(Clone, Debug, Default)]
 pub struct Scene {
-    /// What filters have done to positions and colours: `(ugstage … )`.
+    /// The stage of positions and colours: `(ugstage … )`.
     pub stage: Stage,
     /// For velocities of bodies, part of the statement of the stage if positions are as seen. Empty
     /// if lamps without a velocity are at their positions for all bodies.
@@ -47,9 +47,9 @@ pub struct Scene {
     pub bodies: Bodies,
     /// `v`. Rows are added by [`Scene::add_vertex`], which keeps the columns below in step.
     pub vertices: Vec<Vertex>,
-    /// For each vertex of a scene as seen, its rest position relative to the eye, in the rest frame of
-    /// its body and the axes of the scene. Empty if rest positions follow from those seen by (P4), as
-    /// they do in a scene from text.
+    /// For each vertex of a scene as seen, its rest position relative to the eye, in the rest frame
+    /// of its body and the axes of the scene. Empty if rest positions follow from those seen by
+    /// (P4), as they do in a scene from text.
     pub rest: Vec<DVec3>,
     /// Contours of faces and wires.
     pub contours: Contours,
@@ -84,7 +84,7 @@ pub struct Color {
 pub struct Mix {
     /// The colour.
     pub color: ColorId,
-    /// What it is mixed of: colours, which count as their own statements say, and shares in 0…1.
+    /// Its parts: colours, which count as their own statements say, and shares in 0…1.
     pub parts: Vec<(ColorId, f64)>,
 }
 
@@ -334,7 +334,7 @@ impl Scene {
         self.contours.iter(face.contours.clone())
     }
 
-    /// What a colour is mixed of, if it is a mixture where colours are spectra; else nothing.
+    /// The parts of a colour that is a mixture where colours are spectra; else nothing.
     pub fn mix_of(&self, color: ColorId) -> &[(ColorId, f64)] {
         match self.mixes.binary_search_by_key(&color, |mix| mix.color) {
             Ok(row) => &self.mixes[row].parts,

@@ -94,7 +94,7 @@ pub struct SeenGeometry {
 pub struct LampShift {
     /// The velocity of the body.
     pub velocity: Velocity,
-    /// What is added to the positions of the lamps, in the axes of the scene.
+    /// The displacement of the lamps, in the axes of the scene.
     pub shift: DVec3,
 }
 

@@ -69,8 +69,8 @@ impl Side {
 }
 
 /// Can a corner be cut off? Its neighbours see each other, and no corner is between. `tolerance`:
-/// corners so close to the triangle count as inside of it; if negative, so do corners so far inside,
-/// and straight corners can be cut off.
+/// corners so close to the triangle count as inside of it; if negative, so do corners so far
+/// inside, and straight corners can be cut off.
 fn is_ear(polygon: &[Corner], at: usize, tolerance: f64) -> bool {
     let n = polygon.len();
     let [a, b, c] = [at + n - 1, at, at + 1].map(|at| polygon[at % n].1);
