@@ -180,7 +180,9 @@ fn check_layer(header: &Header, n_file: usize, limits: &Limits) -> Result<(), Re
     let size = limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
     let n_pixels = size[0] as usize * size[1] as usize;
     let n_bytes = |channel: &ChannelDescription| {
-        let n_samples = channel.subsampled_resolution(header.layer_size).area() as u64;
+        // A channel may have one sample for several pixels. The decoder refuses one for none.
+        let n_along = |side: u32, sampling: usize| u64::from(side) / (sampling as u64).max(1);
+        let n_samples = n_along(size[0], channel.sampling.x()) * n_along(size[1], channel.sampling.y());
         channel.sample_type.bytes_per_sample() as u64 * n_samples
     };
     let n_stored = header.channels.list.iter().map(n_bytes).fold(0, u64::saturating_add);
@@ -288,6 +290,17 @@ mod tests {
         let frame = jpeg.windows(2).position(|pair| matches!(pair, [0xff, 0xc0..=0xc2])).unwrap();
         jpeg[frame + 5..frame + 9].copy_from_slice(&[0x0f, 0xff, 0xff, 0xff]);
         assert!(read(&jpeg).unwrap_err().to_string().contains("header is wrong"));
+    }
+
+    #[test]
+    fn a_sample_for_no_pixels_is_refused() {
+        let frame = LinearFrame::new([8, 4], true, vec![[0.25, 1.5, 0.0, 1.0]; 32]);
+        let mut exr = Format::Exr.encode_linear(&frame, &Metadata::default(), Compression::Fast);
+        // The first channel: its name, its type, whether it is linear, and a pixel for each sample.
+        let channel = b"B\0\x02\0\0\0\0\0\0\0\x01\0\0\0\x01\0\0\0";
+        let at = exr.windows(channel.len()).position(|bytes| bytes == channel).unwrap();
+        exr[at + 10] = 0;
+        assert!(read(&exr).is_err());
     }
 
     /// The smallest files of large pictures are read: of one colour, as packed as their formats
