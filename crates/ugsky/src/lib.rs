@@ -12,8 +12,8 @@
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
 //! - [`SkyColors`] say how colours change, and a [`Sky`] is a panorama, stars or both;
-//! [`SkyBehind`]
-//!   is the light of one in the footprint of any ray, [`SkyLight`] that of rows of pixels.
+//!   [`SkyBehind`] is the light of one in the footprint of any ray, [`SkyLight`] that of rows of
+//!   pixels.
 //! - A [`Texture`] is light in a plane, with the same texels and mip levels.
 //! - A [`Star`] is a black body too small to be resolved, and [`StarLight`] what it gives an
 //!   observer in motion.
