@@ -172,13 +172,13 @@ const MISTAKES: [Mistake; 17] = [
 const RAY_MISTAKES: [Mistake; 5] = [
     Mistake {
         name: "M1rays",
-        file: "crates/ugphoton/src/frame.rs",
-        right: "self.to_rest(Event { t: wave.frequency, x: wave.k })",
+        file: "crates/ugphysics/src/rest_frame.rs",
+        right: "self.rest_from_camera(Event { t: wave.frequency, x: wave.k })",
         // The direction in the rest frame, in the formula for that in the frame of the camera.
         wrong: "{
-            let seen = self.to_rest(Event { t: wave.frequency, x: wave.k });
-            let along = wave.frequency * seen.x.normalize().dot(self.axis);
-            Event { t: self.gamma * wave.frequency - self.proper_speed * along, ..seen }
+            let seen = self.rest_from_camera(Event { t: wave.frequency, x: wave.k });
+            let along = wave.frequency * seen.x.normalize().dot(self.velocity.direction());
+            Event { t: self.velocity.gamma() * wave.frequency - self.velocity.proper_speed() * along, ..seen }
         }",
         found_by: "beaming::frequencies_are_those_of_the_doppler_effect",
     },
@@ -214,7 +214,7 @@ const RAY_MISTAKES: [Mistake; 5] = [
         right: "scenery.faces().outside(found.triangle.face)",
         wrong: "{
             let normal = scenery.faces().outside(found.triangle.face);
-            let v = part.frame.velocity;
+            let v = part.frame.velocity();
             (normal - (1.0 - 1.0 / v.gamma()) * normal.dot(v.direction()) * v.direction()).normalize()
         }",
         found_by: "report::moving_mirrors_reflect_as_the_report_says",
