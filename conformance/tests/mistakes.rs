@@ -72,7 +72,7 @@ const MISTAKES: [Mistake; 17] = [
             .enumerate()
             .map(|(row, vertex)| {
                 let seen = vertex.position - painter.view.eye;
-                let distance = painter.surface.rest(VertexId::from_index(row)).length();
+                let distance = painter.appearance.surface.rest(VertexId::from_index(row)).length();
                 painter.point(painter.view.place(seen * (distance / seen.length())))
             })
             .collect()",

@@ -26,8 +26,7 @@
 //! let (scene, _) = ugdoppler::apply(scene, &config)?;
 //! let seen = String::from_utf8(ugparse::write(&scene))?;
 //! // It moves straight at the eye, so D = √3 and 546.1 nm is seen at 315.3 nm.
-//! assert!(seen.contains("c green#1_73205080756887") && seen.contains(" 1 315.29098200445"),
-//! "{seen}");
+//! assert!(seen.contains("c green#1_73205080756887") && seen.contains(" 1 315.29098200445"), "{seen}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

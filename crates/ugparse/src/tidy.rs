@@ -30,8 +30,9 @@ const INDENT: &str = "  ";
 /// line moves with the last of them.
 ///
 /// ```
-/// let source = ugparse::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx
-/// 1e0);"); let text = ugparse::tidy(&source, &ugparse::Options::default())?; assert_eq!(
+/// let source = ugparse::Source::new("tile.ug", "def tile; v a 0 0.50 +1; {corner} end ;i(tile -tx 1e0);");
+/// let text = ugparse::tidy(&source, &ugparse::Options::default())?;
+/// assert_eq!(
 ///     String::from_utf8_lossy(&text),
 ///     "def tile;\n  v a 0 0.5 1; {corner}\nend;\ni (tile -tx 1);\n"
 /// );

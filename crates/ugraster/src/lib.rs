@@ -12,8 +12,8 @@
 //! to a pixel. The nearer one is visible at each pixel:
 //!
 //! ```
-//! use ugraster::{Corner, Encoding, NoTriangles, PixelSamples, PolygonLayer, PolygonList,
-//! Rasterizer}; use ugraster::{SampleGrid, ShadedRun, ShadedSample, Shading, TileShape};
+//! use ugraster::{Corner, Encoding, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
+//! use ugraster::{SampleGrid, ShadedRun, ShadedSample, Shading, TileShape};
 //!
 //! /// The only interpolated value is grey light.
 //! struct Grey;

@@ -11,9 +11,8 @@
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
-//! - [`SkyColors`] say how colours change, and a [`Sky`] is a panorama, stars or both;
-//!   [`SkyBehind`] is the light of one in the footprint of any ray, [`SkyLight`] that of rows of
-//!   pixels.
+//! - [`SkyColors`] say how colours change, and a [`Sky`] is a panorama, stars or both; [`SkyBehind`]
+//!   is the light of one in the footprint of any ray, [`SkyLight`] that of rows of pixels.
 //! - A [`Texture`] is light in a plane, with the same texels and mip levels.
 //! - A [`Star`] is a black body too small to be resolved, and [`StarLight`] what it gives an
 //!   observer in motion.
@@ -24,12 +23,13 @@
 //! use ugsky::{Extent, Observer, Panorama, Texels};
 //!
 //! // A grey sky, and a pixel of 1/100 radian.
-//! let sky = Panorama::new([64, 32], Texels::Srgb(vec![[128, 128, 128, 255]; 64 * 32]),
-//! Extent::FULL)?; let observer = Observer::new(Velocity::from_beta(DVec3::new(0.0, 0.6, 0.0))?);
-//! let ray = observer.ray(DVec3::Y, [0.01 * DVec3::X, 0.01 * DVec3::Z]); assert!((ray.doppler -
-//! 2.0).abs() < 1e-15 && (ray.slopes[0].length() - 0.02).abs() < 1e-15); let [red, _, _, alpha] =
-//! sky.sampler().light(&ray, 1.0).unwrap_or_default(); assert!((f64::from(red) -
-//! ugphysics::srgb_decode(128.0 / 255.0)).abs() < 1e-6); assert!((alpha - 1.0).abs() < 1e-6);
+//! let sky = Panorama::new([64, 32], Texels::Srgb(vec![[128, 128, 128, 255]; 64 * 32]), Extent::FULL)?;
+//! let observer = Observer::new(Velocity::from_beta(DVec3::new(0.0, 0.6, 0.0))?);
+//! let ray = observer.ray(DVec3::Y, [0.01 * DVec3::X, 0.01 * DVec3::Z]);
+//! assert!((ray.doppler - 2.0).abs() < 1e-15 && (ray.slopes[0].length() - 0.02).abs() < 1e-15);
+//! let [red, _, _, alpha] = sky.sampler().light(&ray, 1.0).unwrap_or_default();
+//! assert!((f64::from(red) - ugphysics::srgb_decode(128.0 / 255.0)).abs() < 1e-6);
+//! assert!((alpha - 1.0).abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 

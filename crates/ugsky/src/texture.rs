@@ -40,11 +40,11 @@ const MOST_TEXTURES: f64 = 16.0;
 /// ```
 /// use ugsky::{Texels, Texture, Wrap};
 ///
-/// let board = vec![[0.0, 0.0, 0.0, 1.0], [1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0], [0.0, 0.0,
-/// 0.0, 1.0]]; let texture = Texture::new([2, 2], Texels::Light(board), [Wrap::Repeat; 2])?; //
-/// Seen from afar, where a pixel covers several squares, a chessboard is grey. let [red, .., alpha]
-/// = texture.light([0.3, 0.8], [[3.0, 0.0], [0.0, 4.0]], 1.0); assert!((red - 0.5).abs() < 1e-3 &&
-/// (alpha - 1.0).abs() < 1e-6);
+/// let board = vec![[0.0, 0.0, 0.0, 1.0], [1.0, 1.0, 1.0, 1.0], [1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 1.0]];
+/// let texture = Texture::new([2, 2], Texels::Light(board), [Wrap::Repeat; 2])?;
+/// // Seen from afar, where a pixel covers several squares, a chessboard is grey.
+/// let [red, .., alpha] = texture.light([0.3, 0.8], [[3.0, 0.0], [0.0, 4.0]], 1.0);
+/// assert!((red - 0.5).abs() < 1e-3 && (alpha - 1.0).abs() < 1e-6);
 /// # Ok::<(), ugsky::PanoramaError>(())
 /// ```
 pub struct Texture {
@@ -73,9 +73,9 @@ impl Texture {
         Ok(Self { pyramid, sizes, wrap, simd: Level::new() })
     }
 
-    /// The mean light of a footprint around (u, v): light times alpha, and alpha. `axes`: the
-    /// change of (u, v) per column and per row of the picture, two axes of an ellipse; `spread`:
-    /// the variance of the pixel filter along each relative to that of a box.
+    /// The mean light of a footprint around (u, v): light times alpha, and alpha. `axes`: the change
+    /// of (u, v) per column and per row of the picture, two axes of an ellipse; `spread`: the variance
+    /// of the pixel filter along each relative to that of a box.
     #[must_use]
     pub fn light(&self, place: [f64; 2], axes: [[f64; 2]; 2], spread: f64) -> [f32; 4] {
         let longest = axes.as_flattened().iter().fold(0.0, |most: f64, part| most.max(part.abs()));

@@ -19,9 +19,9 @@
 //! ```text
 //! error  config                             errors; options
 //! open                                      from files to panoramas and stars
-//! warp  stars                               from pixels to the sky, and their light; points of
-//! light render                                    from a panorama to a picture, with messages cli
-//! the command line
+//! warp  stars                               from pixels to the sky, and their light; points of light
+//! render                                    from a panorama to a picture, with messages
+//! cli                                       the command line
 //! ```
 //!
 //! # Example
@@ -34,13 +34,13 @@
 //! use ugsky::{Extent, Panorama, Texels};
 //! use ugwarp::{Config, PictureOptions, light};
 //!
-//! let sky = Panorama::new([64, 32], Texels::Srgb(vec![[64, 64, 64, 255]; 64 * 32]),
-//! Extent::FULL)?; let velocity = Velocity::from_beta(glam::DVec3::new(0.0, 0.6, 0.0))?; let
-//! picture = PictureOptions { size: [3, 3], samples: 1, ..PictureOptions::default() }; let frame =
-//! light(&sky, &Config { velocity, picture, ..Config::default() })?; let expected =
-//! ugphysics::srgb_decode(2.0 * 64.0 / 255.0) as f32; // The mean over a large pixel, in which D
-//! falls from 2 to 1.9. assert!((frame.pixels()[4][0] - expected).abs() < 5e-3, "{:?}",
-//! frame.pixels()[4]);
+//! let sky = Panorama::new([64, 32], Texels::Srgb(vec![[64, 64, 64, 255]; 64 * 32]), Extent::FULL)?;
+//! let velocity = Velocity::from_beta(glam::DVec3::new(0.0, 0.6, 0.0))?;
+//! let picture = PictureOptions { size: [3, 3], samples: 1, ..PictureOptions::default() };
+//! let frame = light(&sky, &Config { velocity, picture, ..Config::default() })?;
+//! let expected = ugphysics::srgb_decode(2.0 * 64.0 / 255.0) as f32;
+//! // The mean over a large pixel, in which D falls from 2 to 1.9.
+//! assert!((frame.pixels()[4][0] - expected).abs() < 5e-3, "{:?}", frame.pixels()[4]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
