@@ -35,7 +35,7 @@ pub struct Diagnostic {
 }
 
 /// A setting of the reader that is part of a remedy. A command line adds the option that it stands
-/// for, see [`Diagnostics::report`].
+/// for, see [`Diagnostics::report`](crate::Diagnostics::report).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Setting {
     /// [`Options::lax`](crate::Options::lax).

@@ -4,7 +4,7 @@ use ugimage::Metadata;
 use ugscene::{Provenance, Remarks};
 
 /// Name and version of the program that drew a scene, the command lines of the whole pipe, and the
-/// pipe in one line (see [`ugscene::recipe`]).
+/// pipe in one line (see [`ugscene::Remarks::recipe`]).
 pub fn metadata(remarks: &Remarks, drawn_by: Provenance<'_>) -> Metadata {
     let recipe = remarks.recipe(drawn_by);
     let mut lines = remarks.history();

@@ -11,7 +11,7 @@ pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;
 /// Camera options of a program, which override the camera of the scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CameraOptions {
-    /// Name of the camera to use, if the scene has several; chosen by [`crate::read`].
+    /// Name of the camera to use, if the scene has several; chosen by `ugparse::read`.
     pub name: Option<String>,
     /// Eye point.
     pub eye: Option<DVec3>,

@@ -68,8 +68,8 @@ pub(crate) fn frame(velocity: Velocity, camera: Velocity) -> RestFrame {
     RestFrame::turned(velocity, axes_from_scene(velocity, camera).inverse())
 }
 
-/// The body of each vertex, from the faces and wires that use it; [`Bodies::unstated`] for unused
-/// vertices.
+/// The body of each vertex, from the faces and wires that use it; [`crate::Bodies::unstated`] for
+/// unused vertices.
 ///
 /// A vertex shared by several bodies is part of the first of them. [`separate_bodies`] removes such
 /// sharing.
