@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::{Event, Velocity, WaveVector, rest_position};
+use crate::{Event, Velocity, WaveVector};
 
 /// The rest frame of a body, as the camera sees it. At time 0 its origin is at that of the frame of
 /// the camera, the eye.
@@ -116,14 +116,8 @@ impl RestFrame {
         rest - axis * (self.gamma_minus_one / self.velocity.gamma() * rest.dot(axis))
     }
 
-    /// The rest position of a point of the body that is seen at `seen`.  Eq. (P4), (P25)
-    #[must_use]
-    pub fn rest_from_seen(&self, seen: DVec3) -> DVec3 {
-        self.scene_from_boosted * rest_position(seen, self.velocity)
-    }
-
-    /// The step of a ray of light into the past, (−|d|, d) in the frame of the camera; its space part
-    /// in this frame. It loses no digits.  Eq. (P6)
+    /// The space part, in this frame, of the step of a ray of light into the past, which is (−|d|, d)
+    /// in the frame of the camera. It loses no digits.  Eq. (P6)
     #[inline]
     #[must_use]
     pub fn light_to_rest(&self, d: DVec3) -> DVec3 {

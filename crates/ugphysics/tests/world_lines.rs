@@ -249,7 +249,6 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
     for own_time in [-2.0, 0.0, 3.0] {
         let found = line.element_normal(point, normal, own_time);
         assert!((found.length() - 1.0).abs() < 1e-14);
-        let here = line.event(point, own_time).unwrap();
         let h = 1e-6;
         let difference = |plus: Event, minus: Event| Event {
             t: (plus.t - minus.t) / (2.0 * h),
@@ -270,7 +269,6 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
             // At rest with the element, tangents at one time lie in the surface.
             assert!(found.dot(tangent.x).abs() < 1e-8, "{own_time}: {found} {:?}", tangent);
         }
-        assert!(here.t.is_finite());
     }
 }
 

@@ -12,8 +12,8 @@ use crate::front::front;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// Draws the scene: 8-bit levels at once, if no exposure, tone curve or channel is asked for, and
-/// otherwise light.
+/// Draws the scene as light, or directly as 8-bit levels if no exposure, tone curve or channel is
+/// requested.
 pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (DrawnContent, SampleStats) {
     let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
     if !is_deep && !setup.is_uncut {

@@ -31,11 +31,6 @@ impl RelativeMotion {
         RelativeMotion { frame: crate::rest_frames::frame(velocity, camera), in_scene, geometry }
     }
 
-    /// The rest frame of the body.
-    pub fn frame(&self) -> &RestFrame {
-        &self.frame
-    }
-
     /// In the frame of the camera.
     pub fn velocity(&self) -> Velocity {
         self.frame.velocity()

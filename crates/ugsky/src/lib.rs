@@ -11,7 +11,7 @@
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
-//! - [`SkyColors`] say how colours change, and a [`Sky`] is a panorama, stars or both; [`SkyBehind`]
+//! - [`SkyColors`] say how colours change; a [`Sky`] is a panorama, stars or both; [`SkyBehind`]
 //!   is the light of one in the footprint of any ray, [`SkyLight`] that of rows of pixels.
 //! - A [`Texture`] is light in a plane, with the same texels and mip levels.
 //! - A [`Star`] is a black body too small to be resolved, and [`StarLight`] what it gives an

@@ -190,7 +190,7 @@ fn reader(file: &[u8]) -> Reader<&[u8]> {
     ReaderBuilder::new().has_headers(false).flexible(true).comment(Some(b'#')).from_reader(file)
 }
 
-/// Reads the next line that is neither blank nor a comment; false at the end.
+/// Reads the next record, skipping blank lines and comments; returns false at the end of the file.
 fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> bool {
     // Bytes in memory are read without errors.
     while matches!(reader.read_byte_record(record), Ok(true)) {

@@ -312,8 +312,8 @@ impl Moving {
         Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
     }
 
-    /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly: Newton's steps within a
-    /// bracket, halved where they leave it.
+    /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly, by Newton's method
+    /// within a bracket, which is halved where a step leaves it.
     fn emission_time(&self, point: DVec3, observer: Event) -> Result<f64, WorldLineError> {
         /// Relative to the larger of 1 and |τ|.
         const TOLERANCE: f64 = 1e-15;
@@ -340,7 +340,7 @@ impl Moving {
             }
             let newton = guess - f / slope;
             let next = if newton > low && newton < high {
-                // Far from the root a step may be too long, as pieces of the motion are passed over.
+                // Far from the root a step may pass over pieces of the motion.
                 newton.clamp(guess - reach, guess + reach)
             } else if low.is_finite() && high.is_finite() {
                 0.5 * low + 0.5 * high

@@ -174,7 +174,7 @@ fn accelerated(acceleration: DVec3, pose: Pose, passed: f64) -> Pose {
     let motion = HyperbolicMotion { acceleration };
     let shift = pose.scene_from_axes.apply(motion.event(passed));
     let event = Event { t: pose.event.t + shift.t, x: pose.event.x + shift.x };
-    // A piece adds no more than `MOST_RAPIDITY`.
+    // `limit_rapidity` keeps the rapidity below the limit of `Velocity`.
     let boost = motion.velocity(passed).map_or(Lorentz::IDENTITY, Lorentz::boost);
     Pose { event, scene_from_axes: pose.scene_from_axes * boost, turn: pose.turn }
 }
