@@ -12,8 +12,8 @@ use uglorentz::Pieces;
 use ugparse::{Options, Source};
 use ugphoton::RayOptions;
 use ugrainbow::{Channel, Output, PictureOptions};
-use ugrandom::Random;
 use ugscene::{MotionOptions, Scene};
+use ugtesting::Random;
 
 const SIZE: [u32; 2] = [64, 48];
 

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 use ugmesh::Format;
-use ugrandom::Random;
+use ugtesting::Random;
 use ugtests::hostile::{Case, File, renderers};
 use ugtests::programs;
 

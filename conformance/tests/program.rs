@@ -4,7 +4,7 @@ use std::fs;
 use std::process::{Command, Output};
 
 fn run(args: &[&str], input: &[u8]) -> Output {
-    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugconformance")).args(args), input)
+    ugtesting::run::fed(Command::new(env!("CARGO_BIN_EXE_ugconformance")).args(args), input)
 }
 
 fn text(output: &Output) -> String {

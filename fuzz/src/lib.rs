@@ -4,7 +4,7 @@ use std::sync::Once;
 
 use libfuzzer_sys::fuzzer_mutate;
 use rayon::ThreadPoolBuilder;
-use ugrandom::Random;
+use ugtesting::Random;
 use ugtests::hostile::{File, damage};
 
 /// Fails if something does not hold of the file.

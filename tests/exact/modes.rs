@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugrainbow::ColorShift;
-use ugrandom::Random;
+use ugtesting::Random;
 use ugtests::picture::decode;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;

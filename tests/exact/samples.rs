@@ -1,13 +1,13 @@
 //! Compares every sample with the oracle and the formulas.
 
 use glam::DVec3;
+use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio};
 use ugphysics::{
     Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, srgb_decode,
     wavelength_to_hue, xyz_to_linear_srgb,
 };
 use ugrainbow::{ColorShift, HueShift};
 use ugscene::{Face, Scene, VertexId};
-use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::scenes;
 use ugtests::shading::Shading;

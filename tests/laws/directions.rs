@@ -5,7 +5,7 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Samples};
 use ugparse::Source;
 use ugrainbow::{Channel, ColorShift, Output, PictureOptions};
-use ugrandom::Random;
+use ugtesting::Random;
 use ugtests::oracle::{Pinhole, boost};
 use ugtests::pipe::lorentz;
 use ugtests::scenes::parse;

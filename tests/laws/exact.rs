@@ -3,8 +3,8 @@
 use dashu_float::FBig;
 use dashu_float::round::mode::HalfEven;
 use glam::DVec3;
-use ugrandom::Random;
 use ugscene::{ColorValue, Tint};
+use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
 

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DMat4, DVec3, DVec4};
 use ugphysics::{Brightness, srgb_decode};
-use ugrandom::Random;
+use ugtesting::Random;
 use ugtests::scenes;
 
 use crate::linear_light::{ENGINES, Engine, WITH_MOVING_LAMPS, assert_light, place, seen, square};

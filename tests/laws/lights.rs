@@ -4,8 +4,8 @@ use glam::DVec3;
 use ugdoppler::Config;
 use uglight::ColorShift;
 use ugphysics::{Brightness, Velocity, srgb_decode};
-use ugrandom::Random;
 use ugscene::{ColorValue, Scene, Tint};
+use ugtesting::Random;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
 use ugtests::scenes;
@@ -277,7 +277,7 @@ fn spectra_of_lights_pass_both_shifts() {
         let scene = scenes::parse(&doppler(text.as_bytes(), &config));
         let color = scene.vertices[0].color.expect("a colour on every used vertex");
         let ColorValue::Xyz(xyz) = scene.colors[color.index()].value else { panic!("no X, Y, Z") };
-        let expected = ugspectrum::Spectrum::blackbody(5000.0, 0.7).seen(d * d_light);
+        let expected = ugphysics::spectrum::Spectrum::blackbody(5000.0, 0.7).seen(d * d_light);
         for (found, expected) in xyz.into_iter().zip(expected) {
             let expected = 0.5 * expected / (d_light * d_light);
             assert!((found / expected - 1.0).abs() < 1e-6, "{text}: {xyz:?}, {expected}");

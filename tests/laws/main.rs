@@ -22,8 +22,8 @@ mod unseen;
 use std::collections::HashMap;
 
 use glam::DVec3;
-use ugrandom::Random;
 use ugscene::{Color, Scene, Vertex};
+use ugtesting::Random;
 
 /// Triangles with corners anywhere within 10 of the origin, `n` of them, each in a colour of the
 /// list in turn. Vertices are called `a0`, `b0`, `c0`, `a1`, ….

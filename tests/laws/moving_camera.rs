@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugphysics::Velocity;
-use ugrandom::Random;
+use ugtesting::Random;
 use ugtests::picture::assert_same;
 use ugtests::pipe::{self, Pipe};
 use ugtests::scenes::{self, parse};

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use glam::DVec3;
 use uglight::ColorShift;
 use ugphysics::Brightness;
-use ugrandom::Random;
 use ugscene::{ColorValue, Scene};
+use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
 

@@ -5,8 +5,8 @@ use glam::DVec3;
 use ugimage::{Format, LinearFrame};
 use ugphoton::MotionOptions;
 use ugrainbow::{ColorShift, Output, PictureOptions};
-use ugrandom::Random;
 use ugscene::Anchor;
+use ugtesting::Random;
 use ugtests::pipe::{doppler, lorentz};
 use ugtests::scenes::parse;
 

@@ -114,7 +114,7 @@ impl Plot {
         B: DrawingBackend,
         B::ErrorType: 'static,
     {
-        let bytes = include_bytes!("../../crates/uglabel/font/DejaVuSans.ttf");
+        let bytes = include_bytes!("../../crates/ugimage/font/DejaVuSans.ttf");
         register_font(FONT, FontStyle::Normal, bytes).map_err(|_| "the font is invalid")?;
         area.fill(&WHITE)?;
         for (panel, area) in

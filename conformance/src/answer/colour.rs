@@ -1,9 +1,9 @@
 //! Questions about wavelengths and displayed colours.
 
 use ugparse::{Options, Source};
+use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio, planck};
 use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
 use ugscene::{ColorValue, Tint};
-use ugspectrum::{Spectrum, blackbody_luminance_ratio, planck};
 
 use super::numbers::{Answer, exactly};
 

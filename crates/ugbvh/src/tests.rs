@@ -4,7 +4,7 @@ use std::ops::{ControlFlow, Range};
 
 use fearless_simd::Level;
 use glam::{DVec3, dvec3};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use crate::build::is_regular;
 use crate::frame::{Frame, power_of_two};

@@ -30,7 +30,7 @@ fn few_digits(number: f64, places: usize) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::*;
 

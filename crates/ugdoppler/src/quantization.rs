@@ -1,7 +1,7 @@
 //! Quantization of the Doppler factor with a bounded error of colour.
 
 use uglight::SpectralShift;
-use ugspectrum::{DopplerGrid, DopplerTable, LN_STEP};
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, LN_STEP};
 
 use crate::digits::digits;
 

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use uglight::{SpectralColor, SpectralShift};
+use ugphysics::spectrum::DopplerGrid;
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{Color, ColorId, ColorValue, Scene, Shares, UniqueNames};
-use ugspectrum::DopplerGrid;
 
 use crate::Config;
 use crate::notes::Note;

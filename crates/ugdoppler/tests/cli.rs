@@ -3,7 +3,7 @@
 use std::process::{Command, Output};
 
 fn ugdoppler(args: &[&str], input: &str) -> Output {
-    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugdoppler")).args(args), input)
+    ugtesting::run::fed(Command::new(env!("CARGO_BIN_EXE_ugdoppler")).args(args), input)
 }
 
 const SCENE: &str = "{ a licence }\nc green 1 120;\nv a 9 0 0;\nv b 9 1 0;\nv c 9 1 1;\nf (a b c) green;\n";

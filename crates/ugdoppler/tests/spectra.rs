@@ -5,10 +5,10 @@ use glam::DVec3;
 use ugdoppler::{Config, apply};
 use uglight::ColorShift;
 use ugparse::{Options, Source};
+use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio};
 use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 use ugpipe::Words;
 use ugscene::{ColorValue, Scene, Tint};
-use ugspectrum::{Spectrum, blackbody_luminance_ratio};
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
     let (scene, report) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));

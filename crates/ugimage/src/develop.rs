@@ -169,7 +169,7 @@ pub fn auto_exposure(frame: &LinearFrame, tone: Tone) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::*;
 

@@ -90,7 +90,7 @@ impl Frame {
 #[cfg(test)]
 pub(crate) fn test_frames() -> Vec<Frame> {
     let mut noise = Frame::opaque(37, 19);
-    let mut random = ugrandom::Random(1);
+    let mut random = ugtesting::Random(1);
     for pixel in noise.pixels_mut() {
         let [r, g, b, ..] = random.bits().to_be_bytes();
         *pixel = [r, g, b, 255];

@@ -51,6 +51,7 @@ mod frame;
 mod grey;
 mod hdr;
 mod history;
+pub mod label;
 mod linear;
 mod metadata;
 mod pdf;

@@ -1,9 +1,9 @@
 //! The value of a colour statement: a hue, light, or a spectrum.
 
 use glam::DVec3;
+use ugphysics::spectrum::Spectrum;
 use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugscene::{Color, ColorId, ColorValue, Note, Scene, Tint};
-use ugspectrum::Spectrum;
 
 /// A colour at rest: of a statement, or mixed of several.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -3,9 +3,9 @@
 use std::sync::LazyLock;
 
 use glam::DVec3;
+use ugphysics::spectrum::{LightSpectrum, Spectrum};
 use ugphysics::{length, srgb_decode, unit_or_zero};
 use ugscene::{ColorValue, Light, LightKind, LightMotion, Scene};
-use ugspectrum::{LightSpectrum, Spectrum};
 
 use crate::{hsv, light, spectrum};
 

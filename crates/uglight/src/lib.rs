@@ -16,8 +16,8 @@
 //! [`Appearance::light`] the light that a ray meets, of a [`SurfaceColor`] under lamps behind
 //! filters.
 //!
-//! Physics without a scene is in `ugphysics` and `ugspectrum`; this crate applies it to the
-//! statements of a [`Scene`].
+//! Physics without a scene is in `ugphysics`; this crate applies it to the statements of a
+//! [`Scene`].
 //!
 //! ```
 //! use glam::DVec3;
@@ -34,7 +34,7 @@
 //! ```
 //!
 //! [`Hsv`]: ugphysics::Hsv
-//! [`Spectrum`]: ugspectrum::Spectrum
+//! [`Spectrum`]: ugphysics::spectrum::Spectrum
 //! [`Scene`]: ugscene::Scene
 
 mod appearance;

@@ -4,9 +4,9 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 use rayon::prelude::*;
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, Scene, Shares};
-use ugspectrum::{DopplerGrid, DopplerTable, Spectrum};
 
 use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
 

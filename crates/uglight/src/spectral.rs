@@ -1,8 +1,8 @@
 //! Colours as spectra, as seen in motion.
 
 use glam::DVec3;
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
 use ugscene::{ColorId, Scene};
-use ugspectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
 
 use crate::{Irradiance, Lamp, spectrum};
 

@@ -10,8 +10,8 @@ use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
 use ugpipe::Words;
-use ugrandom::Random;
 use ugscene::{Geometry, LightKind, LightMotion, RestFrames, Scene, rest_positions};
+use ugtesting::Random;
 
 /// Bodies of one triangle each.
 struct Fleet {

@@ -16,7 +16,7 @@ fn program(args: &str) -> Command {
 }
 
 fn run(args: &str, scene: &str) -> Output {
-    ugrun::fed(&mut program(args), scene)
+    ugtesting::run::fed(&mut program(args), scene)
 }
 
 #[test]

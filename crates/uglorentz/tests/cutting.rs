@@ -11,8 +11,8 @@ use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
 use ugphysics::{Velocity, doppler_at, seen_position};
 use ugpipe::Words;
-use ugrandom::Random;
 use ugscene::{Geometry, Item, RestFrames, Scene, VertexId};
+use ugtesting::Random;
 
 type Mesh = (Vec<DVec3>, Vec<Vec<usize>>);
 

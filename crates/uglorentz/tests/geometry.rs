@@ -7,8 +7,8 @@ use common::{edges, find, moving, parse, place, run, seen, text, try_run};
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugphysics::{Velocity, contracted, flight_time, seen_position};
-use ugrandom::Random;
 use ugscene::{Geometry, LightKind, Scene};
+use ugtesting::Random;
 
 const SPEEDS: [f64; 8] = [1e-9, 0.1, 0.5, 0.9, 0.99, 0.999, 0.9999, 0.999_999];
 

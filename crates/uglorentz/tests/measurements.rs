@@ -8,7 +8,7 @@ use common::{moving, parse, run, table};
 use glam::DVec3;
 use uglorentz::{Config, Pieces, Table};
 use ugphysics::{Velocity, doppler_at, rest_position, seen_event};
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// The numbers of vertex `a` of a triangle that moves with `beta`, by heading.
 fn measured(a: DVec3, beta: DVec3, config: Config) -> impl Fn(&str) -> f64 {

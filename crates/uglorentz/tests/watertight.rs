@@ -9,7 +9,7 @@ use common::{edges, rock, run};
 use glam::DVec3;
 use proptest::prelude::*;
 use uglorentz::{Config, Pieces};
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// Corners, and faces by their contours.
 type Solid = (Vec<DVec3>, Vec<Vec<Vec<usize>>>);

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 fn ugmesh(folder: &Path, args: &[&str], input: &[u8]) -> Output {
-    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugmesh")).args(args).current_dir(folder), input)
+    ugtesting::run::fed(Command::new(env!("CARGO_BIN_EXE_ugmesh")).args(args).current_dir(folder), input)
 }
 
 const OBJ: &str = "mtllib cube.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 3\nusemtl red\nf 4 3 2 1\nf 1 2 5\n\

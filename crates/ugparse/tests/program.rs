@@ -9,7 +9,10 @@ use serde_json::{Value, json};
 use ugparse::{Options, Source};
 
 fn ugparse(args: &[&str], input: &[u8]) -> Output {
-    ugrun::fed(Command::new(env!("CARGO_BIN_EXE_ugparse")).args(args).current_dir(repository()), input)
+    ugtesting::run::fed(
+        Command::new(env!("CARGO_BIN_EXE_ugparse")).args(args).current_dir(repository()),
+        input,
+    )
 }
 
 fn repository() -> &'static Path {

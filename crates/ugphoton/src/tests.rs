@@ -6,7 +6,7 @@ use std::ops::{ControlFlow, Range};
 
 use glam::DVec3;
 use ugphysics::{Event, Medium, Velocity, WaveVector};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use crate::Config;
 use crate::corridor::Corridor;

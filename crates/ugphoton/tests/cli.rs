@@ -6,7 +6,7 @@ use std::io::{Cursor, Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output, Stdio};
 
-use ugrun::{assert_refused, messages};
+use ugtesting::run::{assert_refused, messages};
 
 const SCENE: &str = "\
 { A square. }
@@ -23,7 +23,7 @@ fn ugphoton(args: &[&str]) -> Command {
 
 /// Runs the program with `scene` on its standard input.
 fn fed(args: &[&str], scene: &str) -> Output {
-    ugrun::fed(&mut ugphoton(args), scene)
+    ugtesting::run::fed(&mut ugphoton(args), scene)
 }
 
 #[track_caller]

@@ -29,7 +29,7 @@ fn ugphoton(args: &[&str]) -> Output {
 
 fn of_scene(args: &[&str], scene: &str) -> Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_ugphoton"));
-    ugrun::fed(command.args(["-qt", "-sz", "60", "44"]).args(args), scene)
+    ugtesting::run::fed(command.args(["-qt", "-sz", "60", "44"]).args(args), scene)
 }
 
 fn written(args: &[&str]) -> Vec<u8> {

@@ -12,7 +12,8 @@
 //!   quantity that brightness stands for.
 //!
 //! Before that, light fell on the body, possibly from a source that moves relative to it
-//! ([`illumination`]).
+//! ([`illumination`]). Colours that are a whole spectrum, and their X, Y, Z in motion, are in
+//! [`spectrum`].
 //!
 //! # Conventions
 //!
@@ -26,8 +27,8 @@
 //! # Guarantees
 //!
 //! * A [`Velocity`] is below the speed of light. Its constructors check this exactly and store γ.
-//! * Nothing here panics, prints, or holds state. Finite input gives finite output wherever the
-//!   true value is finite; NaN gives NaN.
+//! * Nothing here panics, prints, or holds state; only constants are cached. Finite input gives
+//!   finite output wherever the true value is finite; NaN gives NaN.
 //! * No formula loses digits near the speed of light or near rest, and none switches to an
 //!   approximation at small speeds: at rest the general formulas are the identity.
 //! * The same input gives the same bits on every platform: transcendental functions come from
@@ -67,6 +68,7 @@ mod lorentz;
 mod medium;
 mod rest_frame;
 mod retarded_position;
+pub mod spectrum;
 mod vector;
 mod velocity;
 mod world_line;

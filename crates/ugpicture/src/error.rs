@@ -1,7 +1,7 @@
 //! Why there is no picture.
 
 use thiserror::Error;
-use uglabel::MissingCharacter;
+use ugimage::label::MissingCharacter;
 use ugpipe::Stopped;
 use ugscene::CameraError;
 

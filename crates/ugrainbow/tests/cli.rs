@@ -10,7 +10,7 @@ use std::process::{Command, Output, Stdio};
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use tempfile::tempdir;
-use ugrun::{fed, fed_as_it_is, messages};
+use ugtesting::run::{fed, fed_as_it_is, messages};
 
 const SCENE: &str = "\
 { A square. }

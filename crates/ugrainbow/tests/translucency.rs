@@ -8,7 +8,7 @@ use common::config;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_encode};
 use ugrainbow::{Background, ColorShift, Config, DepthCue, Note, PictureOptions, render};
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// Eye ten units above the plane z = 0, +y up, orthographic; 8 units across the picture.
 fn camera() -> String {

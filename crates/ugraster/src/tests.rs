@@ -1,7 +1,7 @@
 //! Coverage against counting and geometry; the pixels of scenes are in `tests/`.
 
 use fearless_simd::Level;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use crate::edges::Scanner;
 use crate::*;

@@ -1,7 +1,7 @@
 //! The errors of making a sheet.
 
 use thiserror::Error;
-use uglabel::MissingCharacter;
+use ugimage::label::MissingCharacter;
 
 /// Largest number of pixels of a sheet.
 pub const MAX_PIXELS: u64 = 1 << 28;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugimage::Metadata;
-use uglabel::number::{significant, speed};
+use ugimage::label::number::{significant, speed};
 use ugphysics::Velocity;
 
 use crate::error::Error;

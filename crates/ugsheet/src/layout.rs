@@ -1,6 +1,7 @@
 //! The layout of a sheet: positions of pictures and lines of text.
 
-use uglabel::{ASCENT, DESCENT, Line, Point, Rgb, SPACING, wrapped};
+use ugimage::figure::{Point, Rgb};
+use ugimage::label::{ASCENT, DESCENT, Line, SPACING, ink_on, wrapped};
 
 use crate::error::{Error, MAX_PIXELS};
 use crate::{Config, Picture};
@@ -81,7 +82,7 @@ impl Layout {
         if u64::from(width) * u64::from(page.row) > MAX_PIXELS {
             return Err(Error::Size);
         }
-        Ok(Self { size, pictures: places, lines: page.lines, ink: uglabel::ink_on(config.background) })
+        Ok(Self { size, pictures: places, lines: page.lines, ink: ink_on(config.background) })
     }
 }
 

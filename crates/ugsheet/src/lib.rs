@@ -34,8 +34,8 @@ mod recipe;
 mod shell_words;
 mod tiles;
 
+use ugimage::label::Drawing;
 use ugimage::{Frame, Metadata};
-use uglabel::Drawing;
 
 #[cfg(feature = "cli")]
 pub use cli::{main, manual};
@@ -43,7 +43,7 @@ pub use error::Error;
 pub use labels::{Labels, Motion};
 use layout::Layout;
 pub use tiles::join;
-pub use uglabel::Rgb;
+pub use ugimage::figure::Rgb;
 
 /// A picture to be placed on a sheet.
 #[derive(Clone, Debug)]

@@ -9,9 +9,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use ugimage::{Format, Frame, Limits, Metadata, read_png};
-use ugrandom::Random;
-use ugrun::fed;
 use ugsheet::{Config, Error, Labels};
+use ugtesting::Random;
+use ugtesting::run::fed;
 
 /// A picture with its pixels.
 #[derive(Clone)]

@@ -5,8 +5,8 @@ use std::sync::OnceLock;
 
 use rayon::prelude::*;
 use thiserror::Error;
+use ugphysics::spectrum::{DopplerGrid, LightSpectrum, Spectrum, integrate};
 use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
-use ugspectrum::{DopplerGrid, LightSpectrum, Spectrum, integrate};
 
 /// The spectra that red, green and blue stand for. A picture determines three numbers of a
 /// spectrum, and nothing of its infrared and ultraviolet parts, which motion brings into view; each

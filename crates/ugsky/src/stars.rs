@@ -1,8 +1,8 @@
 //! Stars: black bodies too small to be resolved.
 
 use glam::DVec3;
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
-use ugspectrum::{DopplerGrid, DopplerTable, Spectrum};
 
 /// A star in the frame of a sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -126,14 +126,14 @@ fn ln_relative(kelvin: f64) -> f64 {
 mod tests {
     use super::*;
     use ugphysics::linear_srgb_to_xyz;
-    use ugspectrum::planck;
+    use ugphysics::spectrum::planck;
 
     /// Irradiance by Planck's law and the CIE's tables, with no table over D, up to a constant.
     fn exact(kelvin: f64, doppler: f64) -> [f64; 3] {
         let fifth = doppler * doppler * doppler * doppler * doppler;
         let radiance = |nm: f64| fifth * planck(nm * doppler, kelvin);
-        let rest = ugspectrum::integrate(|nm| planck(nm, kelvin))[1];
-        ugspectrum::integrate(radiance).map(|part| part / rest / (doppler * doppler))
+        let rest = ugphysics::spectrum::integrate(|nm| planck(nm, kelvin))[1];
+        ugphysics::spectrum::integrate(radiance).map(|part| part / rest / (doppler * doppler))
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output, Stdio};
 
 use ugimage::{Format, Frame, LinearFrame, Metadata};
-use ugrun::{assert_refused, messages};
+use ugtesting::run::{assert_refused, messages};
 
 /// A small panorama as PNG.
 fn sky() -> Vec<u8> {
@@ -24,7 +24,7 @@ fn ugwarp(args: &[&str]) -> Command {
 
 /// Runs the program with `file` on its standard input.
 fn fed(args: &[&str], file: &[u8]) -> Output {
-    ugrun::fed(&mut ugwarp(args), file)
+    ugtesting::run::fed(&mut ugwarp(args), file)
 }
 
 #[track_caller]

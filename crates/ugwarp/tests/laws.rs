@@ -6,8 +6,8 @@ use core::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use ugimage::{LinearFrame, Metadata, Samples};
+use ugphysics::spectrum::Spectrum;
 use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_linear_srgb};
-use ugspectrum::Spectrum;
 use ugwarp::{
     Background, Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens,
     Opened, Panorama, PictureOptions, Sky, SpectralShift, Texels, light, render, run,
@@ -332,13 +332,13 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     let infrared = seen(0.0, &both[..1]);
     // A pixel ahead, of D about 2, and one behind, of D about 1/2.
     let [front, back] = [infrared.pixels()[16 * 64 + 32], infrared.pixels()[16 * 64]];
-    let white = ugspectrum::integrate(ugspectrum::daylight)[1];
+    let white = ugphysics::spectrum::integrate(ugphysics::spectrum::daylight)[1];
     // The middle of the pixel is half a pixel off, in longitude and latitude.
     let cosine = libm::cos(PI / 64.0) * libm::cos(PI / 64.0);
     let doppler = 1.0 / (ahead(0.6).gamma() * (1.0 - 0.6 * cosine));
-    let rest = |nm: f64| if nm >= 830.0 { 0.4 / white * ugspectrum::daylight(nm) } else { 0.0 };
+    let rest = |nm: f64| if nm >= 830.0 { 0.4 / white * ugphysics::spectrum::daylight(nm) } else { 0.0 };
     let flux = libm::pow(doppler, 5.0);
-    let xyz = ugspectrum::integrate(|nm| flux * rest(nm * doppler));
+    let xyz = ugphysics::spectrum::integrate(|nm| flux * rest(nm * doppler));
     let expected = xyz_to_linear_srgb(xyz);
     for channel in 0..3 {
         assert!((f64::from(front[channel]) / expected[channel] - 1.0).abs() < 0.02, "{front:?} {expected:?}");

@@ -6,8 +6,8 @@ use core::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use ugimage::LinearFrame;
+use ugphysics::spectrum::{integrate, planck};
 use ugphysics::{Velocity, linear_srgb_to_xyz};
-use ugspectrum::{integrate, planck};
 use ugwarp::{
     CameraOptions, Config, Extent, Lens, Panorama, PictureOptions, Sky, Star, StarOptions, Texels, light,
     read_stars,

@@ -1,6 +1,6 @@
 //! Damage to the bytes of a file.
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// Changes some bytes, cuts, repeats or inserts some.
 pub fn damage(random: &mut Random, bytes: &mut Vec<u8>) {

@@ -7,7 +7,7 @@ use ugrainbow::{
     AnnotationOptions, Background, CameraOptions, Channel, ColorShift, DepthCue, Exposure, HueScale,
     Interpolation, Output, PictureOptions, SpectralShift, Wireframe,
 };
-use ugrandom::Random;
+use ugtesting::Random;
 use ugwarp::{Basis, Lens};
 
 use super::words;

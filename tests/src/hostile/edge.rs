@@ -1,6 +1,6 @@
 //! Streams and signals that a shell, a full disk or an impatient person gives a program.
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// How the streams of the last stage are connected, and what interrupts it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Command lines of `ugfilm` and `ugwarp`.
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::line::{camera, fisheye, flags, maybe, motion, numbers, word, words as line_of};
 use super::words;

@@ -1,6 +1,6 @@
 //! Options that several programs have, for command lines.
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::words as text;
 

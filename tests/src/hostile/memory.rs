@@ -10,8 +10,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use ugimage::{Format, Metadata};
 use ugmesh::Target;
 use ugparse::{Limit, Limits, Options, Source};
-use ugrandom::Random;
 use ugscene::Scene;
+use ugtesting::Random;
 
 use super::config;
 

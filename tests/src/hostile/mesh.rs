@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use ugmesh::Format;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::{Files, bytes, words};
 

@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::line::{MEASURED, flags, maybe, word, words};
 use super::{Files, film, mesh, panorama, picture, scene};

@@ -38,7 +38,7 @@ mod words;
 
 use std::path::Path;
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 pub use bytes::damage;
 pub use edge::Edge;

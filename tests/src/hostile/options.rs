@@ -1,6 +1,6 @@
 //! Command lines of a pipe.
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::line::{MEASURED, betas, camera, fisheye, flags, maybe, motion, numbers, word, words};
 use super::{film, words as text};

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::{Files, bytes, picture, words};
 

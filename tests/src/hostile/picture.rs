@@ -1,7 +1,7 @@
 //! Hostile pictures with recorded commands, the input of `ugsheet`.
 
 use ugimage::{Format, Frame, Metadata};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::{Files, bytes, words};
 

@@ -1,8 +1,8 @@
 //! The three renderers show faces in the same pixels, however unusual the scene is.
 
 use ugphoton::{Channel, Lens, RayOptions};
-use ugrandom::Random;
 use ugscene::MotionOptions;
+use ugtesting::Random;
 
 use super::mild;
 use crate::worlds::picture::{Picture, Renderer, SIZE, UNSHIFTED};

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::{Files, bytes, words};
 use crate::scenes;

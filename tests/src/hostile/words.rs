@@ -1,6 +1,6 @@
 //! Numbers and names as text.
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// A number as text: mostly usual, sometimes extreme, rarely malformed.
 pub fn number(random: &mut Random) -> String {

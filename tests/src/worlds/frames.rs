@@ -2,7 +2,7 @@
 //! length; a world in a mirror has the reversed picture.
 
 use glam::{DMat3, DVec3};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{check_reversed, check_same, is_same};

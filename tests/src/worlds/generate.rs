@@ -1,7 +1,7 @@
 //! Random worlds: what they consist of follows from a seed and a recipe.
 
 use glam::{DMat3, DVec3};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::spacetime::{Change, Event, aberrated, boost, rest_place};
 use super::world::{Body, Camera, Lamp, LampPlace, Surface, World};

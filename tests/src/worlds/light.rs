@@ -1,7 +1,7 @@
 //! Light is linear.
 
 use ugphysics::Brightness;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{check_light, check_within};

@@ -3,7 +3,7 @@
 
 use glam::{DMat3, DVec3};
 use ugphoton::Channel;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{check, n_lit, reversed};

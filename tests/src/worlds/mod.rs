@@ -23,7 +23,7 @@ pub mod world;
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-use ugrandom::Random;
+use ugtesting::Random;
 
 /// The number of pixels that were compared and are not black, or what does not hold.
 pub type Outcome = Result<usize, String>;

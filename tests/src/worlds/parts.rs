@@ -6,7 +6,7 @@ use core::f64::consts::{PI, TAU};
 use glam::DVec3;
 use ugphoton::{Lens, Shutter};
 use ugphysics::{Brightness, Velocity};
-use ugrandom::Random;
+use ugtesting::Random;
 use ugwarp::{Extent, Panorama, Texels};
 
 use super::Outcome;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugphoton::Channel;
 use ugphysics::Brightness;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{are_around, check_pipe_light, check_within, is_within};

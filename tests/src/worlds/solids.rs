@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 use ugphysics::Brightness;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{check_same, is_same};

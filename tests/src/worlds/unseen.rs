@@ -2,8 +2,8 @@
 //! another order of statements, definitions instead of bodies.
 
 use glam::{DMat3, DVec3};
-use ugrandom::Random;
 use ugscene::Anchor;
+use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::check_same;

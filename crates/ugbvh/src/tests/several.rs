@@ -1,7 +1,7 @@
 //! Several rays at once, against single ones.
 
 use glam::{DVec3, dvec3};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use super::{ALL, Mesh, check, soup, sphere};
 use crate::frame::power_of_two;

@@ -8,8 +8,8 @@ use glam::DVec3;
 use uglorentz::{Config, PROVENANCE, Provenance, Report, Table};
 use ugparse::{Options, Source};
 use ugpipe::Words;
-use ugrandom::Random;
 use ugscene::{Face, Scene, VertexId};
+use ugtesting::Random;
 
 /// A mesh as text: vertices `v0`, `v1`, … and faces by vertex row.
 pub fn text(vertices: &[DVec3], faces: &[Vec<usize>]) -> String {

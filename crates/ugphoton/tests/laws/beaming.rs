@@ -4,8 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use ugphoton::{Config, Lens, MotionOptions};
+use ugphysics::spectrum::blackbody_luminance_ratio;
 use ugphysics::{Brightness, linear_srgb_to_xyz, srgb_encode};
-use ugspectrum::blackbody_luminance_ratio;
 
 use crate::drawing::{
     HEAD, boost, by_law, by_spectra, config, drawn, grey_light, seen_with, square, surroundings, value,

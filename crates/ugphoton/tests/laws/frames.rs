@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 use ugphoton::{Config, MotionOptions, RayOptions};
 use ugphysics::Brightness;
-use ugrandom::Random;
+use ugtesting::Random;
 
 use crate::drawing::{
     Chart, HEAD, boost, by_law, config, distance, drawn, factors, polygon, square, surroundings, value,

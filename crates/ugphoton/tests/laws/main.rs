@@ -8,8 +8,8 @@ mod report;
 
 use glam::DVec3;
 use ugphoton::{ColorShift, Config, MotionOptions, RayOptions, SpectralShift};
+use ugphysics::spectrum::Spectrum;
 use ugphysics::{Velocity, WaveVector, srgb_decode, xyz_to_linear_srgb};
-use ugspectrum::Spectrum;
 
 use drawing::{HEAD, by_spectra, config, drawn, seen, seen_with, square, value};
 

@@ -7,7 +7,7 @@
 //! the motion. In section 5.2.5 speeds in media change by n_L/n_T; right is n_T/n_L.
 
 use glam::{DMat3, DVec3};
-use ugrandom::Random;
+use ugtesting::Random;
 
 use crate::drawing::{Chart, HEAD, boost, distance, square, velocity};
 

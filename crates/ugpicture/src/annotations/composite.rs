@@ -1,8 +1,8 @@
 //! Annotations drawn over pixels, or added to a vector figure.
 
 use ugimage::figure::{Element, Figure, Rgb};
+use ugimage::label::Drawing;
 use ugimage::{Frame, LinearFrame, Quantizer};
-use uglabel::Drawing;
 
 use crate::image::Image;
 use crate::note::Note;

@@ -5,14 +5,15 @@
 //! bounding box of all apparent positions. Surfaces in front occlude it.
 
 use glam::DVec3;
-use uglabel::{DESCENT, Drawing, Line, MissingCharacter, Point};
+use ugimage::figure::Point;
+use ugimage::label::{DESCENT, Drawing, Line, MissingCharacter};
 use ugscene::View;
 
 use super::seen::SeenScene;
 use super::style::Style;
 use super::visible::{VisibleLines, in_picture};
 use crate::note::Note;
-use uglabel::number::significant;
+use ugimage::label::number::significant;
 
 /// Squares side by side in the picture, counted a quarter above its lower edge; decides their size.
 const SQUARES: f64 = 8.0;

@@ -2,12 +2,13 @@
 //! seen, and the velocities of the bodies.
 
 use glam::DVec3;
-use uglabel::{Drawing, Line, MissingCharacter, Point, Rgb};
+use ugimage::figure::{Point, Rgb};
+use ugimage::label::{Drawing, Line, MissingCharacter};
 use ugphysics::{Hsv, attenuation, wavelength_to_hue};
 
 use super::motion::MotionSummary;
 use super::style::Style;
-use uglabel::number::{list_or_range, range, significant, speed};
+use ugimage::label::number::{list_or_range, range, significant, speed};
 
 /// Wavelength in nm whose shifted range the legend shows: green, the middle of the visible
 /// spectrum.

@@ -3,7 +3,7 @@
 //!
 //! Caption and legend are on strips below the picture of the scene. The file keeps the requested
 //! size: the scene is drawn in the remaining rows, exactly as a picture of that size. Grid and
-//! outlines are drawn over it. All annotations consist of text and lines ([`uglabel`]), drawn after
+//! outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]), drawn after
 //! the light of the scene has been developed.
 
 mod composite;
@@ -16,7 +16,7 @@ mod style;
 mod visible;
 
 use ugimage::Development;
-use uglabel::{DESCENT, Drawing, Line, SPACING, wrapped};
+use ugimage::label::{DESCENT, Drawing, Line, SPACING, wrapped};
 use ugscene::{CameraOptions, RestFrames, Scene, View};
 
 use crate::background::Backdrop;

@@ -9,7 +9,8 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use uglabel::{Drawing, Point};
+use ugimage::figure::Point;
+use ugimage::label::Drawing;
 use ugscene::{
     BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
     vertex_bodies,

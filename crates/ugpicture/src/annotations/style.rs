@@ -1,6 +1,7 @@
 //! Size and colours of text and lines.
 
-use uglabel::{Rgb, ink_on};
+use ugimage::figure::Rgb;
+use ugimage::label::ink_on;
 use ugphysics::{srgb_decode, srgb_encode};
 
 use crate::output::Output;

@@ -1,7 +1,7 @@
 //! The parts of lines that are not occluded by the surfaces of the picture.
 
 use glam::DVec3;
-use uglabel::Point;
+use ugimage::figure::Point;
 use ugscene::View;
 
 use crate::depth_buffer::DepthBuffer;

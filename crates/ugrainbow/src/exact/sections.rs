@@ -156,7 +156,7 @@ impl Line<'_> {
 #[cfg(test)]
 mod tests {
     use glam::DVec3;
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::super::film::{Film, Lengths, center};
     use super::*;

@@ -89,7 +89,7 @@ impl BoxIndex {
 
 #[cfg(test)]
 mod tests {
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::*;
 

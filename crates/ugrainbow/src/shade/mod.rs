@@ -330,7 +330,7 @@ impl Table {
 #[cfg(test)]
 mod tests {
     use ugphysics::Hsv;
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::*;
 

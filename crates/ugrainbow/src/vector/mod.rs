@@ -222,7 +222,7 @@ fn patches(
 mod tests {
     use ugparse::{Options, Source};
     use ugpicture::{Output, PictureOptions};
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::*;
 

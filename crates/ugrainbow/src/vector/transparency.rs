@@ -139,7 +139,7 @@ impl PaintedAreas {
 #[cfg(test)]
 #[allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 mod tests {
-    use ugrandom::Random;
+    use ugtesting::Random;
 
     use super::*;
 

@@ -4,7 +4,7 @@ use crate::common::draw;
 use crate::{assert_near, level, map, plain};
 use glam::DVec3;
 use ugrainbow::{CameraOptions, Config, PictureOptions};
-use ugrandom::Random;
+use ugtesting::Random;
 
 #[test]
 fn orthographic_squares_are_where_they_should() {

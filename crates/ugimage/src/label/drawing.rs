@@ -1,8 +1,8 @@
 //! Shapes of one colour each, in painting order.
 
-use ugimage::figure::{Element, Point, Rgb};
+use crate::figure::{Element, Point, Rgb};
 
-use crate::text::Line;
+use crate::label::text::Line;
 
 /// A list of shapes to be painted over an image.
 #[derive(Clone, Debug, Default, PartialEq)]

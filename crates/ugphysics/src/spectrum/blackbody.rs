@@ -1,7 +1,7 @@
 //! Black-body radiation.
 
-use crate::cie_1931::FIRST_NM;
-use crate::observer::{SUM_Y, weighted_sums};
+use crate::spectrum::cie_1931::FIRST_NM;
+use crate::spectrum::observer::{SUM_Y, weighted_sums};
 
 /// Planck's constant (J s), the speed of light (m/s), and Boltzmann's constant (J/K), exact in the
 /// SI of 2019.
@@ -25,7 +25,7 @@ const MAX_KELVIN: f64 = 1e15;
 ///
 /// ```
 /// // About the Sun's temperature: the maximum is at 499.6 nm (Wien's law).
-/// let at = |nm| ugspectrum::planck(nm, 5800.0);
+/// let at = |nm| ugphysics::spectrum::planck(nm, 5800.0);
 /// assert!(at(499.6) > at(498.0) && at(499.6) > at(501.0));
 /// ```
 #[must_use]
@@ -43,7 +43,7 @@ pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
     let kelvin = kelvin.clamp(MIN_KELVIN, MAX_KELVIN);
     let exponent = |wavelength_nm: f64| SECOND_RADIATION_NM_K / (wavelength_nm * kelvin);
     // The smallest exponent, at the red end of the table.
-    let least = exponent((FIRST_NM + crate::cie_1931::CIE_1931.len() - 1) as f64);
+    let least = exponent((FIRST_NM + crate::spectrum::cie_1931::CIE_1931.len() - 1) as f64);
     let fifth = |nm: f64| 1e13 / (nm * nm * (nm * nm) * nm);
     if least < 1.0 {
         return weighted_sums(|_, nm| fifth(nm) / libm::expm1(exponent(nm)))
@@ -64,7 +64,7 @@ pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
 /// its ratio to a common reference.
 ///
 /// ```
-/// let ratio = ugspectrum::blackbody_luminance_ratio(3348.631561, 5800.0);
+/// let ratio = ugphysics::spectrum::blackbody_luminance_ratio(3348.631561, 5800.0);
 /// assert!((ratio - 0.0387105).abs() < 1e-7);
 /// ```
 #[must_use]

@@ -1,9 +1,9 @@
 //! Pixel coverage of shapes (antialiasing).
 
+use crate::figure::Point;
 use tiny_skia::{FillRule, Mask, Path, PathBuilder, Transform};
-use ugimage::figure::Point;
 
-use crate::drawing::Shape;
+use crate::label::drawing::Shape;
 
 /// Mask cells per pixel, along each axis; tiny-skia takes 4 × 4 samples per cell.
 const CELLS_PER_PIXEL: u32 = 4;

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
+use crate::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
-use crate::reflectance::Reflectance;
-use crate::{blackbody, samples};
+use crate::spectrum::reflectance::Reflectance;
+use crate::spectrum::{blackbody, samples};
 
 /// |ln D| is clamped to this value: beyond it nothing visible is left.
 pub(crate) const MAX_LN_DOPPLER: f64 = 100.0;
@@ -61,7 +61,7 @@ impl Spectrum {
     /// X, Y, Z as seen with Doppler factor D, above 0: of L(λ) = D⁵ L'(λD).  Eq. (P12), (P19)
     ///
     /// ```
-    /// use ugspectrum::Spectrum;
+    /// use ugphysics::spectrum::Spectrum;
     ///
     /// // White at rest has Y = 1; approaching, it is bluer and brighter.
     /// let white = Spectrum::from_linear_srgb([1.0; 3]);

@@ -2,11 +2,11 @@
 
 use std::fmt;
 
+use crate::figure::Point;
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
-use ugimage::figure::Point;
 
 /// DejaVu Sans; its licence is in the same folder.
-const FONT: &[u8] = include_bytes!("../font/DejaVuSans.ttf");
+const FONT: &[u8] = include_bytes!("../../font/DejaVuSans.ttf");
 
 /// Largest distance in pixels between a Bézier curve and its flattened outline.
 const TOLERANCE: f64 = 0.01;

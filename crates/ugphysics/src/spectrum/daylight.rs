@@ -1,6 +1,6 @@
 //! The illuminant of surface colours: D65 in the visible range, a black body outside.
 
-use crate::blackbody::planck;
+use crate::spectrum::blackbody::planck;
 
 /// Temperature of the black body that continues daylight, kelvins: the correlated colour
 /// temperature of D65.
@@ -19,7 +19,7 @@ const STEP_NM: f64 = 5.0;
 /// absorb the ultraviolet.
 ///
 /// ```
-/// use ugspectrum::daylight;
+/// use ugphysics::spectrum::daylight;
 ///
 /// assert_eq!(daylight(560.0), 1.0);
 /// assert!((daylight(379.999) - daylight(380.001)).abs() < 1e-5);

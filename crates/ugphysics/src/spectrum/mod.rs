@@ -14,7 +14,7 @@
 //! tabulates X, Y, Z over ln D.
 //!
 //! ```
-//! use ugspectrum::Spectrum;
+//! use ugphysics::spectrum::Spectrum;
 //!
 //! // A lamp at 3000 K, seen with D = 2, has the colour of one at 6000 K.
 //! let [x, y, z] = Spectrum::blackbody(3000.0, 1.0).seen(2.0);
@@ -36,9 +36,9 @@ mod doppler_table;
 mod light_spectrum;
 mod observer;
 mod quadrature;
+mod radiance;
 mod reflectance;
 mod samples;
-mod spectrum;
 mod upsampling;
 mod weighted_daylight;
 
@@ -47,5 +47,5 @@ pub use daylight::{DAYLIGHT_KELVIN, daylight};
 pub use doppler_table::{DopplerGrid, DopplerTable, LN_STEP};
 pub use light_spectrum::LightSpectrum;
 pub use observer::{integrate, observer};
+pub use radiance::Spectrum;
 pub use reflectance::Reflectance;
-pub use spectrum::Spectrum;

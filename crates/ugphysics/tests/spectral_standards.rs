@@ -1,8 +1,8 @@
 //! The observer, the illuminant and black bodies, against published numbers.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio, daylight, integrate, observer, planck};
 use ugphysics::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};
-use ugspectrum::{Spectrum, blackbody_luminance_ratio, daylight, integrate, observer, planck};
 
 #[track_caller]
 fn check(found: f64, expected: f64, tolerance: f64) {

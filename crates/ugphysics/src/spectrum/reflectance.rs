@@ -1,16 +1,16 @@
 //! Surface colours upsampled to reflectance spectra.
 
-use crate::curve::{CURVE_NM, Coefficients};
-use crate::quadrature::dot;
-use crate::upsampling::solve;
-use crate::weighted_daylight::WeightedDaylight;
+use crate::spectrum::curve::{CURVE_NM, Coefficients};
+use crate::spectrum::quadrature::dot;
+use crate::spectrum::upsampling::solve;
+use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// The value of the largest channel for which a curve is solved: with 1 the coefficients would grow
 /// without bound towards white. Colours outside the sRGB gamut need a dimmer surface to be that
 /// saturated, so they get a second try with the second value.
 const LARGEST_CHANNEL: [f64; 2] = [0.98, 0.25];
 
-/// A smooth reflectance under [`daylight`](crate::daylight): a factor times a sigmoid of a
+/// A smooth reflectance under [`daylight`](crate::spectrum::daylight): a factor times a sigmoid of a
 /// quadratic in the wavelength (Jakob and Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
 ///
 /// Greys have a constant reflectance, so white keeps the chromaticity of the illuminant. Colours
@@ -29,7 +29,7 @@ impl Reflectance {
     /// sRGB gamut; they are found too, up to a limit. `None` if no smooth surface has the colour.
     ///
     /// ```
-    /// use ugspectrum::Reflectance;
+    /// use ugphysics::spectrum::Reflectance;
     ///
     /// let brick = Reflectance::from_linear_srgb([0.45, 0.07, 0.03]).expect("in the sRGB gamut");
     /// assert!(brick.at(650.0) > 4.0 * brick.at(450.0));

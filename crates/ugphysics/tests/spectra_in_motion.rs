@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use proptest::prelude::*;
+use ugphysics::spectrum::{DopplerGrid, Reflectance, Spectrum, daylight, integrate, observer, planck};
 use ugphysics::{linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
-use ugspectrum::{DopplerGrid, Reflectance, Spectrum, daylight, integrate, observer, planck};
 
 /// L(λ) = D⁵ L'(λD), (P12), summed every tenth of a nanometre; white under daylight has Y = 1.
 fn slow(radiance: impl Fn(f64) -> f64, doppler: f64) -> [f64; 3] {

@@ -2,11 +2,11 @@
 
 use std::sync::OnceLock;
 
-use ugphysics::xyz_to_linear_srgb;
+use crate::xyz_to_linear_srgb;
 
-use crate::curve::Coefficients;
-use crate::quadrature::{N_NODES, Quadrature, dot};
-use crate::weighted_daylight::WeightedDaylight;
+use crate::spectrum::curve::Coefficients;
+use crate::spectrum::quadrature::{N_NODES, Quadrature, dot};
+use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// The iteration stops at this error, in linear light.
 const TOLERANCE: f64 = 1e-10;

@@ -14,7 +14,7 @@
 //! their pixel coverage is computed in integers.
 //!
 //! ```
-//! use uglabel::{Drawing, Line};
+//! use ugimage::label::{Drawing, Line};
 //! use ugimage::Frame;
 //!
 //! let line = Line::new("β = 0.9", 20.0)?;
@@ -23,7 +23,7 @@
 //! let mut frame = Frame::opaque(line.width().ceil() as u32 + 8, 32);
 //! drawing.paint(&mut frame);
 //! assert!(frame.pixels().contains(&[255; 4]));
-//! # Ok::<(), uglabel::MissingCharacter>(())
+//! # Ok::<(), ugimage::label::MissingCharacter>(())
 //! ```
 
 mod coverage;
@@ -38,4 +38,3 @@ pub use drawing::{Drawing, Shape};
 pub use font::MissingCharacter;
 pub use ink::ink_on;
 pub use text::{ASCENT, DESCENT, Line, SPACING, wrapped};
-pub use ugimage::figure::{Point, Rgb};

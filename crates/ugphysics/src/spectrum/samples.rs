@@ -1,7 +1,7 @@
 //! Spectra given by samples, interpolated linearly between them and 0 outside.
 
-use crate::cie_1931::{CIE_1931, FIRST_NM};
-use crate::observer::{SUM_Y, observer};
+use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
+use crate::spectrum::observer::{SUM_Y, observer};
 
 /// X, Y, Z of L(λ) = L'(λD) for samples (nm, radiance) of L' at increasing wavelengths.  Eq. (P12)
 /// without D⁵, (P19)

@@ -3,10 +3,10 @@
 use std::ops::RangeInclusive;
 use std::sync::OnceLock;
 
-use crate::quadrature::{N_NODES, Quadrature};
-use crate::reflectance::Reflectance;
-use crate::spectrum::{Kind, MAX_LN_DOPPLER, Spectrum};
-use crate::weighted_daylight::WeightedDaylight;
+use crate::spectrum::quadrature::{N_NODES, Quadrature};
+use crate::spectrum::radiance::{Kind, MAX_LN_DOPPLER, Spectrum};
+use crate::spectrum::reflectance::Reflectance;
+use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// Step of a table in ln D. A step shifts wavelengths by one percent, about 5 nm.
 ///
@@ -120,7 +120,7 @@ impl DopplerTable {
     /// the values at its nearer end.
     ///
     /// ```
-    /// use ugspectrum::{DopplerGrid, Spectrum};
+    /// use ugphysics::spectrum::{DopplerGrid, Spectrum};
     ///
     /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
     /// let table = DopplerGrid::new(-1.0..=1.0).table(&green);

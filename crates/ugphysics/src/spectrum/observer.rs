@@ -1,6 +1,6 @@
 //! The CIE 1931 standard observer, and X, Y, Z of a spectrum.
 
-use crate::cie_1931::{CIE_1931, FIRST_NM};
+use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
 
 /// ∫ȳ dλ as the sum over the table: an equal-energy spectrum of 1 has Y = 1.
 pub(crate) const SUM_Y: f64 = sum_y();
@@ -19,8 +19,8 @@ const fn sum_y() -> f64 {
 /// in nm: interpolated linearly between whole nanometres, 0 outside 360…830 nm.  Eq. (P19)
 ///
 /// ```
-/// assert_eq!(ugspectrum::observer(555.0)[1], 1.0);
-/// assert_eq!(ugspectrum::observer(900.0), [0.0; 3]);
+/// assert_eq!(ugphysics::spectrum::observer(555.0)[1], 1.0);
+/// assert_eq!(ugphysics::spectrum::observer(900.0), [0.0; 3]);
 /// ```
 #[must_use]
 pub fn observer(wavelength_nm: f64) -> [f64; 3] {
@@ -38,7 +38,7 @@ pub fn observer(wavelength_nm: f64) -> [f64; 3] {
 /// from 360 to 830. A radiance of 1 at every wavelength has Y = 1.  Eq. (P19)
 ///
 /// ```
-/// let [x, y, z] = ugspectrum::integrate(|_| 1.0);
+/// let [x, y, z] = ugphysics::spectrum::integrate(|_| 1.0);
 /// assert!((y - 1.0).abs() < 1e-12 && (x - 1.0).abs() < 1e-3 && (z - 1.0).abs() < 1e-3);
 /// ```
 #[must_use]

@@ -1,8 +1,8 @@
 //! Lines of text, and paragraphs broken into lines.
 
-use ugimage::figure::Point;
+use crate::figure::Point;
 
-use crate::font::{Glyph, MissingCharacter, SizedFont};
+use crate::label::font::{Glyph, MissingCharacter, SizedFont};
 
 /// Height of letters above the baseline, including accents on lower-case letters, in em.
 pub const ASCENT: f64 = 0.8;

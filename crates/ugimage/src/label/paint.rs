@@ -3,11 +3,11 @@
 //! Ink and background are blended in display encoding, not in linear light. PDF, PostScript and SVG
 //! viewers do the same, and letters look equally bold black on white and white on black.
 
-use ugimage::{Frame, LinearFrame};
+use crate::{Frame, LinearFrame};
 use ugphysics::{srgb_decode, srgb_encode};
 
-use crate::coverage::{TILE, Tile};
-use crate::drawing::{Drawing, Shape};
+use crate::label::coverage::{TILE, Tile};
+use crate::label::drawing::{Drawing, Shape};
 
 impl Drawing {
     /// Paints the drawing on a frame. Pixels that no shape covers keep their bytes.
@@ -111,7 +111,7 @@ mod tests {
         frames[1].pixels_mut().fill([255; 4]);
         for (frame, ink) in frames.iter_mut().zip([[255; 3], [0; 3]]) {
             let mut drawing = Drawing::default();
-            drawing.text(&crate::Line::new("γ = 2.29", 12.0).unwrap(), [2.0, 14.0], ink);
+            drawing.text(&crate::label::Line::new("γ = 2.29", 12.0).unwrap(), [2.0, 14.0], ink);
             drawing.paint(frame);
         }
         let [black, white] = &frames;
@@ -148,7 +148,7 @@ mod tests {
     #[test]
     fn light_is_blended_in_display_encoding() {
         let mut drawing = rectangle(0.3, 0.2, 3.7, 2.6);
-        drawing.text(&crate::Line::new("β", 4.0).unwrap(), [0.2, 3.1], [0, 40, 90]);
+        drawing.text(&crate::label::Line::new("β", 4.0).unwrap(), [0.2, 3.1], [0, 40, 90]);
         for mut frame in [Frame::opaque(5, 4), Frame::clear(5, 4)] {
             let mut light = LinearFrame::from(&frame);
             drawing.paint(&mut frame);

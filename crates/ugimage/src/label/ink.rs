@@ -1,6 +1,6 @@
 //! The text colour for a background.
 
-use ugimage::figure::Rgb;
+use crate::figure::Rgb;
 use ugphysics::{luminance, srgb_decode};
 
 /// A background of higher luminance (in linear light) than this has more contrast to black than to

@@ -1,9 +1,9 @@
 //! Surfaces under a light of any spectrum, which may move relative to them.
 
-use crate::daylight::daylight;
-use crate::observer::integrate;
-use crate::spectrum::{Kind, Spectrum};
-use crate::{Reflectance, planck};
+use crate::spectrum::daylight::daylight;
+use crate::spectrum::observer::integrate;
+use crate::spectrum::radiance::{Kind, Spectrum};
+use crate::spectrum::{Reflectance, planck};
 
 /// The spectrum of a light, in the light's rest frame.
 #[derive(Clone, Debug)]
@@ -69,7 +69,7 @@ impl Spectrum {
     /// if this spectrum is not a surface but emits light itself.  Eq. (P14), (P19), (P20)
     ///
     /// ```
-    /// use ugspectrum::{LightSpectrum, Spectrum};
+    /// use ugphysics::spectrum::{LightSpectrum, Spectrum};
     ///
     /// // White under a green lamp looks green; a surface under white light has its own colour.
     /// let white = Spectrum::from_linear_srgb([1.0; 3]);

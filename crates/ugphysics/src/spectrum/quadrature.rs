@@ -1,7 +1,7 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
-use crate::curve::{CURVE_NM, Coefficients};
-use crate::weighted_daylight::WeightedDaylight;
+use crate::spectrum::curve::{CURVE_NM, Coefficients};
+use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 4 nm.
 pub(crate) const N_NODES: usize = 101;

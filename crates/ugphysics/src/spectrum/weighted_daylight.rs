@@ -1,9 +1,9 @@
 //! Daylight seen with a Doppler factor, weighted by the standard observer.
 
-use crate::cie_1931::{CIE_1931, FIRST_NM};
-use crate::curve::CURVE_NM;
-use crate::daylight::daylight;
-use crate::observer::weighted_sums;
+use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
+use crate::spectrum::curve::CURVE_NM;
+use crate::spectrum::daylight::daylight;
+use crate::spectrum::observer::weighted_sums;
 
 /// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
 #[derive(Clone, Debug)]
