@@ -221,11 +221,18 @@ pub(crate) fn check_packed(n_file: usize, n_decoded: u64, ratio: u64) -> Result<
 /// An empty table with room for `len` rows, or an error if there is not enough memory.
 pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>, ReadError> {
     let mut rows = Vec::new();
-    rows.try_reserve_exact(len).map_err(|_| {
-        let n_bytes = (len as u64).saturating_mul(size_of::<T>() as u64);
-        ReadError::new(&format!("there is not enough memory for its pixels, {n_bytes} bytes"))
-    })?;
+    rows.try_reserve_exact(len).map_err(|_| no_memory::<T>(len))?;
     Ok(rows)
+}
+
+/// Makes room for `n` more rows in a table, or returns an error if there is not enough memory.
+pub(crate) fn room_for<T>(n: usize, rows: &mut Vec<T>) -> Result<(), ReadError> {
+    rows.try_reserve(n).map_err(|_| no_memory::<T>(rows.len() + n))
+}
+
+fn no_memory<T>(len: usize) -> ReadError {
+    let n_bytes = (len as u64).saturating_mul(size_of::<T>() as u64);
+    ReadError::new(&format!("there is not enough memory for its pixels, {n_bytes} bytes"))
 }
 
 /// The first texts with the keywords `Software` and `Comment`. Invalid chunks are omitted.

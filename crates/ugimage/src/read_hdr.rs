@@ -3,7 +3,10 @@
 //! Not with a crate, because those allocate the whole picture, twice, before they find that a short
 //! file has no pixels.
 
-use crate::read::{Limits, ReadError, reserved};
+use crate::read::{Limits, ReadError, reserved, room_for};
+
+/// The most pixels that two bytes of a channel repeat.
+const LONGEST_RUN: usize = 127;
 
 /// The size and the light of a file.
 ///
@@ -16,9 +19,13 @@ pub(crate) fn read(file: &[u8], limits: &Limits) -> Result<([u32; 2], Vec<[f32; 
     if rest.len() as u64 / 4 < height as u64 {
         return Err(truncated());
     }
-    let mut pixels = reserved(width * height)?;
+    // Rows of runs are this long or longer. A few rows of repeated pixels, which may be shorter, do
+    // not reserve more than these.
+    let n_rows = rest.len() / (4 + 4 * 2 * width.div_ceil(LONGEST_RUN));
+    let mut pixels = reserved(width * height.min(n_rows))?;
     if width > 0 {
         for _ in 0..height {
+            room_for(width, &mut pixels)?;
             row(&mut rest, width, &mut pixels)?;
         }
     }

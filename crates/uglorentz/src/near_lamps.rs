@@ -17,6 +17,10 @@ use crate::relative_motion::{Point, RelativeMotion};
 /// Where on an edge the light is compared with its linear interpolation.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
+/// The power of D_l in proportion to which light with a shifted spectrum grows: that of spectral
+/// radiance per wavelength.  Eq. (P19)
+const SPECTRAL_POWER: f64 = 5.0;
+
 /// The limit of halvings for light alone, since a lamp may lie on a face.
 const MAX_GENERATION: u32 = 12;
 
@@ -106,8 +110,8 @@ impl NearLamps {
 }
 
 impl NearLamp {
-    /// The relative errors of light and wavelength, interpolated linearly between the ends. That of
-    /// light is relative to the light at the point if it is brighter than the intensity of the
+    /// The relative errors of light, wavelength and shifted spectra, interpolated linearly between
+    /// the ends. That of light is relative to the light at the point if it is brighter than the intensity of the
     /// lamp, else to that.  (E6)
     fn error(&self, a: DVec3, b: DVec3, motion: &RelativeMotion, shift: DVec3) -> f64 {
         let light = |point: DVec3| self.light(point, motion, shift);
@@ -118,7 +122,9 @@ impl NearLamp {
             let off = (light.toward - from.toward.lerp(to.toward, s)).length() / light.doppler;
             let off = off / light.part.max(1.0);
             let straight = (1.0 - s) / from.doppler + s / to.doppler;
-            f64::max(off, (straight * light.doppler - 1.0).abs())
+            let power = |doppler: f64| libm::pow(doppler / light.doppler, SPECTRAL_POWER);
+            let spectral = (1.0 - s) * power(from.doppler) + s * power(to.doppler);
+            off.max((straight * light.doppler - 1.0).abs()).max((spectral - 1.0).abs())
         };
         SAMPLES.into_iter().map(at).fold(0.0, f64::max)
     }
@@ -249,6 +255,23 @@ mod tests {
         assert_eq!(lamp(Some(fast)).error(a, b, &moving, DVec3::ZERO), rest);
         assert_eq!(lamp(None).error(a, b, &moving, DVec3::ZERO), rest);
         assert!((lamp(Some(fast)).error(a, b, &at_rest, DVec3::ZERO) - rest).abs() > 1e-3 * rest);
+    }
+
+    /// A lamp flies past an edge: D of its light nearly is linear, D⁵ is not.
+    #[test]
+    fn shifted_spectra_have_the_error_of_their_chord() {
+        let at_rest = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let velocity = Velocity::from_beta(DVec3::X * 0.6).unwrap();
+        let place = DVec3::new(0.0, 0.0, 40.0);
+        let lamp = NearLamp { intensity: 1.0, place, velocity: Some(velocity), fall_off: None };
+        let (a, b) = (DVec3::new(-8.0, 0.0, 0.0), DVec3::new(8.0, 0.0, 0.0));
+        let doppler = |point| illumination(point, 0.0, Velocity::ZERO, place, velocity).unwrap().doppler;
+        let off = |power: f64| {
+            let light = |point| libm::pow(doppler(point), power);
+            (0.5 * (light(a) + light(b)) / light(a.midpoint(b)) - 1.0).abs()
+        };
+        let error = lamp.error(a, b, &at_rest, DVec3::ZERO);
+        assert!(off(5.0) <= error && off(5.0) > 3.0 * off(1.0), "{} {} {error}", off(5.0), off(1.0));
     }
 
     /// `is_surely_linear` is conservative.

@@ -29,6 +29,9 @@ pub const MEMORY_LIMIT: u64 = 8 << 20;
 const ALLOCATED: u64 = 64 << 10;
 const TIMES: u64 = 16;
 
+/// The same for each pixel of a sheet, in bytes: its color, twice.
+const PER_PIXEL: u64 = 8;
+
 /// Memory for each thread, in KiB: its stack, and what the allocator keeps for it.
 const PER_THREAD: u64 = 4 << 10;
 
@@ -152,16 +155,37 @@ fn within_memory(
         return Ok(ended);
     }
     let whole = run(MEMORY_LIMIT)?;
+    // A sheet has a limit of its own, and its place is taken before its pictures are decoded.
+    if words[0] == "ugsheet" && whole.output.is_empty() {
+        return Ok(whole);
+    }
     let n_frames = fs::read_dir(folder).map_err(self::words)?.flatten();
     let n_frames = n_frames.filter(|entry| entry.file_name().to_string_lossy().starts_with(FRAMES));
     let n_frames: u64 = n_frames.filter_map(|entry| Some(entry.metadata().ok()?.len())).sum();
-    let memory = allowed(n_read + whole.output.len() as u64 + n_frames);
+    let n_pixels = if words[0] == "ugsheet" { n_pixels(&whole.output) } else { 0 };
+    let memory = allowed(n_read + whole.output.len() as u64 + n_frames) + PER_PIXEL * n_pixels / 1024;
     let ended = run(memory)?;
     if lacks_memory(&ended.messages) && !lacks_memory(&whole.messages) {
         let messages = String::from_utf8_lossy(&ended.messages).into_owned();
         return Err(format!("needs more than {memory} KiB\n{messages}"));
     }
     Ok(whole)
+}
+
+/// The pixels of a PNG or PDF file: sheets have a limit of their own, and a large one that is nearly
+/// empty is packed into few bytes.
+fn n_pixels(file: &[u8]) -> u64 {
+    if let Some(&[a, b, c, d, e, f, g, h]) =
+        file.strip_prefix(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR").and_then(<[u8]>::first_chunk)
+    {
+        return u64::from(u32::from_be_bytes([a, b, c, d])) * u64::from(u32::from_be_bytes([e, f, g, h]));
+    }
+    let text = String::from_utf8_lossy(file);
+    let sides = |name: &str| {
+        let numbers = text.split(name).skip(1).map(|rest| rest.split(|c: char| !c.is_ascii_digit()).next());
+        numbers.map(|digits| digits.and_then(|digits| digits.parse().ok()).unwrap_or(0)).collect::<Vec<u64>>()
+    };
+    sides("/Width ").iter().zip(sides("/Height ")).map(|(width, height)| width * height).sum()
 }
 
 /// The threads of a program: those that it is told to start, and those of the machine.
