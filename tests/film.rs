@@ -150,8 +150,9 @@ fn commands_draw_the_same_whatever_names_are() {
         let recorded = recorded.lines().last().unwrap();
         let ran = bash(&format!("{recorded} > again.png")).unwrap();
         assert!(ran.status.success(), "{recorded}: {}", String::from_utf8_lossy(&ran.stderr));
-        let pixels =
-            |name: &str| ugimage::read_png(&fs::read(path(name)).unwrap(), &ugimage::Limits::default());
+        let pixels = |name: &str| {
+            ugimage::read_png(&fs::read(path(name)).unwrap(), &ugimage::PictureLimits::default())
+        };
         assert!(pixels("again.png").unwrap().0 == pixels("drawn_2.png").unwrap().0, "{recorded}");
         fs::remove_file(path("drawn_1.png")).unwrap();
         fs::remove_file(path("drawn_2.png")).unwrap();
@@ -217,7 +218,7 @@ fn films_in_one_file_have_the_pixels_of_their_frames() {
     shell.run(&format!("{film} -fo film.y4m; {film} -fo f_%02d.png; {film} -fo again.ppm -keep f_%02d.png"));
     let pixels = |row: usize| {
         let file = fs::read(shell.folder.path().join(format!("f_{row:02}.png"))).unwrap();
-        ugimage::read_png(&file, &ugimage::Limits::default()).unwrap().0.pixels().to_vec()
+        ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap().0.pixels().to_vec()
     };
     let files = shell.files(".");
     assert!(files["film.ppm"] == files["again.ppm"]);
@@ -230,7 +231,8 @@ fn films_in_one_file_have_the_pixels_of_their_frames() {
     }
     // The first frame of an animated PNG is what other programs read.
     assert!(
-        ugimage::read_png(&files["film.apng"], &ugimage::Limits::default()).unwrap().0.pixels() == pixels(1)
+        ugimage::read_png(&files["film.apng"], &ugimage::PictureLimits::default()).unwrap().0.pixels()
+            == pixels(1)
     );
     let decoder = png::Decoder::new(std::io::Cursor::new(&files["film.apng"])).read_info().unwrap();
     let control = decoder.info().animation_control().unwrap();
@@ -366,7 +368,7 @@ fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
 /// The light of a picture in the folder.
 fn light(shell: &Shell, name: &str) -> Vec<[f32; 4]> {
     let file = fs::read(shell.folder.path().join(name)).unwrap();
-    match ugimage::read_picture(&file, &ugimage::Limits::default()).unwrap().1 {
+    match ugimage::read_picture(&file, &ugimage::PictureLimits::default()).unwrap().1 {
         ugimage::Pixels::Light(pixels) => pixels,
         ugimage::Pixels::Srgb(_) => panic!("{name} holds no light"),
     }
@@ -380,11 +382,14 @@ fn motion_blur_is_the_mean_light_of_its_moments() {
     shell.run(&format!("ugfilm {rest} -blur 1 -moments 7 -fo blurred_%d.png"));
     shell.run(&format!("ugfilm {rest} -ex 0 -fo sharp_%d.png"));
     let pixels = |name: &str| {
-        ugimage::read_png(&fs::read(shell.folder.path().join(name)).unwrap(), &ugimage::Limits::default())
-            .unwrap()
-            .0
-            .pixels()
-            .to_vec()
+        ugimage::read_png(
+            &fs::read(shell.folder.path().join(name)).unwrap(),
+            &ugimage::PictureLimits::default(),
+        )
+        .unwrap()
+        .0
+        .pixels()
+        .to_vec()
     };
     assert!(pixels("blurred_1.png") == pixels("sharp_1.png"));
     // `--print` prints one command for each moment.
@@ -455,11 +460,14 @@ fn chosen_frames_on_one_sheet() {
     shell.run(&format!("{film} -fo f_%d.png; ugsheet f_1.png f_3.png f_5.png -fo expected.png"));
     shell.run(&format!("{film} -sheet 3 -fo spread.png; {film} -sheet -only 1,3,5 -fo chosen.png"));
     let pixels = |name: &str| {
-        ugimage::read_png(&fs::read(shell.folder.path().join(name)).unwrap(), &ugimage::Limits::default())
-            .unwrap()
-            .0
-            .pixels()
-            .to_vec()
+        ugimage::read_png(
+            &fs::read(shell.folder.path().join(name)).unwrap(),
+            &ugimage::PictureLimits::default(),
+        )
+        .unwrap()
+        .0
+        .pixels()
+        .to_vec()
     };
     assert!(pixels("spread.png") == pixels("expected.png"));
     assert!(pixels("chosen.png") == pixels("expected.png"));

@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
-use ugmesh::Format;
+use ugmesh::MeshFormat;
 use ugtesting::Random;
 use ugtests::hostile::{Case, File, renderers};
 use ugtests::programs;
@@ -44,11 +44,11 @@ fn renderers_agree() {
 fn libraries_hold() {
     let kinds = [
         (File::Scene, 2000),
-        (File::Mesh(Format::Obj), 500),
-        (File::Mesh(Format::Off), 500),
-        (File::Mesh(Format::Ply), 500),
-        (File::Mesh(Format::Stl), 500),
-        (File::Mesh(Format::Gltf), 500),
+        (File::Mesh(MeshFormat::Obj), 500),
+        (File::Mesh(MeshFormat::Off), 500),
+        (File::Mesh(MeshFormat::Ply), 500),
+        (File::Mesh(MeshFormat::Stl), 500),
+        (File::Mesh(MeshFormat::Gltf), 500),
         (File::Picture, 300),
         (File::Panorama, 500),
         (File::Stars, 500),

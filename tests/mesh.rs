@@ -5,7 +5,7 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use ugmesh::{Format, Input, Target};
+use ugmesh::{MeshFile, MeshFormat, Target};
 use ugparse::{Options, Source};
 use ugpipe::Words;
 use ugscene::Scene;
@@ -71,9 +71,9 @@ fn stl(size: f64, place: DVec3) -> Vec<u8> {
 }
 
 /// The scene that `ugmesh` makes of a mesh.
-fn converted(mesh: &[u8], format: Format, target: Target, stage: bool) -> Vec<u8> {
+fn converted(mesh: &[u8], format: MeshFormat, target: Target, stage: bool) -> Vec<u8> {
     let config = ugmesh::Config { format: Some(format), target, stage, ..ugmesh::Config::default() };
-    ugmesh::run(&config, &Input::new("blob", mesh)).unwrap().bytes
+    ugmesh::run(&config, &MeshFile::new("blob", mesh)).unwrap().bytes
 }
 
 fn scene(text: &[u8]) -> Scene {
@@ -124,11 +124,15 @@ fn every_format_is_drawn_at_once() {
     let place = DVec3::new(3.0, -7.0, 40.0);
     let original = obj(0.1, place);
     let meshes = [
-        ("OBJ", Format::Obj, original.clone()),
-        ("PLY", Format::Ply, converted(&original, Format::Obj, Target::Ply { is_ascii: false }, false)),
-        ("STL", Format::Stl, stl(0.1, place)),
-        ("OFF", Format::Off, off(0.1, place)),
-        ("glTF", Format::Gltf, converted(&original, Format::Obj, Target::Gltf, false)),
+        ("OBJ", MeshFormat::Obj, original.clone()),
+        (
+            "PLY",
+            MeshFormat::Ply,
+            converted(&original, MeshFormat::Obj, Target::Ply { is_ascii: false }, false),
+        ),
+        ("STL", MeshFormat::Stl, stl(0.1, place)),
+        ("OFF", MeshFormat::Off, off(0.1, place)),
+        ("glTF", MeshFormat::Gltf, converted(&original, MeshFormat::Obj, Target::Gltf, false)),
     ];
     for (name, format, mesh) in meshes {
         let text = converted(&mesh, format, Target::Ug, false);
@@ -151,7 +155,7 @@ fn every_format_is_drawn_at_once() {
 fn any_size_at_any_place() {
     for size in [1e-3, 1.0, 1e6] {
         for place in [DVec3::ZERO, DVec3::new(-500.0, 20.0, 3000.0), DVec3::new(0.0, 0.0, -2e6)] {
-            let text = converted(&obj(size, place), Format::Obj, Target::Ug, false);
+            let text = converted(&obj(size, place), MeshFormat::Obj, Target::Ug, false);
             check_fill(&format!("size {size} at {place}"), &drawn(&text, SIZE).0);
             let seen = as_seen(&text, DVec3::new(0.9, 0.0, 0.0));
             check_fill(&format!("size {size} at {place}, moving"), &drawn(&seen, SIZE).0);
@@ -161,7 +165,7 @@ fn any_size_at_any_place() {
 
 #[test]
 fn any_velocity_with_keep_in_view() {
-    let text = converted(&obj(1.0, DVec3::splat(5.0)), Format::Obj, Target::Ug, false);
+    let text = converted(&obj(1.0, DVec3::splat(5.0)), MeshFormat::Obj, Target::Ug, false);
     let directions = [
         DVec3::NEG_X,
         DVec3::Y,
@@ -183,7 +187,7 @@ fn any_velocity_with_keep_in_view() {
 
 #[test]
 fn wide_and_tall_pictures() {
-    let text = converted(&obj(1.0, DVec3::ZERO), Format::Obj, Target::Ug, false);
+    let text = converted(&obj(1.0, DVec3::ZERO), MeshFormat::Obj, Target::Ug, false);
     for size in [[320, 60], [60, 320], [100, 100], [192, 108]] {
         check_fill(&format!("{size:?}"), &drawn(&text, size).0);
     }
@@ -208,7 +212,7 @@ fn exported_normals_are_those_of_the_seen_shape() {
         };
         let (seen, _) = uglorentz::apply(scene(text.as_bytes()), &config).unwrap();
         let seen = ugparse::write(&seen);
-        let obj = String::from_utf8(converted(&seen, Format::Ug, Target::Obj, false)).unwrap();
+        let obj = String::from_utf8(converted(&seen, MeshFormat::Ug, Target::Obj, false)).unwrap();
         let rows = |word: &str| -> Vec<DVec3> {
             let numbers = |line: &str| line.split(' ').map(|x| x.parse().unwrap()).collect::<Vec<f64>>();
             obj.lines()
@@ -230,7 +234,7 @@ fn exported_normals_are_those_of_the_seen_shape() {
 fn gltf_has_the_camera_of_the_scene() {
     let scene = "v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c); cam -ep 1 2 3 -vc 1 7 3 -va 60 40;";
     let file: serde_json::Value =
-        serde_json::from_slice(&converted(scene.as_bytes(), Format::Ug, Target::Gltf, false)).unwrap();
+        serde_json::from_slice(&converted(scene.as_bytes(), MeshFormat::Ug, Target::Gltf, false)).unwrap();
     let lens = &file["cameras"][0]["perspective"];
     let near = |value: &serde_json::Value, expected: f64| (value.as_f64().unwrap() - expected).abs() < 1e-6;
     // A picture of 4 to 3 that shows at least the angles of the scene.
@@ -246,9 +250,10 @@ fn gltf_has_the_camera_of_the_scene() {
 
 #[test]
 fn vtk_files_have_what_is_known_of_the_light() {
-    let text = converted(&obj(1.0, DVec3::new(1.0, 5.0, 2.0)), Format::Obj, Target::Ug, false);
+    let text = converted(&obj(1.0, DVec3::new(1.0, 5.0, 2.0)), MeshFormat::Obj, Target::Ug, false);
     let seen = as_seen(&text, DVec3::new(0.6, 0.2, 0.0));
-    let file = |scene: &[u8]| String::from_utf8(converted(scene, Format::Ug, Target::Vtp, false)).unwrap();
+    let file =
+        |scene: &[u8]| String::from_utf8(converted(scene, MeshFormat::Ug, Target::Vtp, false)).unwrap();
     let arrays = |file: &str| -> Vec<String> {
         file.lines()
             .filter(|line| line.starts_with("<DataArray") && !line.contains("normals"))
@@ -269,7 +274,7 @@ fn vtk_files_have_what_is_known_of_the_light() {
 #[test]
 fn a_stage_in_the_scene_is_the_one_of_a_scene_without() {
     let mesh = obj(0.2, DVec3::ONE);
-    let [bare, staged] = [false, true].map(|stage| converted(&mesh, Format::Obj, Target::Ug, stage));
+    let [bare, staged] = [false, true].map(|stage| converted(&mesh, MeshFormat::Obj, Target::Ug, stage));
     let lines = String::from_utf8(staged.clone()).unwrap();
     let count = |word: &str| lines.lines().filter(|line| line.starts_with(word)).count();
     assert_eq!((count("l "), count("cam ")), (2, 1), "{lines}");

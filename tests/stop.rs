@@ -115,6 +115,6 @@ fn filters_and_frames_of_films_are_stopped() {
     ];
     for mut pipe in [rays, ugfilm::Pipe::new(of_three)] {
         pipe.picture.size = SIZE;
-        check(|progress| pipe.draw_with(ugfilm::Subject::Scene(&scene), progress));
+        check(|progress| pipe.draw_with(ugfilm::FilmSubject::Scene(&scene), progress));
     }
 }

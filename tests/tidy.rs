@@ -11,6 +11,10 @@ mod dependencies;
 mod literals;
 #[path = "tidy/modules.rs"]
 mod modules;
+#[path = "tidy/names.rs"]
+mod names;
+#[path = "tidy/paths.rs"]
+mod paths;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -486,6 +490,28 @@ fn no_crate_has_a_circle_of_imports() {
     let named = others.into_iter().map(|folder| (place(&folder, 0), folder));
     let findings: Vec<String> = (crates().into_iter().chain(named))
         .flat_map(|(krate, folder)| circles::circles(&krate, &sources(&folder)))
+        .collect();
+    assert_none(&findings);
+}
+
+#[test]
+fn no_two_crates_export_types_of_one_name() {
+    /// Each program has these of its own, and they are written with its name: `ugmesh::Config`.
+    const OF_EVERY_PROGRAM: [&str; 4] = ["Args", "Config", "Error", "Note"];
+    let mut exporters: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (krate, folder) in crates() {
+        for name in names::public_types(&sources(&folder)) {
+            exporters.entry(name).or_default().push(krate.clone());
+        }
+    }
+    assert!(exporters.len() > 200, "{} types", exporters.len());
+    let shared = exporters
+        .iter()
+        .filter(|(name, crates)| crates.len() > 1 && !OF_EVERY_PROGRAM.contains(&name.as_str()));
+    let findings: Vec<String> = shared
+        .map(|(name, crates)| {
+            format!("{} export different types `{name}`: give each a name of its own", crates.join(" and "))
+        })
         .collect();
     assert_none(&findings);
 }

@@ -211,7 +211,7 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     let measured = case.measure(png)?;
     let mut text = format!("{}: {}\n", case.name, case.about);
     measured.iter().for_each(|number| text += &format!("{number}\n"));
-    Ok((text, measured.iter().all(picture::Measurement::passes)))
+    Ok((text, measured.iter().all(picture::MeasuredQuantity::passes)))
 }
 
 const BOTH_WAYS: [DrawnBy; 2] = [DrawnBy::Pipe, DrawnBy::Rays];

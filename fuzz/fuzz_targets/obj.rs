@@ -1,4 +1,4 @@
 //! Meshes in this format: no panic, and what is made of them is read again.
 #![no_main]
 
-ug_fuzz::target!(ugtests::hostile::File::Mesh(ugmesh::Format::Obj));
+ug_fuzz::target!(ugtests::hostile::File::Mesh(ugmesh::MeshFormat::Obj));

@@ -1,4 +1,4 @@
 //! Meshes in this format: no panic, and what is made of them is read again.
 #![no_main]
 
-ug_fuzz::target!(ugtests::hostile::File::Mesh(ugmesh::Format::Ply));
+ug_fuzz::target!(ugtests::hostile::File::Mesh(ugmesh::MeshFormat::Ply));

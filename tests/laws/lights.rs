@@ -224,8 +224,8 @@ fn the_camera_does_not_change_what_falls_on_a_surface() {
 fn no_lights_no_change() {
     let text = room("");
     let config = lit();
-    let (scene, report) = ugdoppler::apply(scenes::parse(&text), &config).unwrap();
-    assert!(report.notes.iter().any(|note| note.to_string().starts_with("no lights")), "{:?}", report.notes);
+    let (scene, notes) = ugdoppler::apply(scenes::parse(&text), &config).unwrap();
+    assert!(notes.iter().any(|note| note.to_string().starts_with("no lights")), "{:?}", notes);
     assert!(scene.lights.is_empty());
     let plain = Config { light: false, ..config };
     assert_eq!(numbers(&ugparse::write(&scene)), numbers(&doppler(&text, &plain)));

@@ -2,7 +2,7 @@
 
 use ugphysics::{srgb_decode, srgb_encode};
 
-use super::{Measurement, Picture};
+use super::{MeasuredQuantity, Picture};
 
 /// CIE 1931 x, y of black bodies, as in the questions of T22, in the order of the patches.
 const BLACK_BODIES: [(&str, [f64; 2]); 6] = [
@@ -24,7 +24,7 @@ const GREYS: [f64; 6] = [0.0, 0.05, 0.18, 0.4, 0.7, 1.0];
 const PATCH: u32 = 100;
 
 /// Measures both rows of patches.
-pub fn measure_patches(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure_patches(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let center =
         |patch: usize, row: u32| picture.color(PATCH * patch as u32 + PATCH / 2, PATCH * row + PATCH / 2);
     let mut measurements = Vec::new();
@@ -37,7 +37,7 @@ pub fn measure_patches(picture: &Picture) -> Result<Vec<Measurement>, String> {
         let right = 255.0 * srgb_encode(grey);
         for (name, level) in ["red", "green", "blue"].into_iter().zip(center(patch, 1)) {
             // Half a level for rounding, and half for a colour matrix of four decimals.
-            measurements.push(Measurement::new(
+            measurements.push(MeasuredQuantity::new(
                 format!("{name} of a grey of {grey}, level"),
                 level.into(),
                 right,
@@ -50,14 +50,14 @@ pub fn measure_patches(picture: &Picture) -> Result<Vec<Measurement>, String> {
 
 /// Measures a row of four bodies of 3000 K, which appear as 2000, 3000, 5800 and 10045.89 K; T22
 /// has their chromaticities.
-pub fn measure_moving(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure_moving(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let [cold, rest, white, blue] = [0, 1, 2, 4].map(|idx| BLACK_BODIES[idx]);
     let center = |patch: usize| picture.color(PATCH * patch as u32 + PATCH / 2, PATCH / 2);
     let mut measurements = Vec::new();
     for (patch, body) in [cold, rest, white, blue].into_iter().enumerate() {
         let color = center(patch);
         let lit = f64::from(color.into_iter().max().unwrap_or(0));
-        measurements.push(Measurement::at_least(
+        measurements.push(MeasuredQuantity::at_least(
             format!("brightest channel of {}, level", body.0),
             lit,
             100.0,
@@ -68,20 +68,20 @@ pub fn measure_moving(picture: &Picture) -> Result<Vec<Measurement>, String> {
 }
 
 /// Measures both chromaticity coordinates of a black body.
-fn measure_body(color: [u8; 3], (name, right): (&str, [f64; 2])) -> [Measurement; 2] {
+fn measure_body(color: [u8; 3], (name, right): (&str, [f64; 2])) -> [MeasuredQuantity; 2] {
     let levels = color.map(f64::from);
     let (xy, tolerance) = (chromaticity(levels), rounding(levels));
     [("x", 0), ("y", 1)]
-        .map(|(axis, i)| Measurement::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i]))
+        .map(|(axis, i)| MeasuredQuantity::new(format!("{axis} of {name}"), xy[i], right[i], tolerance[i]))
 }
 
 /// Measures the luminance of a patch, relative to white.
-fn measure_luminance(color: [u8; 3], name: &str, right: f64) -> Measurement {
+fn measure_luminance(color: [u8; 3], name: &str, right: f64) -> MeasuredQuantity {
     let levels = color.map(f64::from);
     let [_, y, _] = xyz(levels);
     // The same tolerance as in `rounding`; Y increases with every channel.
     let [_, above, _] = xyz(levels.map(|level| level + 0.75));
-    Measurement::new(format!("Y of {name}"), y, right, above - y)
+    MeasuredQuantity::new(format!("Y of {name}"), y, right, above - y)
 }
 
 /// CIE x, y of a colour on an sRGB screen.
@@ -118,7 +118,7 @@ fn rounding(levels: [f64; 3]) -> [f64; 2] {
 const RADII: [u32; 4] = [60, 100, 140, 170];
 
 /// Checks that equal angles from the motion have equal colours in all directions of the picture.
-pub fn measure_wide(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure_wide(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let [width, height] = picture.size();
     let (x, y) = (width / 2, height / 2);
     let mut measurements = Vec::new();
@@ -137,7 +137,7 @@ pub fn measure_wide(picture: &Picture) -> Result<Vec<Measurement>, String> {
         let spread = spread.fold(0.0, f64::max);
         // A program may interpolate D linearly. Its error may be half a percent, which is 3 nm, or
         // 16 levels of a saturated colour.
-        measurements.push(Measurement::new(
+        measurements.push(MeasuredQuantity::new(
             format!("difference of colours {r} pixels from the centre, levels"),
             spread,
             0.0,
@@ -147,7 +147,7 @@ pub fn measure_wide(picture: &Picture) -> Result<Vec<Measurement>, String> {
     let (inner, outer) = (picture.color(x + RADII[0], y), picture.color(x + RADII[3], y));
     let change = difference(inner, outer);
     // Without any change of colour, equal colours would prove nothing.
-    measurements.push(Measurement::at_least(
+    measurements.push(MeasuredQuantity::at_least(
         "change of colour from the centre outwards, levels",
         change,
         40.0,
@@ -156,14 +156,14 @@ pub fn measure_wide(picture: &Picture) -> Result<Vec<Measurement>, String> {
 }
 
 /// Checks that the moving square has the colour of the one at rest.
-pub fn measure_shift(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure_shift(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let [width, height] = picture.size();
     let [rest, coming] = [width / 4, 3 * width / 4].map(|x| picture.color(x, height / 2));
     let lit = f64::from(rest.into_iter().max().unwrap_or(0));
     Ok(vec![
-        Measurement::new("difference of both squares, levels", difference(rest, coming), 0.0, 3.0),
+        MeasuredQuantity::new("difference of both squares, levels", difference(rest, coming), 0.0, 3.0),
         // Two black squares would be equal, too.
-        Measurement::at_least("brightest channel of the square at rest, level", lit, 64.0),
+        MeasuredQuantity::at_least("brightest channel of the square at rest, level", lit, 64.0),
     ])
 }
 

@@ -1,12 +1,12 @@
 //! T08, T09: a unit cube at 0.8 c. At its centre one unit is 400 pixels.
 
 use super::pixels::Dominant;
-use super::{Measurement, Picture};
+use super::{MeasuredQuantity, Picture};
 
 const SPEED: f64 = 0.8;
 const PER_UNIT: f64 = 400.0;
 
-pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let [width, height] = picture.size();
     let row: Vec<Dominant> = (0..width).map(|x| picture.dominant(x, height / 2)).collect();
     let count = |hue| row.iter().filter(|&&pixel| pixel == hue).count() as f64;
@@ -22,10 +22,10 @@ pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
     // Half a pixel at both ends, and the effect of perspective over the cube's depth: 1 in 2000.
     let edges = 1.2;
     Ok(vec![
-        Measurement::new("front, pixels", front, rest * PER_UNIT, edges),
-        Measurement::new("trailing side, pixels", side, SPEED * PER_UNIT, edges),
-        Measurement::new("trailing side is on the left (1) or not (0)", is_left, 1.0, 0.0),
-        Measurement::new(
+        MeasuredQuantity::new("front, pixels", front, rest * PER_UNIT, edges),
+        MeasuredQuantity::new("trailing side, pixels", side, SPEED * PER_UNIT, edges),
+        MeasuredQuantity::new("trailing side is on the left (1) or not (0)", is_left, 1.0, 0.0),
+        MeasuredQuantity::new(
             "apparent rotation, degrees",
             turned_deg,
             libm::asin(SPEED).to_degrees(),

@@ -2,7 +2,7 @@
 //! it.
 
 use super::pixels::Dominant;
-use super::{Measurement, Picture};
+use super::{MeasuredQuantity, Picture};
 
 /// Half the width of the picture at distance 1: 15 degrees.
 const HALF_ANGLE_DEG: f64 = 15.0;
@@ -14,7 +14,7 @@ const RED_HALF: f64 = 2.0;
 /// Height of a line over the green square, at the distance of the red one.
 const GREEN_HEIGHT: f64 = 0.5;
 
-pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let [width, height] = picture.size();
     let [middle_x, middle_y] = picture.camera.middle();
     let per_unit = middle_x / libm::tan(HALF_ANGLE_DEG.to_radians());
@@ -29,8 +29,13 @@ pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
     let blue = (0..height).map(|y| count(Dominant::Blue, y)).sum();
     // Both ends of each are uncertain by half a pixel.
     Ok(vec![
-        Measurement::new("green square in front of the red one, width in pixels", green, green_width, 1.2),
-        Measurement::new("red square next to it, width in pixels", red, red_width - green_width, 2.2),
-        Measurement::new("blue square behind the red one, pixels", blue, 0.0, 0.0),
+        MeasuredQuantity::new(
+            "green square in front of the red one, width in pixels",
+            green,
+            green_width,
+            1.2,
+        ),
+        MeasuredQuantity::new("red square next to it, width in pixels", red, red_width - green_width, 2.2),
+        MeasuredQuantity::new("blue square behind the red one, pixels", blue, 0.0, 0.0),
     ])
 }

@@ -3,14 +3,14 @@
 //! In the frame of the ceiling the edge and the eye span the plane x' = 0, so by (P6) the edge is
 //! seen in directions whose angle to the motion has the cosine −0.9.
 
-use super::{Measurement, Picture};
+use super::{MeasuredQuantity, Picture};
 
 const SPEED: f64 = 0.9;
 
 /// The fraction of the edge that is measured, to exclude its ends.
 const WITHIN: f64 = 0.95;
 
-pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let [width, _] = picture.size();
     let mut gaps = Vec::new();
     let right = libm::acos(-SPEED);
@@ -29,9 +29,9 @@ pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
     let mean = gaps.iter().sum::<f64>() / gaps.len() as f64;
     let worst = gaps.iter().fold(0.0, |worst: f64, gap| worst.max(gap.abs()));
     Ok(vec![
-        Measurement::new("mean distance from the hyperbola, pixels", mean / pixel, 0.0, 0.15),
+        MeasuredQuantity::new("mean distance from the hyperbola, pixels", mean / pixel, 0.0, 0.15),
         // Half a pixel for the position of the row, and up to a third for a program's bound of
         // subdivision.
-        Measurement::new("largest distance from the hyperbola, pixels", worst / pixel, 0.0, 1.0),
+        MeasuredQuantity::new("largest distance from the hyperbola, pixels", worst / pixel, 0.0, 1.0),
     ])
 }

@@ -32,7 +32,7 @@ pub struct PictureCase {
     pub size: [u32; 2],
     /// Options with which this project's programs draw it.
     options: DrawOptions,
-    measure: fn(&Picture) -> Result<Vec<Measurement>, String>,
+    measure: fn(&Picture) -> Result<Vec<MeasuredQuantity>, String>,
 }
 
 /// Which of this project's programs draw a scene.
@@ -67,7 +67,7 @@ struct Picture {
 
 /// A quantity measured in a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measurement {
+pub struct MeasuredQuantity {
     /// Its name and unit.
     pub quantity: String,
     /// The measured value.
@@ -90,7 +90,7 @@ pub enum Expected {
     AtLeast(f64),
 }
 
-impl Measurement {
+impl MeasuredQuantity {
     fn new(quantity: impl Into<String>, value: f64, expected: f64, tolerance: f64) -> Self {
         let expected = Expected::About { value: expected, tolerance };
         Self { quantity: quantity.into(), value, expected }
@@ -109,7 +109,7 @@ impl Measurement {
     }
 }
 
-impl fmt::Display for Measurement {
+impl fmt::Display for MeasuredQuantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let verdict = if self.passes() { "ok    " } else { "FAILED" };
         write!(f, "{verdict}  {}: {:.4}, expected ", self.quantity, self.value)?;
@@ -200,7 +200,7 @@ impl PictureCase {
     ///
     /// # Errors
     /// It is not a PNG, has a wrong size, or does not show what is to be measured.
-    pub fn measure(&self, png: &[u8]) -> Result<Vec<Measurement>, String> {
+    pub fn measure(&self, png: &[u8]) -> Result<Vec<MeasuredQuantity>, String> {
         let pixels = image::load_from_memory_with_format(png, ImageFormat::Png)
             .map_err(|error| format!("the picture cannot be read: {error}"))?
             .into_rgb8();

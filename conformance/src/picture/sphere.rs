@@ -2,7 +2,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::{Measurement, Picture};
+use super::{MeasuredQuantity, Picture};
 
 const RADIUS_DEG: f64 = 8.760_949_008;
 const AXIS_DEG: f64 = 152.810_381_4;
@@ -11,7 +11,7 @@ const AXIS_DEG: f64 = 152.810_381_4;
 /// − cos 1.5°.
 const POLYHEDRON: f64 = 3.5e-4;
 
-pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
+pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let outline = outline(picture);
     if outline.len() < 400 {
         return Err("no outline of a sphere is visible".to_string());
@@ -22,10 +22,20 @@ pub fn measure(picture: &Picture) -> Result<Vec<Measurement>, String> {
     // An edge is uncertain by half a pixel, and the mean of a thousand by a twentieth.
     let mean = 0.1 * pixel_deg;
     Ok(vec![
-        Measurement::new("angular radius, degrees", radius_deg, RADIUS_DEG, mean + POLYHEDRON * RADIUS_DEG),
-        Measurement::new("axis of the circle from the motion, degrees", axis_deg, AXIS_DEG, mean),
-        Measurement::new("axis of the circle, height, degrees", libm::asin(axis.z).to_degrees(), 0.0, mean),
-        Measurement::new("largest distance from the circle, degrees", gap_deg, 0.0, pixel_deg),
+        MeasuredQuantity::new(
+            "angular radius, degrees",
+            radius_deg,
+            RADIUS_DEG,
+            mean + POLYHEDRON * RADIUS_DEG,
+        ),
+        MeasuredQuantity::new("axis of the circle from the motion, degrees", axis_deg, AXIS_DEG, mean),
+        MeasuredQuantity::new(
+            "axis of the circle, height, degrees",
+            libm::asin(axis.z).to_degrees(),
+            0.0,
+            mean,
+        ),
+        MeasuredQuantity::new("largest distance from the circle, degrees", gap_deg, 0.0, pixel_deg),
     ])
 }
 

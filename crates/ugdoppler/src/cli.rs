@@ -146,13 +146,13 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     steps.step("reading", 0);
     let parsed = ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
     let applied = apply_with(parsed.scene, &config, &steps);
-    let (mut scene, report) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
+    let (mut scene, notes) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
     scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
     }
-    report.notes.iter().for_each(|note| context.note(&note.words()));
+    notes.iter().for_each(|note| context.note(&note.words()));
     context.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
     context.write_with(|out| ugparse::write_to(&scene, out))
 }

@@ -68,18 +68,11 @@ use vertices::doppler_factors;
 pub const PROVENANCE: Provenance<'static> =
     Provenance { program: env!("CARGO_PKG_NAME"), version: env!("CARGO_PKG_VERSION"), command: None };
 
-/// A note on a coloured scene.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Report {
-    /// In the order in which they are shown.
-    pub notes: Vec<Note>,
-}
-
 /// The scene with a colour as seen on every vertex that a face or wire uses.
 ///
 /// # Errors
 /// See [`Error`].
-pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
+pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Vec<Note>), Error> {
     apply_with(scene, config, &())
 }
 
@@ -87,7 +80,11 @@ pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Report), Error> {
 ///
 /// # Errors
 /// See [`Error`].
-pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<(Scene, Report), Error> {
+pub fn apply_with(
+    scene: Scene,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<(Scene, Vec<Note>), Error> {
     progress.step("colouring", 0);
     // The light of coloured lamps multiplies spectra, which are not in the output.
     let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);
@@ -111,7 +108,7 @@ pub fn apply_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Res
     if let Some(eye) = config.eye {
         set_eye(&mut scene, eye)?;
     }
-    Ok((scene, Report { notes }))
+    Ok((scene, notes))
 }
 
 /// Writes the eye into the scene's camera if positions are as seen from it, so that programs

@@ -16,8 +16,8 @@ const SCENE: &str = "c green 0.5 120; c grey 0.4; c_rgb rose 1 0.5 0.5;
     v g -9 0 0; v h -9 1 0; v i -9 1 1; f (g h i) rose; v unused 1 1 1;";
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
-    let (scene, report) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
-    (parsed("out.ug", ugparse::write(&scene)), report.notes.iter().map(Words::words).collect())
+    let (scene, notes) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
+    (parsed("out.ug", ugparse::write(&scene)), notes.iter().map(Words::words).collect())
 }
 
 fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {

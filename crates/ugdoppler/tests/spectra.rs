@@ -11,8 +11,8 @@ use ugpipe::Words;
 use ugscene::{ColorValue, Scene, Tint};
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
-    let (scene, report) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
-    (parsed("out.ug", ugparse::write(&scene)), report.notes.iter().map(Words::words).collect())
+    let (scene, notes) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
+    (parsed("out.ug", ugparse::write(&scene)), notes.iter().map(Words::words).collect())
 }
 
 fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {

@@ -6,7 +6,7 @@ use ugpipe::sha256;
 
 use crate::error::Error;
 use crate::note::Note;
-use crate::pipe::{Pipe, Subject};
+use crate::pipe::{FilmSubject, Pipe};
 
 /// How long the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Shot {
 
 impl Shot {
     /// The record in the file of the frame.
-    pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
+    pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
         if self.moments.is_empty() {
             return self.frame.metadata(subject);
         }
@@ -52,7 +52,7 @@ impl Shot {
     /// # Errors
     /// The scene or panorama cannot be drawn with these options, or the mean of its moments cannot
     /// have what they ask for.
-    pub fn draw(self, subject: Subject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
+    pub fn draw(self, subject: FilmSubject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
         if self.moments.is_empty() {
             return self.frame.draw(subject);
         }
@@ -60,7 +60,7 @@ impl Shot {
     }
 
     /// Draws the mean light of all moments, developed and annotated as the frame.
-    fn mean(self, subject: Subject<'_>) -> Result<Rendering, Error> {
+    fn mean(self, subject: FilmSubject<'_>) -> Result<Rendering, Error> {
         let whole = &self.frame.picture;
         let has_more = whole.annotations.legend || whole.annotations.outline || whole.annotations.grid;
         if has_more || !whole.channels.is_empty() || matches!(whole.output, Output::Vector(_)) {
@@ -85,7 +85,7 @@ impl Shot {
 
 /// The record in the file. No single pipe draws it, so it has none of the lines that
 /// can be run; the hash is that of the records of all moments.
-fn metadata(frame: &Pipe, moments: &[Pipe], subject: Subject<'_>) -> Metadata {
+fn metadata(frame: &Pipe, moments: &[Pipe], subject: FilmSubject<'_>) -> Metadata {
     let records: Vec<String> = moments.iter().map(|pipe| pipe.metadata(subject).comment).collect();
     let Metadata { software, comment } = frame.metadata(subject);
     let commands = comment.lines().filter(|line| !line.contains(" # SHA-256 "));

@@ -18,7 +18,7 @@ use crate::film::{Film, Summary, Target};
 use crate::frame_files::valid_since;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
-use crate::pipe::Subject;
+use crate::pipe::FilmSubject;
 use crate::program::Program;
 use crate::script::Script;
 use crate::timeline::Ease;
@@ -261,10 +261,10 @@ impl Read {
         }
     }
 
-    fn subject(&self) -> Subject<'_> {
+    fn subject(&self) -> FilmSubject<'_> {
         match self {
-            Self::Scene(scene, _) => Subject::Scene(scene),
-            Self::Panorama(panorama, origin) => Subject::Panorama(panorama, origin),
+            Self::Scene(scene, _) => FilmSubject::Scene(scene),
+            Self::Panorama(panorama, origin) => FilmSubject::Panorama(panorama, origin),
         }
     }
 }

@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::time::SystemTime;
 
-use ugimage::{Format, Frame, Limits, LinearFrame, Metadata, auto_exposure, read_png, read_png_header};
+use ugimage::{
+    Format, Frame, LinearFrame, Metadata, PictureLimits, auto_exposure, read_png, read_png_header,
+};
 use ugpicture::Rendering;
 use ugpipe::{Context, Failure, Progress, Steps, Words};
 use ugsheet::{Motion, Picture};
@@ -14,7 +16,7 @@ use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
 use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
 use crate::note::Note;
-use crate::pipe::{Pipe, Subject};
+use crate::pipe::{FilmSubject, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
 use crate::work::in_order;
 
@@ -30,7 +32,7 @@ const MEASURED_SIDE: u32 = 128;
 /// A film that can be drawn.
 pub struct Film<'s> {
     /// The subject.
-    pub subject: Subject<'s>,
+    pub subject: FilmSubject<'s>,
     /// The commands of its frames.
     pub script: &'s Script,
     /// The format of single frames.
@@ -258,7 +260,10 @@ impl Film<'_> {
         {
             let read = std::fs::read(path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
-            return Ok((read_png(&read, &Limits::default()).map_err(Failure::failed)?.0, Outcome::Done));
+            return Ok((
+                read_png(&read, &PictureLimits::default()).map_err(Failure::failed)?.0,
+                Outcome::Done,
+            ));
         }
         let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
         if let Some((path, _)) = &kept {
@@ -287,7 +292,7 @@ impl Film<'_> {
             },
         )?;
         let frame_of = |idx: usize| {
-            let read = read_png(&files[idx], &Limits::default()).map(|(frame, _)| frame);
+            let read = read_png(&files[idx], &PictureLimits::default()).map(|(frame, _)| frame);
             read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
         };
         let sheet = ugsheet::sheet(&ugsheet::Config::default(), &pictures, frame_of);

@@ -11,7 +11,7 @@
 //! As a library, a frame is a [`Pipe`] of programs with typed options:
 //!
 //! ```
-//! use ugfilm::{Pipe, Program, Subject};
+//! use ugfilm::{FilmSubject, Pipe, Program};
 //! use ugparse::{Options, Source};
 //!
 //! let text = "c red 1 0 1; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) red; cam -ep 0 0 5;";
@@ -24,7 +24,7 @@
 //!         Program::Rainbow(Default::default()),
 //!     ]);
 //!     pipe.picture.size = [40, 30];
-//!     let (picture, _notes) = pipe.draw(Subject::Scene(&scene))?;
+//!     let (picture, _notes) = pipe.draw(FilmSubject::Scene(&scene))?;
 //!     let file = picture.into_file();
 //!     assert!(file.starts_with(b"\x89PNG"));
 //! }
@@ -85,5 +85,5 @@ mod work;
 pub use cli::{Args, manual, run};
 pub use error::Error;
 pub use note::Note;
-pub use pipe::{Pipe, Subject};
+pub use pipe::{FilmSubject, Pipe};
 pub use program::{Program, ProgramError};

@@ -11,7 +11,7 @@ use crate::program::{Item, Program};
 
 /// The subject of a film.
 #[derive(Clone, Copy)]
-pub enum Subject<'s> {
+pub enum FilmSubject<'s> {
     /// A scene at rest.
     Scene(&'s Scene),
     /// A panorama, with the words for its origin.
@@ -42,12 +42,14 @@ impl Pipe {
     }
 
     /// The record in the file of the frame. Of a scene only the comments are used.
-    pub fn metadata(&self, subject: Subject<'_>) -> Metadata {
+    pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
         let mut remarks = match subject {
-            Subject::Scene(Scene { remarks: Remarks { head, origin, .. }, .. }) => {
+            FilmSubject::Scene(Scene { remarks: Remarks { head, origin, .. }, .. }) => {
                 Remarks { head: head.clone(), origin: origin.clone(), ..Remarks::default() }
             }
-            Subject::Panorama(_, origin) => Remarks { origin: Some(origin.to_owned()), ..Remarks::default() },
+            FilmSubject::Panorama(_, origin) => {
+                Remarks { origin: Some(origin.to_owned()), ..Remarks::default() }
+            }
         };
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
         for (filter, line) in filters.iter().zip(&self.lines) {
@@ -61,7 +63,7 @@ impl Pipe {
     ///
     /// # Errors
     /// The scene or panorama cannot be drawn with these options.
-    pub fn draw(&self, subject: Subject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
+    pub fn draw(&self, subject: FilmSubject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
         self.draw_with(subject, &())
     }
 
@@ -71,12 +73,12 @@ impl Pipe {
     /// See [`Pipe::draw`]; the caller stopped it.
     pub fn draw_with(
         &self,
-        subject: Subject<'_>,
+        subject: FilmSubject<'_>,
         progress: &dyn Progress,
     ) -> Result<(Rendering, Vec<Note>), Error> {
         let mut item = match subject {
-            Subject::Scene(scene) => Item::Scene(Box::new(scene.clone())),
-            Subject::Panorama(panorama, _) => Item::Panorama(panorama),
+            FilmSubject::Scene(scene) => Item::Scene(Box::new(scene.clone())),
+            FilmSubject::Panorama(panorama, _) => Item::Panorama(panorama),
         };
         let mut notes = Vec::new();
         for program in &self.programs {
@@ -97,7 +99,7 @@ impl Pipe {
     ///
     /// # Errors
     /// See [`Pipe::draw`].
-    pub fn light(&self, subject: Subject<'_>) -> Result<LinearFrame, Error> {
+    pub fn light(&self, subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
         let mut pipe = self.clone();
         pipe.picture.keep_light();
         pipe.draw(subject)?.0.into_light().ok_or(Error::NoPixels)

@@ -102,8 +102,8 @@ impl Program {
                 return Ok(Some((Item::Scene(scene.into()), vec![Note::Lorentz(report)])));
             }
             (Self::Doppler(config), Item::Scene(scene)) => {
-                let (scene, report) = ugdoppler::apply_with(*scene, config, progress)?;
-                let notes = report.notes.into_iter().map(Note::Doppler).collect();
+                let (scene, notes) = ugdoppler::apply_with(*scene, config, progress)?;
+                let notes = notes.into_iter().map(Note::Doppler).collect();
                 return Ok(Some((Item::Scene(scene.into()), notes)));
             }
             (Self::Rainbow(config), Item::Scene(scene)) => ugrainbow::render_with(&scene, config, progress)?,

@@ -84,7 +84,7 @@ pub struct Development {
 
 /// The intermediate results for one pixel, as linear red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Steps {
+pub struct DevelopmentSteps {
     /// After the exposure.
     pub exposed: [f64; 3],
     /// After the tone curve.
@@ -95,11 +95,11 @@ pub struct Steps {
 
 impl Development {
     /// Converts one pixel and returns the result of every step.
-    pub fn steps(&self, light: [f32; 3]) -> Steps {
+    pub fn steps(&self, light: [f32; 3]) -> DevelopmentSteps {
         let gain = libm::exp2(self.stops);
         let exposed = light.map(|channel| f64::from(channel) * gain);
         let toned = self.toned(exposed);
-        Steps { exposed, toned, shown: into_gamut(toned) }
+        DevelopmentSteps { exposed, toned, shown: into_gamut(toned) }
     }
 
     /// Converts one pixel: each channel of the result is 0…1. With the default settings, light
@@ -214,7 +214,7 @@ mod tests {
                     Development { stops: -2.5, tone: Tone::Clip },
                     Development { stops: 1.0, tone: Tone::Filmic },
                 ] {
-                    let Steps { exposed, toned, shown } = development.steps(light);
+                    let DevelopmentSteps { exposed, toned, shown } = development.steps(light);
                     assert!(shown.iter().all(|channel| (0.0..=1.0).contains(channel)), "{shown:?}");
                     if luminance(exposed) <= 0.0 {
                         assert_eq!(shown, [0.0; 3]);

@@ -66,7 +66,7 @@ mod read_hdr;
 mod read_light;
 mod svg;
 
-pub use develop::{Development, Steps, Tone, auto_exposure};
+pub use develop::{Development, DevelopmentSteps, Tone, auto_exposure};
 pub use filter::Filter;
 pub use format::Format;
 pub use frame::Frame;
@@ -76,5 +76,5 @@ pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
 pub use png::{Compression, draw_png};
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
-pub use read::{Limits, MAX_PIXELS, ReadError, read_png, read_png_header};
+pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
 pub use read_light::{Pixels, read_picture};

@@ -14,7 +14,7 @@ pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// Limits of a picture that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct PictureLimits {
     /// Most pixels; [`MAX_PIXELS`] at most.
     pub pixels: u64,
     /// Most bytes of pixels, decoded: 4 for a pixel with 8 bits per channel, and 16 for one of
@@ -22,14 +22,14 @@ pub struct Limits {
     pub bytes: u64,
 }
 
-impl Default for Limits {
+impl Default for PictureLimits {
     /// [`MAX_PIXELS`], and 2 GiB.
     fn default() -> Self {
         Self { pixels: MAX_PIXELS, bytes: 1 << 31 }
     }
 }
 
-impl Limits {
+impl PictureLimits {
     /// Refuses pictures with too many pixels, or too many bytes if each has `n_bytes`.
     pub(crate) fn check(&self, [width, height]: [usize; 2], n_bytes: u64) -> Result<[u32; 2], ReadError> {
         let n_pixels = (width as u64).saturating_mul(height as u64);
@@ -82,9 +82,9 @@ impl std::error::Error for ReadError {}
 /// The size of the image of a PNG file, and the metadata of the file. The pixels are not decoded.
 ///
 /// # Errors
-/// [`ReadError`] if the file is not a PNG, or exceeds the default [`Limits`].
+/// [`ReadError`] if the file is not a PNG, or exceeds the default [`PictureLimits`].
 pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
-    Ok((Limits::default().check(size(&mut decoder(file)?)?, 1)?, metadata(file)))
+    Ok((PictureLimits::default().check(size(&mut decoder(file)?)?, 1)?, metadata(file)))
 }
 
 /// The image of a PNG file of any kind, converted to 8 bits per channel, and its metadata. Colours
@@ -94,7 +94,7 @@ pub fn read_png_header(file: &[u8]) -> Result<([u32; 2], Metadata), ReadError> {
 /// # Errors
 /// [`ReadError`] if the file is not a PNG, is truncated or corrupt, exceeds the limits, or does not
 /// fit in memory.
-pub fn read_png(file: &[u8], limits: &Limits) -> Result<(Frame, Metadata), ReadError> {
+pub fn read_png(file: &[u8], limits: &PictureLimits) -> Result<(Frame, Metadata), ReadError> {
     let mut is_opaque = false;
     let (size, pixels) = decoded(decoder(file)?, file.len(), limits, |n_channels, row, pixels| {
         is_opaque = matches!(n_channels, 1 | 3);
@@ -114,7 +114,10 @@ pub fn read_png(file: &[u8], limits: &Limits) -> Result<(Frame, Metadata), ReadE
 ///
 /// # Errors
 /// See [`read_png`].
-pub(crate) fn read_png_light(file: &[u8], limits: &Limits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+pub(crate) fn read_png_light(
+    file: &[u8],
+    limits: &PictureLimits,
+) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     let mut decoder = decoder(file)?;
     decoder.set_transformations(Transformations::EXPAND);
     let curve: Vec<f32> =
@@ -144,7 +147,7 @@ pub(crate) fn is_png_deep(file: &[u8]) -> bool {
 fn decoded<P>(
     mut decoder: Decoder<Cursor<&[u8]>>,
     n_file: usize,
-    limits: &Limits,
+    limits: &PictureLimits,
     mut append: impl FnMut(usize, &[u8], &mut Vec<P>),
 ) -> Result<([u32; 2], Vec<P>), ReadError> {
     let size = limits.check(size(&mut decoder)?, size_of::<P>() as u64)?;
@@ -303,7 +306,7 @@ mod tests {
     use crate::frame::test_frames;
 
     fn read(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
-        read_png(file, &Limits::default())
+        read_png(file, &PictureLimits::default())
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! Not with a crate, because those allocate the whole picture, twice, before they find that a short
 //! file has no pixels.
 
-use crate::read::{Limits, ReadError, reserved, room_for};
+use crate::read::{PictureLimits, ReadError, reserved, room_for};
 
 /// The most pixels that two bytes of a channel repeat.
 const LONGEST_RUN: usize = 127;
@@ -12,7 +12,7 @@ const LONGEST_RUN: usize = 127;
 ///
 /// # Errors
 /// [`ReadError`] if the file is truncated or corrupt, or exceeds a limit.
-pub(crate) fn read(file: &[u8], limits: &Limits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     let ([width, height], mut rest) = header(file)?;
     let size = limits.check([width, height], 16)?;
     // A row is a pixel or more.
@@ -210,7 +210,7 @@ mod tests {
         fn check(size: [u32; 2], rows: &[u8]) {
             let file = file(size, rows);
             let n_pixels = size[0] as usize * size[1] as usize;
-            let found = read(&file, &Limits::default()).ok().map(|(_, pixels)| pixels);
+            let found = read(&file, &PictureLimits::default()).ok().map(|(_, pixels)| pixels);
             let found = found.map(|pixels| pixels.iter().map(|&[r, g, b, _]| [r, g, b]).collect());
             assert_eq!(found, expected(&file, n_pixels), "{rows:?}");
         }
@@ -237,6 +237,6 @@ mod tests {
     #[test]
     fn numbers_of_runs_do_not_overflow() {
         let rows = [[9, 9, 9, 130].as_slice(), &[1, 1, 1, 0].repeat(10), &[1, 1, 1, 1]].concat();
-        assert!(read(&file([4, 1], &rows), &Limits::default()).is_err());
+        assert!(read(&file([4, 1], &rows), &PictureLimits::default()).is_err());
     }
 }

@@ -12,7 +12,7 @@ use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::read::{
-    Limits, MOST_INFLATED, ReadError, check_packed, is_png_deep, read_png, read_png_light, reserved,
+    MOST_INFLATED, PictureLimits, ReadError, check_packed, is_png_deep, read_png, read_png_light, reserved,
 };
 use crate::read_hdr;
 
@@ -46,7 +46,7 @@ impl Pixels {
 /// # Errors
 /// [`ReadError`] if the file is of another kind, is truncated or corrupt, exceeds the limits, or
 /// does not fit in memory.
-pub fn read_picture(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
+pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
     match file {
         [0x89, b'P', b'N', b'G', ..] if is_png_deep(file) => {
             read_png_light(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels)))
@@ -68,7 +68,7 @@ fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
     ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
 }
 
-fn jpeg(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
+fn jpeg(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
     /// Bytes of a pixel: red, green, blue and alpha.
     const N_BYTES: usize = 4;
     /// Bytes of its coefficients, which a progressive file needs all at once.
@@ -130,7 +130,7 @@ fn packed(file: &[u8]) -> Option<Packed> {
     }
 }
 
-fn exr(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
+fn exr(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
     let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
     let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), false);
     let headers = headers.map_err(|error| broken(&error))?;
@@ -174,7 +174,7 @@ fn exr(file: &[u8], limits: &Limits) -> Result<([u32; 2], Pixels), ReadError> {
 const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
 
 /// Refuses a layer that is too large, or for which a file of `n_file` bytes has not enough.
-fn check_layer(header: &Header, n_file: usize, limits: &Limits) -> Result<(), ReadError> {
+fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result<(), ReadError> {
     /// Bytes in the file for each block of pixels: its place, its row, its size.
     const N_BYTES_OF_BLOCK: u64 = 16;
     let size = limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
@@ -209,7 +209,7 @@ mod tests {
     const BARS: &[u8] = include_bytes!("../tests/bars.jpg");
 
     fn read(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
-        read_picture(file, &Limits::default())
+        read_picture(file, &PictureLimits::default())
     }
 
     #[test]

@@ -42,7 +42,7 @@ impl SurfaceColor {
 
 /// Light on a point of a surface.
 #[derive(Clone, Copy)]
-pub enum Light<'a> {
+pub enum Illumination<'a> {
     /// White light of this level, from no lamp.
     Level(f64),
     /// The contribution of each lamp.
@@ -51,7 +51,7 @@ pub enum Light<'a> {
 
 /// A coloured transparent surface that light crossed on its way from a surface to the eye.
 #[derive(Clone, Copy, Debug)]
-pub struct Filter {
+pub struct ColorFilter {
     /// Its colour at rest.
     pub color: SurfaceColor,
     /// The Doppler factor with which it is seen.
@@ -199,7 +199,13 @@ impl Appearance {
     /// Linear red, green and blue of a surface under `light` and behind `filters`, seen with the
     /// Doppler factor `doppler`: for rays, which may reach the eye by way of mirrors and glass.
     /// Eq. (P14)
-    pub fn light(&self, color: &SurfaceColor, doppler: f64, light: Light<'_>, filters: &[Filter]) -> DVec3 {
+    pub fn light(
+        &self,
+        color: &SurfaceColor,
+        doppler: f64,
+        light: Illumination<'_>,
+        filters: &[ColorFilter],
+    ) -> DVec3 {
         match &self.spectra {
             Some(spectra) => spectral_light(spectra, color, doppler, light, filters),
             None => self.hue_light(&color.swatch, doppler, light) * self.transmitted(filters),
@@ -207,23 +213,23 @@ impl Appearance {
     }
 
     /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters.
-    fn hue_light(&self, rest: &Swatch, doppler: f64, light: Light<'_>) -> DVec3 {
+    fn hue_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
         let of_level = |level: f64| {
             let base = self.hue_shift.brightened(self.hue_color(rest), level);
             self.hue_shift.seen(base, doppler).light()
         };
         let seen = match (rest.light, light) {
-            (Some(own), Light::Level(level)) => return level * own,
-            (Some(own), Light::Lamps(parts, lamps)) => {
+            (Some(own), Illumination::Level(level)) => return level * own,
+            (Some(own), Illumination::Lamps(parts, lamps)) => {
                 let received = |part: &Irradiance| part.level * lamps[part.lamp as usize].linear;
                 return own * parts.iter().map(received).sum::<DVec3>();
             }
-            (None, Light::Level(level)) => of_level(level),
-            (None, Light::Lamps(parts, lamps)) if is_plain(parts) && !lamps.is_colored => {
+            (None, Illumination::Level(level)) => of_level(level),
+            (None, Illumination::Lamps(parts, lamps)) if is_plain(parts) && !lamps.is_colored => {
                 let of_lamp = |part: &Irradiance| self.hue_shift.color_of(&lamps[part.lamp as usize]).x;
                 of_level(parts.iter().map(|part| part.level * of_lamp(part)).sum())
             }
-            (None, Light::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
+            (None, Illumination::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
         };
         seen.min(DVec3::splat(self.ceiling))
     }
@@ -237,8 +243,8 @@ impl Appearance {
     }
 
     /// The part of linear red, green and blue that filters transmit, whose hues are shifted.
-    pub fn transmitted(&self, filters: &[Filter]) -> DVec3 {
-        let part = |filter: &Filter| {
+    pub fn transmitted(&self, filters: &[ColorFilter]) -> DVec3 {
+        let part = |filter: &ColorFilter| {
             let base = self.hue_color(&filter.color.swatch);
             let wavelength_nm = self.hue_shift.wavelength_nm(base.wavelength_nm, filter.doppler);
             let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
@@ -275,12 +281,12 @@ fn spectral_light(
     spectra: &Spectra,
     color: &SurfaceColor,
     doppler: f64,
-    light: Light<'_>,
-    filters: &[Filter],
+    light: Illumination<'_>,
+    filters: &[ColorFilter],
 ) -> DVec3 {
     let of_daylight = match light {
-        Light::Level(level) => Some(level),
-        Light::Lamps(parts, lamps) => (lamps.is_daylight && is_plain(parts))
+        Illumination::Level(level) => Some(level),
+        Illumination::Lamps(parts, lamps) => (lamps.is_daylight && is_plain(parts))
             .then(|| parts.iter().map(|part| part.level * lamps[part.lamp as usize].intensity).sum()),
     };
     if let (Some(level), [], SurfaceSpectrum::Corners(rows)) = (of_daylight, filters, color.spectrum) {
@@ -288,14 +294,14 @@ fn spectral_light(
         return level * mean(rows, |row| spectra.light(row, ln_doppler, None));
     }
     let colors: Vec<_> = filters.iter().map(|filter| strongest(spectra, filter.color.spectrum)).collect();
-    let filter = |(color, filter): (_, &Filter)| SpectralFilter { color, doppler: filter.doppler };
+    let filter = |(color, filter): (_, &ColorFilter)| SpectralFilter { color, doppler: filter.doppler };
     let filters: Vec<_> = colors.iter().map(Cow::as_ref).zip(filters).map(filter).collect();
     let white = [Irradiance { lamp: 0, level: 1.0, doppler: 1.0 }];
     let daylight = of_daylight.map(|level| [Lamp::white(crate::LampPlace::Everywhere, level)]);
     let (parts, lamps) = match (light, &daylight) {
-        (Light::Lamps(parts, lamps), _) => (parts, &lamps[..]),
-        (Light::Level(_), Some(lamp)) => (&white[..], &lamp[..]),
-        (Light::Level(_), None) => (&[][..], &[][..]),
+        (Illumination::Lamps(parts, lamps), _) => (parts, &lamps[..]),
+        (Illumination::Level(_), Some(lamp)) => (&white[..], &lamp[..]),
+        (Illumination::Level(_), None) => (&[][..], &[][..]),
     };
     match color.spectrum {
         SurfaceSpectrum::Corners(rows) => mean(rows, |row| spectra.lit(row, doppler, parts, lamps, &filters)),
@@ -353,9 +359,9 @@ mod tests {
             let common = look.common(&scene, face);
             let of_face = look.color_at(&common, [0, 1, 2].map(VertexId::from_index), [0.2, 0.3, 0.5]);
             let of_point = look.point_color(linear);
-            let filter = |color| [Filter { color, doppler: 1.2 }];
+            let filter = |color| [ColorFilter { color, doppler: 1.2 }];
             for (doppler, n_filters) in [(0.6, 0), (1.0, 1), (1.5, 0), (1.5, 1)] {
-                for received in [Light::Level(0.8), Light::Lamps(&received, &lamps)] {
+                for received in [Illumination::Level(0.8), Illumination::Lamps(&received, &lamps)] {
                     let light = |color| look.light(&color, doppler, received, &filter(color)[..n_filters]);
                     let (face, point) = (light(of_face), light(of_point));
                     let off = (face - point).length() / face.length();

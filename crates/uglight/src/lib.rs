@@ -53,7 +53,7 @@ mod spectral;
 mod surface_attributes;
 mod vertex_color;
 
-pub use appearance::{Appearance, Filter, Light, SurfaceColor, SurfaceSpectrum};
+pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor, SurfaceSpectrum};
 pub use color::{RestColor, hsv, hsv_and_factor, is_light, light, spectra_note, spectrum};
 pub use face_colors::Common;
 pub use hue::{HueColor, HueShift};

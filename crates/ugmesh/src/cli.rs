@@ -10,7 +10,7 @@ use ugparse::pipe;
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words};
 use ugscene::Provenance;
 
-use crate::{Axis, Config, Error, Format, Input, PROVENANCE, Size, Target};
+use crate::{Axis, Config, Error, MeshFile, MeshFormat, PROVENANCE, Size, Target};
 
 /// Converts meshes of other programs to UniGrafix and back
 ///
@@ -194,14 +194,14 @@ fn is_file_or_new(path: &Path) -> bool {
 }
 
 impl FormatName {
-    fn format(self) -> Format {
+    fn format(self) -> MeshFormat {
         match self {
-            Self::Ug => Format::Ug,
-            Self::Obj => Format::Obj,
-            Self::Ply => Format::Ply,
-            Self::Stl => Format::Stl,
-            Self::Off => Format::Off,
-            Self::Gltf | Self::Glb => Format::Gltf,
+            Self::Ug => MeshFormat::Ug,
+            Self::Obj => MeshFormat::Obj,
+            Self::Ply => MeshFormat::Ply,
+            Self::Stl => MeshFormat::Stl,
+            Self::Off => MeshFormat::Off,
+            Self::Gltf | Self::Glb => MeshFormat::Gltf,
         }
     }
 }
@@ -260,7 +260,7 @@ pub fn main() -> ExitCode {
         let resolve_includes = |source| pipe::follow(source, &config.reading, context);
         let command_line = args.with_format(context.command_line(), config.target);
         let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
-        let input = Input::new(read.name, read.text).with_history(pipe::origin(context), provenance);
+        let input = MeshFile::new(read.name, read.text).with_history(pipe::origin(context), provenance);
         let input = input.with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),

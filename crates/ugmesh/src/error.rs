@@ -5,7 +5,7 @@ use std::fmt;
 use thiserror::Error;
 use ugparse::{Diagnostics, Foreign};
 
-use crate::Format;
+use crate::MeshFormat;
 
 /// Why a mesh cannot be converted.
 #[derive(Debug, Error)]
@@ -24,7 +24,7 @@ pub enum Error {
         /// The name of the input for messages.
         name: String,
         /// The format it was read as.
-        format: Format,
+        format: MeshFormat,
         /// The error, and its place.
         problem: Problem,
     },

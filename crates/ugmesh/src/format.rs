@@ -7,7 +7,7 @@ use crate::decode::decode;
 
 /// An input format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum MeshFormat {
     /// UniGrafix.
     Ug,
     /// Wavefront OBJ.
@@ -54,7 +54,7 @@ pub enum Axis {
     Z,
 }
 
-impl Format {
+impl MeshFormat {
     /// The up axis by the specification or the convention of the format.
     pub fn up(self) -> Axis {
         match self {
@@ -154,7 +154,7 @@ fn is_obj_line(line: &str) -> bool {
     }
 }
 
-impl fmt::Display for Format {
+impl fmt::Display for MeshFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Ug => "UniGrafix",
@@ -218,33 +218,38 @@ mod tests {
 
     #[test]
     fn formats_are_detected() {
-        fn check(name: &str, bytes: &[u8], expected: Option<Format>) {
-            assert_eq!(Format::detect(name, bytes), expected, "{name}: {}", String::from_utf8_lossy(bytes));
+        fn check(name: &str, bytes: &[u8], expected: Option<MeshFormat>) {
+            assert_eq!(
+                MeshFormat::detect(name, bytes),
+                expected,
+                "{name}: {}",
+                String::from_utf8_lossy(bytes)
+            );
         }
         let stdin = "<stdin>";
-        check(stdin, b"ply\nformat ascii 1.0\n", Some(Format::Ply));
-        check("liar.obj", b"ply\r\nformat ascii 1.0\r\n", Some(Format::Ply));
-        check(stdin, b"glTF\x02\0\0\0", Some(Format::Gltf));
-        check(stdin, b" {\n \"asset\": {\"version\": \"2.0\"}}", Some(Format::Gltf));
-        check(stdin, b"{ a licence }\nv a 0 0 0;", Some(Format::Ug));
-        check(stdin, b"{\"quoted\"} v a 0 0 0;", Some(Format::Ug));
-        check(stdin, b"v a 0 0 0;", Some(Format::Ug));
-        check(stdin, b"v 7 0 0 0;", Some(Format::Ug));
-        check(stdin, b"v 7\n0 0 0;", Some(Format::Ug));
-        check(stdin, b"(escape)", Some(Format::Ug));
-        check(stdin, b"# a cube\n\nv 0 0 0\n", Some(Format::Obj));
-        check(stdin, b"\xef\xbb\xbf# byte order mark\nmtllib a.mtl\n", Some(Format::Obj));
-        check(stdin, b"g cube\nv 0 0 0\n", Some(Format::Obj));
-        check(stdin, b"solid\nfacet normal 0 0 1\n", Some(Format::Stl));
-        check(stdin, &[&b"solid binary"[..], &[0; 72]].concat(), Some(Format::Stl));
-        check(stdin, b"# cube\nOFF\n8 6 12\n", Some(Format::Off));
-        check(stdin, b"STCNOFF\n", Some(Format::Off));
+        check(stdin, b"ply\nformat ascii 1.0\n", Some(MeshFormat::Ply));
+        check("liar.obj", b"ply\r\nformat ascii 1.0\r\n", Some(MeshFormat::Ply));
+        check(stdin, b"glTF\x02\0\0\0", Some(MeshFormat::Gltf));
+        check(stdin, b" {\n \"asset\": {\"version\": \"2.0\"}}", Some(MeshFormat::Gltf));
+        check(stdin, b"{ a licence }\nv a 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"{\"quoted\"} v a 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"v a 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"v 7 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"v 7\n0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"(escape)", Some(MeshFormat::Ug));
+        check(stdin, b"# a cube\n\nv 0 0 0\n", Some(MeshFormat::Obj));
+        check(stdin, b"\xef\xbb\xbf# byte order mark\nmtllib a.mtl\n", Some(MeshFormat::Obj));
+        check(stdin, b"g cube\nv 0 0 0\n", Some(MeshFormat::Obj));
+        check(stdin, b"solid\nfacet normal 0 0 1\n", Some(MeshFormat::Stl));
+        check(stdin, &[&b"solid binary"[..], &[0; 72]].concat(), Some(MeshFormat::Stl));
+        check(stdin, b"# cube\nOFF\n8 6 12\n", Some(MeshFormat::Off));
+        check(stdin, b"STCNOFF\n", Some(MeshFormat::Off));
         check(stdin, b"BOFF\n", None);
         check(stdin, b"", None);
         check(stdin, b"# nothing\n", None);
         check(stdin, b"\x7fELF", None);
-        check("cube.STL", b"", Some(Format::Stl));
-        check("cube.ug", b"f (a b c);", Some(Format::Ug));
+        check("cube.STL", b"", Some(MeshFormat::Stl));
+        check("cube.ug", b"f (a b c);", Some(MeshFormat::Ug));
         check("a.b/cube", b"", None);
     }
 }

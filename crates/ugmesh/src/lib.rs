@@ -17,7 +17,7 @@
 //! checked before they are used, since files may be damaged or malicious.
 //!
 //! ```
-//! let input = ugmesh::Input::new("tile.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+//! let input = ugmesh::MeshFile::new("tile.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
 //! let scene = String::from_utf8(ugmesh::run(&ugmesh::Config::default(), &input)?.bytes)?;
 //! // The up axis is y in OBJ and z in UniGrafix.
 //! assert!(scene.ends_with("v v3 1 0 1;\nv v4 0 0 1;\nf (v1 v2 v3 v4);\n"), "{scene}");
@@ -45,7 +45,7 @@ use ugscene::{Provenance, Scene};
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
 pub use error::{Error, Problem};
-pub use format::{Axis, Format, Target};
+pub use format::{Axis, MeshFormat, Target};
 pub use placement::Size;
 
 use builder::Builder;
@@ -58,7 +58,7 @@ pub const PROVENANCE: Provenance<'static> =
 #[derive(Clone, Debug, Default)]
 pub struct Config {
     /// The input format; by default it is detected from the content and the file extension.
-    pub format: Option<Format>,
+    pub format: Option<MeshFormat>,
     /// The output format.
     pub target: Target,
     /// The up axis of meshes that are read or written; by default that of the format. In UniGrafix
@@ -86,7 +86,7 @@ type ReadFile<'a> = &'a dyn Fn(&str, u64) -> io::Result<Vec<u8>>;
 type ResolveIncludes<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
 
 /// A mesh file.
-pub struct Input<'a> {
+pub struct MeshFile<'a> {
     /// File name, or `<stdin>`.
     pub name: String,
     /// The content of the file.
@@ -101,7 +101,7 @@ pub struct Input<'a> {
     pub provenance: Provenance<'a>,
 }
 
-impl<'a> Input<'a> {
+impl<'a> MeshFile<'a> {
     /// A mesh that refers to no other files.
     pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
         let (name, bytes) = (name.into(), bytes.into());
@@ -148,11 +148,12 @@ pub struct Converted {
 ///
 /// # Errors
 /// [`Error`] if the input is invalid, or if it cannot be converted with these options.
-pub fn run(config: &Config, input: &Input) -> Result<Converted, Error> {
-    let format = config.format.or_else(|| Format::detect(&input.name, &input.bytes)).ok_or_else(|| {
-        Error::UnknownFormat { name: input.name.clone(), foreign: ugparse::foreign_data(&input.bytes) }
-    })?;
-    if format == Format::Ug && config.target == Target::Ug {
+pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
+    let format =
+        config.format.or_else(|| MeshFormat::detect(&input.name, &input.bytes)).ok_or_else(|| {
+            Error::UnknownFormat { name: input.name.clone(), foreign: ugparse::foreign_data(&input.bytes) }
+        })?;
+    if format == MeshFormat::Ug && config.target == Target::Ug {
         return Err(Error::NothingToConvert);
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
@@ -177,7 +178,7 @@ struct Loaded {
     diagnostics: Option<Diagnostics>,
 }
 
-fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error> {
+fn load(config: &Config, format: MeshFormat, input: &MeshFile) -> Result<Loaded, Error> {
     let Some(reader) = read::reader(format) else { return load_scene(config, input) };
     let mut builder = Builder::new(&config.name);
     let (read, origin) =
@@ -188,7 +189,7 @@ fn load(config: &Config, format: Format, input: &Input) -> Result<Loaded, Error>
     Ok(Loaded { scene, warnings, diagnostics: None })
 }
 
-fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
+fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
     let origin = input.origin.clone().filter(|_| !ugparse::has_history(&input.bytes));
     let source = Source { origin, ..Source::new(input.name.clone(), input.bytes.clone()) };
     let source = (input.resolve_includes)(source)?;
@@ -197,9 +198,9 @@ fn load_scene(config: &Config, input: &Input) -> Result<Loaded, Error> {
 }
 
 /// Turns, scales and moves the mesh. Returns false if it did nothing.
-fn place_mesh(config: &Config, format: Format, scene: &mut Scene) -> Result<bool, Error> {
+fn place_mesh(config: &Config, format: MeshFormat, scene: &mut Scene) -> Result<bool, Error> {
     let up = |is_mesh: bool, habit: Axis| config.up.filter(|_| is_mesh).unwrap_or(habit);
-    let read_up = up(format != Format::Ug, format.up());
+    let read_up = up(format != MeshFormat::Ug, format.up());
     let write_up = up(config.target != Target::Ug, config.target.up());
     let is_placed = read_up != write_up || config.size != Size::Same || config.is_centered;
     if is_placed {

@@ -5,7 +5,7 @@ mod common;
 use common::{
     Encoding, convert, floats, glb, glb_with_nodes, ply, seen, statements, stl_binary, stl_text, to_scene,
 };
-use ugmesh::{Axis, Config, Input, Size};
+use ugmesh::{Axis, Config, MeshFile, Size};
 use ugpipe::Words;
 
 fn z_up() -> Config {
@@ -266,7 +266,7 @@ fn lines_end_with_line_feeds_or_carriage_returns() {
     let materials = "# by hand\nnewmtl red\nKd 1 0 0\n";
     let scene = |name: &str, text: &[u8], ends: &str| {
         let beside = |_: &str, _: u64| Ok(materials.replace('\n', ends).into_bytes());
-        let converted = ugmesh::run(&z_up(), &Input::new(name, text).with_files(&beside));
+        let converted = ugmesh::run(&z_up(), &MeshFile::new(name, text).with_files(&beside));
         String::from_utf8(converted.unwrap_or_else(|error| panic!("{name}: {error}")).bytes).unwrap()
     };
     let triangle = "0 0 0\n1 0 0\n0 1 0\n";
@@ -307,7 +307,7 @@ fn files_beside_the_mesh() {
         }
     };
     let run = |name: &str, text: &str| {
-        ugmesh::run(&z_up(), &Input::new(name, text).with_files(&beside))
+        ugmesh::run(&z_up(), &MeshFile::new(name, text).with_files(&beside))
             .unwrap_or_else(|error| panic!("{error}"))
     };
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -347,7 +347,7 @@ fn files_beside_the_mesh() {
         assert!(text.ends_with(triangle), "{uri}: {text}");
     }
     let error =
-        ugmesh::run(&z_up(), &Input::new("a.gltf", gltf("none.bin")).with_files(&beside)).unwrap_err();
+        ugmesh::run(&z_up(), &MeshFile::new("a.gltf", gltf("none.bin")).with_files(&beside)).unwrap_err();
     assert_eq!(
         error.to_string(),
         "cannot read `a.gltf` as glTF: cannot read `none.bin`: entity not found; put it in the folder of the mesh"
@@ -361,7 +361,7 @@ fn objects_groups_and_materials_keep_their_names() {
             Ok(b"newmtl 1 red\nKd 1 0 0\nnewmtl 1-red\nKd 1 0 0\nnewmtl c1\nKd 0 1 0\nnewmtl \xc3\xa9\nKd 0 0 1\n".to_vec())
         };
         let text = format!("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\n{obj}");
-        let converted = ugmesh::run(&z_up(), &Input::new("a.obj", text).with_files(&beside)).unwrap();
+        let converted = ugmesh::run(&z_up(), &MeshFile::new("a.obj", text).with_files(&beside)).unwrap();
         assert_eq!(converted.warnings, [""; 0]);
         let text = String::from_utf8(converted.bytes).unwrap();
         let found: Vec<&str> = text.lines().filter(|line| line.starts_with(['c', 'f'])).collect();

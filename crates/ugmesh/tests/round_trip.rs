@@ -3,7 +3,7 @@
 mod common;
 
 use common::{Corner, convert, parse, seen, statements, to_mesh, to_scene};
-use ugmesh::{Axis, Config, Input, PROVENANCE, Target};
+use ugmesh::{Axis, Config, MeshFile, PROVENANCE, Target};
 use ugpipe::Words;
 use ugscene::{ColorValue, Provenance};
 
@@ -215,7 +215,7 @@ fn cameras_of_any_size_are_read_back() {
 fn history_and_licence_are_kept() {
     let made = Provenance { command: Some("ugmesh -dt x"), ..PROVENANCE };
     let convert = |target, name, bytes: &[u8]| {
-        let input = Input { provenance: made, ..Input::new(name, bytes) };
+        let input = MeshFile { provenance: made, ..MeshFile::new(name, bytes) };
         ugmesh::run(&Config { target, ..Config::default() }, &input).unwrap().bytes
     };
     for target in [Target::Obj, Target::Ply { is_ascii: false }] {

@@ -19,7 +19,7 @@ use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::explain::{self, explain};
-use crate::render::{Drawing, PROVENANCE};
+use crate::render::{PROVENANCE, PreparedScene};
 
 /// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
 ///
@@ -251,9 +251,10 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();
-    let (drawing, warnings) = Drawing::read(&config, &source, provenance, &steps).map_err(Failure::of)?;
+    let (drawing, warnings) =
+        PreparedScene::read(&config, &source, provenance, &steps).map_err(Failure::of)?;
     if let Some(file) = preview {
-        for side in Drawing::PREVIEWS {
+        for side in PreparedScene::PREVIEWS {
             let preview = drawing.preview(side, &steps).map_err(Failure::of)?;
             Context::write_now(&file, &preview.into_file())?;
         }

@@ -78,7 +78,7 @@ pub use cli::{Args, draw, manual};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
 pub use explain::explain;
-pub use render::{Drawing, PROVENANCE, light, render, render_with, run};
+pub use render::{PROVENANCE, PreparedScene, light, render, render_with, run};
 pub use tracer::Way;
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 use ugpicture::lens;

@@ -34,7 +34,7 @@ pub fn render(scene: Scene, config: &Config) -> Result<Rendering, Error> {
 /// # Errors
 /// See [`Error`].
 pub fn render_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
-    Drawing::new(scene, config, config.canvas()?, PROVENANCE, progress)?.picture(progress)
+    PreparedScene::new(scene, config, config.canvas()?, PROVENANCE, progress)?.picture(progress)
 }
 
 /// The linear light of a scene, without exposure and gamut mapping: white is 1. Options for the
@@ -45,7 +45,7 @@ pub fn render_with(scene: Scene, config: &Config, progress: &dyn Progress) -> Re
 pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
     config.picture.keep_light();
-    let drawing = Drawing::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
+    let drawing = PreparedScene::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
     Ok(pixels::light(&drawing.scenery, &config, &()).0)
 }
 
@@ -59,7 +59,7 @@ pub fn run(
     provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    let (drawing, warnings) = Drawing::read(config, source, provenance, progress)?;
+    let (drawing, warnings) = PreparedScene::read(config, source, provenance, progress)?;
     let rendering = drawing.picture(progress)?;
     // The file needs its memory.
     drop(drawing);
@@ -67,7 +67,7 @@ pub fn run(
 }
 
 /// A scene that is prepared for drawing, as a preview or as the full picture.
-pub struct Drawing {
+pub struct PreparedScene {
     /// Options of the part of the picture that shows the scene, without rows for annotations.
     config: Config,
     canvas: Canvas,
@@ -75,7 +75,7 @@ pub struct Drawing {
     metadata: Metadata,
 }
 
-impl Drawing {
+impl PreparedScene {
     /// Sides of the squares of previews, in pixels, from coarse to fine.
     pub const PREVIEWS: [u32; 3] = [8, 4, 2];
 

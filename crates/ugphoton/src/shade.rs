@@ -3,7 +3,9 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use uglight::{Filter, IncidentLamp, Irradiance, Lamp, LampPlace, Light, SurfaceColor, SurfaceElement};
+use uglight::{
+    ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor, SurfaceElement,
+};
 use ugphysics::{Event, WaveVector, srgb_encode};
 
 use crate::corridor::Corridor;
@@ -49,21 +51,26 @@ impl<'a> Shader<'a> {
 
     /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
     /// the eye. `sample`: a number for each sample of the picture.
-    pub fn light(&mut self, point: &SurfacePoint, filters: &[Filter], sample: u64) -> DVec3 {
+    pub fn light(&mut self, point: &SurfacePoint, filters: &[ColorFilter], sample: u64) -> DVec3 {
         let scenery = self.scenery;
         if let Some(received) = &mut self.received {
             received.clear();
         }
         let face = &scenery.scene.faces[point.face as usize];
         if let Some(level) = scenery.scene.light_level(face) {
-            return scenery.appearance.light(&point.color, point.doppler(), Light::Level(level), filters);
+            return scenery.appearance.light(
+                &point.color,
+                point.doppler(),
+                Illumination::Level(level),
+                filters,
+            );
         }
         let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
         let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, exponent, sample);
         let lit = |color: &SurfaceColor, light: &[Irradiance]| {
-            let light = Light::Lamps(light, &scenery.lamps);
+            let light = Illumination::Lamps(light, &scenery.lamps);
             scenery.appearance.light(color, point.doppler(), light, filters)
         };
         let mut sum = DVec3::ZERO;

@@ -1,7 +1,7 @@
 //! Rays from the eye into the past: surfaces, mirrors and glass along them.
 
 use glam::DVec3;
-use uglight::Filter;
+use uglight::ColorFilter;
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
 use crate::path::{Media, Ray, Solid, Start};
@@ -33,7 +33,7 @@ pub struct Tracer<'a> {
     scenery: &'a Scenery<'a>,
     shader: Shader<'a>,
     /// Filters on the path so far.
-    filters: Vec<Filter>,
+    filters: Vec<ColorFilter>,
     /// Memory for faces at the same place.
     layers: Vec<Intersection>,
     /// Reflections and refractions of the current sample.
@@ -242,7 +242,7 @@ impl<'a> Tracer<'a> {
             let swatch = &point.color.swatch;
             let is_white = swatch.is_grey() && swatch.value == 1.0 && swatch.light.is_none();
             if !is_white {
-                self.filters.push(Filter { color: point.color, doppler: point.doppler() });
+                self.filters.push(ColorFilter { color: point.color, doppler: point.doppler() });
             }
             if let Some(visit) = self.visited(visit) {
                 visit.followed[1] = Some(transmitted);

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::Duration;
 
-use ugphoton::{Background, Config, Drawing, PictureOptions};
+use ugphoton::{Background, Config, PictureOptions, PreparedScene};
 
 const SCENE: &str = "\
 { A ball of glass over a mirror, and a square that moves. }
@@ -18,8 +18,10 @@ v k 0 -1 .5; v l .5 -1 1; v m -.5 -1 1.2; f (k l m) red glass;
 cam -ep 0 -6 2 -vc 0 0 .7 -ud 0 0 1;
 ";
 
-fn drawing(config: &Config) -> Drawing {
-    Drawing::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, &()).unwrap().0
+fn drawing(config: &Config) -> PreparedScene {
+    PreparedScene::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, &())
+        .unwrap()
+        .0
 }
 
 fn config(size: [u32; 2], crop: Option<[u32; 4]>) -> Config {
@@ -45,7 +47,7 @@ fn a_preview_is_the_picture_at_fewer_pixels() {
         let (size, whole) = pixels(&drawing(&config).picture(&()).unwrap().into_file());
         assert!(whole.iter().any(|&rgb| rgb != whole[0]));
         let [width, height] = size;
-        for side in Drawing::PREVIEWS {
+        for side in PreparedScene::PREVIEWS {
             let (preview_size, preview) = pixels(&drawing(&config).preview(side, &()).unwrap().into_file());
             assert_eq!(preview_size, size);
             for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {

@@ -234,12 +234,12 @@ pub enum Kind {
     /// A picture.
     Picture(Format),
     /// An explanation.
-    Report(Report),
+    Report(ExplanationFormat),
 }
 
 /// Format of the explanation of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Report {
+pub enum ExplanationFormat {
     /// For people.
     Text,
     /// For scripts.
@@ -257,8 +257,8 @@ pub fn kinds() -> impl Iterator<Item = &'static str> {
 /// There is no such format.
 pub fn kind_named(name: &str) -> Result<Kind, String> {
     match name {
-        "text" => Ok(Kind::Report(Report::Text)),
-        "json" => Ok(Kind::Report(Report::Json)),
+        "text" => Ok(Kind::Report(ExplanationFormat::Text)),
+        "json" => Ok(Kind::Report(ExplanationFormat::Json)),
         name => format_named(name).map(Kind::Picture),
     }
 }
@@ -297,15 +297,15 @@ pub fn picture_format(
 ///
 /// # Errors
 /// The format is one of pictures.
-pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Report, Failure> {
+pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<ExplanationFormat, Failure> {
     let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     match given {
         Some(Kind::Report(report)) => Ok(report),
         Some(Kind::Picture(_)) => Err(Failure::Usage(
             "a pixel is explained as text or JSON: give --format json, or leave --format out".into(),
         )),
-        None if file.is_some_and(is_json) => Ok(Report::Json),
-        None => Ok(Report::Text),
+        None if file.is_some_and(is_json) => Ok(ExplanationFormat::Json),
+        None => Ok(ExplanationFormat::Text),
     }
 }
 
@@ -314,7 +314,7 @@ pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Report,
 /// # Errors
 /// The output cannot be written.
 pub fn write_report(
-    report: Report,
+    report: ExplanationFormat,
     warnings: &Diagnostics,
     text: impl FnOnce() -> String,
     json: impl FnOnce() -> String,
@@ -324,8 +324,8 @@ pub fn write_report(
         context.report(&warnings.report());
     }
     match report {
-        Report::Text => context.write_text(&text()),
-        Report::Json => context.write_json(&json()),
+        ExplanationFormat::Text => context.write_text(&text()),
+        ExplanationFormat::Json => context.write_json(&json()),
     }
 }
 

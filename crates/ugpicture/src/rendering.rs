@@ -1,6 +1,6 @@
 //! A picture as a renderer returns it.
 
-use ugimage::figure::{self, Figure, Gradient, Triangle};
+use ugimage::figure::{self, Figure, GouraudTriangle, Gradient};
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugparse::Diagnostics;
 use ugpipe::Progress;
@@ -38,7 +38,7 @@ pub enum VectorFigure {
     /// For SVG.
     Gradients(Figure<Gradient>),
     /// For PostScript and PDF.
-    Triangles(Figure<Triangle>, Format),
+    Triangles(Figure<GouraudTriangle>, Format),
 }
 
 impl VectorFigure {

@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{Common, Swatch};
 use ugraster::{
-    BLOCK, Bounds, Corner, CornerTable, Point, PolygonLayer, PolygonList, ShapeRef, TriangleBlock,
+    BLOCK, Bounds, Corner, CornerTable, PolygonLayer, PolygonList, ScreenPoint, ShapeRef, TriangleBlock,
 };
 use ugscene::{Face, VertexId};
 
@@ -35,7 +35,7 @@ struct Corners<'a, const N: usize> {
     painter: Painter<'a>,
     pack: Pack<N>,
     /// The projection of every vertex; NaN outside the clipping planes.
-    points: Vec<Point>,
+    points: Vec<ScreenPoint>,
     /// The light level of all faces without one of their own, if it is the same for all; see
     /// [`Painter::even_level`].
     even_level: Option<DVec3>,
@@ -43,7 +43,7 @@ struct Corners<'a, const N: usize> {
 
 impl<const N: usize> CornerTable<N> for Corners<'_, N> {
     #[inline]
-    fn point(&self, corner: u32) -> Point {
+    fn point(&self, corner: u32) -> ScreenPoint {
         self.points[corner as usize]
     }
 
@@ -124,7 +124,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
     pub fn outlines(&self) -> impl Iterator<Item = Vec<Vec<[f64; 3]>>> {
         let place = |corner: &Corner<N>| [corner.x, corner.y, corner.key];
         let point = |corner: u32| {
-            let Point { x, y, key } = self.corners.point(corner);
+            let ScreenPoint { x, y, key } = self.corners.point(corner);
             [x, y, key]
         };
         self.lists.iter().flat_map(|list| list.shapes()).map(move |(_, shape)| match shape {
@@ -143,7 +143,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
                 ShapeRef::Triangle(corners) => {
                     let numbers = self.corners.values(item, corners);
                     let corner = |i: usize| {
-                        let Point { x, y, key } = self.corners.point(corners[i]);
+                        let ScreenPoint { x, y, key } = self.corners.point(corners[i]);
                         let scale = if self.corners.painter.view.is_perspective { key } else { 1.0 };
                         Corner { x, y, key, values: numbers[i].map(|number| number * scale) }
                     };
@@ -155,7 +155,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
 }
 
 /// The positions of all vertices in the picture, compiled once for all layouts.
-fn points(painter: &Painter<'_>) -> Vec<Point> {
+fn points(painter: &Painter<'_>) -> Vec<ScreenPoint> {
     let scene = painter.scene;
     let point = |vertex: &ugscene::Vertex| painter.point(painter.place(vertex.position));
     scene.vertices.par_iter().map(point).collect()

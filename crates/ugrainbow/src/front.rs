@@ -1,7 +1,7 @@
 //! The surface that stands for a pixel where there are transparent ones.
 
 use ugpicture::SurfaceSample;
-use ugraster::{Center, Fragment, Hit};
+use ugraster::{Center, Fragment, VisibleItem};
 use ugscene::View;
 
 use crate::lines::LIFT;
@@ -13,7 +13,7 @@ pub fn front(view: &View, center: &Center<'_>) -> Option<SurfaceSample> {
 }
 
 /// An opaque surface.
-pub fn of_surface(Hit { key, item }: Hit) -> SurfaceSample {
+pub fn of_surface(VisibleItem { key, item }: VisibleItem) -> SurfaceSample {
     SurfaceSample { key, item }
 }
 

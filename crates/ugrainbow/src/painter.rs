@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use uglight::{Appearance, Common, Lighting, Swatch};
-use ugraster::{Corner, Point, SampleGrid};
+use ugraster::{Corner, SampleGrid, ScreenPoint};
 use ugscene::{CameraPoint, Face, Scene, Slab, Triangle, VertexId, View, Wire, unit_normal};
 
 use crate::clip::Vertex;
@@ -33,13 +33,13 @@ impl Painter<'_> {
 
     /// Its projection; NaN outside the clipping planes.
     #[inline]
-    pub fn point(&self, place: CameraPoint) -> Point {
+    pub fn point(&self, place: CameraPoint) -> ScreenPoint {
         let Slab { near, far } = self.view.slab;
         if near <= place.z && place.z <= far {
             let Corner { x, y, key, .. } = Vertex { place, values: [] }.project(self.view.is_perspective);
-            Point { x, y, key }
+            ScreenPoint { x, y, key }
         } else {
-            Point { x: f64::NAN, y: f64::NAN, key: f64::NAN }
+            ScreenPoint { x: f64::NAN, y: f64::NAN, key: f64::NAN }
         }
     }
 

@@ -24,7 +24,7 @@ use crate::shade::Shader;
 /// Reports the painted fraction of a picture as progress of a step.
 struct Drawing<'a>(&'a dyn Progress);
 
-impl ugraster::Progress for Drawing<'_> {
+impl ugraster::BandProgress for Drawing<'_> {
     fn begin(&self, parts: u64) {
         self.0.step("drawing", parts);
     }

@@ -36,7 +36,7 @@ fn ugrainbow(folder: &Path, args: &[&str]) -> Vec<u8> {
 
 /// Red, green, blue and alpha of every pixel of a PNG.
 fn pixels(file: &[u8]) -> Vec<[u8; 4]> {
-    ugimage::read_png(file, &ugimage::Limits::default()).unwrap().0.into_pixels()
+    ugimage::read_png(file, &ugimage::PictureLimits::default()).unwrap().0.into_pixels()
 }
 
 fn number(value: &Value) -> f64 {

@@ -4,7 +4,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f64x8};
 
 use crate::grid::SampleGrid;
-use crate::polygons::{Point, ROUNDING, TilePlace};
+use crate::polygons::{ROUNDING, ScreenPoint, TilePlace};
 
 /// Triangles in a block.
 pub const BLOCK: usize = 8;
@@ -29,7 +29,7 @@ struct BlockCorners {
 /// One corner of every triangle of a block, in vector registers.
 #[derive(Clone, Copy)]
 pub struct Corners<S: Simd> {
-    /// Columns, rows and depth keys, as in [`Point`].
+    /// Columns, rows and depth keys, as in [`ScreenPoint`].
     pub x: f64x8<S>,
     pub y: f64x8<S>,
     pub key: f64x8<S>,
@@ -79,8 +79,8 @@ const MAX_KEY_RATIO: f64 = 16.0;
 impl TriangleBlock {
     /// Sets the corners of one triangle.
     #[inline(always)]
-    pub fn set(&mut self, triangle: usize, corners: [Point; 3]) {
-        for (all, Point { x, y, key }) in self.corners.iter_mut().zip(corners) {
+    pub fn set(&mut self, triangle: usize, corners: [ScreenPoint; 3]) {
+        for (all, ScreenPoint { x, y, key }) in self.corners.iter_mut().zip(corners) {
             (all.x[triangle], all.y[triangle], all.key[triangle]) = (x, y, key);
         }
     }

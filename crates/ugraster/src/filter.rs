@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 use fearless_simd::{Level, Simd, dispatch};
 use ugimage::Filter;
 
-use crate::progress::Progress;
+use crate::progress::BandProgress;
 use crate::rasterizer::{Keep, Rasterizer, TileBuffers, paint_parts};
 use crate::resolve::{Center, PixelSamples, Planes, Resolve, Resolver};
 use crate::shading::{SampleStats, Shading};
@@ -26,7 +26,7 @@ impl<const N: usize> Rasterizer<'_, N> {
         filter: Filter,
         shading: &dyn Shading<N>,
         resolve: &impl Resolve<P>,
-        progress: &dyn Progress,
+        progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
         let grid = self.grid;
         let (weights, margin) = (filter.weights(grid.samples), filter.margin());

@@ -4,7 +4,7 @@ use fearless_simd::Level;
 
 use crate::edges::{Crossing, Scanner};
 use crate::grid::SampleGrid;
-use crate::polygons::{Point, PolygonList, ShapeRef};
+use crate::polygons::{PolygonList, ScreenPoint, ShapeRef};
 use crate::rows::draw_block;
 use crate::tile::{Area, Tile};
 use crate::transparency::{FragmentWriter, TRANSPARENT_VALUES};
@@ -19,7 +19,7 @@ pub trait OpaqueLayer<const N: usize>: Sync {
 /// The corners that triangles share, by row.
 pub trait CornerTable<const N: usize>: Sync {
     /// The position of a corner.
-    fn point(&self, corner: u32) -> Point;
+    fn point(&self, corner: u32) -> ScreenPoint;
 
     /// The values to interpolate between three corners of an item, as they are on the surface (in
     /// perspective they are not yet multiplied by the key).
@@ -31,8 +31,8 @@ pub trait CornerTable<const N: usize>: Sync {
 pub struct NoTriangles;
 
 impl<const N: usize> CornerTable<N> for NoTriangles {
-    fn point(&self, _corner: u32) -> Point {
-        Point { x: f64::NAN, y: f64::NAN, key: f64::NAN }
+    fn point(&self, _corner: u32) -> ScreenPoint {
+        ScreenPoint { x: f64::NAN, y: f64::NAN, key: f64::NAN }
     }
 
     fn values(&self, _item: u32, _corners: [u32; 3]) -> [[f64; N]; 3] {

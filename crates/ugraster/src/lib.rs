@@ -118,13 +118,13 @@ pub use depth_fade::DepthFade;
 pub use edges::Scanner;
 pub use grid::{Bands, SampleGrid, TileShape};
 pub use layer::{CornerTable, NoTriangles, OpaqueLayer, PolygonLayer};
-pub use polygons::{Bounds, Corner, Point, PolygonList, ShapeRef, TilePlace, greater, lesser};
+pub use polygons::{Bounds, Corner, PolygonList, ScreenPoint, ShapeRef, TilePlace, greater, lesser};
 pub use probe::{ProbedSample, ProbedSurface};
-pub use progress::Progress;
+pub use progress::BandProgress;
 pub use rasterizer::Rasterizer;
 pub use resolve::{Center, PixelSamples, Resolve, ResolveSingle};
 pub use shading::{Encoding, RUN, SampleStats, ShadedRun, ShadedSample, Shading};
-pub use tile::{Area, Hit, Tile};
+pub use tile::{Area, Tile, VisibleItem};
 pub use transparency::{
     Fragment, FragmentShading, FragmentTarget, FragmentWriter, TRANSPARENT_VALUES, TransparentLayer,
 };

@@ -7,7 +7,7 @@ use crate::grid::SampleGrid;
 
 /// A corner of a triangle in the picture plane, without interpolated values; see [`Corner`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Point {
+pub struct ScreenPoint {
     /// Column, in samples from the left edge of the picture.
     pub x: f64,
     /// Row, in samples from the upper edge.
@@ -16,7 +16,7 @@ pub struct Point {
     pub key: f64,
 }
 
-impl Point {
+impl ScreenPoint {
     /// True if no number is NaN or infinite.
     #[inline]
     pub fn is_finite(&self) -> bool {

@@ -3,7 +3,7 @@
 use crate::rasterizer::{Keep, Rasterizer, TileBuffers};
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver};
 use crate::shading::{Encoding, ShadedRun, ShadedSample, Shading};
-use crate::tile::Hit;
+use crate::tile::VisibleItem;
 use crate::transparency::Fragment;
 
 /// A sample of a pixel that shows something.
@@ -21,7 +21,7 @@ pub struct ProbedSample {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProbedSurface {
     /// Its depth key and item.
-    pub hit: Hit,
+    pub hit: VisibleItem,
     /// The interpolated values.
     pub values: Vec<f32>,
     /// Their light.

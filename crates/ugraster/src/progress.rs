@@ -2,7 +2,7 @@
 
 /// Receives how much of a picture is painted. It is called from any thread and has no influence on
 /// the result, unless it stops it.
-pub trait Progress: Sync {
+pub trait BandProgress: Sync {
     /// Painting begins; it has this many parts.
     fn begin(&self, parts: u64);
 
@@ -16,7 +16,7 @@ pub trait Progress: Sync {
 }
 
 /// Progress is not reported.
-impl Progress for () {
+impl BandProgress for () {
     fn begin(&self, _parts: u64) {}
     fn done(&self) {}
 }

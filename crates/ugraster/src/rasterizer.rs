@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::edges::Scanner;
 use crate::grid::SampleGrid;
 use crate::layer::OpaqueLayer;
-use crate::progress::Progress;
+use crate::progress::BandProgress;
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver, center};
 use crate::shading::{SampleStats, Shading};
 use crate::tile::{Area, Tile};
@@ -32,7 +32,7 @@ impl<const N: usize> Rasterizer<'_, N> {
         &self,
         shading: &dyn Shading<N>,
         resolve: &impl Resolve<P>,
-        progress: &dyn Progress,
+        progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
         self.paint_bands(shading, Keep::Light, resolve, progress)
     }
@@ -42,7 +42,7 @@ impl<const N: usize> Rasterizer<'_, N> {
         &self,
         shading: &dyn Shading<N>,
         resolve: &impl Resolve<P>,
-        progress: &dyn Progress,
+        progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
         self.paint_bands(shading, Keep::Centers, resolve, progress)
     }
@@ -52,7 +52,7 @@ impl<const N: usize> Rasterizer<'_, N> {
         shading: &dyn Shading<N>,
         keep: Keep,
         resolve: &impl Resolve<P>,
-        progress: &dyn Progress,
+        progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
         let grid = self.grid;
         let empty = resolve.pixel(&PixelSamples::EMPTY);
@@ -70,7 +70,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     pub fn paint_centers<P: Copy + Send + Sync>(
         &self,
         pixel: impl Fn(&Center<'_>) -> P + Sync,
-        progress: &dyn Progress,
+        progress: &dyn BandProgress,
     ) -> Vec<P> {
         let grid = self.grid;
         let empty = pixel(&Center::default());
@@ -168,7 +168,7 @@ pub(crate) fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
     grid: &SampleGrid,
     n_rows: u32,
     empty: P,
-    progress: &dyn Progress,
+    progress: &dyn BandProgress,
     paint: impl Fn(&mut B, usize, &mut [P]) -> SampleStats + Sync,
 ) -> (Vec<P>, SampleStats) {
     let mut pixels = filled(empty, grid.width as usize * grid.height as usize);

@@ -4,7 +4,7 @@ use fearless_simd::{Level, Simd, dispatch};
 
 use crate::grid::SampleGrid;
 use crate::shading::{Encoding, RUN, SampleStats, ShadedRun, Shading};
-use crate::tile::{EMPTY, Hit, Tile};
+use crate::tile::{EMPTY, Tile, VisibleItem};
 use crate::transparency::{Fragment, TransparencyBuffer};
 
 /// The samples of a pixel together.
@@ -23,7 +23,7 @@ pub struct PixelSamples<'a> {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Center<'a> {
     /// The nearest opaque surface.
-    pub opaque: Option<Hit>,
+    pub opaque: Option<VisibleItem>,
     /// Transparent fragments in front of it, from back to front.
     pub fragments: &'a [Fragment],
 }

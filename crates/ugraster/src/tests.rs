@@ -142,9 +142,9 @@ fn is_inside(contours: &[Vec<Corner<0>>], x: f64, y: f64) -> bool {
 struct Triangles(Vec<Corner<1>>);
 
 impl CornerTable<1> for Triangles {
-    fn point(&self, corner: u32) -> Point {
+    fn point(&self, corner: u32) -> ScreenPoint {
         let Corner { x, y, key, .. } = self.0[corner as usize];
-        Point { x, y, key }
+        ScreenPoint { x, y, key }
     }
 
     fn values(&self, _item: u32, corners: [u32; 3]) -> [[f64; 1]; 3] {
@@ -163,13 +163,13 @@ fn a_block_is_classified_like_its_triangles() {
     for (round, size) in (0..400).zip([0.3, 3.0, 40.0, 3e3].into_iter().cycle()) {
         let is_perspective = round % 3 != 0;
         let grid = grid([700, 300], 1 + round % 3, is_perspective);
-        let mut triangles = [[Point::default(); 3]; BLOCK];
+        let mut triangles = [[ScreenPoint::default(); 3]; BLOCK];
         let mut block = TriangleBlock::default();
         for (place, points) in triangles.iter_mut().enumerate() {
             let middle = [900.0 * random.unit() - 100.0, 500.0 * random.unit() - 100.0];
             *points = [(); 3].map(|()| {
                 let [x, y] = middle.map(|place| place + size * (random.unit() - 0.5));
-                Point { x, y, key: 0.1 + 1.2 * random.unit() }
+                ScreenPoint { x, y, key: 0.1 + 1.2 * random.unit() }
             });
             match place {
                 5 => points[round as usize % 3].x = BAD[round as usize / 3 % 6],
@@ -208,11 +208,11 @@ fn a_block_is_classified_like_its_triangles() {
 }
 
 /// Positive if the corners run counterclockwise on the screen, where rows go downwards.
-fn twice_area([a, b, c]: &[Point; 3]) -> f64 {
+fn twice_area([a, b, c]: &[ScreenPoint; 3]) -> f64 {
     (b.y - a.y) * (c.x - a.x) - (b.x - a.x) * (c.y - a.y)
 }
 
-fn is_regular(points: &[Point; 3], is_perspective: bool) -> bool {
+fn is_regular(points: &[ScreenPoint; 3], is_perspective: bool) -> bool {
     let [xs, ys, keys] = [points.map(|p| p.x), points.map(|p| p.y), points.map(|p| p.key)];
     let ends =
         |all: [f64; 3]| [all.into_iter().fold(f64::NAN, f64::min), all.into_iter().fold(f64::NAN, f64::max)];
@@ -245,7 +245,7 @@ fn triangles_are_drawn_like_polygons() {
                 let key = 0.1 + random.unit();
                 Corner { x, y, key, values: [key * random.unit()] }
             });
-            let points = corners.map(|Corner { x, y, key, .. }| Point { x, y, key });
+            let points = corners.map(|Corner { x, y, key, .. }| ScreenPoint { x, y, key });
             let mut block = TriangleBlock::default();
             block.set(3, points);
             let classes = block.classify(Level::new(), &grid, false);

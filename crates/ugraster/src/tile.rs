@@ -59,7 +59,7 @@ impl Area {
 
 /// The item visible at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
+pub struct VisibleItem {
     /// Its depth key.
     pub key: f32,
     /// The item it belongs to.
@@ -193,11 +193,11 @@ impl<const N: usize> Tile<N> {
 
     /// The item visible at a sample. Always `None` if items are not kept.
     #[inline]
-    pub(crate) fn hit(&self, row: u32, column: u32) -> Option<Hit> {
+    pub(crate) fn hit(&self, row: u32, column: u32) -> Option<VisibleItem> {
         let sample = self.area.index(row, column);
         let &item = self.items.get(sample)?;
         let key = self.keys[sample];
-        (key != EMPTY).then_some(Hit { key, item })
+        (key != EMPTY).then_some(VisibleItem { key, item })
     }
 }
 

@@ -9,7 +9,7 @@ use fearless_simd::{Level, Simd, dispatch, f64x8};
 use crate::block::{BLOCK, Corners, PerTriangle, TriangleBlock, first_centers, to_integers};
 use crate::gradients::{Gradients, StoredGradients};
 use crate::outlines::{Outlines, RowSpans, StoredOutlines};
-use crate::polygons::Point;
+use crate::polygons::ScreenPoint;
 
 /// Values of triangles at their corners, for the loops that are compiled once for any number of
 /// values.
@@ -41,7 +41,7 @@ impl Default for TriangleQueue {
 impl TriangleQueue {
     /// Adds a [regular](crate::BlockClasses) triangle. Returns true if the queue is full.
     #[inline(always)]
-    pub fn push(&mut self, item: u32, corners: [u32; 3], points: [Point; 3]) -> bool {
+    pub fn push(&mut self, item: u32, corners: [u32; 3], points: [ScreenPoint; 3]) -> bool {
         self.items[self.n] = item;
         self.corners[self.n] = corners;
         self.blocks[self.n / BLOCK].set(self.n % BLOCK, points);

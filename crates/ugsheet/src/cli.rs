@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::{Format, Limits, ReadError, read_history, read_png, read_png_header};
+use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header};
 use ugphysics::Hsv;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
@@ -167,9 +167,9 @@ impl Args {
     }
 
     /// The limits of each picture that is read.
-    fn limits(&self) -> Limits {
-        let default = Limits::default();
-        Limits { bytes: self.common.memory_limit().unwrap_or(default.bytes), ..default }
+    fn limits(&self) -> PictureLimits {
+        let default = PictureLimits::default();
+        PictureLimits { bytes: self.common.memory_limit().unwrap_or(default.bytes), ..default }
     }
 
     fn format(&self, file: Option<&Path>) -> Result<Format, Failure> {

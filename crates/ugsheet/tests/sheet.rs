@@ -8,7 +8,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use ugimage::{Format, Frame, Limits, Metadata, read_png};
+use ugimage::{Format, Frame, Metadata, PictureLimits, read_png};
 use ugsheet::{Config, Error, Labels};
 use ugtesting::Random;
 use ugtesting::run::fed;
@@ -180,14 +180,14 @@ fn the_program_reads_files_and_standard_input() {
     let rest = fs::read(folder.path().join("rest.png")).unwrap();
     let piped = fed(&mut ugsheet(folder.path(), &["-cols", "2", "-", "fast.png"]), &rest);
     assert_eq!(named.stdout, piped.stdout);
-    let (_, history) = read_png(&named.stdout, &Limits::default()).unwrap();
+    let (_, history) = read_png(&named.stdout, &PictureLimits::default()).unwrap();
     assert_eq!(history.comment, "uglorentz\nuglorentz -vel .9 0 0\nugsheet --cols 2");
     // The labels come from the histories, not from the file names.
     let given = ["-cols", "2", "-label", "at rest", "-label", "β = 0.9", "rest.png", "fast.png"];
     let given = fed(&mut ugsheet(folder.path(), &given), b"");
     assert_eq!(
-        read_png(&given.stdout, &Limits::default()).unwrap().0,
-        read_png(&named.stdout, &Limits::default()).unwrap().0
+        read_png(&given.stdout, &PictureLimits::default()).unwrap().0,
+        read_png(&named.stdout, &PictureLimits::default()).unwrap().0
     );
 }
 

@@ -64,7 +64,7 @@ pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError};
-pub use pictures::Picture;
+pub use pictures::DecodedPicture;
 pub use sample::Sampler;
 pub use shade::{Shade, SkyColors};
 pub use sky::{Band, Layer, Sky, VISIBLE_NM};

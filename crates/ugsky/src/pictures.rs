@@ -7,7 +7,7 @@ use crate::panorama::{Panorama, PanoramaError};
 use crate::texels::Texels;
 
 /// A decoded picture: its pixels across and down, row after row from the top.
-pub type Picture = ([u32; 2], Texels);
+pub type DecodedPicture = ([u32; 2], Texels);
 
 /// The places of the sides in a cross of four squares across, and in one of three across, whose
 /// back is upside down: column and row.
@@ -21,7 +21,7 @@ impl Panorama {
     /// # Errors
     /// [`PanoramaError`].
     pub fn arranged(
-        mut pictures: Vec<Picture>,
+        mut pictures: Vec<DecodedPicture>,
         arrangement: Arrangement,
         extent: Option<Extent>,
     ) -> Result<Self, PanoramaError> {
@@ -47,7 +47,7 @@ impl Panorama {
 }
 
 /// A cube of a picture for each side.
-fn sides(pictures: Vec<Picture>) -> Result<CubeMap, PanoramaError> {
+fn sides(pictures: Vec<DecodedPicture>) -> Result<CubeMap, PanoramaError> {
     let side = pictures[0].0[0];
     if let Some(idx) = pictures.iter().position(|(size, _)| *size != [side, side]) {
         return Err(PanoramaError::Side { idx, size: pictures[idx].0, expected: side });

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugimage::{Format, Limits};
+use ugimage::{Format, PictureLimits};
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::Output;
@@ -260,7 +260,7 @@ impl Args {
         let files: Vec<&[u8]> = inputs.iter().map(|input| input.text.as_slice()).collect();
         context.detail(&format!("read {} bytes", files.iter().map(|file| file.len()).sum::<usize>()));
         let arrangement = self.from.unwrap_or_default();
-        let mut limits = Limits::default();
+        let mut limits = PictureLimits::default();
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
         let mut opened = open(&files, arrangement, self.extent(), limits).map_err(|error| match error {
             Error::Read { idx, error } => {

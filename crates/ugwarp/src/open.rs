@@ -1,6 +1,6 @@
 //! From the bytes of files to a sky.
 
-use ugimage::{Limits, Pixels, read_picture};
+use ugimage::{PictureLimits, Pixels, read_picture};
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
@@ -35,7 +35,7 @@ pub fn open(
     files: &[&[u8]],
     arrangement: Arrangement,
     extent: Option<Extent>,
-    mut limits: Limits,
+    mut limits: PictureLimits,
 ) -> Result<Opened, Error> {
     let mut notes = Vec::new();
     let mut pictures = Vec::new();
@@ -103,8 +103,8 @@ mod tests {
     fn arrangements_agree() {
         let light = |files: &[Vec<u8>], arrangement: Arrangement| {
             let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-            let opened =
-                open(&files, arrangement, None, Limits::default()).unwrap_or_else(|error| panic!("{error}"));
+            let opened = open(&files, arrangement, None, PictureLimits::default())
+                .unwrap_or_else(|error| panic!("{error}"));
             let config = crate::Config { lens: crate::Lens::Panorama, ..crate::Config::default() };
             let picture = crate::PictureOptions { size: [40, 20], samples: 1, ..config.picture.clone() };
             crate::light(&opened, &crate::Config { picture, ..config }).unwrap()
@@ -134,7 +134,7 @@ mod tests {
         let file = |size: [u32; 2]| png(size, |_| [9, 9, 9, 255]);
         let message = |files: &[Vec<u8>], arrangement: Arrangement| {
             let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-            open(&files, arrangement, None, Limits::default())
+            open(&files, arrangement, None, PictureLimits::default())
                 .err()
                 .map(|error| error.to_string())
                 .unwrap_or_default()

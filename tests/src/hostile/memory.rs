@@ -101,7 +101,7 @@ fn again(program: &str, scene: &Scene) -> Result<Scene, String> {
 ///
 /// # Errors
 /// The refused input.
-pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
+pub fn mesh(format: ugmesh::MeshFormat, bytes: &[u8]) -> Result<(), String> {
     let convert = |format, target, bytes: &[u8]| {
         let config = ugmesh::Config {
             format: Some(format),
@@ -112,7 +112,7 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
         let read_file = |_: &str, limit: u64| -> io::Result<Vec<u8>> {
             Ok(bytes[..bytes.len().min(usize::try_from(limit).unwrap_or(usize::MAX))].to_vec())
         };
-        let input = ugmesh::Input::new("mesh", bytes).with_files(&read_file);
+        let input = ugmesh::MeshFile::new("mesh", bytes).with_files(&read_file);
         ugmesh::run(&config, &input)
     };
     let Ok(scene) = convert(format, Target::Ug, bytes) else { return Ok(()) };
@@ -120,15 +120,15 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
         return Err(format!("ugmesh has written a scene that is refused:\n{findings}"));
     }
     let targets = [
-        (Target::Obj, ugmesh::Format::Obj),
-        (Target::Ply { is_ascii: bytes.len().is_multiple_of(2) }, ugmesh::Format::Ply),
-        (Target::Gltf, ugmesh::Format::Gltf),
-        (Target::Glb, ugmesh::Format::Gltf),
+        (Target::Obj, ugmesh::MeshFormat::Obj),
+        (Target::Ply { is_ascii: bytes.len().is_multiple_of(2) }, ugmesh::MeshFormat::Ply),
+        (Target::Gltf, ugmesh::MeshFormat::Gltf),
+        (Target::Glb, ugmesh::MeshFormat::Gltf),
     ];
     // The length selects the target: all of them take four times as long.
     let (target, format) = targets[bytes.len() / 2 % targets.len()];
     // A format that cannot represent the scene says so.
-    let Ok(mesh) = convert(ugmesh::Format::Ug, target, &scene.bytes) else { return Ok(()) };
+    let Ok(mesh) = convert(ugmesh::MeshFormat::Ug, target, &scene.bytes) else { return Ok(()) };
     match convert(format, Target::Ug, &mesh.bytes) {
         Ok(_) => Ok(()),
         Err(error) => Err(format!("ugmesh has written {target:?} that it refuses: {error}")),
@@ -136,7 +136,7 @@ pub fn mesh(format: ugmesh::Format, bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Limits of pictures: larger ones take long and reach no further code.
-const LIMITS: ugimage::Limits = ugimage::Limits { pixels: 1 << 14, bytes: 1 << 18 };
+const LIMITS: ugimage::PictureLimits = ugimage::PictureLimits { pixels: 1 << 14, bytes: 1 << 18 };
 
 /// A panorama as an observer in motion sees it, with options that follow from `seed`: every number
 /// of the light is finite, and another number of threads gives the same.
@@ -217,7 +217,7 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
         return Ok(());
     };
     let metadata = ugsheet::history(&pictures, Some("ugsheet"));
-    match ugimage::read_png(&Format::Png.encode(&sheet, &metadata), &ugimage::Limits::default()) {
+    match ugimage::read_png(&Format::Png.encode(&sheet, &metadata), &ugimage::PictureLimits::default()) {
         Ok((frame, _)) if frame == sheet => Ok(()),
         Ok(_) => Err("a sheet is read with other pixels than were written".to_owned()),
         Err(error) => Err(format!("a sheet is refused: {error}")),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ugmesh::Format;
+use ugmesh::MeshFormat;
 use ugtesting::Random;
 
 use super::{Files, bytes, words};
@@ -10,11 +10,11 @@ use super::{Files, bytes, words};
 /// A mesh and the files it names.
 pub fn files(random: &mut Random) -> (Files, &'static str) {
     let (name, format) = *random.pick(&[
-        ("mesh.obj", Format::Obj),
-        ("mesh.off", Format::Off),
-        ("mesh.ply", Format::Ply),
-        ("mesh.stl", Format::Stl),
-        ("mesh.gltf", Format::Gltf),
+        ("mesh.obj", MeshFormat::Obj),
+        ("mesh.off", MeshFormat::Off),
+        ("mesh.ply", MeshFormat::Ply),
+        ("mesh.stl", MeshFormat::Stl),
+        ("mesh.gltf", MeshFormat::Gltf),
     ]);
     let mut mesh = of(format, random);
     if random.one_in(2) {
@@ -25,14 +25,14 @@ pub fn files(random: &mut Random) -> (Files, &'static str) {
 }
 
 /// A mesh file of a format.
-pub fn of(format: Format, random: &mut Random) -> Vec<u8> {
+pub fn of(format: MeshFormat, random: &mut Random) -> Vec<u8> {
     match format {
-        Format::Ug => super::scene::text(random),
-        Format::Obj => obj(random).into_bytes(),
-        Format::Off => off(random).into_bytes(),
-        Format::Ply => ply(random),
-        Format::Stl => stl(random),
-        Format::Gltf => {
+        MeshFormat::Ug => super::scene::text(random),
+        MeshFormat::Obj => obj(random).into_bytes(),
+        MeshFormat::Off => off(random).into_bytes(),
+        MeshFormat::Ply => ply(random),
+        MeshFormat::Stl => stl(random),
+        MeshFormat::Gltf => {
             let json = gltf(random).into_bytes();
             if random.one_in(3) { glb(random, json) } else { json }
         }

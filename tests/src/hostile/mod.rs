@@ -113,7 +113,7 @@ pub enum File {
     /// A scene.
     Scene,
     /// A mesh of a format other than that of scenes.
-    Mesh(ugmesh::Format),
+    Mesh(ugmesh::MeshFormat),
     /// A PNG file.
     Picture,
     /// A panorama: a PNG, JPEG, HDR or EXR file.

@@ -2,7 +2,7 @@
 //!
 //! Coordinates of a [`Figure`] are in pixels from the upper left corner; one pixel is one point
 //! (1/72 inch). Later elements cover earlier ones. How smooth colour is represented depends on the
-//! format: PostScript level 3 and PDF interpolate between the corners of [`Triangle`]s (shading
+//! format: PostScript level 3 and PDF interpolate between the corners of [`GouraudTriangle`]s (shading
 //! type 4), and SVG has [`Gradient`]s along a line.
 //!
 //! Colours are display-encoded, because these formats interpolate encoded colours.
@@ -34,8 +34,8 @@ pub type Rgb = [u8; 3];
 /// A point, in pixels to the right of and below the upper left corner.
 pub type Point = [f64; 2];
 
-/// A figure of areas and lines. `S` is the type of its areas of smooth colour: [`Triangle`] or
-/// [`Gradient`].
+/// A figure of areas and lines. `S` is the type of its areas of smooth colour:
+/// [`GouraudTriangle`] or [`Gradient`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure<S> {
     /// Width and height in pixels.
@@ -77,7 +77,7 @@ pub enum Element<S> {
 
 /// A triangle with a colour at each corner, interpolated linearly between them in display encoding.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Triangle {
+pub struct GouraudTriangle {
     /// The corners.
     pub corners: [Point; 3],
     /// The colours at the corners.
@@ -171,7 +171,7 @@ enum PaintOp<'a> {
 }
 
 /// The painting operations of a figure.
-fn paint_ops(figure: &Figure<Triangle>) -> impl Iterator<Item = PaintOp<'_>> {
+fn paint_ops(figure: &Figure<GouraudTriangle>) -> impl Iterator<Item = PaintOp<'_>> {
     let seams = seams(figure.elements.iter().map(|element| match element {
         Element::Area { contours, .. } => Some(&contours[..]),
         _ => None,
@@ -215,7 +215,7 @@ impl Mesh {
         Self(Vec::new())
     }
 
-    fn push(&mut self, Triangle { corners, colors }: &Triangle) {
+    fn push(&mut self, GouraudTriangle { corners, colors }: &GouraudTriangle) {
         for (place, color) in corners.iter().zip(colors) {
             self.0.push(0);
             for coordinate in place {

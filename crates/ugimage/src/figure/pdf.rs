@@ -3,12 +3,12 @@
 use pdf_writer::writers::StreamShadingType;
 use pdf_writer::{Content, Filter, Name, Pdf, Ref};
 
-use super::{Figure, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Triangle, paint_ops};
+use super::{Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, paint_ops};
 use crate::Metadata;
 use crate::pdf::{FIRST, deflate, document};
 
 /// The figure as a PDF file, one pixel per point.
-pub fn pdf(figure: &Figure<Triangle>, metadata: &Metadata) -> Vec<u8> {
+pub fn pdf(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
     let [width, height] = figure.size.map(|side| side as f32);
     let mut page = Page { content: Content::new(), meshes: Vec::new(), color: None, width: None };
     page.content.transform([1.0, 0.0, 0.0, -1.0, 0.0, height]);
@@ -51,7 +51,7 @@ struct Page {
 }
 
 impl Page {
-    fn draw(&mut self, figure: &Figure<Triangle>) {
+    fn draw(&mut self, figure: &Figure<GouraudTriangle>) {
         for op in paint_ops(figure) {
             match op {
                 PaintOp::Area { contours, color, seams } => {

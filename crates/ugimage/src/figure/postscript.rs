@@ -1,17 +1,17 @@
 //! Figures as PostScript level 3.
 
-use super::{Figure, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Triangle, number, paint_ops};
+use super::{Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, number, paint_ops};
 use crate::pdf::deflate;
 use crate::postscript::Ascii85;
 use crate::{Metadata, eps as eps_file, ps as ps_file};
 
 /// The figure as an EPS file, one pixel per point.
-pub fn eps(figure: &Figure<Triangle>, metadata: &Metadata) -> Vec<u8> {
+pub fn eps(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
     eps_file::wrap(figure.size, 3, metadata, &drawing(figure))
 }
 
 /// The figure as a PostScript document of one page, one pixel per point.
-pub fn ps(figure: &Figure<Triangle>, metadata: &Metadata) -> Vec<u8> {
+pub fn ps(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
     ps_file::wrap(figure.size, 3, metadata, &drawing(figure))
 }
 
@@ -37,7 +37,7 @@ fn prologue([width, height]: [u32; 2]) -> String {
     )
 }
 
-fn drawing(figure: &Figure<Triangle>) -> Vec<u8> {
+fn drawing(figure: &Figure<GouraudTriangle>) -> Vec<u8> {
     let mut page = Page { out: prologue(figure.size).into_bytes(), color: None, width: None };
     if let Some(background) = figure.background {
         let [width, height] = figure.size;

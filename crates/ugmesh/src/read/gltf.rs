@@ -21,11 +21,11 @@ use ugpipe::shorten;
 use ugscene::VertexId;
 
 use super::{accessor, strip};
-use crate::Input;
+use crate::MeshFile;
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 
-pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> {
+pub(super) fn read(input: &MeshFile, builder: &mut Builder) -> Result<(), Problem> {
     let (json, blob) = split(&input.bytes)?;
     let (document, nodes) = parse(&json)?;
     let buffers = buffers(&document, blob, input)?;
@@ -128,7 +128,7 @@ const MAX_BUFFER_BYTES: u64 = u32::MAX as u64;
 fn buffers<'a>(
     document: &Document,
     mut blob: Option<Cow<'a, [u8]>>,
-    input: &Input,
+    input: &MeshFile,
 ) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
     let mut buffers = Vec::new();
     let mut room = MAX_BUFFER_BYTES;
@@ -160,7 +160,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// The content of a buffer. Of a file, the first `length` bytes are read.
-fn load(uri: &str, length: u64, input: &Input) -> Result<Vec<u8>, Problem> {
+fn load(uri: &str, length: u64, input: &MeshFile) -> Result<Vec<u8>, Problem> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, code) = data
             .split_once(";base64,")

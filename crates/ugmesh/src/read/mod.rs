@@ -11,19 +11,19 @@ mod text;
 
 use crate::builder::Builder;
 use crate::error::Problem;
-use crate::{Format, Input};
+use crate::{MeshFile, MeshFormat};
 
-type Reader = fn(&Input, &mut Builder) -> Result<(), Problem>;
+type Reader = fn(&MeshFile, &mut Builder) -> Result<(), Problem>;
 
 /// The reader of a mesh format; UniGrafix is read by `ugparse`.
-pub(crate) fn reader(format: Format) -> Option<Reader> {
+pub(crate) fn reader(format: MeshFormat) -> Option<Reader> {
     match format {
-        Format::Ug => None,
-        Format::Obj => Some(obj::read),
-        Format::Ply => Some(|input, builder| ply::read(&input.bytes, builder)),
-        Format::Stl => Some(|input, builder| stl::read(&input.bytes, builder)),
-        Format::Off => Some(|input, builder| off::read(&input.bytes, builder)),
-        Format::Gltf => Some(gltf::read),
+        MeshFormat::Ug => None,
+        MeshFormat::Obj => Some(obj::read),
+        MeshFormat::Ply => Some(|input, builder| ply::read(&input.bytes, builder)),
+        MeshFormat::Stl => Some(|input, builder| stl::read(&input.bytes, builder)),
+        MeshFormat::Off => Some(|input, builder| off::read(&input.bytes, builder)),
+        MeshFormat::Gltf => Some(gltf::read),
     }
 }
 

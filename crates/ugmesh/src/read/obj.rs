@@ -13,12 +13,12 @@ use ugscene::{ColorId, VertexId};
 
 use super::mtl::{self, Materials};
 use super::text::numbers;
-use crate::Input;
+use crate::MeshFile;
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
 
-pub(super) fn read(input: &Input, builder: &mut Builder) -> Result<(), Problem> {
+pub(super) fn read(input: &MeshFile, builder: &mut Builder) -> Result<(), Problem> {
     let text = decode(&input.bytes);
     let mut reader = Reader::new(input, builder);
     let mut in_head = true;
@@ -58,7 +58,7 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 const MAX_MATERIAL_BYTES: u64 = 1 << 28;
 
 struct Reader<'a> {
-    input: &'a Input<'a>,
+    input: &'a MeshFile<'a>,
     builder: &'a mut Builder,
     normals: Vec<DVec3>,
     /// The corners of all faces: vertex, and index into `normals`.
@@ -82,7 +82,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(input: &'a Input<'a>, builder: &'a mut Builder) -> Self {
+    fn new(input: &'a MeshFile<'a>, builder: &'a mut Builder) -> Self {
         Self {
             input,
             builder,

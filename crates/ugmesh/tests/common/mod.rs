@@ -1,13 +1,13 @@
 //! Mesh files made byte by byte, and a simplified view of scenes for comparison.
 #![allow(dead_code, clippy::unwrap_used, reason = "each test uses a part; a test fails by panicking")]
 
-use ugmesh::{Config, Converted, Error, Input, Target};
+use ugmesh::{Config, Converted, Error, MeshFile, Target};
 use ugparse::Source;
 use ugscene::{ColorValue, Scene};
 
 /// Converts a mesh with the options of `config`.
 pub fn convert(config: &Config, name: &str, bytes: impl Into<Vec<u8>>) -> Result<Converted, Error> {
-    ugmesh::run(config, &Input::new(name, bytes))
+    ugmesh::run(config, &MeshFile::new(name, bytes))
 }
 
 /// Converts a mesh to a scene.

@@ -4,11 +4,11 @@ use serde_json::{Value, json};
 use ugpicture::explain::json::{color, item, point};
 use ugpicture::explain::text::law_name;
 
-use super::{ExplainedLamp, ExplainedSample, ExplainedSurface, Explanation};
+use super::{ExplainedLamp, ExplainedSurface, RayExplanation, TracedSample};
 use crate::tracer::Way;
 
 /// The explanation as JSON, ending with a line break.
-pub fn json(explanation: &Explanation) -> String {
+pub fn json(explanation: &RayExplanation) -> String {
     let of_renderer = [
         ("brightness_law", json!(explanation.colors.as_ref().map(law_name))),
         ("sample", json!(explanation.sample.as_ref().map(shown))),
@@ -16,7 +16,7 @@ pub fn json(explanation: &Explanation) -> String {
     ugpicture::explain::json::explanation(&explanation.pixel, of_renderer)
 }
 
-fn shown(sample: &ExplainedSample) -> Value {
+fn shown(sample: &TracedSample) -> Value {
     json!({
         "place": sample.place,
         "linear": sample.light,

@@ -10,7 +10,7 @@ use glam::DVec3;
 use uglight::{ColorShift, Interpolation, light_names};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{Velocity, attenuation, linear_srgb_to_xyz};
-use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength, nearest};
+use ugpicture::explain::{ExplainedItem, ExplainedPixel, PixelSteps, SampleColor, Wavelength, nearest};
 use ugscene::{HueScale, SeenColors};
 
 use crate::config::Config;
@@ -27,18 +27,18 @@ pub use text::text;
 
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
-pub struct Explanation {
+pub struct RayExplanation {
     /// The facts common to all renderers. Mirrors and refraction are left out of its surfaces.
     pub pixel: ExplainedPixel,
     /// How motion changes colours; `None` if it does not.
     pub colors: Option<SeenColors>,
     /// The covered sample nearest to the centre of the pixel.
-    pub sample: Option<ExplainedSample>,
+    pub sample: Option<TracedSample>,
 }
 
 /// The explanation of a sample.
 #[derive(Clone, Debug)]
-pub struct ExplainedSample {
+pub struct TracedSample {
     /// Column and row of the sample in pixels.
     pub place: [f64; 2],
     /// The surfaces that contribute to it, from the eye on. Its light is the sum of theirs.
@@ -53,8 +53,8 @@ pub struct ExplainedSample {
 #[derive(Clone, Debug)]
 pub struct ExplainedSurface {
     /// Its face.
-    pub item: Item,
-    /// How its light goes on; rows of [`ExplainedSample::surfaces`].
+    pub item: ExplainedItem,
+    /// How its light goes on; rows of [`TracedSample::surfaces`].
     pub way: Way,
     /// Number of reflections and refractions between the surface and the eye.
     pub depth: u32,
@@ -126,7 +126,7 @@ pub fn explain(
     config: &Config,
     source: &Source,
     pixel: [u32; 2],
-) -> Result<(Explanation, Diagnostics), Error> {
+) -> Result<(RayExplanation, Diagnostics), Error> {
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     let canvas = config.canvas()?;
     canvas.check_pixel(pixel)?;
@@ -139,7 +139,7 @@ pub fn explain(
     let n_missing = (n * n) as usize - samples.len();
     let is_free = |sample: &&ExplainedRay| sample.arriving.background.max_element() > 0.0;
     let covered: Vec<&ExplainedRay> = samples.iter().filter(|sample| !sample.visits.is_empty()).collect();
-    let explanation = Explanation {
+    let explanation = RayExplanation {
         pixel: ExplainedPixel {
             place: pixel,
             size: config.picture.size,
@@ -181,11 +181,11 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    fn item(&self, face: u32) -> Item {
-        Item::new(face, &self.scenery.scene, self.parsed, self.source)
+    fn item(&self, face: u32) -> ExplainedItem {
+        ExplainedItem::new(face, &self.scenery.scene, self.parsed, self.source)
     }
 
-    fn covers(&self, samples: &[ExplainedRay]) -> Vec<(Item, usize)> {
+    fn covers(&self, samples: &[ExplainedRay]) -> Vec<(ExplainedItem, usize)> {
         let mut counts: Vec<(u32, usize)> = Vec::new();
         for sample in samples {
             for visit in sample.visits.iter().filter(|visit| visit.depth == 0) {
@@ -198,9 +198,9 @@ impl Teller<'_> {
         counts.into_iter().map(|(face, count)| (self.item(face), count)).collect()
     }
 
-    fn shown(&self, sample: &ExplainedRay) -> ExplainedSample {
+    fn shown(&self, sample: &ExplainedRay) -> TracedSample {
         let n = f64::from(self.config.picture.samples);
-        ExplainedSample {
+        TracedSample {
             place: sample.place.map(|at| (f64::from(at) + 0.5) / n),
             surfaces: sample.visits.iter().map(|visit| self.surface(sample, visit)).collect(),
             light: sample.arriving.light.to_array(),

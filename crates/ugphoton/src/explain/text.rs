@@ -6,7 +6,7 @@ use ugpicture::explain::text::{
     angles, body, described, event, level, number, numbers, row, write_color, write_colors,
 };
 
-use super::{ExplainedLamp, ExplainedSample, ExplainedSurface, Explanation};
+use super::{ExplainedLamp, ExplainedSurface, RayExplanation, TracedSample};
 use crate::tracer::Way;
 
 /// Surfaces listed; between mirrors there may be thousands.
@@ -16,14 +16,14 @@ const MAX_SURFACES: usize = 24;
 const MAX_LAMPS: usize = 8;
 
 /// The explanation as text.
-pub fn text(explanation: &Explanation) -> String {
+pub fn text(explanation: &RayExplanation) -> String {
     ugpicture::explain::text::explanation(&explanation.pixel, |out| match &explanation.sample {
         Some(sample) => write_sample(out, sample, explanation),
         None => Ok(()),
     })
 }
 
-fn write_sample(out: &mut String, sample: &ExplainedSample, explanation: &Explanation) -> fmt::Result {
+fn write_sample(out: &mut String, sample: &TracedSample, explanation: &RayExplanation) -> fmt::Result {
     let [x, y] = sample.place;
     writeln!(out, "\nthe covered sample nearest to the centre, at {} {}", number(x), number(y))?;
     row(out, "light", format!("{} linear, the sum of these surfaces", numbers(&sample.light)))?;
@@ -43,7 +43,7 @@ fn write_surface(
     out: &mut String,
     at: usize,
     surface: &ExplainedSurface,
-    explanation: &Explanation,
+    explanation: &RayExplanation,
 ) -> fmt::Result {
     let way = match surface.way {
         Way::Straight => "seen directly".to_owned(),

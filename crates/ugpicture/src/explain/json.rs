@@ -3,7 +3,7 @@
 use glam::DVec3;
 use serde_json::{Map, Value, json};
 
-use super::{ExplainedPixel, Item, PixelSteps, SampleColor};
+use super::{ExplainedItem, ExplainedPixel, PixelSteps, SampleColor};
 
 /// An explanation as JSON, ending with a line break. `of_renderer`: names and values of the fields
 /// that only this renderer has.
@@ -30,7 +30,7 @@ pub fn explanation<const N: usize>(pixel: &ExplainedPixel, of_renderer: [(&str, 
 }
 
 /// A face or wire.
-pub fn item(item: &Item) -> Value {
+pub fn item(item: &ExplainedItem) -> Value {
     let (file, line) = item.place.clone().unzip();
     json!({ "kind": item.kind, "id": item.id, "name": item.name, "file": file, "line": line })
 }

@@ -5,7 +5,7 @@
 pub mod json;
 pub mod text;
 
-use ugimage::{Development, Filter, LinearFrame, Quantizer, Steps, display_pixel};
+use ugimage::{Development, DevelopmentSteps, Filter, LinearFrame, Quantizer, display_pixel};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
 use ugscene::Scene;
 
@@ -22,7 +22,7 @@ pub struct ExplainedPixel {
     pub samples: u32,
     /// The surfaces that its samples show, each with its number of samples, in order of first
     /// occurrence. A sample of a translucent surface also counts for the surfaces behind it.
-    pub covers: Vec<(Item, usize)>,
+    pub covers: Vec<(ExplainedItem, usize)>,
     /// Number of samples in which the background is visible, also through translucent surfaces and
     /// in mirrors.
     pub n_free: usize,
@@ -34,7 +34,7 @@ pub struct ExplainedPixel {
 
 /// A face or wire.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Item {
+pub struct ExplainedItem {
     /// `face` or `wire`.
     pub kind: &'static str,
     /// As in the channel `id`: faces from 1, then wires.
@@ -92,7 +92,7 @@ pub struct PixelSteps {
     /// Mean linear red, green and blue, and the covered part.
     pub mean: [f32; 4],
     /// How light was developed, if it was not clipped per sample.
-    pub development: Option<(Development, Steps)>,
+    pub development: Option<(Development, DevelopmentSteps)>,
     /// Red, green, blue, alpha.
     pub bytes: [u8; 4],
 }
@@ -134,7 +134,7 @@ pub fn nearest<S>(
     samples.iter().rev().min_by_key(away)
 }
 
-impl Item {
+impl ExplainedItem {
     /// A face, or a wire counted after the faces. `scene`: with the faces and wires that were
     /// parsed from `source`.
     pub fn new(row: u32, scene: &Scene, parsed: &Parsed, source: &Source) -> Self {

@@ -6,7 +6,7 @@ use glam::DVec3;
 use ugimage::Filter;
 use ugscene::{ColorScale, SeenColors};
 
-use super::{ExplainedPixel, Item, PixelSteps, SampleColor};
+use super::{ExplainedItem, ExplainedPixel, PixelSteps, SampleColor};
 
 /// An explanation. `write_sample`: writes what the renderer tells of a sample.
 pub fn explanation(pixel: &ExplainedPixel, write_sample: impl FnOnce(&mut String) -> fmt::Result) -> String {
@@ -167,7 +167,7 @@ fn write_pixel(out: &mut String, steps: &PixelSteps, samples: u32) -> fmt::Resul
 }
 
 /// A face or wire, with its name and where it is in the text of the scene.
-pub fn described(item: &Item) -> String {
+pub fn described(item: &ExplainedItem) -> String {
     let name = item.name.as_ref().map_or(String::new(), |name| format!(" `{name}`"));
     let place = item.place.as_ref().map_or(String::new(), |(file, line)| format!(", {file}:{line}"));
     format!("{}{name}, id {}{place}", item.kind, item.id)

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use ugpicture::explain::json::{color, item, point};
 use ugpicture::explain::text::law_name;
 
-use super::{Corner, ExplainedSample, Explanation, LayerShown};
+use super::{ExplainedCorner, ExplainedSample, Explanation, LayerShown};
 
 /// The explanation as JSON, ending with a line break.
 pub fn json(explanation: &Explanation) -> String {
@@ -40,7 +40,7 @@ fn layer(layer: &LayerShown) -> Value {
     json!({ "item": item(&layer.item), "translucency": layer.translucency, "linear": layer.light })
 }
 
-fn corner(corner: &Corner) -> Value {
+fn corner(corner: &ExplainedCorner) -> Value {
     let lights: Vec<Value> =
         corner.lights.iter().map(|(light, level)| json!({ "light": light, "level": level })).collect();
     let names = if corner.is_light { "linear" } else { "hue_saturation_value" };

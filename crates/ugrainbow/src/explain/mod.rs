@@ -24,7 +24,7 @@ use crate::setup::Setup;
 
 pub use json::json;
 pub use text::text;
-pub use ugpicture::explain::{ExplainedPixel, Item, PixelSteps, SampleColor, Wavelength};
+pub use ugpicture::explain::{ExplainedItem, ExplainedPixel, PixelSteps, SampleColor, Wavelength};
 
 /// The explanation of a pixel.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ pub struct ExplainedSample {
     /// Column and row of the sample in pixels.
     pub place: [f64; 2],
     /// The surface it shows.
-    pub item: Item,
+    pub item: ExplainedItem,
     /// Velocity of its body.
     pub beta: DVec3,
     /// Lorentz factor γ of the body.
@@ -63,7 +63,7 @@ pub struct ExplainedSample {
     /// Its colour; `None` for a translucent surface, of which only the light is known.
     pub color: Option<SampleColor>,
     /// Corners of the face, or ends of the wire.
-    pub corners: Vec<Corner>,
+    pub corners: Vec<ExplainedCorner>,
     /// Its linear red, green and blue.
     pub light: [f32; 3],
     /// The part of its light that depth cueing leaves.
@@ -76,7 +76,7 @@ pub struct ExplainedSample {
 #[derive(Clone, Debug)]
 pub struct LayerShown {
     /// The face or wire.
-    pub item: Item,
+    pub item: ExplainedItem,
     /// The part of the light from behind that is transmitted.
     pub translucency: f32,
     /// Its own light, before weighting by 1 − translucency.
@@ -85,7 +85,7 @@ pub struct LayerShown {
 
 /// A corner, between which colour and light are interpolated.
 #[derive(Clone, Debug)]
-pub struct Corner {
+pub struct ExplainedCorner {
     /// Name of the vertex.
     pub name: String,
     /// Hue in degrees, saturation, value; or linear red, green, blue if given as light.
@@ -185,7 +185,7 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    fn covers(&self, samples: &[ProbedSample]) -> Vec<(Item, usize)> {
+    fn covers(&self, samples: &[ProbedSample]) -> Vec<(ExplainedItem, usize)> {
         let mut counts: Vec<(u32, usize)> = Vec::new();
         for sample in samples {
             // Each face is counted once, even if its edges are in the sample as well.
@@ -202,8 +202,8 @@ impl Teller<'_> {
         counts.into_iter().map(|(item, count)| (self.item(item), count)).collect()
     }
 
-    fn item(&self, item: u32) -> Item {
-        Item::new(item, self.setup.scene(), self.parsed, self.source)
+    fn item(&self, item: u32) -> ExplainedItem {
+        ExplainedItem::new(item, self.setup.scene(), self.parsed, self.source)
     }
 
     fn shown(&self, sample: &ProbedSample) -> ExplainedSample {
@@ -296,7 +296,7 @@ impl Teller<'_> {
         SampleColor::Hue { hue, saturation, value, level, wavelength }
     }
 
-    fn corners(&self, item: u32) -> Vec<Corner> {
+    fn corners(&self, item: u32) -> Vec<ExplainedCorner> {
         let painter = self.setup.painter();
         let scene = painter.scene;
         let vertices = |rows: &std::ops::Range<u32>| scene.contours.corners(rows.clone()).to_vec();
@@ -330,7 +330,7 @@ impl Teller<'_> {
         swatch: &Swatch,
         level: DVec3,
         lights: Vec<(String, DVec3)>,
-    ) -> Corner {
+    ) -> ExplainedCorner {
         let scene = self.setup.scene();
         let hsv = self.setup.appearance.palette.hsv(swatch);
         // As a display shows its linear light.
@@ -338,7 +338,7 @@ impl Teller<'_> {
             1.0 => hsv.value,
             factor => srgb_encode(factor * srgb_decode(hsv.value)),
         };
-        Corner {
+        ExplainedCorner {
             name: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
             color: swatch.light.map_or([hsv.hue, hsv.saturation, value], |light| light.to_array()),
             is_light: swatch.light.is_some(),

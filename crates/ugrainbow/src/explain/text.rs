@@ -6,7 +6,7 @@ use ugpicture::explain::text::{
     angles, body, described, event, level, number, numbers, row, write_color, write_colors,
 };
 
-use super::{Corner, ExplainedSample, Explanation};
+use super::{ExplainedCorner, ExplainedSample, Explanation};
 
 /// Corners listed; a face may have thousands.
 const MAX_CORNERS: usize = 8;
@@ -56,7 +56,7 @@ fn write_sample(out: &mut String, shown: &ExplainedSample, explanation: &Explana
     Ok(())
 }
 
-fn corner_text(corner: &Corner) -> String {
+fn corner_text(corner: &ExplainedCorner) -> String {
     let color = if corner.is_light {
         format!("linear {}", numbers(&corner.color))
     } else {

@@ -1,7 +1,7 @@
 //! Areas as elements of a figure: plain areas, triangles between whose corners colour is
 //! linear, and areas whose colour is linear along a line.
 
-use ugimage::figure::{Element, Gradient, Point, Rgb, Triangle};
+use ugimage::figure::{Element, GouraudTriangle, Gradient, Point, Rgb};
 
 use super::color::{FigureColors, Levels, distance, mean, rounded};
 use super::patch::Patch;
@@ -83,7 +83,7 @@ impl Job<'_> {
     }
 }
 
-impl Smooth for Triangle {
+impl Smooth for GouraudTriangle {
     fn push(job: &Job<'_>, _: Vec<Vec<Point>>, parts: &[Convex], elements: &mut Vec<Element<Self>>) {
         for part in parts {
             let corners = part.outline();
@@ -96,7 +96,7 @@ impl Smooth for Triangle {
 }
 
 /// Adds a triangle, halved until colour is linear in its parts.
-fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element<Triangle>>) {
+fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element<GouraudTriangle>>) {
     let mut stack = vec![(corners, corners.map(|corner| job.color(corner)), 0)];
     while let Some((corners, colors, cuts)) = stack.pop() {
         let middles = [0, 1, 2].map(|i| middle(corners[i], corners[(i + 1) % 3]));
@@ -111,7 +111,7 @@ fn push_triangles(job: &Job<'_>, corners: [Point; 3], elements: &mut Vec<Element
         };
         let longest = greatest([0, 1, 2].map(length));
         if error <= BOUND || cuts == MOST_CUTS || length(longest) < LEAST {
-            elements.push(Element::Smooth(Triangle { corners, colors: colors.map(rounded) }));
+            elements.push(Element::Smooth(GouraudTriangle { corners, colors: colors.map(rounded) }));
             continue;
         }
         // The edge along which colour is least linear; the longest if only the centre is off.
