@@ -305,7 +305,7 @@ fn mistakes() {
         &shell,
         &format!("{frames} -fo no/f_%d.png"),
         1,
-        "cannot write `no/f_1.png`: there is no folder `no`",
+        "cannot write `no/f_%d.png`: there is no folder `no`",
     );
     check(&shell, "-frames 0 -fo a.gif", 2, "from 1 to 10000000");
     check(&shell, &format!("{frames} -fo f_%d.png -sz 9 9"), 2, "`-sz` is given twice");

@@ -147,7 +147,7 @@ fn pipes_that_would_draw_wrong_pictures_are_refused() {
         Refused {
             pipe: &["uglorentz", "uglorentz"],
             problem: "positions in this scene are as seen already",
-            remedy: "start again from the scene at rest",
+            remedy: "give the scene at rest",
         },
         Refused {
             pipe: &["uglorentz", "ugdoppler", "ugdoppler"],

@@ -7,7 +7,7 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::Velocity;
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers};
+use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers, remedies};
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
 
@@ -23,6 +23,8 @@ use crate::{Config, DEFAULT_TOLERANCE, Error, Note, PROVENANCE, apply_with};
 #[command(name = "ugdoppler", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Velocity of faces that carry none, fractions of c
+    ///
+    /// For scenes with positions as seen that other programs wrote: those of uglorentz carry it.
     #[arg(long, visible_alias = "velocity", num_args = 3, value_names = ["X", "Y", "Z"],
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = ugpipe::finite)]
     vel: Option<Vec<f64>>,
@@ -175,6 +177,7 @@ impl Words for Note {
         match self {
             Self::Scene(note) => note.words(),
             Self::Kept(_) => format!("{self}; -ir scales it to 1.0"),
+            Self::TakenAsSeen => remedies::MOVE_FIRST.replacen("{}", &self.to_string(), 1),
             Self::NoLights => "no lights in the scene, so -li puts none into its colours".to_owned(),
             Self::Scaled(_) | Self::Clipped(_) | Self::TooSaturated { .. } => self.to_string(),
         }

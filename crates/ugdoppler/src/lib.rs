@@ -99,7 +99,11 @@ pub fn apply_with(
         let name = scene.names.get(scene.vertices[vertex.index()].name).to_string();
         return Err(Error::VertexAtEye { vertex, name });
     }
+    let is_taken_as_seen = !config.velocity.is_zero() && scene.stage.seen_geometry().is_none();
     let (mut scene, mut notes) = color(scene, config, eye, &frames, progress)?;
+    if is_taken_as_seen {
+        notes.push(Note::TakenAsSeen);
+    }
     if let Some(camera) = default_camera {
         let (eye, center) = (Some(camera.eye), Some(camera.center));
         scene.cameras.push(Camera { eye, center, ..Camera::default() });

@@ -18,6 +18,8 @@ pub enum Note {
         /// Its name.
         color: String,
     },
+    /// The configuration has a velocity for bodies that have none, and positions are at rest.
+    TakenAsSeen,
     /// The light of the scene is to be put into its colours, and there is none.
     NoLights,
 }
@@ -34,6 +36,7 @@ impl fmt::Display for Note {
                 "colour `{color}` is more saturated than a smooth spectrum can be, and is brought toward grey; \
                  give it by `c_spd`"
             ),
+            Self::TakenAsSeen => f.write_str("positions in this scene are taken as seen already"),
             Self::NoLights => f.write_str("no lights in the scene, so its colours contain none"),
         }
     }

@@ -11,7 +11,11 @@ const SCENE: &str = "{ a licence }\nc green 1 120;\nv a 9 0 0;\nv b 9 1 0;\nv c 
 #[test]
 fn a_scene_goes_through() {
     let out = ugdoppler(&["-vel", "-.5", "0", "0", "-ep", "0", "0", "0", "-nt", "1", "-gw"], SCENE);
-    assert_eq!(String::from_utf8_lossy(&out.stderr), "ugdoppler: note: max intensity is 1.73, clip to 1.0\n");
+    assert_eq!(
+        String::from_utf8_lossy(&out.stderr),
+        "ugdoppler: note: max intensity is 1.73, clip to 1.0\nugdoppler: note: positions in this scene are taken as \
+         seen already; for a scene at rest give -vel to uglorentz\n"
+    );
     assert!(out.status.success());
     let text = String::from_utf8(out.stdout).unwrap();
     let head: Vec<&str> = text.lines().take(3).collect();

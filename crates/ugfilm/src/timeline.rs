@@ -44,6 +44,13 @@ impl Timeline {
     /// The error in the values.
     pub fn new(words: Vec<String>, quantity: Quantity) -> Result<Self, String> {
         let values = |word: &String| word.split("..").map(finite).collect::<Result<Vec<f64>, _>>();
+        // `0...1` is from 0 to 1 for some, and from 0 to .1 for others.
+        if let Some(word) = words.iter().find(|word| word.contains("...") && values(word).is_ok()) {
+            let (before, after) = word.split_once("...").unwrap_or((word, ""));
+            return Err(format!(
+                "`{word}` has three dots: write `{before}..{after}` or `{before}..0.{after}`"
+            ));
+        }
         if !words.iter().any(|word| word.contains("..") && values(word).is_ok()) {
             return Ok(Self::Fixed(words));
         }
@@ -208,7 +215,7 @@ mod tests {
         check(&["-10..10"], 1.0, "10");
         check(&["0", "0..8", "1"], 0.5, "0 4 1");
         check(&["0..4", "0..8", "1..1"], 0.25, "1 2 1");
-        check(&["0...5", "-1..-.5"], 0.5, "0.25 -0.75");
+        check(&["0..0.5", "-1..-.5"], 0.5, "0.25 -0.75");
         check(&["0..1..0"], 0.75, "0.5");
         check(&["center"], 0.5, "center");
         check(&["../a..b"], 0.5, "../a..b");
@@ -217,10 +224,10 @@ mod tests {
 
     #[test]
     fn velocities_change_by_rapidity() {
-        let speeds = timeline(&["0", "0...99", "0"], Quantity::Velocity);
+        let speeds = timeline(&["0", "0..0.99", "0"], Quantity::Velocity);
         assert_eq!(speeds.at(1.0, Ease::Linear)[1], "0.99");
         for (time, expected) in [(0.0, "0 0 0.3"), (0.5, "0.9 0.1 0.3"), (1.0, "0.7 0.7 -0.1")] {
-            let words = ["0...9...7", "0...1...7", ".3...3..-.1"];
+            let words = ["0..0.9..0.7", "0..0.1..0.7", ".3..0.3..-.1"];
             assert_eq!(timeline(&words, Quantity::Velocity).at(time, Ease::Smooth).join(" "), expected);
         }
         assert_eq!(timeline(&["0..0", ".9", "0"], Quantity::Velocity).at(0.3, Ease::Linear)[1], "0.9");
@@ -228,7 +235,7 @@ mod tests {
         let half = speeds.numbers(0.5, Ease::Linear)[1];
         let k = 199f64.sqrt();
         assert!((half - (k - 1.0) / (k + 1.0)).abs() < 1e-15, "{half}");
-        let turned = timeline(&[".9..0", "0...9", "0"], Quantity::Velocity);
+        let turned = timeline(&[".9..0", "0..0.9", "0"], Quantity::Velocity);
         for step in 0..=10 {
             assert!(norm(&turned.numbers(f64::from(step) / 10.0, Ease::Smooth)) < 1.0);
         }
@@ -263,5 +270,6 @@ mod tests {
         };
         assert_eq!(error(&["0..1", "0..1..2"]), "its numbers have different counts of values");
         assert_eq!(error(&["0..1", "center"]), "not a finite number");
+        assert_eq!(error(&["0", "0...9"]), "`0...9` has three dots: write `0..9` or `0..0.9`");
     }
 }

@@ -63,6 +63,8 @@ impl fmt::Display for Error {
             Self::UnknownFormat { name, foreign: Some(foreign) } => {
                 let (what, remedy) = match foreign {
                     Foreign::Picture => ("a picture", "name a mesh"),
+                    Foreign::Table => ("a table", "name a mesh"),
+                    Foreign::Model => ("a model in a format that is not read", ugpipe::remedies::EXPORT_MESH),
                     Foreign::Compressed => ("compressed data", "decompress it first"),
                     Foreign::Utf16 => ("UTF-16 text", "save it as UTF-8 or ASCII"),
                     Foreign::ByteOrderMark => {

@@ -151,7 +151,10 @@ pub struct Converted {
 pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     let format =
         config.format.or_else(|| MeshFormat::detect(&input.name, &input.bytes)).ok_or_else(|| {
-            Error::UnknownFormat { name: input.name.clone(), foreign: ugparse::foreign_data(&input.bytes) }
+            Error::UnknownFormat {
+                name: input.name.clone(),
+                foreign: ugparse::foreign_data(&input.name, &input.bytes),
+            }
         })?;
     if format == MeshFormat::Ug && config.target == Target::Ug {
         return Err(Error::NothingToConvert);

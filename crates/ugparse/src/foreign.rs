@@ -11,13 +11,15 @@ use crate::source::{Source, Span};
 /// Call it only for texts with errors: a scene may have any name.
 pub(crate) fn error(source: &Source) -> Option<Diagnostic> {
     let file = Some(&*source.name).filter(|name| !name.starts_with('<'));
-    let (what, help) = match foreign_data(&source.text) {
+    let (what, help) = match foreign_data(&source.name, &source.text) {
         Some(Foreign::Utf16) => ("UTF-16 text", "save it as UTF-8 or ASCII".to_owned()),
         Some(Foreign::ByteOrderMark) => {
             ("text with a byte order mark", "save it as UTF-8 without the mark".to_owned())
         }
         Some(Foreign::Compressed) => ("compressed data", "decompress it first".to_owned()),
-        Some(Foreign::Picture) => ("a picture", remedies::read_history(file)),
+        Some(Foreign::Picture) => ("a picture", remedies::picture_is_complete(file)),
+        Some(Foreign::Model) => ("a model in a format that is not read", remedies::EXPORT_MESH.to_owned()),
+        Some(Foreign::Table) => ("a table", remedies::draw_stars(file)),
         None if is_mesh(source) => ("a mesh", remedies::convert_mesh(file)),
         None => return None,
     };
@@ -35,10 +37,28 @@ pub enum Foreign {
     Compressed,
     /// A picture.
     Picture,
+    /// A mesh or scene in a format that no program reads.
+    Model,
+    /// Numbers in lines, separated by commas.
+    Table,
 }
 
-/// The kind of data that are neither a scene nor a mesh, by their first bytes.
-pub fn foreign_data(bytes: &[u8]) -> Option<Foreign> {
+/// The kind of data that are neither a scene nor a mesh, by their first bytes, or else by the
+/// extension of the name.
+pub fn foreign_data(name: &str, bytes: &[u8]) -> Option<Foreign> {
+    by_content(bytes).or_else(|| {
+        let extension = Path::new(name).extension()?.to_str()?.to_ascii_lowercase();
+        match extension.as_str() {
+            "3ds" | "3mf" | "abc" | "blend" | "c4d" | "dae" | "dxf" | "fbx" | "iges" | "igs" | "lwo"
+            | "ma" | "max" | "mb" | "pbrt" | "pov" | "skp" | "step" | "stp" | "usd" | "usda" | "usdc"
+            | "usdz" | "wrl" | "x3d" => Some(Foreign::Model),
+            "csv" | "tsv" => Some(Foreign::Table),
+            _ => None,
+        }
+    })
+}
+
+fn by_content(bytes: &[u8]) -> Option<Foreign> {
     let begins = |words: &[&[u8]]| words.iter().any(|word| bytes.starts_with(word));
     if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
         Some(Foreign::Utf16)
@@ -50,6 +70,8 @@ pub fn foreign_data(bytes: &[u8]) -> Option<Foreign> {
         || begins(&[b"\x76\x2f\x31\x01", b"#?RADIANCE"])
     {
         Some(Foreign::Picture)
+    } else if begins(&[b"Kaydara FBX", b"BLENDER", b"ISO-10303"]) {
+        Some(Foreign::Model)
     } else {
         None
     }

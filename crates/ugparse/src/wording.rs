@@ -13,10 +13,13 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     let is_keyword = |word: &[u8]| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word);
     match word {
         b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
-        b"#" | b"#line" => finding
-            .label("not a line mark of the C preprocessor")
-            .help("such a line is `# LINE \"FILE\"`")
+        [b'#', ..] => finding
+            .label("neither a statement nor a comment")
+            .help("comments are in braces, `{ like this }`; a line mark is `# LINE \"FILE\"`")
             .setting(Setting::Lax),
+        [b'/', b'/' | b'*', ..] => {
+            finding.label("neither a statement nor a comment").help("comments are in braces: `{ like this }`")
+        }
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),

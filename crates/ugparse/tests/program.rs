@@ -223,7 +223,8 @@ fn inputs_that_are_not_scenes_have_one_error() {
         "ship.png",
         b"\x89PNG\r\n\x1a\n",
         "a picture",
-        "give the scene that it was drawn from; `ugsheet --history FILE` prints its name",
+        "`ugwarp FILE` shows it as the sky around an observer in motion; if it was drawn of a scene, give that: \
+         `ugsheet --history FILE` prints its name",
     );
     let convert = "`ugmesh FILE` writes it as a scene, for the rest of the pipe";
     check("ship.obj", b"v 0 0 0\nv 1 0 0\n", "a mesh", convert);

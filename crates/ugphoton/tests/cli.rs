@@ -94,7 +94,7 @@ fn mistakes_have_answers() {
     refused(&[], "", 1, "ugphoton: error: ");
     refused(&[], "f (a b c);", 1, "vertex `a` is not defined");
     let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
-    refused(&[], seen, 1, "start again from the scene at rest");
+    refused(&[], seen, 1, "give the scene at rest");
     let glowing = "c_bb hot 3000 1; v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c) hot <.5 0 0>; cam -ep 0 0 0;";
     refused(&[], glowing, 1, "give -sp");
 }

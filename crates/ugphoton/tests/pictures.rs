@@ -602,7 +602,7 @@ fn messages() {
     assert!(empty.contains("no faces"), "{empty}");
     let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
     let seen = light(scene(seen), &config).unwrap_err().words();
-    assert!(seen.contains("start again from the scene at rest"), "{seen}");
+    assert!(seen.contains("give the scene at rest"), "{seen}");
     let mut large = picture([16384, 16384]);
     large.picture.samples = 16;
     large.crop = Some([0, 0, 16384, 4096]);

@@ -54,7 +54,7 @@ pub struct PictureArgs {
 
     /// Background colour: lightness, hue in degrees, saturation [default: black]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
-          value_parser = finite, visible_alias = "background", help_heading = PICTURE)]
+          value_parser = color_part, visible_alias = "background", help_heading = PICTURE)]
     bg: Option<Vec<f64>>,
 
     /// Transparent background
@@ -397,6 +397,34 @@ pub fn color(name: &str, numbers: &[f64]) -> Result<Hsv, Failure> {
         return Err(Failure::Usage(format!("lightness and saturation of the {name} are from 0 to 1")));
     }
     Ok(Hsv { hue, saturation, value })
+}
+
+/// Value parser of the numbers of a colour.
+///
+/// # Errors
+/// The word is not a number: how to write the colour, if it names one.
+pub fn color_part(word: &str) -> Result<f64, String> {
+    /// Names of colours, and their lightness, hue and saturation.
+    const NAMES: [(&str, &str); 9] = [
+        ("black", "0"),
+        ("white", "1"),
+        ("gray", ".5"),
+        ("grey", ".5"),
+        ("red", "1 0"),
+        ("yellow", "1 60"),
+        ("green", "1 120"),
+        ("cyan", "1 180"),
+        ("blue", "1 240"),
+    ];
+    finite(word).map_err(|error| match NAMES.iter().find(|(name, _)| word.eq_ignore_ascii_case(name)) {
+        Some((name, numbers)) => {
+            format!("colours are lightness, hue in degrees, saturation; {name} is `{numbers}`")
+        }
+        None if word.starts_with('#') => {
+            "colours are lightness, hue in degrees, saturation, such as `1 240 .5`".to_owned()
+        }
+        None => error,
+    })
 }
 
 /// Stops, or `auto`.

@@ -7,6 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command};
 
+use crate::remedies;
+
 /// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
     /// The options that most people need, about ten, as documented (`-vel`, `--keep-in-view`): `-h`
@@ -197,12 +199,47 @@ fn limit(word: &str) -> Result<(String, u64), String> {
 /// `1e999` is an error, too.
 ///
 /// # Errors
-/// The word is not a finite number. clap adds the word and the option to the message.
+/// The word is not a finite number: how to write it, if it is clear what is meant. clap adds the
+/// word and the option to the message.
 pub fn finite(word: &str) -> Result<f64, String> {
-    word.parse()
-        .ok()
-        .filter(|number: &f64| number.is_finite())
-        .ok_or_else(|| "not a finite number".to_owned())
+    parsed(word).ok_or_else(|| match in_other_notation(word) {
+        Some((what, number)) => format!("{what}: write `{number}`"),
+        None if word.contains("..") => remedies::CHANGING_NUMBERS.to_owned(),
+        None => "not a finite number".to_owned(),
+    })
+}
+
+fn parsed(word: &str) -> Option<f64> {
+    word.parse().ok().filter(|number: &f64| number.is_finite())
+}
+
+/// A number that is written with a unit, a decimal comma or as a fraction: the rule that it breaks,
+/// and the number.
+fn in_other_notation(word: &str) -> Option<(&'static str, f64)> {
+    const SPEED: &str = "speeds are fractions of the speed of light, without a unit";
+    /// The speed of light in km/s.
+    const LIGHT: f64 = 299_792.458;
+    if let Some(number) = parsed(&word.replace(',', ".")) {
+        return Some(("the decimal point is a point", number));
+    }
+    if let Some(number) = word.strip_suffix(',').and_then(parsed) {
+        return Some(("numbers are separated by blanks", number));
+    }
+    if let Some((over, under)) = word.split_once('/')
+        && let (Some(over), Some(under)) = (parsed(over), parsed(under))
+    {
+        return Some(("fractions are decimal", over / under)).filter(|(_, number)| number.is_finite());
+    }
+    let (number, unit) = word.split_at(word.rfind(|c: char| c.is_ascii_digit() || c == '.')? + 1);
+    let number = parsed(number)?;
+    Some(match unit.trim() {
+        "%" => ("percentages are fractions of 1", number / 100.0),
+        "c" | "C" => (SPEED, number),
+        "km/s" => (SPEED, number / LIGHT),
+        "m/s" => (SPEED, number / (1000.0 * LIGHT)),
+        "km/h" => (SPEED, number / (3600.0 * LIGHT)),
+        _ => ("numbers are written without units", number),
+    })
 }
 
 /// Value parser of options that take a number with a condition:
@@ -320,6 +357,27 @@ mod tests {
         check(" 1", None);
         check("0x10", None);
         check("1,5", None);
+    }
+
+    #[test]
+    fn numbers_in_other_notations_are_taught() {
+        let check = |word: &str, expected: &str| assert_eq!(finite(word), Err(expected.to_owned()), "{word}");
+        check("0,9", "the decimal point is a point: write `0.9`");
+        check("-1,5e-3", "the decimal point is a point: write `-0.0015`");
+        check("0.9,", "numbers are separated by blanks: write `0.9`");
+        check("9/10", "fractions are decimal: write `0.9`");
+        check("90%", "percentages are fractions of 1: write `0.9`");
+        let speed = "speeds are fractions of the speed of light, without a unit: write";
+        check(".9c", &format!("{speed} `0.9`"));
+        check("-.9 c", &format!("{speed} `-0.9`"));
+        // The definition of the metre.
+        check("299792458m/s", &format!("{speed} `1`"));
+        check("149896.229km/s", &format!("{speed} `0.5`"));
+        check("40°", "numbers are written without units: write `40`");
+        check("0..5", remedies::CHANGING_NUMBERS);
+        for word in ["", "red", "nan", "1e999", "1/0", "1,5,7", "1e999km/s", ",", "/", "%", "ship.ug"] {
+            check(word, "not a finite number");
+        }
     }
 
     #[test]

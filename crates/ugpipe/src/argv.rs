@@ -11,8 +11,8 @@
 //! Known limitation: a value in the argument after a *short* option is not skipped. The only short
 //! options of our programs are `-h` and `-V`, which take no values.
 
+use std::collections::VecDeque;
 use std::ffi::{OsStr, OsString};
-use std::iter::Peekable;
 use std::path::Path;
 
 use clap::builder::ValueRange;
@@ -27,7 +27,8 @@ const END_OF_VALUES: &str = ";";
 /// Prepares a command for [`rewrite`], including `--help` and `--version`.
 ///
 /// An option with a variable number of values (`-va A [B]`) gets a value terminator, so that the
-/// file in `-va 40 ship.ug` is not parsed as its second value.
+/// file in `-va 40 ship.ug` is not parsed as its second value; and so does an option whose values
+/// may begin with a dash, so that the option in `-vel .9 -fo x.ug` is not parsed as one of them.
 pub(crate) fn prepare(command: Command) -> Command {
     // Messages have the name of the program, whatever name it was called by.
     let name = command.get_name().to_owned();
@@ -35,6 +36,7 @@ pub(crate) fn prepare(command: Command) -> Command {
         Some(range) if is_variable(range) && arg.get_long().is_some() => {
             arg.value_terminator(END_OF_VALUES).allow_hyphen_values(true).action(ArgAction::Set)
         }
+        _ if ends_at_options(&arg) => arg.value_terminator(END_OF_VALUES),
         _ => arg,
     });
     command.build();
@@ -58,33 +60,31 @@ pub(crate) fn rewrite(
     command: &Command,
     argv: impl IntoIterator<Item = OsString>,
 ) -> Result<Vec<OsString>, StrayNumber> {
-    let mut words = argv.into_iter().peekable();
-    let mut rewritten = Vec::from_iter(words.next());
-    while let Some(word) = words.next() {
+    let mut words: VecDeque<OsString> = argv.into_iter().collect();
+    let mut rewritten = Vec::from_iter(words.pop_front());
+    while let Some(word) = words.pop_front() {
         if word == "--" {
             rewritten.push(word);
             rewritten.extend(words);
             break;
         }
-        let word = abbreviated(command, word);
+        let number = words.front().filter(|word| is_number(word) && !Path::new(word).exists());
+        let word = abbreviated(command, word, number.is_some());
         let Some(option) = LongOption::find(command, &word) else {
             rewritten.push(if is_unknown(command, &word) { with_dash(&word) } else { word });
             continue;
         };
         if let Some((name, numbers)) = option.attached_numbers(&word) {
             rewritten.push(name);
-            copy_values(option.arg, &mut numbers.into_iter().peekable(), &mut rewritten);
+            copy_values(command, option.arg, &mut numbers.into(), &mut rewritten);
             continue;
         }
-        let is_flag = !option.arg.get_action().takes_values();
-        if is_flag
-            && let Some(number) = words.peek().filter(|word| is_number(word) && !Path::new(word).exists())
-        {
+        if let (false, Some(number)) = (option.arg.get_action().takes_values(), number) {
             return Err(StrayNumber { option: word.to_string_lossy().into_owned(), number: number.clone() });
         }
         rewritten.push(option.with_two_dashes(word));
         if !option.has_value {
-            copy_values(option.arg, &mut words, &mut rewritten);
+            copy_values(command, option.arg, &mut words, &mut rewritten);
         }
     }
     Ok(rewritten)
@@ -146,16 +146,17 @@ fn has_long_name(arg: &Arg, name: &str) -> bool {
 }
 
 /// The long name of the option that other programs call by one letter, if `command` has it and not
-/// that letter; else `word`.
-fn abbreviated(command: &Command, word: OsString) -> OsString {
+/// that letter; else `word`. `-v` before a number is not `--verbose`, but a mistake.
+fn abbreviated(command: &Command, word: OsString, precedes_number: bool) -> OsString {
     const LETTERS: [(&str, char, &str); 5] =
         [("-o", 'o', "fo"), ("-i", 'i', "fi"), ("-q", 'q', "qt"), ("-v", 'v', "vb"), ("-j", 'j', "nt")];
     let Some((_, letter, name)) = LETTERS.into_iter().find(|(dashed, ..)| word == *dashed) else {
         return word;
     };
     let is_free = command.get_arguments().all(|arg| arg.get_short() != Some(letter));
-    let is_known = command.get_arguments().any(|arg| has_long_name(arg, name));
-    if is_free && is_known { format!("--{name}").into() } else { word }
+    let is_meant =
+        |arg: &Arg| has_long_name(arg, name) && (arg.get_action().takes_values() || !precedes_number);
+    if is_free && command.get_arguments().any(is_meant) { format!("--{name}").into() } else { word }
 }
 
 /// The numbers of `80x60` or `.9,0,0`, or those over the time of a film, `0 0 0 .. 0 .9 0`, if
@@ -169,29 +170,68 @@ fn joined_numbers(arg: &Arg, word: &OsStr) -> Option<Vec<OsString>> {
     (is_whole && numbers.iter().all(|number| is_number(number))).then_some(numbers)
 }
 
-/// The words `0..0`, `0...9`, `0..0` for `0 0 0 .. 0 .9 0`: each number with its values in time.
+/// The words `0..0`, `0..0.9`, `0..0` for `0 0 0 .. 0 .9 0`: each number with its values in time.
 fn rows_in_time(word: &str) -> Option<Vec<OsString>> {
     let rows: Vec<Vec<&str>> = word.split("..").map(|row| row.split_whitespace().collect()).collect();
     let n_numbers = rows.first()?.len();
     if rows.len() < 2 || n_numbers < 2 || rows.iter().any(|row| row.len() != n_numbers) {
         return None;
     }
-    // A point at the end of a number would be taken for a part of the dots.
-    let values = |column: usize| rows.iter().map(move |row| row[column].trim_end_matches('.'));
-    Some((0..n_numbers).map(|column| values(column).collect::<Vec<_>>().join("..").into()).collect())
+    let values = |column: usize| rows.iter().map(move |row| row[column]);
+    Some((0..n_numbers).map(|column| in_time(values(column)).into()).collect())
+}
+
+/// The word for values over the time of a film, `0..0.9` for `0` and `.9`: a decimal point at an
+/// end of a number would look like one of the dots.
+fn in_time<'n>(values: impl Iterator<Item = &'n str>) -> String {
+    let whole = |number: &str| {
+        let number = number.trim_end_matches('.');
+        if number.starts_with('.') { format!("0{number}") } else { number.to_owned() }
+    };
+    values.map(whole).collect::<Vec<_>>().join("..")
+}
+
+/// Joins values over the time of a film that are written with blanks: `0 .. .9 0 0` becomes
+/// `0..0.9 0 0`, and `0 0 0 .. 0 .9 0` a word for each number.
+fn join_times(arg: &Arg, words: &mut VecDeque<OsString>) {
+    let is_part = |word: &&OsString| *word == ".." || is_number(word);
+    let parts = words.iter().take_while(is_part).map_while(|word| word.to_str().map(str::to_owned));
+    let parts: Vec<String> = parts.collect();
+    if !parts.iter().any(|part| part == "..") {
+        return;
+    }
+    words.drain(..parts.len());
+    let max = arg.get_num_args().map_or(1, |range| range.max_values());
+    let rows = rows_in_time(&parts.join(" ")).filter(|columns| columns.len() <= max);
+    let joined = rows.unwrap_or_else(|| {
+        let mut joined: Vec<String> = Vec::new();
+        let mut parts = parts.iter();
+        while let Some(part) = parts.next() {
+            match (part.as_str(), joined.pop()) {
+                ("..", Some(before)) => {
+                    let after = parts.next().map_or("", String::as_str);
+                    joined.push(in_time([before.as_str(), after].into_iter()));
+                }
+                (_, before) => joined.extend(before.into_iter().chain([part.clone()])),
+            }
+        }
+        joined.into_iter().map(OsString::from).collect()
+    });
+    joined.into_iter().rev().for_each(|word| words.push_front(word));
 }
 
 /// Copies the values of `arg` unchanged, except that numbers joined by commas or, as in `80x60`, by
-/// `x` are separated.
+/// `x` are separated, and numbers over time are joined.
 ///
-/// The required values come first. Optional values are numbers in all our programs, which
-/// distinguishes them from file names. A negative number is the value of an option with one value
-/// even if the option takes only positive ones, and is attached to it by `=`: clap would take it
-/// for an option.
-fn copy_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, out: &mut Vec<OsString>) {
+/// The required values come first, up to the next option. Optional values are numbers in all our
+/// programs, which distinguishes them from file names. A negative number is the value of an option
+/// with one value even if the option takes only positive ones, and is attached to it by `=`: clap
+/// would take it for an option.
+fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out: &mut Vec<OsString>) {
     let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
+    join_times(arg, words);
     if range == ValueRange::SINGLE
-        && let Some(value) = words.next_if(|word| !may_be_value(arg, word) && is_number(word))
+        && let Some(value) = next_if(words, |word| !may_be_value(command, arg, word) && is_number(word))
         && let Some(option) = out.last_mut()
     {
         option.push("=");
@@ -199,27 +239,43 @@ fn copy_values(arg: &Arg, words: &mut Peekable<impl Iterator<Item = OsString>>, 
         return;
     }
     let mut n_taken = 0;
-    if let Some(numbers) = words.peek().and_then(|word| joined_numbers(arg, word)) {
-        words.next();
+    if let Some(numbers) = words.front().and_then(|word| joined_numbers(arg, word)) {
+        words.pop_front();
         n_taken = numbers.len();
         out.extend(numbers);
     }
     while n_taken < range.max_values() {
         let is_needed = n_taken < range.min_values();
-        let belongs = |word: &OsString| if is_needed { may_be_value(arg, word) } else { is_number(word) };
-        let Some(value) = words.next_if(belongs) else { break };
+        let belongs = |word: &OsString| {
+            if is_needed { may_be_value(command, arg, word) } else { is_number(word) }
+        };
+        let Some(value) = next_if(words, belongs) else { break };
         out.push(value);
         n_taken += 1;
     }
-    if (range.min_values()..range.max_values()).contains(&n_taken) {
+    let is_cut = n_taken < range.min_values() && ends_at_options(arg);
+    if is_cut || (range.min_values()..range.max_values()).contains(&n_taken) {
         out.push(END_OF_VALUES.into());
     }
 }
 
-/// True if clap would accept `word` as a value of `arg`. For most options a word with a leading
-/// dash is the next option, so that `-fi -fo x` is reported as a missing value of `-fi`.
-fn may_be_value(arg: &Arg, word: &OsStr) -> bool {
-    arg.is_allow_hyphen_values_set() || word == "-" || !word.as_encoded_bytes().starts_with(b"-")
+/// The first word, removed, if it fulfils a condition.
+fn next_if(words: &mut VecDeque<OsString>, condition: impl FnOnce(&OsString) -> bool) -> Option<OsString> {
+    words.front().is_some_and(condition).then(|| words.pop_front()).flatten()
+}
+
+/// True if `word` can be a value of `arg`: a word with a leading dash only if clap would accept it
+/// and it is not the next option, so that `-fi -fo x` is reported as a missing value of `-fi`.
+fn may_be_value(command: &Command, arg: &Arg, word: &OsStr) -> bool {
+    let is_dashed = word.as_encoded_bytes().starts_with(b"-") && word != "-";
+    let is_option = || ends_at_options(arg) && LongOption::find(command, word).is_some();
+    !is_dashed || (arg.is_allow_hyphen_values_set() && !is_option())
+}
+
+/// True for options whose values may begin with a dash, as negative numbers do, but are no text.
+fn ends_at_options(arg: &Arg) -> bool {
+    let is_text = arg.get_value_names().is_some_and(|names| names.iter().any(|name| name == "TEXT"));
+    arg.is_allow_hyphen_values_set() && !is_text
 }
 
 /// True for a number, and for numbers over the time of a film: `-10..10`.
@@ -254,7 +310,7 @@ mod tests {
                 .arg(number("va").num_args(1..=2))
                 .arg(Arg::new("an").long("an").num_args(1..=3))
                 .arg(number("lg").num_args(0..=1).default_missing_value("7"))
-                .arg(Arg::new("title").long("title").allow_hyphen_values(true))
+                .arg(Arg::new("title").long("title").value_name("TEXT").allow_hyphen_values(true))
                 .arg(Arg::new("fi").long("fi"))
                 .arg(flag("gw"))
                 .arg(flag("no-flux"))
@@ -289,6 +345,8 @@ mod tests {
         check("-velocity=.9,0,0 -gw", "--velocity .9 0 0 --gw");
         check("-va 40x30 ship.ug", "--va 40 30 ship.ug");
         check("-title a,b", "--title a,b");
+        // Values over time may have blanks.
+        check("-title 0 .. 5", "--title 0..5");
         check("-vel -.9 0 -1e-3", "--vel -.9 0 -1e-3");
         check("-vel -.9 0 -1e-3 -gw", "--vel -.9 0 -1e-3 --gw");
         check("--vel -5.e-1 0 0 -gw", "--vel -5.e-1 0 0 --gw");
@@ -326,7 +384,7 @@ mod tests {
     fn rows_become_values_of_each_number() {
         let words =
             |word: &str| rows_in_time(word).map(|words| words.join(" ".as_ref()).into_string().unwrap());
-        assert_eq!(words("0 0 0 .. 0 .9 0").as_deref(), Some("0..0 0...9 0..0"));
+        assert_eq!(words("0 0 0 .. 0 .9 0").as_deref(), Some("0..0 0..0.9 0..0"));
         assert_eq!(words("1. 2..3 4 .. -5. 6").as_deref(), Some("1..3..-5 2..4..6"));
         for word in ["-10..10", "0 0 0", "0 0 .. 1", ".. 1 2", "a b"] {
             assert_eq!(words(word), None, "{word}");
@@ -374,10 +432,8 @@ mod tests {
             assert_eq!(error.lines().next(), Some(expected), "{line}");
         }
         check("-vel .9 0", "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided");
-        check(
-            "-vel .9 0 -gw",
-            "error: invalid value '-gw' for '--vel <vel> <vel> <vel>': not a finite number",
-        );
+        check("-vel .9 0 -gw", "error: 3 values required for '--vel <vel> <vel> <vel>' but 2 were provided");
+        check("-ti -gw", "error: a value is required for '--ti <ti>' but none was supplied");
         check(
             "-vel .9 0 nan",
             "error: invalid value 'nan' for '--vel <vel> <vel> <vel>': not a finite number",
@@ -389,7 +445,7 @@ mod tests {
         );
         check("-fi -gw", "error: a value is required for '--fi <fi>' but none was supplied");
         check("-va", "error: a value is required for '--va <va>...' but none was supplied");
-        check("-va -gw", "error: invalid value '-gw' for '--va <va>...': not a finite number");
+        check("-va -gw", "error: a value is required for '--va <va>...' but none was supplied");
         check("-va 1 2 3 4", "error: unexpected argument '4' found");
         check("---gw", "error: unexpected argument '---gw' found");
         check("-q", "error: unexpected argument '-q' found");

@@ -143,7 +143,7 @@ mod tests {
             .arg(option("vel").alias("velocity").num_args(3))
             .arg(option("va").num_args(1..=2))
             .arg(option("ti").default_value("0"))
-            .arg(option("title").value_parser(clap::value_parser!(OsString)))
+            .arg(option("title").value_name("TEXT").value_parser(clap::value_parser!(OsString)))
             .arg(Arg::new("gw").long("gw").action(clap::ArgAction::SetTrue))
             .arg(Arg::new("no-flux").long("no-flux").action(clap::ArgAction::SetTrue));
         let mut command = argv::prepare(CommonArgs::augment_args(command));

@@ -5,11 +5,19 @@
 //! is wrong.
 
 /// Positions were made as seen already, and rest shapes are needed.
-pub const SEEN_GEOMETRY: &str = "start again from the scene at rest, and go through uglorentz once";
+pub const SEEN_GEOMETRY: &str = "give the scene at rest: uglorentz, ugphoton and ugfilm each compute themselves \
+     where it is seen, so only one of them is in a pipe";
+
+/// A number has several values, over time.
+pub const CHANGING_NUMBERS: &str =
+    "only ugfilm draws numbers that change over time; for one picture give one number";
+
+/// Positions without a word on their stage are taken as seen.
+pub const MOVE_FIRST: &str = "{}; for a scene at rest give -vel to uglorentz";
 
 /// Colours were made as seen already.
 pub const SEEN_COLORS: &str = "start again from the scene before ugdoppler; \
-     the order is uglorentz, ugdoppler, ugrainbow, each once";
+     the order is uglorentz, ugdoppler, ugrainbow, each once; ugphoton and ugfilm do the work of all three";
 
 /// Bodies move whose positions are still at rest.
 pub const GEOMETRY_AT_REST: &str =
@@ -58,10 +66,30 @@ pub fn convert_mesh(file: Option<&str>) -> String {
 
 /// The input is a picture. `file`: its name, if it is not standard input.
 #[must_use]
-pub fn read_history(file: Option<&str>) -> String {
-    let file = file.map(|file| format!(" {file}")).unwrap_or_default();
-    format!("give the scene that it was drawn from; `ugsheet --history{file}` prints its name")
+pub fn picture_is_complete(file: Option<&str>) -> String {
+    match file {
+        None => {
+            "the program before this one in the pipe has drawn the picture: leave this one out".to_owned()
+        }
+        Some(file) => format!(
+            "`ugwarp {file}` shows it as the sky around an observer in motion; if it was drawn of a scene, give that: \
+             `ugsheet --history {file}` prints its name"
+        ),
+    }
 }
+
+/// The input is a table. `file`: its name, if it is not standard input.
+#[must_use]
+pub fn draw_stars(file: Option<&str>) -> String {
+    let file = file.map(|file| format!(" {file}")).unwrap_or_default();
+    format!("`ugwarp{file}` draws a list of stars")
+}
+
+/// The input is a scene, but only pictures and lists of stars are read.
+pub const DRAW_SCENE: &str = "scenes are drawn by ugrainbow, and by ugphoton";
+
+/// The input is a scene or mesh in a format that is not read.
+pub const EXPORT_MESH: &str = "export it as glTF, OBJ or PLY, which are read";
 
 /// Where another eye point has to be given instead.
 pub const EYE_POINT: &str = "give it to uglorentz";

@@ -16,7 +16,6 @@ use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
 
 use crate::args::ToolArgs;
-use crate::argv::StrayNumber;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::messages::Messages;
@@ -84,8 +83,8 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     let mut command = help::install(argv::prepare(A::command()), A::ESSENTIAL);
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,
-        Err(Unparsed::StrayNumber(stray)) => return refuse(&command, usage::stray_number(&stray)),
-        Err(Unparsed::Clap(error)) => return print_clap_message(&command, &error),
+        Err(Unparsed::Usage(message)) => return refuse(&command, message),
+        Err(Unparsed::Help(text)) => return print_help(&text),
     };
     let mut messages = Messages::new(command.get_name());
     let opened = streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
@@ -102,15 +101,10 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
 
 /// Why arguments were not parsed.
 enum Unparsed {
-    StrayNumber(StrayNumber),
-    /// An error, or a request for help or the version.
-    Clap(clap::Error),
-}
-
-impl From<clap::Error> for Unparsed {
-    fn from(error: clap::Error) -> Self {
-        Self::Clap(error)
-    }
+    /// They are wrong: the message.
+    Usage(String),
+    /// A request for help or the version.
+    Help(clap::Error),
 }
 
 /// Parses the command line of a program that is not run but whose functions are called. `words`:
@@ -120,33 +114,33 @@ impl From<clap::Error> for Unparsed {
 /// [`Failure::Usage`] with the message of the program.
 pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<A, Failure> {
     let mut command = argv::prepare(A::command());
-    match parse_from(&mut command, words) {
+    match parse_from(&mut command, words.into_iter().collect()) {
         Ok((args, _)) => Ok(args),
-        Err(Unparsed::StrayNumber(stray)) => Err(Failure::Usage(usage::stray_number(&stray))),
-        Err(Unparsed::Clap(error)) => Err(Failure::Usage(usage::message(&command, &error))),
+        Err(Unparsed::Usage(message)) => Err(Failure::Usage(message)),
+        Err(Unparsed::Help(text)) => Err(Failure::Usage(usage::message(&command, &text, &[]))),
     }
 }
 
 fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), Unparsed> {
-    parse_from(command, env::args_os())
+    parse_from(command, env::args_os().collect())
 }
 
-fn parse_from<A: ToolArgs>(
-    command: &mut Command,
-    words: impl IntoIterator<Item = OsString>,
-) -> Result<(A, ArgMatches), Unparsed> {
-    let words = argv::rewrite(command, words).map_err(Unparsed::StrayNumber)?;
-    let matches = command.try_get_matches_from_mut(words)?;
-    let args = A::from_arg_matches(&matches).map_err(|error| error.format(command))?;
-    Ok((args, matches))
+fn parse_from<A: ToolArgs>(command: &mut Command, words: Vec<OsString>) -> Result<(A, ArgMatches), Unparsed> {
+    let rewritten = argv::rewrite(command, words.iter().cloned());
+    let rewritten = rewritten.map_err(|stray| Unparsed::Usage(usage::stray_number(&stray)))?;
+    let parsed = command.try_get_matches_from_mut(rewritten).and_then(|matches| {
+        let args = A::from_arg_matches(&matches).map_err(|error| error.format(command))?;
+        Ok((args, matches))
+    });
+    parsed.map_err(|error| match error.use_stderr() {
+        true => Unparsed::Usage(usage::message(command, &error, &words)),
+        false => Unparsed::Help(error),
+    })
 }
 
-/// Prints help and version to standard output, errors to standard error.
-fn print_clap_message(command: &Command, error: &clap::Error) -> ExitCode {
-    if error.use_stderr() {
-        return refuse(command, usage::message(command, error));
-    }
-    match error.print() {
+/// Prints help or the version to standard output.
+fn print_help(text: &clap::Error) -> ExitCode {
+    match text.print() {
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => die_of_sigpipe(),
         Err(_) => BAD_INPUT.into(),
         Ok(()) => ExitCode::SUCCESS,

@@ -7,7 +7,7 @@ use clap::ArgMatches;
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
-use crate::identity::Identity;
+use crate::identity::{Identity, folder_of};
 
 /// A file that the command line names or the shell has opened.
 struct Stream {
@@ -22,12 +22,16 @@ impl Stream {
     }
 }
 
-/// Compares all inputs and outputs, by file and not by name, before any is opened.
+/// Compares all inputs and outputs, by file and not by name, before any is opened, and looks for
+/// the folders of outputs before anything is computed.
 ///
 /// # Errors
 /// [`Failure::Usage`] if two outputs are one file, or messages or a table go to a file that is
 /// read. The main output may replace its input: it is written when all has been read.
+/// [`Failure::Write`] if the folder of an output does not exist.
 pub(crate) fn check(common: &CommonArgs, matches: &ArgMatches) -> Result<(), Failure> {
+    let written = ["at", "keep"].into_iter().flat_map(|id| named(matches, id));
+    common.output().into_iter().chain(written).try_for_each(require_folder)?;
     let inputs = inputs(common, matches);
     let secondary = secondary_outputs(common, matches);
     let output = match common.output() {
@@ -48,6 +52,17 @@ pub(crate) fn check(common: &CommonArgs, matches: &ArgMatches) -> Result<(), Fai
         }
     }
     Ok(())
+}
+
+/// Refuses a file in a folder that does not exist. The folder of `frame_%04d/x.png` depends on the
+/// frame.
+fn require_folder(path: &Path) -> Result<(), Failure> {
+    let folder = folder_of(path);
+    let is_pattern = folder.as_os_str().as_encoded_bytes().contains(&b'%');
+    if is_pattern || folder.exists() {
+        return Ok(());
+    }
+    Err(Failure::Write { name: path.display().to_string(), error: io::ErrorKind::NotFound.into() })
 }
 
 fn inputs(common: &CommonArgs, matches: &ArgMatches) -> Vec<Stream> {

@@ -4,15 +4,18 @@
 //! of a program, and no answer for options of other programs; so they are made anew here.
 
 use std::error::Error;
+use std::ffi::OsString;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command};
 
+use crate::args::finite;
 use crate::argv::StrayNumber;
 use crate::remedies;
 
-/// The message for an error of clap: one line, without the name of the program.
-pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
+/// The message for an error of clap: one line, without the name of the program. `words`: the
+/// command line as it was typed.
+pub(crate) fn message(command: &Command, error: &clap::Error, words: &[OsString]) -> String {
     let argument = context(error, ContextKind::InvalidArg).unwrap_or_default();
     let value = context(error, ContextKind::InvalidValue).unwrap_or_default();
     let number = |kind| match error.get(kind) {
@@ -20,7 +23,7 @@ pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
         _ => 0,
     };
     match error.kind() {
-        ErrorKind::UnknownArgument if argument.starts_with('-') => unknown_option(command, &argument),
+        ErrorKind::UnknownArgument if argument.starts_with('-') => unknown_option(command, &argument, words),
         ErrorKind::UnknownArgument => {
             format!("`{argument}` is one argument too many: options come with a dash, and there is one file")
         }
@@ -60,7 +63,12 @@ pub(crate) fn message(command: &Command, error: &clap::Error) -> String {
         }
         ErrorKind::MissingRequiredArgument => {
             let (option, values) = option_and_values(&argument);
-            format!("`{}` is missing", format!("{option} {values}").trim_end())
+            let required = format!("{option} {values}");
+            let required = required.trim_end();
+            match words.iter().find_map(|word| owned_by_another(command, &word.to_string_lossy())) {
+                Some(owned) => format!("{owned}; here it needs `{required}`"),
+                None => format!("`{required}` is missing"),
+            }
         }
         _ => {
             let text = error.to_string();
@@ -117,17 +125,22 @@ pub(crate) fn is_short_name(name: &str) -> bool {
         && name.bytes().all(|byte| byte.is_ascii_lowercase())
 }
 
-fn unknown_option(command: &Command, argument: &str) -> String {
+fn unknown_option(command: &Command, argument: &str, words: &[OsString]) -> String {
     let name = argument.trim_start_matches('-');
     let name = name.split('=').next().unwrap_or(name);
-    let shown = in_documented_form(argument.split('=').next().unwrap_or(argument));
+    let argument = argument.split('=').next().unwrap_or(argument);
+    let shown = as_typed(argument, words);
     let names = || command.get_arguments().filter(|arg| !arg.is_hide_set()).flat_map(long_names);
     let has = |name: &str| names().any(|other| other == name);
     if let Some((_, ours, why)) = ANSWERS.iter().find(|(foreign, ours, _)| *foreign == name && has(ours)) {
         return format!("there is no option `{shown}`; {why} `-{ours}`");
     }
-    if let Some(program) = remedies::program_with_option(name) {
-        return format!("`{shown}` is an option of {program}, not of {}", command.get_name());
+    if let Some(owned) = owned_by_another(command, &shown) {
+        return owned;
+    }
+    if let Some((ours, number)) = with_number(name).filter(|(ours, _)| has(ours)) {
+        let ours = in_documented_form(&format!("--{ours}"));
+        return format!("there is no option `{shown}`; write a blank before the number: `{ours} {number}`");
     }
     match nearest(name, names()).or_else(|| containing(name, names())) {
         Some(near) => format!(
@@ -138,13 +151,37 @@ fn unknown_option(command: &Command, argument: &str) -> String {
     }
 }
 
+/// An option with the dashes that it was typed with: clap gets two.
+fn as_typed(argument: &str, words: &[OsString]) -> String {
+    let options = words.iter().filter_map(|word| word.to_str()?.split('=').next());
+    let mut same = options.filter(|word| argument.strip_prefix('-') == Some(word) || argument == *word);
+    same.next().map_or_else(|| in_documented_form(argument), str::to_owned)
+}
+
+/// The message for an option that another program has, as typed.
+fn owned_by_another(command: &Command, option: &str) -> Option<String> {
+    let name = option.strip_prefix('-')?.trim_start_matches('-');
+    let owner = remedies::program_with_option(name).filter(|owner| *owner != command.get_name())?;
+    Some(format!("`{option}` is an option of {owner}, not of {}", command.get_name()))
+}
+
+/// The name of an option and the number that is attached to it: `vel.9`.
+fn with_number(word: &str) -> Option<(&str, &str)> {
+    let (name, number) = word.split_at(word.find(|c: char| !c.is_ascii_alphabetic() && c != '-')?);
+    let (name, number) = match name.strip_suffix('-') {
+        Some(shorter) => (shorter, &word[shorter.len()..]),
+        None => (name, number),
+    };
+    finite(number).ok().map(|_| (name, number))
+}
+
 /// All long names of an option.
 fn long_names(arg: &Arg) -> impl Iterator<Item = &str> {
     arg.get_long().into_iter().chain(arg.get_all_aliases().unwrap_or_default())
 }
 
 /// Options of other programs, the one of ours that does the same, and what it is.
-const ANSWERS: [(&str, &str, &str); 20] = [
+const ANSWERS: [(&str, &str, &str); 21] = [
     ("width", "sz", "the size of the picture is"),
     ("height", "sz", "the size of the picture is"),
     ("w", "sz", "the size of the picture is"),
@@ -158,6 +195,7 @@ const ANSWERS: [(&str, &str, &str); 20] = [
     ("antialias", "aa", "the samples per pixel are"),
     ("spp", "aa", "the samples per pixel are"),
     ("speed", "vel", "the velocity along x, y and z is"),
+    ("v", "vel", "the velocity along x, y and z is"),
     ("beta", "vel", "the velocity along x, y and z is"),
     ("t", "ti", "the time of the picture is"),
     ("f", "fi", "the file to read is"),

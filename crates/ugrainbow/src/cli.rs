@@ -10,8 +10,8 @@ use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kind_named, kinds, picture_format, pixel,
-    refuse_terminal, report_format, with_format, write_picture, write_report,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_part, kind_named, kinds, picture_format,
+    pixel, refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, number, numbers, one_of};
 use ugscene::cli::{RepeatArgs, ShiftArgs};
@@ -98,7 +98,7 @@ pub struct Args {
     /// Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces
     /// with -wf, black with -ed]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
-          value_parser = finite, visible_alias = "line-color", help_heading = LINES)]
+          value_parser = color_part, visible_alias = "line-color", help_heading = LINES)]
     lc: Option<Vec<f64>>,
 
     /// Width of edges and wires in pixels

@@ -9,6 +9,7 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::{Format, PictureLimits};
 use uglight::ColorShift;
+use ugparse::{Foreign, foreign_data};
 use ugphysics::Velocity;
 use ugpicture::Output;
 use ugpicture::cli::{
@@ -16,8 +17,8 @@ use ugpicture::cli::{
     write_picture,
 };
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, number, numbers, one_of, sha256,
-    vector,
+    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, number, numbers, one_of, remedies,
+    sha256, vector,
 };
 use ugscene::Provenance;
 use ugscene::cli::ShiftArgs;
@@ -241,8 +242,13 @@ impl Args {
     /// Refuses options of panoramas, if a list of stars is read instead.
     fn refuse_for_stars(&self) -> Result<(), Failure> {
         let refused = |text: &str| Err(Failure::usage(text));
-        if self.from.is_some() || self.part.is_some() || !self.files.is_empty() {
-            return refused("the input is a list of stars: leave out -from, -part and other files");
+        if !self.files.is_empty() {
+            return refused(
+                "the first file is a list of stars: name the panorama first, and add stars with --stars FILE",
+            );
+        }
+        if self.from.is_some() || self.part.is_some() {
+            return refused("the input is a list of stars: leave out -from and -part");
         }
         if self.shift.br.is_some() || self.basis.is_some() || self.bands().next().is_some() {
             return refused(
@@ -264,8 +270,12 @@ impl Args {
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
         let mut opened = open(&files, arrangement, self.extent(), limits).map_err(|error| match error {
             Error::Read { idx, error } => {
-                let remedy = CommonArgs::memory_remedy(error.needed_memory());
-                Failure::Failed(format!("`{}`: {error}{remedy}", inputs[idx].name))
+                let Input { name, text } = inputs[idx];
+                let remedy = match foreign_data(name, text) {
+                    Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
+                    _ => format!("; {}", remedies::DRAW_SCENE),
+                };
+                Failure::Failed(format!("`{name}`: {error}{remedy}"))
             }
             error => Failure::of(error),
         })?;

@@ -1,0 +1,162 @@
+//! Mistakes at the prompt, and the answer to each.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use ugtests::{programs, scenes};
+
+/// What the last program of a shell command prints to standard error, without the hint at `-h`.
+fn answer(folder: &Path, programs: &Path, command: &str) -> String {
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    let output = Command::new("sh").args(["-c", command]).current_dir(folder).env("PATH", path).output();
+    let shown = String::from_utf8(output.unwrap().stderr).unwrap();
+    let name = command.rsplit(" | ").next().unwrap().split(' ').next().unwrap();
+    let first = shown.lines().position(|line| line.starts_with(&format!("{name}: "))).unwrap_or(0);
+    let lines = shown.lines().skip(first).filter(|line| !line.starts_with("try `"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// A folder with scenes, and files that are none.
+fn prepare(folder: &Path) {
+    for name in ["ship.ug", "stars.csv"] {
+        std::fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).unwrap();
+    }
+    let triangle = "v a 0 0 0; v b 1 0 0; v c 0 1 0;\n";
+    for (name, text) in [
+        ("photo.jpg", "\u{fffd}".to_owned()),
+        ("ship.fbx", "Kaydara FBX Binary".to_owned()),
+        ("ship.dae", "<COLLADA>".to_owned()),
+        ("comment.ug", format!("# comment\n{triangle}f (a b c);\n")),
+        ("slashes.ug", format!("// comment\n{triangle}f (a b c);\n")),
+        ("capital.ug", format!("{triangle}F (a b c);\n")),
+    ] {
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+    std::fs::write(folder.join("photo.jpg"), b"\xff\xd8\xff\xe0").unwrap();
+}
+
+#[test]
+fn mistakes_are_answered() {
+    let folder = tempfile::tempdir().unwrap();
+    let programs = programs::of_this_profile();
+    prepare(folder.path());
+    let check = |command: &str, expected: &str| {
+        let shown = answer(folder.path(), &programs, command);
+        assert!(
+            !expected.is_empty() && shown.contains(expected),
+            "$ {command}\n{shown}\n  instead of\n{expected}"
+        );
+    };
+
+    // Programs in the wrong order.
+    let seen = "error: positions in this scene are as seen already, so its rest shapes are not known: give the scene \
+                at rest: uglorentz, ugphoton and ugfilm each compute themselves where it is seen, so only one of \
+                them is in a pipe";
+    check("uglorentz -vel .9 0 0 ship.ug | ugphoton", seen);
+    check("uglorentz -vel .9 0 0 ship.ug | uglorentz", seen);
+    check(
+        "uglorentz -vel .9 0 0 ship.ug | ugfilm -frames 2 -ti 0..1 -fo f_%d.png",
+        "each compute themselves",
+    );
+    check("uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugphoton", seen);
+    check("ugdoppler -qt ship.ug | ugphoton", "ugphoton and ugfilm do the work of all three");
+    check(
+        "ugdoppler -vel .9 0 0 ship.ug | cat",
+        "ugdoppler: note: positions in this scene are taken as seen already; for a scene at rest give -vel to \
+         uglorentz",
+    );
+    check(
+        "ugphoton -qt -sz 9 9 ship.ug | ugrainbow",
+        "help: the program before this one in the pipe has drawn the picture: leave this one out",
+    );
+
+    // Values of options.
+    check(
+        "ugfilm -vel 0..0.9 -fo a_%04d.png ship.ug",
+        "`-vel` takes three values, not one: write `-vel X Y Z`",
+    );
+    for program in ["uglorentz", "ugphoton", "ugwarp", "ugfilm"] {
+        let expected = format!("{program}: error: `-cv` takes three values, not one: write `-cv X Y Z`");
+        check(&format!("{program} -cv .9 -fo x.png ship.ug"), &expected);
+    }
+    check("uglorentz -ti -fo x.ug ship.ug", "`-ti` needs a value: `-ti T`");
+    check("ugfilm -ti -fo x.png ship.ug", "`-ti` needs a value: `-ti T`");
+    let number = "is not valid for `-vel`:";
+    check(
+        "uglorentz -vel 90% 0 0 ship.ug",
+        &format!("`90%` {number} percentages are fractions of 1: write `0.9`"),
+    );
+    let speed = format!("{number} speeds are fractions of the speed of light, without a unit: write");
+    check("uglorentz -vel .9c 0 0 ship.ug", &format!("`.9c` {speed} `0.9`"));
+    check("uglorentz -vel 270000km/s 0 0 ship.ug", &format!("`270000km/s` {speed} `0.9006230"));
+    check(
+        "uglorentz -vel 0,9 0 0 ship.ug",
+        &format!("`0,9` {number} the decimal point is a point: write `0.9`"),
+    );
+    check("uglorentz -vel 0.9, 0, 0 ship.ug", &format!("`0.9,` {number} numbers are separated by blanks"));
+    check("uglorentz -ti 0..5 ship.ug", "only ugfilm draws numbers that change over time");
+    check("uglorentz -ti 0 .. 5 ship.ug", "only ugfilm draws numbers that change over time");
+    check("ugfilm -ti 0...1 -fo a_%d.png ship.ug", "`-ti`: `0...1` has three dots: write `0..1` or `0..0.1`");
+    check("ugrainbow -bg red ship.ug", "colours are lightness, hue in degrees, saturation; red is `1 0`");
+    check("ugrainbow -ed -lc '#fff' ship.ug", "lightness, hue in degrees, saturation, such as `1 240 .5`");
+
+    // Options.
+    let velocity = "there is no option `-v`; the velocity along x, y and z is `-vel`";
+    check("uglorentz -v .9 0 0 ship.ug", velocity);
+    check("ugphoton -v .9 0 0 ship.ug", velocity);
+    let blank = "there is no option `-vel.9`; write a blank before the number: `-vel .9`";
+    check("uglorentz -vel.9 0 0 ship.ug", blank);
+    check("ugwarp -stereo photo.jpg", "`-stereo` is an option of ugphoton, not of ugwarp");
+    check("ugwarp --stereo photo.jpg", "`--stereo` is an option of ugphoton, not of ugwarp");
+    check("ugwarp -keep-in-view photo.jpg", "`-keep-in-view` is an option of uglorentz, not of ugwarp");
+    let shift = "is an option of ugdoppler, not of ugrainbow; here it needs `-xc`";
+    check("ugrainbow --no-doppler ship.ug", &format!("`--no-doppler` {shift}"));
+    check("ugrainbow -no-flux ship.ug", &format!("`-no-flux` {shift}"));
+
+    // Files.
+    check("ugrainbow photo.jpg", "help: `ugwarp photo.jpg` shows it as the sky around an observer in motion");
+    check("ugrainbow ship.fbx", "not a UniGrafix scene but a model in a format that is not read");
+    check("ugphoton ship.dae", "help: export it as glTF, OBJ or PLY, which are read");
+    check("ugmesh ship.fbx", "`ship.fbx` is not a mesh but a model in a format that is not read; export it");
+    check("ugrainbow stars.csv", "help: `ugwarp stars.csv` draws a list of stars");
+    check("ugwarp ship.ug", "scenes are drawn by ugrainbow, and by ugphoton");
+    check("ugwarp stars.csv photo.jpg", "name the panorama first, and add stars with --stars FILE");
+    check(
+        "ugrainbow comment.ug",
+        "help: comments are in braces, `{ like this }`; a line mark is `# LINE \"FILE\"`",
+    );
+    check("ugrainbow slashes.ug", "help: comments are in braces: `{ like this }`");
+    check("ugrainbow capital.ug", "help: keywords are lower case: `f`");
+    for program in ["ugrainbow -fo", "ugphoton -fo", "ugfilm -ti 0..1 -ex auto -fo"] {
+        check(&format!("{program} none/x_%d.png no-such.ug"), "there is no folder `none`");
+    }
+}
+
+/// Values over time may have blanks around their dots.
+#[test]
+fn blanks_in_values_over_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let programs = programs::of_this_profile();
+    prepare(folder.path());
+    let printed = |options: &str| {
+        let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+        let command = format!("ugfilm -qt -frames 3 {options} --print -fo f_%d.png ship.ug");
+        let mut shell = Command::new("sh");
+        shell.args(["-c", &command]).current_dir(&folder).env("PATH", path).stdin(Stdio::null());
+        let output = shell.output().unwrap();
+        assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    for (with_blanks, without) in [
+        ("-ti 0 .. 5", "-ti 0..5"),
+        ("-ti -5 .. .5", "-ti -5..0.5"),
+        ("-vel 0 .. .9 0 0", "-vel 0..0.9 0 0"),
+        ("-vel 0 .. .9 .. 0 0 0", "-vel 0..0.9..0 0 0"),
+        ("-cv 0 0 0 .. 0 .9 0", "-cv '0 0 0 .. 0 .9 0'"),
+        ("-va 40 .. 60", "-va 40..60"),
+    ] {
+        assert_eq!(printed(with_blanks), printed(without), "{with_blanks}");
+    }
+}
