@@ -336,20 +336,7 @@ impl<'s> Writer<'s> {
     fn surface(&mut self, surface: &SurfaceProperties) {
         self.text("surf");
         self.name(surface.name);
-        self.numbers(&[surface.diffuse, surface.specular, surface.transmitted]);
-        let SurfaceProperties { refraction, exponent, absorption, .. } = *surface;
-        // A number is written if it or one behind it is not the default.
-        let has_absorption = absorption != 0.0;
-        let has_exponent = has_absorption || exponent != SurfaceProperties::EXPONENT;
-        if has_exponent || refraction != SurfaceProperties::REFRACTION {
-            self.number(refraction);
-        }
-        if has_exponent {
-            self.number(exponent);
-        }
-        if has_absorption {
-            self.number(absorption);
-        }
+        self.numbers(&surface.numbers());
         self.text(";");
     }
 

@@ -199,33 +199,17 @@ impl SceneBuilder {
         Ok(ColorId::from_index(self.scene.colors.len() - 1))
     }
 
-    /// Adds reflection properties. `absorption`: per unit of length at rest behind the surface.
+    /// Adds reflection properties, with the name `name`.
     ///
     /// # Errors
     /// See [`BuildError`].
-    pub fn surface(
-        &mut self,
-        name: &str,
-        [diffuse, specular, transmitted]: [f64; 3],
-        refraction: f64,
-        exponent: f64,
-        absorption: f64,
-    ) -> Result<SurfaceId, BuildError> {
-        let not_negative = [diffuse, specular, exponent, absorption];
-        let is_valid = not_negative.iter().all(|number| (0.0..=f64::MAX).contains(number))
-            && (0.0..=1.0).contains(&transmitted)
-            && refraction > 0.0
-            && refraction.is_finite();
-        if !is_valid {
-            let range =
-                "fractions are 0 or more, the transmitted one at most 1, the refractive index above 0";
+    pub fn surface(&mut self, name: &str, surface: SurfaceProperties) -> Result<SurfaceId, BuildError> {
+        if let Some(range) = surface.violated() {
             return Err(BuildError::OutOfRange { what: "surface", row: self.scene.surfaces.len(), range });
         }
         enter(&mut self.surface_names, name)?;
         let name = self.scene.names.add(name);
-        let surface =
-            SurfaceProperties { name, diffuse, specular, transmitted, refraction, exponent, absorption };
-        self.scene.surfaces.push(surface);
+        self.scene.surfaces.push(SurfaceProperties { name, ..surface });
         Ok(SurfaceId::from_index(self.scene.surfaces.len() - 1))
     }
 

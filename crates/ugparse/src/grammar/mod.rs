@@ -12,7 +12,7 @@ use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::Velocity;
-use ugscene::{Camera, ColorValue, NameId, SurfaceProperties, Tint};
+use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
 use crate::statement::{
@@ -244,30 +244,14 @@ impl<'t> Grammar<'t> {
 
     /// `surf ID kd ks kt [n [exponent [absorption]]]`
     fn surface<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let part = number_from(0.0, f64::INFINITY, "a part of the light is 0 or more");
-        let (input, name) = wanted(self.name(input), NAME)?;
-        let (input, diffuse) = part(input)?;
-        let (input, specular) = part(input)?;
-        let (input, transmitted) = number_from(0.0, 1.0, SHARE)(input)?;
-        let index = number_from(f64::MIN_POSITIVE, f64::INFINITY, "a refractive index is above 0");
-        let (input, refraction) = opt(index).parse(input)?;
-        let (input, exponent) = match refraction {
-            Some(_) => opt(number_from(0.0, f64::INFINITY, "an exponent is 0 or more")).parse(input)?,
-            None => (input, None),
-        };
-        let (input, absorption) = match exponent {
-            Some(_) => opt(number_from(0.0, f64::INFINITY, "absorption is 0 or more")).parse(input)?,
-            None => (input, None),
-        };
-        let surface = SurfaceProperties {
-            name: NameId::from_index(0),
-            diffuse,
-            specular,
-            transmitted,
-            refraction: refraction.unwrap_or(SurfaceProperties::REFRACTION),
-            exponent: exponent.unwrap_or(SurfaceProperties::EXPONENT),
-            absorption: absorption.unwrap_or(0.0),
-        };
+        let (mut input, name) = wanted(self.name(input), NAME)?;
+        let mut surface = SurfaceProperties::default();
+        for (idx, SurfaceNumber { of, range, rule }) in SurfaceProperties::NUMBERS.into_iter().enumerate() {
+            match number_from(*range.start(), *range.end(), rule)(input) {
+                Err(nom::Err::Error(_)) if idx >= SurfaceProperties::N_REQUIRED => break,
+                read => (input, *of(&mut surface)) = read?,
+            }
+        }
         Ok((input, Statement::Surface(SurfaceStatement { name, surface })))
     }
 

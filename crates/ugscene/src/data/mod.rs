@@ -8,6 +8,7 @@ mod names;
 mod remarks;
 mod scene;
 mod stage;
+mod surface;
 
 pub use body::{Bodies, Body, BodyId};
 pub use contours::Contours;
@@ -16,9 +17,10 @@ pub use ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{
-    Camera, Color, ColorValue, Face, Illum, Light, LightKind, LightMotion, Mix, Projection, Scene,
-    SurfaceProperties, Tint, Vertex, Wire,
+    Camera, Color, ColorValue, Face, Illum, Light, LightKind, LightMotion, Mix, Projection, Scene, Tint,
+    Vertex, Wire,
 };
 pub use stage::{
     ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
 };
+pub use surface::{SurfaceNumber, SurfaceProperties};

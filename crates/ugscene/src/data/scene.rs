@@ -20,6 +20,7 @@ use super::ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
 use super::names::Names;
 use super::remarks::Remarks;
 use super::stage::{HueScale, LampShift, Stage};
+use super::surface::SurfaceProperties;
 
 /// A flat UniGrafix scene.
 ///
@@ -159,32 +160,6 @@ impl Tint {
             Self::Hue(number) | Self::Wavelength(number) => number,
         }
     }
-}
-
-/// Reflection properties of a surface, for ray tracers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SurfaceProperties {
-    /// Its name.
-    pub name: NameId,
-    /// kd: fraction of light reflected diffusely, 0 or more.
-    pub diffuse: f64,
-    /// ks: fraction reflected specularly, 0 or more.
-    pub specular: f64,
-    /// kt: fraction transmitted, 0…1.
-    pub transmitted: f64,
-    /// n: refractive index, above 0.
-    pub refraction: f64,
-    /// Exponent of highlights, 0 or more.
-    pub exponent: f64,
-    /// Absorption coefficient behind the surface, per unit of length at rest, 0 or more.  Eq. (P38)
-    pub absorption: f64,
-}
-
-impl SurfaceProperties {
-    /// Default refractive index.
-    pub const REFRACTION: f64 = 1.0;
-    /// Default exponent of highlights.
-    pub const EXPONENT: f64 = 20.0;
 }
 
 /// A vertex.

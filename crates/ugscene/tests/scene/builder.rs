@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugphysics::Velocity;
 use ugscene::{
     AddedMesh, BodyId, BuildError, Camera, ColorId, ColorValue, Light, LightKind, LightMotion, Mesh,
-    SceneBuilder, Tint,
+    SceneBuilder, SurfaceProperties, Tint,
 };
 
 use super::parse;
@@ -23,7 +23,14 @@ fn built_scenes_are_those_of_their_text() {
     let hue = ColorValue::Hsv { value: 1.0, tint: Tint::Hue(120.0), saturation: 1.0, factor: 1.0 };
     let green = builder.color("green", hue, 0.0).unwrap();
     let lamp = builder.spectrum("lamp", &[[400.0, 0.5], [700.0, 1.0]]).unwrap();
-    let glass = builder.surface("glass", [0.1, 0.2, 0.7], 1.5, 20.0, 0.0).unwrap();
+    let glass = SurfaceProperties {
+        diffuse: 0.1,
+        specular: 0.2,
+        transmitted: 0.7,
+        refraction: 1.5,
+        ..SurfaceProperties::default()
+    };
+    let glass = builder.surface("glass", glass).unwrap();
     let fast = builder.body(Velocity::from_beta(DVec3::new(0.9, 0.0, 0.0)).unwrap());
     assert_eq!(builder.body(Velocity::from_beta(DVec3::new(0.9, 0.0, 0.0)).unwrap()), fast);
     let mesh = Mesh { color: Some(red), surface: Some(glass), body: Some(fast), ..square() };
@@ -99,7 +106,10 @@ fn names_are_unique_and_numbers_in_range() {
     assert!(
         builder.spectrum("s", &[[500.0, 1.0], [500.0, 1.0]]).is_err() && builder.spectrum("s", &[]).is_err()
     );
-    assert!(builder.surface("s", [0.5, 0.0, 1.5], 1.0, 20.0, 0.0).is_err());
+    for (transmitted, refraction) in [(1.5, 1.0), (f64::NAN, 1.0), (0.5, 0.0), (0.5, f64::INFINITY)] {
+        let surface = SurfaceProperties { transmitted, refraction, ..SurfaceProperties::default() };
+        assert!(builder.surface("s", surface).is_err());
+    }
     let light =
         |kind| Light { name: None, intensity: 1.0, kind, color: None, motion: LightMotion::WithWhatItLights };
     assert!(builder.light(light(LightKind::Directional(DVec3::ZERO))).is_err());
