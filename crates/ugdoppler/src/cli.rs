@@ -7,7 +7,9 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::Velocity;
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, Words, numbers, remedies};
+use ugpipe::{
+    CommonArgs, Context, Failure, LookArgs, Looks, Manual, Progress, ToolArgs, Words, numbers, remedies,
+};
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
 
@@ -70,6 +72,9 @@ pub struct Args {
     hd: bool,
 
     #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
 }
 
@@ -84,7 +89,12 @@ const EXAMPLES: &str = "Examples:
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
-        &["-sp", "-br", "-gw", "-ir", "-hd", "-li", "-vr", "--no-doppler", "--no-flux", "-fo"];
+        &["-sp", "-look", "-br", "-gw", "-ir", "-hd", "-li", "-vr", "--no-doppler", "--no-flux", "-fo"];
+
+    const LOOKS: Looks = Looks {
+        light: &[ShiftArgs::SPECTRA, RepeatArgs::APART],
+        shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART],
+    };
 
     fn common(&self) -> &CommonArgs {
         &self.common

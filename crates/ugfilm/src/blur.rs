@@ -1,7 +1,7 @@
 //! Motion blur: the mean light of a frame while a shutter is open.
 
 use ugimage::{LinearFrame, Metadata};
-use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Output, Rendering};
+use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Output, PictureOptions, Rendering};
 use ugpipe::sha256;
 
 use crate::error::Error;
@@ -47,6 +47,17 @@ impl Shot {
         metadata(&self.frame, &self.moments, subject)
     }
 
+    /// Checks that the frame can have what its options ask for.
+    ///
+    /// # Errors
+    /// It is the mean of moments, which has no annotations but a caption, no channels and no vectors.
+    pub fn check(&self) -> Result<(), Error> {
+        let PictureOptions { annotations, channels, output, .. } = &self.frame.picture;
+        let has_more = annotations.legend || annotations.outline || annotations.grid;
+        let has_more = has_more || !channels.is_empty() || matches!(output, Output::Vector(_));
+        if has_more && !self.moments.is_empty() { Err(Error::Mean) } else { Ok(()) }
+    }
+
     /// Draws the frame.
     ///
     /// # Errors
@@ -61,11 +72,8 @@ impl Shot {
 
     /// Draws the mean light of all moments, developed and annotated as the frame.
     fn mean(self, subject: FilmSubject<'_>) -> Result<Rendering, Error> {
+        self.check()?;
         let whole = &self.frame.picture;
-        let has_more = whole.annotations.legend || whole.annotations.outline || whole.annotations.grid;
-        if has_more || !whole.channels.is_empty() || matches!(whole.output, Output::Vector(_)) {
-            return Err(Error::Mean);
-        }
         let metadata = self.metadata(subject);
         let canvas = Canvas::new(whole)?;
         let mut sum = Sum::default();

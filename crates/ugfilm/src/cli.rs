@@ -4,13 +4,15 @@ use std::ffi::OsString;
 use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
 
-use clap::Parser;
+use clap::{ArgMatches, Parser};
 use ugimage::Format;
 use ugparse::pipe;
+use ugpicture::cli::PictureArgs;
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, one_of, parse_words, sha256,
-    shell_os_word, whole,
+    CommonArgs, Context, Failure, Input, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given, one_of,
+    parse_words, sha256, shell_os_word, whole,
 };
+use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
 use crate::blur::MotionBlur;
@@ -102,6 +104,9 @@ pub struct Args {
     options: ProgramOptions,
 
     #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
 }
 
@@ -116,9 +121,24 @@ const EXAMPLES: &str = "Examples:
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Ranges(Vec<[u32; 2]>);
 
+/// True for films of scenes: a panorama has no faces.
+fn has_faces(matches: &ArgMatches) -> bool {
+    !is_given(matches, "warp")
+}
+
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
-        &["--frames", "-vel", "-cv", "-ti", "-ep", "-sp", "-ex", "-sz", "-rays", "-only", "--print", "-fo"];
+        &["--frames", "-vel", "-cv", "-ti", "-ep", "-look", "-ex", "-sz", "-rays", "-only", "--print", "-fo"];
+
+    const LOOKS: Looks = Looks {
+        light: &[
+            ShiftArgs::SPECTRA,
+            RepeatArgs::APART.with(has_faces),
+            PictureArgs::AUTO_EXPOSURE,
+            PictureArgs::FILMIC,
+        ],
+        shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART.with(has_faces)],
+    };
 
     fn common(&self) -> &CommonArgs {
         &self.common

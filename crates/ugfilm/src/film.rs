@@ -117,7 +117,7 @@ impl Film<'_> {
         Ok(first)
     }
 
-    /// Parses the commands of some of the frames, so that a wrong number is found before anything
+    /// Checks the commands of some of the frames, so that a wrong one is found before anything
     /// is written.
     ///
     /// # Errors
@@ -125,7 +125,9 @@ impl Film<'_> {
     fn check(&self, frames: &[u32]) -> Result<(), Failure> {
         let step = frames.len().div_ceil(MOST_CHECKED).max(1);
         let checked = frames.iter().step_by(step).chain(frames.last());
-        checked.into_iter().try_for_each(|&frame| about(frame, self.pipe(frame)).map(|_| ()))
+        checked
+            .into_iter()
+            .try_for_each(|&frame| about(frame, self.shot(frame)?.check().map_err(Failure::of)))
     }
 
     /// At most `most` frames spread evenly over the film, among them the first and the last.
@@ -323,13 +325,17 @@ impl Film<'_> {
         }
         context.write_stream(|out, steps| {
             let palette = if kind == Kind::Gif { self.palette(steps)? } else { Palette::default() };
-            let mut stream = match Stream::new(kind, shape, &palette, out) {
-                Ok(stream) => stream,
-                Err(error) => return Ok(Err(error)),
+            // Nothing is written before the first frame is drawn.
+            let (mut waiting, mut stream) = (Some(out), None);
+            let mut push = |frame: &Frame| {
+                if let Some(out) = waiting.take() {
+                    stream = Some(Stream::new(kind, shape, &palette, out)?);
+                }
+                stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
             };
             let mut broken = None;
             let drawn = self.frames(frames, keep, steps, |frame| {
-                stream.push(frame).map_err(|error| {
+                push(frame).map_err(|error| {
                     let failure = Failure::failed(&error);
                     broken = Some(error);
                     failure
@@ -339,7 +345,7 @@ impl Film<'_> {
                 return Ok(Err(error));
             }
             summary = drawn?;
-            Ok(stream.finish())
+            Ok(stream.map_or(Ok(()), Stream::finish))
         })?;
         Ok(summary)
     }

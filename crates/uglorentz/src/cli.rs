@@ -7,7 +7,9 @@ use std::process::ExitCode;
 
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
-use ugpipe::{CommonArgs, Context, Failure, Manual, Progress, ToolArgs, count, finite, numbers, whole};
+use ugpipe::{
+    CommonArgs, Context, Failure, LookArgs, Looks, Manual, Progress, ToolArgs, count, finite, numbers, whole,
+};
 use ugscene::Provenance;
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 
@@ -97,6 +99,9 @@ pub struct Args {
     attributes: Option<PathBuf>,
 
     #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
 }
 
@@ -170,6 +175,8 @@ impl ToolArgs for Args {
         "-at",
         "-fo",
     ];
+
+    const LOOKS: Looks = Looks { light: &[], shape: &[] };
 
     fn common(&self) -> &CommonArgs {
         &self.common

@@ -13,7 +13,9 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kind_named, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, count, number, numbers, one_of, whole};
+use ugpipe::{
+    CommonArgs, Context, Failure, LookArgs, Looks, Manual, ToolArgs, count, number, numbers, one_of, whole,
+};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
@@ -148,6 +150,9 @@ pub struct Args {
     annotations: AnnotationArgs,
 
     #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
 }
 
@@ -176,7 +181,7 @@ impl ToolArgs for Args {
         "--keep-in-view",
         "-cv",
         "-ti",
-        "-sp",
+        "-look",
         "-ep",
         "-va",
         "-sz",
@@ -185,6 +190,11 @@ impl ToolArgs for Args {
         "--no-shadows",
         "-fo",
     ];
+
+    const LOOKS: Looks = Looks {
+        light: &[ShiftArgs::SPECTRA, RepeatArgs::APART, PictureArgs::AUTO_EXPOSURE, PictureArgs::FILMIC],
+        shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART],
+    };
 
     fn common(&self) -> &CommonArgs {
         &self.common

@@ -5,11 +5,11 @@ mod words;
 
 use std::path::Path;
 
-use clap::{ArgAction, Args};
+use clap::{ArgAction, ArgMatches, Args};
 use ugimage::{Filter, Format, Tone};
 use ugparse::Diagnostics;
 use ugphysics::Hsv;
-use ugpipe::{Context, Failure, Words, count, finite, number, numbers, one_of, whole};
+use ugpipe::{Context, Failure, Preset, Words, count, finite, number, numbers, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -93,11 +93,25 @@ pub struct PictureArgs {
     ch: Option<Channels>,
 }
 
+/// Formats that hold light as it is, which no exposure and no tone curve changes.
+fn is_linear(matches: &ArgMatches) -> bool {
+    let named = |id: &str| matches.try_get_raw(id).ok().flatten().into_iter().flatten().next_back();
+    let by_name = named("dt").and_then(|name| Format::from_name(name.to_str()?));
+    let ending = || format_named(Path::new(named("fo")?).extension()?.to_str()?).ok();
+    by_name.or_else(ending).is_some_and(Format::is_linear)
+}
+
 numbers!(PictureArgs {
     "sz" => sz: count(1..=u32::MAX), "aa" => aa: count(1..=16), "bg" => bg, "ex" => ex: stops
 } camera);
 
 impl PictureArgs {
+    /// Exposure as a camera finds it, for the looks of a program.
+    pub const AUTO_EXPOSURE: Preset = Preset::new(&["ex", "auto"], &["dp"]).with(|all| !is_linear(all));
+
+    /// A filmic tone curve, for the looks of a program.
+    pub const FILMIC: Preset = Preset::new(&["tc", "filmic"], &["dp"]).with(|all| !is_linear(all));
+
     /// The picture options that these arguments define.
     ///
     /// # Errors

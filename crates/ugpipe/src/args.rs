@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::builder::{PossibleValue, TypedValueParser};
 use clap::{Arg, Command};
 
+use crate::look::Looks;
 use crate::remedies;
 
 /// The arguments of a ug program.
@@ -14,6 +15,9 @@ pub trait ToolArgs: clap::Parser {
     /// The options that most people need, about ten, as documented (`-vel`, `--keep-in-view`): `-h`
     /// lists them, by these names and in this order.
     const ESSENTIAL: &'static [&'static str];
+
+    /// The options that the looks of [`crate::LookArgs`] stand for, if it has these.
+    const LOOKS: Looks = Looks { light: &[], shape: &[] };
 
     /// The options that every program has.
     fn common(&self) -> &CommonArgs;

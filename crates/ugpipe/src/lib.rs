@@ -109,6 +109,8 @@ mod identity;
 #[cfg(feature = "cli")]
 mod input;
 #[cfg(feature = "cli")]
+mod look;
+#[cfg(feature = "cli")]
 mod manual;
 #[cfg(feature = "cli")]
 mod messages;
@@ -146,6 +148,8 @@ pub use files::ProgramOutput;
 pub use help::{DASHES, DOCUMENTATION, EXIT_STATUS};
 #[cfg(feature = "cli")]
 pub use input::Input;
+#[cfg(feature = "cli")]
+pub use look::{Look, LookArgs, Looks, Preset, is_given};
 #[cfg(feature = "cli")]
 pub use manual::{Entry, Group, Manual, Value, manual};
 #[cfg(feature = "cli")]

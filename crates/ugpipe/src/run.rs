@@ -19,7 +19,7 @@ use crate::args::ToolArgs;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::messages::Messages;
-use crate::{argv, cleanup, help, provenance, streams, usage};
+use crate::{argv, cleanup, help, look, provenance, streams, usage};
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;
@@ -128,14 +128,29 @@ fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), Unparsed
 fn parse_from<A: ToolArgs>(command: &mut Command, words: Vec<OsString>) -> Result<(A, ArgMatches), Unparsed> {
     let rewritten = argv::rewrite(command, words.iter().cloned());
     let rewritten = rewritten.map_err(|stray| Unparsed::Usage(usage::stray_number(&stray)))?;
-    let parsed = command.try_get_matches_from_mut(rewritten).and_then(|matches| {
-        let args = A::from_arg_matches(&matches).map_err(|error| error.format(command))?;
-        Ok((args, matches))
-    });
-    parsed.map_err(|error| match error.use_stderr() {
+    match_words(command, rewritten).map_err(|error| match error.use_stderr() {
         true => Unparsed::Usage(usage::message(command, &error, &words)),
         false => Unparsed::Help(error),
     })
+}
+
+/// Parses words for clap. The matches are those of the words alone, the arguments have the options
+/// of a look as well.
+fn match_words<A: ToolArgs>(
+    command: &mut Command,
+    mut words: Vec<OsString>,
+) -> Result<(A, ArgMatches), clap::Error> {
+    let matches = command.try_get_matches_from_mut(&words)?;
+    let of_look = look::words(&matches, &A::LOOKS);
+    let with_look = if of_look.is_empty() {
+        None
+    } else {
+        let after_name = words.len().min(1);
+        words.splice(after_name..after_name, of_look.into_iter().map(OsString::from));
+        Some(command.try_get_matches_from_mut(&words)?)
+    };
+    let args = A::from_arg_matches(with_look.as_ref().unwrap_or(&matches));
+    Ok((args.map_err(|error| error.format(command))?, matches))
 }
 
 /// Prints help or the version to standard output.

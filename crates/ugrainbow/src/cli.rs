@@ -4,7 +4,7 @@ mod words;
 
 use std::path::Path;
 
-use clap::{Arg, ArgAction, Parser};
+use clap::{Arg, ArgAction, ArgMatches, Parser};
 use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugphysics::Hsv;
@@ -13,7 +13,10 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_part, kind_named, kinds, picture_format,
     pixel, refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, finite, number, numbers, one_of};
+use ugpipe::{
+    CommonArgs, Context, Failure, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, numbers,
+    one_of,
+};
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
@@ -139,6 +142,9 @@ pub struct Args {
     annotations: AnnotationArgs,
 
     #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
 }
 
@@ -154,6 +160,10 @@ const EXAMPLES: &str = "Examples:
 const LINES: &str = "Lines";
 const EXACT: &str = "Exact pictures (-xc)";
 
+fn is_exact(matches: &ArgMatches) -> bool {
+    is_given(matches, "xc")
+}
+
 /// The options of [`ShiftArgs`] need `-xc`.
 fn with_exact(arg: Arg) -> Arg {
     const OPTIONS: [&str; 4] = ["br", "sp", "no_doppler", "no_flux"];
@@ -162,7 +172,21 @@ fn with_exact(arg: Arg) -> Arg {
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
-        &["-sz", "-ep", "-vc", "-va", "-ex", "-tc", "-bg", "-aa", "-lg", "-vec", "-xc", "-fo"];
+        &["-sz", "-ep", "-vc", "-va", "-look", "-ex", "-bg", "-aa", "-lg", "-vec", "-xc", "-fo"];
+
+    const LOOKS: Looks = Looks {
+        light: &[
+            RepeatArgs::APART.with(is_exact),
+            PictureArgs::AUTO_EXPOSURE,
+            PictureArgs::FILMIC,
+            ShiftArgs::SPECTRA.with(is_exact),
+        ],
+        shape: &[
+            RepeatArgs::APART.with(is_exact),
+            ShiftArgs::REST_WAVELENGTHS.with(is_exact),
+            ShiftArgs::REST_BRIGHTNESS.with(is_exact),
+        ],
+    };
 
     fn common(&self) -> &CommonArgs {
         &self.common

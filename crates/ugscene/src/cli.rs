@@ -5,7 +5,7 @@ mod words;
 use clap::{ArgAction, Args};
 use glam::DVec3;
 use ugphysics::Brightness;
-use ugpipe::{Failure, finite, number, numbers, one_of, vector, view_angle};
+use ugpipe::{Failure, Preset, finite, number, numbers, one_of, vector, view_angle};
 
 use crate::{Anchor, CameraOptions, Geometry, MotionOptions};
 
@@ -207,6 +207,17 @@ pub struct ShiftArgs {
     pub no_flux: bool,
 }
 
+impl ShiftArgs {
+    /// Shifted spectra, for the looks of a program.
+    pub const SPECTRA: Preset = Preset::new(&["sp"], &["br", "gw", "wi"]);
+
+    /// Wavelengths as at rest, for the looks of a program.
+    pub const REST_WAVELENGTHS: Preset = Preset::new(&["no-doppler"], &[]);
+
+    /// Brightness as at rest, for the looks of a program.
+    pub const REST_BRIGHTNESS: Preset = Preset::new(&["no-flux"], &["br"]);
+}
+
 /// Value parser: the name of a brightness law.
 fn law(word: &str) -> Result<Brightness, String> {
     Brightness::from_name(word)
@@ -225,6 +236,9 @@ pub struct RepeatArgs {
 }
 
 impl RepeatArgs {
+    /// Colours of faces apart, for the looks of a program.
+    pub const APART: Preset = Preset::new(&["vr"], &[]);
+
     /// True if vertices are to be repeated.
     pub fn repeats(self) -> bool {
         self.vr

@@ -17,8 +17,8 @@ use ugpicture::cli::{
     write_picture,
 };
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Manual, ToolArgs, Words, finite, number, numbers, one_of, remedies,
-    sha256, vector,
+    CommonArgs, Context, Failure, Input, LookArgs, Looks, Manual, ToolArgs, Words, finite, number, numbers,
+    one_of, remedies, sha256, vector,
 };
 use ugscene::Provenance;
 use ugscene::cli::ShiftArgs;
@@ -139,6 +139,9 @@ pub struct Args {
     annotations: AnnotationArgs,
 
     #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
 
     /// More files to read: the other sides of a cube
@@ -173,7 +176,12 @@ pub fn manual() -> Manual {
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
-        &["-vel", "-cv", "-part", "-sp", "-vc", "-va", "-pan", "-fish", "-sz", "-ex", "-fo"];
+        &["-vel", "-cv", "-part", "-look", "-vc", "-va", "-pan", "-fish", "-sz", "-ex", "-fo"];
+
+    const LOOKS: Looks = Looks {
+        light: &[ShiftArgs::SPECTRA, PictureArgs::AUTO_EXPOSURE, PictureArgs::FILMIC],
+        shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS],
+    };
 
     fn common(&self) -> &CommonArgs {
         &self.common
