@@ -134,6 +134,63 @@ fn mistakes_are_answered() {
     }
 }
 
+/// A mesh of another program is a scene to every program that reads one.
+#[test]
+fn meshes_are_read_in_place_of_scenes() {
+    let folder = tempfile::tempdir().unwrap();
+    let programs = programs::of_this_profile();
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    let run = |command: &str| {
+        let output =
+            Command::new("sh").args(["-c", command]).current_dir(&folder).env("PATH", &path).output();
+        let output = output.unwrap();
+        let messages = String::from_utf8(output.stderr).unwrap();
+        assert!(output.status.success(), "{command}: {messages}");
+        (output.stdout, messages)
+    };
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let pyramid = "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nv .5 1 -.5\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nusemtl tiled\nf 3 4 5\nf 4 1 5\n";
+    write("a.obj", format!("mtllib a.mtl\nusemtl red\n{pyramid}").as_bytes());
+    write("a.mtl", b"newmtl red\nKd 1 0 0\nnewmtl tiled\nKd 1 1 1\nmap_Kd tiles.png\n");
+    let tiles = ugimage::Frame::new([2, 1], true, vec![[0, 0, 0, 255], [0, 0, 255, 255]]);
+    write("tiles.png", &ugimage::Format::Png.encode(&tiles, &ugimage::Metadata::default()));
+    for format in ["ply", "glb", "gltf"] {
+        run(&format!("ugmesh a.obj -fo a.{format}"));
+    }
+    let statements = |text: Vec<u8>| {
+        let text = String::from_utf8(text).unwrap();
+        text.lines().filter(|line| !line.starts_with('{')).map(str::to_owned).collect::<Vec<_>>()
+    };
+    for name in ["a.obj", "a.ply", "a.glb", "a.gltf"] {
+        let (converted, _) = run(&format!("ugmesh {name}"));
+        assert_eq!(statements(run(&format!("ugparse flatten {name}")).0), statements(converted), "{name}");
+        let motion = "-qt -vel .5 0 0 --keep-in-view";
+        let (direct, _) = run(&format!("uglorentz {motion} {name}"));
+        let (piped, _) = run(&format!("ugmesh -qt {name} | uglorentz {motion}"));
+        assert_eq!(statements(direct), statements(piped), "{name}");
+        for command in ["ugrainbow -sz 20 15", "ugphoton -sz 20 15"] {
+            let (png, _) = run(&format!("{command} -qt {name}"));
+            let (expected, _) = run(&format!("ugmesh -qt {name} | {command} -qt"));
+            let limits = ugimage::PictureLimits::default();
+            let pixels = |file: &[u8]| ugimage::read_png(file, &limits).unwrap().0;
+            assert!(pixels(&png) == pixels(&expected), "{command} {name}");
+        }
+        run(&format!("ugfilm -qt -frames 2 -vel 0...5 0 0 -sz 20 15 -fo f_%d.png {name}")
+            .replace("0...5", "0..0.5"));
+    }
+    // Half black, half blue.
+    let (scene, messages) = run("ugparse flatten a.obj");
+    let scene = String::from_utf8(scene).unwrap();
+    assert!(scene.contains("c_rgb red 1 0 0;\nc_rgb tiled 0 0 0.7353"), "{scene}");
+    let lent = "textures are not drawn: faces with `tiles.png` have its mean colour";
+    assert!(messages.contains(lent) && messages.contains("--> a.obj"), "{messages}");
+    std::fs::remove_file(folder.path().join("tiles.png")).unwrap();
+    let (scene, messages) = run("ugparse flatten a.obj");
+    assert!(String::from_utf8(scene).unwrap().contains("c_rgb tiled 1 1 1;"));
+    let missing = "warning: texture `tiles.png`: No such file or directory; its faces have the colour of their material";
+    assert!(messages.contains(missing), "{messages}");
+}
+
 /// Values over time may have blanks around their dots.
 #[test]
 fn blanks_in_values_over_time() {

@@ -68,8 +68,8 @@ pub struct Args {
 }
 
 const EXAMPLES: &str = "Examples:
-  ugmesh teapot.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > fast.png
-  ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
+  ugmesh --center -fit 2 teapot.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > fast.png
+  uglorentz -vel .9 0 0 teapot.obj | ugmesh -dt ply > distorted.ply
   ugmesh --center -fit 2 bunny.ply > bunny.ug
   uglorentz -vel 0 .8 0 ship.ug | ugdoppler | ugmesh -fo ship.glb";
 

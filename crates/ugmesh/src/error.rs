@@ -5,7 +5,7 @@ use std::fmt;
 use thiserror::Error;
 use ugparse::{Diagnostics, Foreign};
 
-use crate::MeshFormat;
+use ugmeshfile::{MeshFormat, Problem};
 
 /// Why a mesh cannot be converted.
 #[derive(Debug, Error)]
@@ -36,25 +36,6 @@ pub enum Error {
     OutOfRange,
     /// The file would be larger than the format allows.
     TooLarge,
-}
-
-/// An error in a mesh file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Problem {
-    /// The line of a text file, counted from 1.
-    pub line: Option<usize>,
-    /// The error, and the remedy.
-    pub what: String,
-}
-
-impl Problem {
-    pub(crate) fn new(what: impl Into<String>) -> Self {
-        Self { line: None, what: what.into() }
-    }
-
-    pub(crate) fn at(line: usize, what: impl Into<String>) -> Self {
-        Self { line: Some(line), what: what.into() }
-    }
 }
 
 impl fmt::Display for Error {

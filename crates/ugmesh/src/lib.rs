@@ -1,14 +1,14 @@
 //! Converts meshes of other programs to UniGrafix and back.
 //!
 //! ```text
-//! ugmesh teapot.obj | uglorentz -vel .9 0 0 | ugmesh -dt ply > distorted.ply
+//! uglorentz -vel .9 0 0 teapot.obj | ugmesh -dt ply > distorted.ply
 //! ```
 //!
 //! Reads OBJ with its materials, PLY, STL, OFF, glTF and UniGrafix; writes UniGrafix, OBJ, PLY and
 //! glTF. Every conversion goes through a [`ugscene::Scene`]:
 //!
 //! ```text
-//! bytes ─read→ Builder → Scene (z up) ─place→ Scene ─write→ PolygonMesh → bytes
+//! bytes ─ugmeshfile→ Scene (z up) ─place→ Scene ─write→ PolygonMesh → bytes
 //!       ugparse ──────────↗                     └──────ugparse──────→ bytes
 //! ```
 //!
@@ -25,15 +25,12 @@
 //! ```
 
 mod as_seen;
-mod builder;
 #[cfg(feature = "cli")]
 mod cli;
-mod decode;
 mod error;
 mod format;
 mod placement;
 mod polygon_mesh;
-mod read;
 mod staging;
 mod write;
 
@@ -44,11 +41,12 @@ use ugscene::{Provenance, Scene};
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main, manual};
-pub use error::{Error, Problem};
-pub use format::{Axis, MeshFormat, Target};
+pub use error::Error;
+pub use format::Target;
 pub use placement::Size;
+pub use ugmeshfile::{Axis, MeshFormat, Problem};
 
-use builder::Builder;
+use ugmeshfile::{MeshScene, ReadFile};
 
 /// This program, without a command line, for the history of what it makes.
 pub const PROVENANCE: Provenance<'static> =
@@ -77,10 +75,6 @@ pub struct Config {
     /// The options for reading UniGrafix.
     pub reading: Options,
 }
-
-/// Reads a file that a mesh refers to, such as its materials: at most as many bytes as the second
-/// argument says.
-type ReadFile<'a> = &'a dyn Fn(&str, u64) -> io::Result<Vec<u8>>;
 
 /// Replaces the `include` statements of a scene by the files that they name.
 type ResolveIncludes<'a> = &'a dyn Fn(Source) -> Result<Source, Diagnostics>;
@@ -182,19 +176,20 @@ struct Loaded {
 }
 
 fn load(config: &Config, format: MeshFormat, input: &MeshFile) -> Result<Loaded, Error> {
-    let Some(reader) = read::reader(format) else { return load_scene(config, input) };
-    let mut builder = Builder::new(&config.name);
-    let (read, origin) =
-        ugparse::with_origin(input.origin.as_ref(), &input.bytes, || reader(input, &mut builder));
-    read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
-    let (mut scene, warnings) = builder.finish();
+    if format == MeshFormat::Ug {
+        return load_scene(config, input);
+    }
+    let read = || ugmeshfile::read(format, &input.bytes, input.read_file, &config.name);
+    let (read, origin) = ugparse::with_origin(input.origin.as_ref(), &input.bytes, read);
+    let MeshScene { mut scene, warnings, .. } =
+        read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
     scene.remarks.origin = origin;
     Ok(Loaded { scene, warnings, diagnostics: None })
 }
 
 fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
     let origin = input.origin.clone().filter(|_| !ugparse::has_history(&input.bytes));
-    let source = Source { origin, ..Source::new(input.name.clone(), input.bytes.clone()) };
+    let source = Source::new(input.name.clone(), input.bytes.clone()).with_origin(origin);
     let source = (input.resolve_includes)(source)?;
     let parsed = ugparse::parse(&source, &config.reading)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
@@ -207,9 +202,9 @@ fn place_mesh(config: &Config, format: MeshFormat, scene: &mut Scene) -> Result<
     let write_up = up(config.target != Target::Ug, config.target.up());
     let is_placed = read_up != write_up || config.size != Size::Same || config.is_centered;
     if is_placed {
-        placement::rotate(scene, |p| placement::to_z_up(read_up, p));
+        ugmeshfile::rotate(scene, |p| ugmeshfile::to_z_up(read_up, p));
         placement::scale_and_center(scene, config.size, config.is_centered)?;
-        placement::rotate(scene, |p| placement::from_z_up(write_up, p));
+        ugmeshfile::rotate(scene, |p| ugmeshfile::from_z_up(write_up, p));
     }
     Ok(is_placed)
 }

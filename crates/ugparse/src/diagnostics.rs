@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use ugpipe::{is_printable, message, printable};
 
 #[cfg(feature = "cli")]
@@ -18,7 +18,7 @@ impl Diagnostic {
     /// Renders the message as text, with the line and a caret. What a terminal would obey in names
     /// and words of the scene is replaced.
     pub fn render(&self, source: &Source, styled: bool) -> String {
-        self.render_with(source, &line_marks(&source.text), styled)
+        self.render_with(source, &marks_of(source), styled)
     }
 
     fn render_with(&self, source: &Source, marks: &[LineMark], styled: bool) -> String {
@@ -27,7 +27,10 @@ impl Diagnostic {
             Severity::Warning => Level::WARNING,
         };
         let title = level.primary_title(message(&self.message));
-        let mut report = vec![title.elements(self.snippets(source, marks))];
+        let mut report = vec![match self.span {
+            Span::WHOLE_FILE => title.element(Origin::path(printable(&source.name))),
+            _ => title.elements(self.snippets(source, marks)),
+        }];
         if let Some(help) = &self.help {
             report.push(Group::with_title(Level::HELP.secondary_title(message(help))));
         }
@@ -58,6 +61,11 @@ impl Diagnostic {
             })
             .collect()
     }
+}
+
+/// The line marks of a scene.
+fn marks_of(source: &Source) -> Vec<LineMark> {
+    if source.mesh.is_some() { Vec::new() } else { line_marks(&source.text) }
 }
 
 /// Corrects the column in a rendered message if the beginning of the line was cut off.
@@ -120,6 +128,7 @@ pub struct Location {
 impl Location {
     /// The location of a position in a text.
     pub(crate) fn new(source: &Source, marks: &[LineMark], position: u32) -> Self {
+        let position = if position == Span::WHOLE_FILE.start { 0 } else { position };
         let (file, line) = source.reported(marks, position);
         Self { file: file.to_string(), line, column: source.line_column(position).1 }
     }
@@ -132,7 +141,7 @@ pub struct Diagnostics {
     pub list: Vec<Diagnostic>,
     /// Number of further ones that are not in the list.
     pub omitted: usize,
-    source: Source,
+    source: Box<Source>,
 }
 
 impl Diagnostics {
@@ -143,7 +152,11 @@ impl Diagnostics {
         list.truncate(MAX_ERRORS);
         // The text is necessary only to render messages.
         let text = if list.is_empty() { Vec::new() } else { source.text.clone() };
-        Self { list, omitted, source: Source::new(source.name.clone(), text) }
+        let source = Source {
+            mesh: source.mesh.as_ref().map(|_| Box::new(None)),
+            ..Source::new(source.name.clone(), text)
+        };
+        Self { list, omitted, source: Box::new(source) }
     }
 
     /// With another finding.
@@ -166,14 +179,14 @@ impl Diagnostics {
 
     /// The location of each finding in the list.
     pub fn locations(&self) -> Vec<Location> {
-        let marks = line_marks(&self.source.text);
+        let marks = marks_of(&self.source);
         let place = |finding: &Diagnostic| Location::new(&self.source, &marks, finding.span.start);
         self.list.iter().map(place).collect()
     }
 
     /// The second location of each finding in the list, if it has one, and the words at it.
     pub fn other_locations(&self) -> Vec<Option<(Location, &str)>> {
-        let marks = line_marks(&self.source.text);
+        let marks = marks_of(&self.source);
         let others = self.list.iter().map(|finding| finding.other.as_ref());
         let place = |span: &Span| Location::new(&self.source, &marks, span.start);
         others.map(|other| other.map(|(span, label)| (place(span), label.as_str()))).collect()
@@ -181,7 +194,7 @@ impl Diagnostics {
 
     /// Renders all findings as text.
     pub fn render(&self, styled: bool) -> String {
-        let marks = line_marks(&self.source.text);
+        let marks = marks_of(&self.source);
         let mut parts: Vec<String> =
             self.list.iter().map(|finding| finding.render_with(&self.source, &marks, styled)).collect();
         if self.omitted > 0 {

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use ugmeshfile::MeshFormat;
 use ugpipe::remedies;
 
 use crate::diagnostic::Diagnostic;
@@ -20,7 +21,9 @@ pub(crate) fn error(source: &Source) -> Option<Diagnostic> {
         Some(Foreign::Picture) => ("a picture", remedies::picture_is_complete(file)),
         Some(Foreign::Model) => ("a model in a format that is not read", remedies::EXPORT_MESH.to_owned()),
         Some(Foreign::Table) => ("a table", remedies::draw_stars(file)),
-        None if is_mesh(source) => ("a mesh", remedies::convert_mesh(file)),
+        None if MeshFormat::detect_mesh(&source.name, &source.text).is_some() => {
+            ("a mesh", remedies::convert_mesh(file))
+        }
         None => return None,
     };
     Some(Diagnostic::error(Span::default(), format!("this is not a UniGrafix scene but {what}")).help(help))
@@ -74,37 +77,5 @@ fn by_content(bytes: &[u8]) -> Option<Foreign> {
         Some(Foreign::Model)
     } else {
         None
-    }
-}
-
-fn is_mesh(source: &Source) -> bool {
-    const MAGIC: [&[u8]; 5] = [b"ply\n", b"ply\r", b"glTF", b"OFF", b"solid "];
-    MAGIC.iter().any(|magic| source.text.starts_with(magic)) || has_lines_of_a_mesh(source)
-}
-
-/// True for a text without statements of UniGrafix, with the name of a mesh or a line of OBJ.
-fn has_lines_of_a_mesh(source: &Source) -> bool {
-    const EXTENSIONS: [&str; 6] = ["obj", "ply", "stl", "off", "gltf", "glb"];
-    /// Number of bytes in which a scene has the end of a statement, and a mesh has none but in
-    /// comments.
-    const PEEK: usize = 4096;
-    let start = &source.text[..source.text.len().min(PEEK)];
-    let mut lines = start.split(|&byte| byte == b'\n').filter(|line| !line.starts_with(b"#"));
-    if lines.clone().any(|line| line.contains(&b';')) {
-        return false;
-    }
-    let extension = Path::new(&source.name).extension().map(|extension| extension.to_ascii_lowercase());
-    let has_extension = extension.is_some_and(|extension| EXTENSIONS.iter().any(|&known| extension == known));
-    has_extension || lines.any(is_line_of_obj)
-}
-
-/// True for a vertex without a name, and for a file with materials.
-fn is_line_of_obj(line: &[u8]) -> bool {
-    let line = String::from_utf8_lossy(line);
-    let mut words = line.split_whitespace();
-    match words.next() {
-        Some("mtllib") => true,
-        Some("v") => words.clone().count() >= 3 && words.all(|word| word.parse::<f64>().is_ok()),
-        _ => false,
     }
 }

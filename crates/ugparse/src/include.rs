@@ -7,9 +7,12 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use ugmeshfile::MeshFormat;
+
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::grammar::KEYWORDS;
+use crate::mesh;
 use crate::options::{Limit, Options};
 use crate::origin::Origin;
 use crate::parallel_reader::read_document;
@@ -20,7 +23,7 @@ use crate::source::{LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, and `execute` statements by the output of
-/// programs.
+/// programs; reads a mesh of another format, with the files that it names.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
 /// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)
@@ -47,6 +50,9 @@ pub fn include(
     options: &Options,
     mut load: impl FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
 ) -> Result<Source, Diagnostics> {
+    if let Some(format) = MeshFormat::detect_mesh(&source.name, &source.text) {
+        return mesh::read(source, format, options, load);
+    }
     if !may_have_requests(&source.text) {
         return Ok(source);
     }
@@ -63,7 +69,7 @@ pub fn include(
         out: Vec::new(),
     };
     inclusion.run()?;
-    Ok(Source { name, text: inclusion.out, origin })
+    Ok(Source::new(name, inclusion.out).with_origin(origin))
 }
 
 /// Does one of the keywords occur anywhere in the text?

@@ -46,6 +46,7 @@ mod flatness;
 mod foreign;
 mod grammar;
 mod include;
+mod mesh;
 mod named;
 mod number_text;
 mod numbered;
@@ -104,7 +105,7 @@ pub struct Parsed {
     pub warnings: Diagnostics,
 }
 
-/// Parses a scene and flattens it.
+/// Parses a scene and flattens it. Of a mesh that went through [`include`] it returns the scene.
 ///
 /// # Errors
 /// All errors in the text, up to [`MAX_ERRORS`].
@@ -116,6 +117,9 @@ pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> 
 }
 
 fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
+    if let Some(Some(parsed)) = source.mesh.as_deref() {
+        return Ok(parsed.clone());
+    }
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();

@@ -41,7 +41,7 @@ pub fn input(context: &mut Context, options: &Options) -> Result<Source, Failure
     // The byte beyond the limit makes the parser refuse the text, with a remedy.
     let input = context.input_up_to(options.limits.get(Limit::Text) + 1)?;
     let origin = (!has_history(&input.text)).then(|| origin(context));
-    Ok(Source { name: input.name, text: input.text, origin })
+    Ok(Source::new(input.name, input.text).with_origin(origin))
 }
 
 /// The origin of a scene that this program reads first.
@@ -49,7 +49,7 @@ pub fn origin(context: &Context) -> Origin {
     Origin::Pending { name: context.recorded_name(), sha256: ugpipe::sha256 }
 }
 
-/// Replaces the `include` and `execute` statements of a scene, see [`crate::include`]. Error output
+/// Replaces the `include` and `execute` statements of a scene, or reads a mesh, see [`crate::include`]. Error output
 /// of successful programs is reported as a note.
 ///
 /// # Errors

@@ -2,6 +2,7 @@
 
 use memchr::memchr_iter;
 
+use crate::Parsed;
 use crate::origin::Origin;
 
 /// The text of a scene, and its name in messages.
@@ -13,12 +14,21 @@ pub struct Source {
     pub text: Vec<u8>,
     /// The origin with which the history of the scene will begin, unless it has one.
     pub origin: Option<Origin>,
+    /// Of a mesh, its scene, which [`crate::include`] reads with the files that it names; `None` in
+    /// it before and in messages. A mesh has no line marks.
+    pub(crate) mesh: Option<Box<Option<Parsed>>>,
 }
 
 impl Source {
     /// A source from a name and text.
     pub fn new(name: impl Into<String>, text: impl Into<Vec<u8>>) -> Self {
-        Self { name: name.into(), text: text.into(), origin: None }
+        Self { name: name.into(), text: text.into(), origin: None, mesh: None }
+    }
+
+    /// The same source with an origin.
+    #[must_use]
+    pub fn with_origin(self, origin: Option<Origin>) -> Self {
+        Self { origin, ..self }
     }
 
     /// Line and column (both from 1, the column in bytes) of a byte position.
@@ -66,6 +76,9 @@ pub struct Span {
 }
 
 impl Span {
+    /// No place in a file but the file itself.
+    pub(crate) const WHOLE_FILE: Self = Self { start: u32::MAX, end: u32::MAX };
+
     /// The bytes of this span in its text.
     pub(crate) fn of(self, text: &[u8]) -> &[u8] {
         &text[self.start as usize..self.end as usize]

@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use crate::builder::Rgba;
 use crate::decode::decode;
 
-/// Diffuse colours by name.
+/// Diffuse colours and their textures by name.
 #[derive(Debug, Default)]
 pub(super) struct Materials {
     pub colors: BTreeMap<String, Rgba>,
-    pub has_textures: bool,
+    pub textures: BTreeMap<String, String>,
 }
 
 impl Materials {
@@ -18,6 +18,7 @@ impl Materials {
     pub fn add(&mut self, bytes: &[u8]) {
         let text = decode(bytes);
         let mut current: Option<&mut Rgba> = None;
+        let mut name = "";
         for line in text.lines() {
             let (keyword, rest) = split(line);
             let mut numbers = rest.split_whitespace().map_while(|word| word.parse::<f64>().ok());
@@ -26,6 +27,8 @@ impl Materials {
                     let color = self.colors.entry(rest.to_string()).or_insert(UNNAMED);
                     *color = UNNAMED;
                     current = Some(color);
+                    name = rest;
+                    self.textures.remove(name);
                 }
                 ("Kd", Some(color)) => {
                     if let Some(red) = numbers.next() {
@@ -36,11 +39,20 @@ impl Materials {
                 }
                 ("d", Some(color)) => numbers.take(1).for_each(|opacity| color.0[3] = opacity),
                 ("Tr", Some(color)) => numbers.take(1).for_each(|clear| color.0[3] = 1.0 - clear),
-                ("map_Kd", _) => self.has_textures = true,
+                ("map_Kd", Some(_)) => {
+                    self.textures.insert(name.to_owned(), file_of_map(rest));
+                }
                 _ => {}
             }
         }
     }
+}
+
+/// The file in a statement such as `map_Kd -s 1 1 1 bark.png`. Without options its name may have
+/// blanks.
+fn file_of_map(rest: &str) -> String {
+    let file = if rest.starts_with('-') { rest.split_whitespace().next_back() } else { Some(rest) };
+    file.unwrap_or_default().replace('\\', "/")
 }
 
 /// The colour of a material without `Kd`, the same as in other readers.

@@ -11,15 +11,16 @@ use rustc_hash::FxHashMap;
 use ugpipe::shorten;
 use ugscene::{ColorId, VertexId};
 
+use super::Input;
 use super::mtl::{self, Materials};
 use super::text::numbers;
-use crate::MeshFile;
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
+use crate::textures::{MAX_TEXTURE_BYTES, Textures, tinted};
 
-pub(super) fn read(input: &MeshFile, builder: &mut Builder) -> Result<(), Problem> {
-    let text = decode(&input.bytes);
+pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
+    let text = decode(input.bytes);
     let mut reader = Reader::new(input, builder);
     let mut in_head = true;
     for (line, statement) in statements(&text) {
@@ -31,6 +32,7 @@ pub(super) fn read(input: &MeshFile, builder: &mut Builder) -> Result<(), Proble
             continue;
         }
         in_head &= statement.is_empty();
+        reader.builder.line = u32::try_from(line).unwrap_or(u32::MAX);
         let at_line = |problem: Problem| Problem { line: Some(line), ..problem };
         reader.statement(line, statement).map_err(at_line)?;
     }
@@ -58,18 +60,19 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
 const MAX_MATERIAL_BYTES: u64 = 1 << 28;
 
 struct Reader<'a> {
-    input: &'a MeshFile<'a>,
+    input: &'a Input<'a>,
     builder: &'a mut Builder,
     normals: Vec<DVec3>,
     /// The corners of all faces: vertex, and index into `normals`.
     corners: Vec<(VertexId, Option<u32>)>,
-    /// For each face, its end in `corners` and its colour.
-    faces: Vec<(usize, Option<ColorId>)>,
+    /// For each face, its end in `corners`, its colour and its line.
+    faces: Vec<(usize, Option<ColorId>, u32)>,
     /// The names of groups and objects, each with the first face that has it.
     groups: Vec<(usize, String)>,
     /// The name of the object, for faces without a group.
     object: String,
     materials: Materials,
+    textures: Textures,
     /// The arguments of `mtllib` so far.
     libraries: BTreeSet<String>,
     /// How many more bytes files of materials may have.
@@ -82,7 +85,7 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn new(input: &'a MeshFile<'a>, builder: &'a mut Builder) -> Self {
+    fn new(input: &'a Input<'a>, builder: &'a mut Builder) -> Self {
         Self {
             input,
             builder,
@@ -92,6 +95,7 @@ impl<'a> Reader<'a> {
             groups: Vec::new(),
             object: String::new(),
             materials: Materials::default(),
+            textures: Textures::default(),
             libraries: BTreeSet::new(),
             material_room: MAX_MATERIAL_BYTES,
             color: None,
@@ -151,7 +155,7 @@ impl<'a> Reader<'a> {
             let corner = self.corner(word)?;
             self.corners.push(corner);
         }
-        self.faces.push((self.corners.len(), self.color));
+        self.faces.push((self.corners.len(), self.color, self.builder.line));
         Ok(())
     }
 
@@ -218,7 +222,17 @@ impl<'a> Reader<'a> {
         if known.is_none() {
             self.unknown_materials.insert(name.to_string());
         }
-        self.color = known.map(|color| self.builder.material(color, name));
+        let tinted = known.map(|color| match self.materials.textures.get(name) {
+            Some(file) => self.textured(color, &file.clone()),
+            None => color,
+        });
+        self.color = tinted.map(|color| self.builder.material(color, name));
+    }
+
+    /// The colour with the mean of a texture, if its file can be read.
+    fn textured(&mut self, color: Rgba, file: &str) -> Rgba {
+        let load = || (self.input.read_file)(file, MAX_TEXTURE_BYTES).map_err(|error| error.to_string());
+        self.textures.mean(file, load).map_or(color, |mean| tinted(color, mean))
     }
 
     /// Builds the faces, after all vertices have been read.
@@ -226,7 +240,8 @@ impl<'a> Reader<'a> {
         let mut splitter = NormalSplitter::new(self.builder.n_vertices());
         let mut start = 0;
         let mut groups = self.groups.iter().peekable();
-        for (row, &(end, color)) in self.faces.iter().enumerate() {
+        for (row, &(end, color, line)) in self.faces.iter().enumerate() {
+            self.builder.line = line;
             let begun = std::iter::from_fn(|| groups.next_if(|(first, _)| *first <= row));
             if let Some((_, name)) = begun.last() {
                 self.builder.name_faces(name);
@@ -254,9 +269,7 @@ impl<'a> Reader<'a> {
             let more = if self.unknown_materials.len() > names.len() { ", …" } else { "" };
             self.builder.warn(format!("materials without colour: {}{more}", names.join(", ")));
         }
-        if self.materials.has_textures {
-            self.builder.warn("textures are not read");
-        }
+        self.textures.warn(self.builder);
         self.builder.warn_count(
             self.n_skipped,
             "line, point or curve is left out",

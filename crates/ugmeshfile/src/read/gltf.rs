@@ -20,13 +20,14 @@ use ugphysics::srgb_encode;
 use ugpipe::shorten;
 use ugscene::VertexId;
 
+use super::Input;
 use super::{accessor, strip};
-use crate::MeshFile;
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
+use crate::textures::{MAX_TEXTURE_BYTES, Textures};
 
-pub(super) fn read(input: &MeshFile, builder: &mut Builder) -> Result<(), Problem> {
-    let (json, blob) = split(&input.bytes)?;
+pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
+    let (json, blob) = split(input.bytes)?;
     let (document, nodes) = parse(&json)?;
     let buffers = buffers(&document, blob, input)?;
     if let Some(copyright) = &document.as_json().asset.copyright {
@@ -38,16 +39,16 @@ pub(super) fn read(input: &MeshFile, builder: &mut Builder) -> Result<(), Proble
         numbers: FxHashMap::default(),
         room: MAX_NUMBERS,
         n_skipped: 0,
-        has_textures: false,
+        input,
+        root: document.as_json(),
+        textures: Textures::default(),
     };
     reader.scene(&document, &nodes)?;
-    let (n_skipped, has_textures) = (reader.n_skipped, reader.has_textures);
+    let (n_skipped, textures) = (reader.n_skipped, reader.textures);
     if document.nodes().any(|node| node.skin().is_some()) {
         builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
-    if has_textures {
-        builder.warn("textures are not read");
-    }
+    textures.warn(builder);
     builder.warn_count(
         n_skipped,
         "set of lines or points is left out",
@@ -128,7 +129,7 @@ const MAX_BUFFER_BYTES: u64 = u32::MAX as u64;
 fn buffers<'a>(
     document: &Document,
     mut blob: Option<Cow<'a, [u8]>>,
-    input: &MeshFile,
+    input: &Input<'_>,
 ) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
     let mut buffers = Vec::new();
     let mut room = MAX_BUFFER_BYTES;
@@ -160,7 +161,7 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
 );
 
 /// The content of a buffer. Of a file, the first `length` bytes are read.
-fn load(uri: &str, length: u64, input: &MeshFile) -> Result<Vec<u8>, Problem> {
+fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<Vec<u8>, Problem> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, code) = data
             .split_once(";base64,")
@@ -209,7 +210,9 @@ struct Reader<'a, 'b> {
     /// How many more numbers accessors may have.
     room: usize,
     n_skipped: usize,
-    has_textures: bool,
+    input: &'a Input<'a>,
+    root: &'a Root,
+    textures: Textures,
 }
 
 impl Reader<'_, '_> {
@@ -261,8 +264,10 @@ impl Reader<'_, '_> {
             Some(accessor) => Some(self.vectors(&accessor, "NORMAL")?),
             None => None,
         };
-        let material = Material::new(primitive);
-        self.has_textures |= material.has_texture;
+        let mut material = Material::new(primitive);
+        if let Some(mean) = self.texture_mean(primitive) {
+            material.factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
+        }
         let colors = self.colors(primitive, &material)?;
         let corners = self.corners(primitive, n_positions)?;
 
@@ -290,6 +295,29 @@ impl Reader<'_, '_> {
             self.builder.face(&triangle.map(|corner| vertices[corners[corner]]), color)?;
         }
         Ok(())
+    }
+
+    /// The mean linear light of the texture of a primitive's base colour. The JSON is read here,
+    /// because the crate panics if an image has no source.
+    fn texture_mean(&mut self, primitive: &Primitive) -> Option<[f64; 3]> {
+        let texture = primitive.material().pbr_metallic_roughness().base_color_texture()?;
+        let index = texture.texture().source().index();
+        let image = self.root.images.get(index)?;
+        let number = format!("image {index}");
+        let (buffers, input) = (&self.buffers, self.input);
+        if let Some(uri) = &image.uri {
+            let name = if uri.starts_with("data:") { number } else { percent_decoded(uri) };
+            let load = || load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what);
+            return self.textures.mean(&name, load);
+        }
+        let view = image.buffer_view.and_then(|view| self.root.buffer_views.get(view.value()));
+        let bytes = || {
+            let view = view?;
+            let start = view.byte_offset.unwrap_or_default().0 as usize;
+            let end = start.checked_add(view.byte_length.0 as usize)?;
+            Some(buffers.get(view.buffer.value())?.get(start..end)?.to_vec())
+        };
+        self.textures.mean(&number, || bytes().ok_or_else(|| "it is not in the buffers".to_owned()))
     }
 
     /// The index of the primitive's vertex for each corner.
@@ -389,7 +417,6 @@ struct Material {
     factor: [f64; 4],
     is_given: bool,
     is_blended: bool,
-    has_texture: bool,
 }
 
 impl Material {
@@ -400,7 +427,6 @@ impl Material {
             factor: surface.base_color_factor().map(f64::from),
             is_given: material.index().is_some(),
             is_blended: material.alpha_mode() == AlphaMode::Blend,
-            has_texture: surface.base_color_texture().is_some(),
         }
     }
 

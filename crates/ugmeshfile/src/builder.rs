@@ -6,6 +6,7 @@ use ugpipe::printable;
 use ugscene::{Color, ColorId, ColorValue, Face, NameId, Scene, UniqueNames, Vertex, VertexId, unit_normal};
 
 use crate::error::Problem;
+use crate::{Lines, MeshScene};
 
 /// Largest number of vertices of a mesh (about 6 GB of scene). A damaged or malicious file must
 /// cause an error, not exhaust the memory.
@@ -34,6 +35,9 @@ pub(crate) struct Builder {
     color_names: UniqueNames,
     /// The name of the following faces.
     face_name: Option<NameId>,
+    /// The line of the statement that is read; 0 in binary files.
+    pub line: u32,
+    lines: Lines,
     n_corners: usize,
     n_degenerate: usize,
     n_clipped: usize,
@@ -49,6 +53,8 @@ impl Builder {
             colors: FxHashMap::default(),
             color_names: UniqueNames::default(),
             face_name: None,
+            line: 0,
+            lines: Lines::default(),
             n_corners: 0,
             n_degenerate: 0,
             n_clipped: 0,
@@ -77,6 +83,7 @@ impl Builder {
         let color = color.map(|color| self.color(color));
         let normal = normal.and_then(usable_normal);
         self.scene.vertices.push(Vertex { name, position: without_sign_of_zero(position), color, normal });
+        self.lines.vertices.push(self.line);
         Ok(VertexId::from_index(row))
     }
 
@@ -159,6 +166,7 @@ impl Builder {
             illum: None,
             body: self.scene.bodies.unstated(),
         });
+        self.lines.faces.push(self.line);
         Ok(())
     }
 
@@ -185,8 +193,8 @@ impl Builder {
         }
     }
 
-    /// The scene, and the warnings.
-    pub fn finish(mut self) -> (Scene, Vec<String>) {
+    /// The mesh, with the axes of its file.
+    pub fn finish(mut self) -> MeshScene {
         self.warn_count(
             self.n_degenerate,
             "face without area is left out",
@@ -200,7 +208,7 @@ impl Builder {
         if self.scene.faces.is_empty() {
             self.warn("the mesh has no faces");
         }
-        (self.scene, self.warnings)
+        MeshScene { scene: self.scene, lines: self.lines, warnings: self.warnings }
     }
 }
 

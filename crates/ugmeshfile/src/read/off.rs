@@ -111,6 +111,7 @@ fn read_vertex(
     let normal =
         if kind.has_normal { Some(DVec3::from_array(numbers(&mut words, line, "normal")?)) } else { None };
     let color = if kind.has_color { color(words, line, scale)? } else { None };
+    builder.line = u32::try_from(line).unwrap_or(u32::MAX);
     builder.vertex(DVec3::from_array(position), normal, color)?;
     Ok(())
 }
@@ -139,6 +140,7 @@ fn read_face(face: &str, line: usize, scale: Scale, builder: &mut Builder) -> Re
         corners.push(corner);
     }
     let color = color(words, line, scale)?.map(|color| builder.color(color));
+    builder.line = u32::try_from(line).unwrap_or(u32::MAX);
     builder.face(&corners, color)
 }
 

@@ -1,0 +1,216 @@
+//! Mesh formats and their detection.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::axes::Axis;
+use crate::decode::decode;
+
+/// An input format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MeshFormat {
+    /// UniGrafix.
+    Ug,
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY, ASCII or binary.
+    Ply,
+    /// STL, ASCII or binary.
+    Stl,
+    /// Geomview OFF, with its variants COFF, NOFF, STOFF.
+    Off,
+    /// glTF 2.0, as JSON or as GLB.
+    Gltf,
+}
+
+impl MeshFormat {
+    /// The up axis by the specification or the convention of the format.
+    pub fn up(self) -> Axis {
+        match self {
+            Self::Obj | Self::Gltf => Axis::Y,
+            Self::Ug | Self::Ply | Self::Stl | Self::Off => Axis::Z,
+        }
+    }
+
+    /// Detects the format of `bytes`: by magic number, then by file extension, then by content.
+    pub fn detect(name: &str, bytes: &[u8]) -> Option<Self> {
+        Self::by_magic(bytes).or_else(|| Self::by_ending(name)).or_else(|| Self::by_looks(bytes))
+    }
+
+    /// Detects a mesh among scenes, which may have any name: by magic number or, in a text whose
+    /// beginning has no `;`, as [`MeshFormat::detect`] does. Statements of scenes end with one,
+    /// and only long lines of meshes in JSON may have one.
+    pub fn detect_mesh(name: &str, bytes: &[u8]) -> Option<Self> {
+        /// Number of bytes in which a scene has the end of a statement.
+        const FEW: usize = 4096;
+        let start = &bytes[..bytes.len().min(FEW)];
+        let mut lines = start.split(|&byte| byte == b'\n').filter(|line| !line.starts_with(b"#"));
+        let has_statement = lines.any(|line| line.contains(&b';'));
+        let format = Self::by_magic(bytes).or_else(|| match Self::by_looks(bytes) {
+            Some(looks @ (Self::Gltf | Self::Ug)) => Some(looks),
+            _ if has_statement && !is_binary_stl(bytes) => None,
+            looks => Self::by_ending(name).or(looks),
+        });
+        format.filter(|format| *format != Self::Ug)
+    }
+
+    fn by_magic(bytes: &[u8]) -> Option<Self> {
+        if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
+            Some(Self::Ply)
+        } else if bytes.starts_with(b"glTF") {
+            Some(Self::Gltf)
+        } else {
+            None
+        }
+    }
+
+    fn by_ending(name: &str) -> Option<Self> {
+        match Path::new(name).extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "ug" => Some(Self::Ug),
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "stl" => Some(Self::Stl),
+            "off" | "coff" | "noff" => Some(Self::Off),
+            "gltf" | "glb" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+
+    fn by_looks(bytes: &[u8]) -> Option<Self> {
+        if is_binary_stl(bytes) {
+            return Some(Self::Stl);
+        }
+        let text = decode(&bytes[..bytes.len().min(PEEK)]);
+        let text = text.trim_start();
+        if let Some(inside) = text.strip_prefix('{') {
+            // A JSON object begins with a quoted key, a UniGrafix comment with any text.
+            let is_json = inside.trim_start().starts_with('"') && text.contains("\"asset\"");
+            return Some(if is_json { Self::Gltf } else { Self::Ug });
+        }
+        let line = text.lines().map(str::trim).find(|line| !line.is_empty() && !line.starts_with('#'))?;
+        let mut words = line.split_whitespace();
+        let first = words.next()?;
+        if first.eq_ignore_ascii_case("solid") {
+            Some(Self::Stl)
+        } else if is_off_keyword(first) {
+            Some(Self::Off)
+        } else if is_obj_line(line) {
+            Some(Self::Obj)
+        } else if UG_KEYWORDS.contains(&first) || line.starts_with('(') {
+            Some(Self::Ug)
+        } else {
+            None
+        }
+    }
+}
+
+/// Number of bytes that are examined: some exporters write long comments at the head.
+const PEEK: usize = 1 << 16;
+
+const UG_KEYWORDS: [&str; 11] = ["v", "w", "f", "c", "c_rgb", "l", "cam", "def", "end", "i", "a"];
+
+/// True for binary STL. It has no magic number, and its header may even begin with `solid`, but its
+/// length is determined by its triangle count.
+pub(crate) fn is_binary_stl(bytes: &[u8]) -> bool {
+    let count = bytes.get(80..84).and_then(|count| count.try_into().ok()).map(u32::from_le_bytes);
+    count.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count))
+}
+
+/// True for `OFF` with any of its prefixes: texture, colour, normal, 4-D, n-D.
+pub(crate) fn is_off_keyword(word: &str) -> bool {
+    let Some(prefix) = word.strip_suffix("OFF") else { return false };
+    let prefix = prefix.strip_prefix("ST").unwrap_or(prefix);
+    let prefix = prefix.strip_prefix('C').unwrap_or(prefix);
+    let prefix = prefix.strip_prefix('N').unwrap_or(prefix);
+    let prefix = prefix.strip_prefix('4').unwrap_or(prefix);
+    matches!(prefix, "" | "n")
+}
+
+/// True for a line of OBJ. It shares `v` and `f` with UniGrafix, but UniGrafix statements end with
+/// `;` and its vertices have names.
+fn is_obj_line(line: &str) -> bool {
+    if line.contains([';', '{', '(']) {
+        return false;
+    }
+    let mut words = line.split_whitespace();
+    match words.next() {
+        Some("mtllib" | "usemtl" | "o" | "g" | "s" | "vn" | "vt" | "vp") => true,
+        Some("v") => words.clone().count() >= 3 && words.all(|word| word.parse::<f64>().is_ok()),
+        _ => false,
+    }
+}
+
+impl fmt::Display for MeshFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Ug => "UniGrafix",
+            Self::Obj => "OBJ",
+            Self::Ply => "PLY",
+            Self::Stl => "STL",
+            Self::Off => "OFF",
+            Self::Gltf => "glTF",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn meshes_are_told_from_scenes() {
+        fn check(name: &str, bytes: &[u8], expected: Option<MeshFormat>) {
+            let shown = String::from_utf8_lossy(bytes);
+            assert_eq!(MeshFormat::detect_mesh(name, bytes), expected, "{name}: {shown}");
+        }
+        check("ship.ug", b"v a 0 0 0;", None);
+        check("ship.obj", b"v a 0 0 0;", None);
+        check("ship.obj", b"{ a comment }\nv a 0 0 0;", None);
+        check("<stdin>", b"# 7 \"ship.ug\"\nx a;", None);
+        check("<stdin>", b"", None);
+        check("photo.jpg", b"\xff\xd8\xff", None);
+        check("ship.obj", b"# by a tool; 1999\nv 0 0 0\n", Some(MeshFormat::Obj));
+        check("<stdin>", b"v 0 0 0\nv 1 0 0\n", Some(MeshFormat::Obj));
+        check("ship.ug", b"ply\nformat ascii 1.0\ncomment a; b\n", Some(MeshFormat::Ply));
+        check("a.gltf", b"{\"asset\": {}, \"uri\": \"data:a;base64,\"}", Some(MeshFormat::Gltf));
+        let stl = [&[b';'; 80][..], &[0; 4]].concat();
+        check("a", &stl, Some(MeshFormat::Stl));
+    }
+
+    #[test]
+    fn formats_are_detected() {
+        fn check(name: &str, bytes: &[u8], expected: Option<MeshFormat>) {
+            assert_eq!(
+                MeshFormat::detect(name, bytes),
+                expected,
+                "{name}: {}",
+                String::from_utf8_lossy(bytes)
+            );
+        }
+        let stdin = "<stdin>";
+        check(stdin, b"ply\nformat ascii 1.0\n", Some(MeshFormat::Ply));
+        check("liar.obj", b"ply\r\nformat ascii 1.0\r\n", Some(MeshFormat::Ply));
+        check(stdin, b"glTF\x02\0\0\0", Some(MeshFormat::Gltf));
+        check(stdin, b" {\n \"asset\": {\"version\": \"2.0\"}}", Some(MeshFormat::Gltf));
+        check(stdin, b"{ a licence }\nv a 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"{\"quoted\"} v a 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"v a 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"v 7 0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"v 7\n0 0 0;", Some(MeshFormat::Ug));
+        check(stdin, b"(escape)", Some(MeshFormat::Ug));
+        check(stdin, b"# a cube\n\nv 0 0 0\n", Some(MeshFormat::Obj));
+        check(stdin, b"\xef\xbb\xbf# byte order mark\nmtllib a.mtl\n", Some(MeshFormat::Obj));
+        check(stdin, b"g cube\nv 0 0 0\n", Some(MeshFormat::Obj));
+        check(stdin, b"solid\nfacet normal 0 0 1\n", Some(MeshFormat::Stl));
+        check(stdin, &[&b"solid binary"[..], &[0; 72]].concat(), Some(MeshFormat::Stl));
+        check(stdin, b"# cube\nOFF\n8 6 12\n", Some(MeshFormat::Off));
+        check(stdin, b"STCNOFF\n", Some(MeshFormat::Off));
+        check(stdin, b"BOFF\n", None);
+        check(stdin, b"", None);
+        check(stdin, b"# nothing\n", None);
+        check(stdin, b"\x7fELF", None);
+        check("cube.STL", b"", Some(MeshFormat::Stl));
+        check("cube.ug", b"f (a b c);", Some(MeshFormat::Ug));
+        check("a.b/cube", b"", None);
+    }
+}

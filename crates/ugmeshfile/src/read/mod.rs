@@ -1,0 +1,50 @@
+//! Readers: one per format, all of which fill a [`Builder`].
+
+mod accessor;
+mod gltf;
+mod mtl;
+mod obj;
+mod off;
+mod ply;
+mod stl;
+mod text;
+
+use crate::builder::Builder;
+use crate::error::Problem;
+use crate::{MeshFormat, MeshScene, ReadFile};
+
+/// A mesh file during reading.
+struct Input<'a> {
+    bytes: &'a [u8],
+    read_file: ReadFile<'a>,
+}
+
+/// Reads a mesh as a scene with the axes of its file. `read_file` reads files that it names,
+/// `prefix` begins the names of vertices and colours.
+///
+/// # Errors
+/// The file is malformed or too large, or is a scene.
+pub fn read(
+    format: MeshFormat,
+    bytes: &[u8],
+    read_file: ReadFile<'_>,
+    prefix: &str,
+) -> Result<MeshScene, Problem> {
+    let mut builder = Builder::new(prefix);
+    let input = Input { bytes, read_file };
+    match format {
+        MeshFormat::Ug => return Err(Problem::new("a scene is not a mesh")),
+        MeshFormat::Obj => obj::read(&input, &mut builder)?,
+        MeshFormat::Ply => ply::read(bytes, &mut builder)?,
+        MeshFormat::Stl => stl::read(bytes, &mut builder)?,
+        MeshFormat::Off => off::read(bytes, &mut builder)?,
+        MeshFormat::Gltf => gltf::read(&input, &mut builder)?,
+    }
+    Ok(builder.finish())
+}
+
+/// The triangles of a strip of `len` corners, as indices of corners. Every second triangle is
+/// reversed, so that all have the same orientation.
+fn strip(len: usize) -> impl Iterator<Item = [usize; 3]> {
+    (2..len).map(|last| if last % 2 == 0 { [last - 2, last - 1, last] } else { [last - 1, last - 2, last] })
+}

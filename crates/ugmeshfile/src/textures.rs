@@ -1,0 +1,114 @@
+//! Textures of materials, which lend their mean colour.
+
+use std::collections::BTreeMap;
+
+use ugimage::{PictureLimits, Pixels, read_picture};
+use ugphysics::{srgb_decode, srgb_encode};
+use ugpipe::shorten;
+
+use crate::builder::{Builder, Rgba};
+
+/// Largest number of bytes of a picture file.
+pub(crate) const MAX_TEXTURE_BYTES: u64 = 1 << 28;
+
+/// The textures of a mesh, each of which is read once.
+#[derive(Default)]
+pub(crate) struct Textures {
+    /// Their mean linear light by name, or why there is none.
+    means: BTreeMap<String, Result<[f64; 3], String>>,
+    limits: PictureLimits,
+}
+
+impl Textures {
+    /// The mean linear light of a texture, if it can be read. `load` returns its file.
+    pub fn mean(&mut self, name: &str, load: impl FnOnce() -> Result<Vec<u8>, String>) -> Option<[f64; 3]> {
+        if !self.means.contains_key(name) {
+            let mean = load().and_then(|file| self.mean_of_file(&file));
+            self.means.insert(name.to_owned(), mean);
+        }
+        self.means.get(name)?.clone().ok()
+    }
+
+    /// The limit is that of all textures together.
+    fn mean_of_file(&mut self, file: &[u8]) -> Result<[f64; 3], String> {
+        let (_, pixels) = read_picture(file, &self.limits).map_err(|error| error.to_string())?;
+        self.limits.bytes = self.limits.bytes.saturating_sub(pixels.n_bytes());
+        Ok(mean(&pixels))
+    }
+
+    /// Warns of all textures.
+    pub fn warn(&self, builder: &mut Builder) {
+        let mut lent = self.means.iter().filter(|(_, mean)| mean.is_ok()).map(|(name, _)| name);
+        if let Some(first) = lent.next() {
+            let more = match lent.count() {
+                0 => String::new(),
+                n => format!(" and {n} more"),
+            };
+            builder.warn(format!(
+                "textures are not drawn: faces with `{}`{more} have its mean colour; to keep the pattern, bake it into \
+                 colours of vertices",
+                shorten(first)
+            ));
+        }
+        for (name, reason) in self.means.iter().filter_map(|(name, mean)| Some((name, mean.as_ref().err()?)))
+        {
+            builder.warn(format!(
+                "texture `{}`: {reason}; its faces have the colour of their material",
+                shorten(name)
+            ));
+        }
+    }
+}
+
+/// The display-encoded colour of a material times the mean linear light of its texture.
+pub(crate) fn tinted(Rgba([red, green, blue, alpha]): Rgba, mean: [f64; 3]) -> Rgba {
+    let tint = |part: f64, mean: f64| srgb_encode(srgb_decode(part) * mean);
+    Rgba([tint(red, mean[0]), tint(green, mean[1]), tint(blue, mean[2]), alpha])
+}
+
+/// The mean linear light of the pixels, weighted by their alpha; white if all are transparent.
+/// Light that is not finite is left out.
+fn mean(pixels: &Pixels) -> [f64; 3] {
+    let mut sum = [0.0; 4];
+    let mut add = |light: [f64; 3], alpha: f64| {
+        if light.iter().all(|part| part.is_finite()) && alpha.is_finite() {
+            light.iter().zip(&mut sum).for_each(|(part, sum)| *sum += alpha * part);
+            sum[3] += alpha;
+        }
+    };
+    match pixels {
+        Pixels::Srgb(pixels) => {
+            let decoded: Vec<f64> = (0..=255).map(|byte| srgb_decode(f64::from(byte) / 255.0)).collect();
+            for &[red, green, blue, alpha] in pixels {
+                add([red, green, blue].map(|byte| decoded[usize::from(byte)]), f64::from(alpha) / 255.0);
+            }
+        }
+        Pixels::Light(pixels) => {
+            for &[red, green, blue, alpha] in pixels {
+                add([red, green, blue].map(f64::from), f64::from(alpha));
+            }
+        }
+    }
+    let [red, green, blue, weight] = sum;
+    if weight > 0.0 { [red, green, blue].map(|sum| sum / weight) } else { [1.0; 3] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn means_are_of_linear_light() {
+        let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
+        // Half black and half white is half the light, which is not byte 128.
+        let board = Pixels::Srgb(vec![[0, 0, 0, 255], [255, 255, 255, 255]]);
+        assert!(close(mean(&board), [0.5; 3]));
+        let Rgba(grey) = tinted(Rgba::opaque([1.0; 3]), mean(&board));
+        assert!((grey[0] - 187.516 / 255.0).abs() < 1e-5, "{grey:?}");
+        let cut_out = Pixels::Srgb(vec![[255, 0, 0, 0], [0, 0, 255, 255]]);
+        assert!(close(mean(&cut_out), [0.0, 0.0, 1.0]));
+        let light = Pixels::Light(vec![[3.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.5, 1.0], [f32::NAN; 4]]);
+        assert!(close(mean(&light), [2.0, 0.0, 0.25]));
+        assert!(close(mean(&Pixels::Srgb(Vec::new())), [1.0; 3]));
+    }
+}
