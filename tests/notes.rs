@@ -106,3 +106,36 @@ fn red_green_and_blue_that_are_read_as_lightness_and_hue_are_noted_once() {
     assert_eq!(found.matches("colour `red` is white, not red, green and blue").count(), 1, "{found}");
     assert!(found.contains("for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"), "{found}");
 }
+
+/// A lamp in a closed box of its own motion lights nothing outside. In a room with the eye, above an
+/// open box, in a box of glass, and without shadows it does.
+#[test]
+fn a_lamp_in_a_closed_body_is_named() {
+    let folder = programs::of_this_profile();
+    let cube = |half: f64, motion: &str, faces: &[&str], color: &str| {
+        let corner = |name: &str| {
+            let at = |letter: char| if name.contains(letter) { half } else { -half };
+            format!("v {name} {} {} {};", at('x'), at('y'), at('z'))
+        };
+        let corners: String = ["o", "x", "xy", "y", "z", "xz", "xyz", "yz"].map(corner).concat();
+        let faces: String = faces.iter().map(|face| format!("f ({face}) {color} {motion};")).collect();
+        format!("{corners} {faces}")
+    };
+    let closed = ["o y xy x", "z xz xyz yz", "o x xz z", "x xy xyz xz", "xy y yz xyz", "y o z yz"];
+    let inside = ["x xy y o", "yz xyz xz z", "z xz x o", "xz xyz xy x", "xyz yz y xy", "yz z o y"];
+    let stage = "c grey 0.5; c glass 0.5 0 0 0.5; cam -ep 0 -6 0 -vc 0 0 0 -va 40;";
+    let motion = "<.3 0 0>";
+    let check = |options: &str, body: &str, lamp: &str, is_named: bool| {
+        let text = format!("{stage} l .2; l bulb 1 0 0 0 0 {lamp}; {body}");
+        let found = messages(&folder, &format!("ugphoton -sz 16 12 {options}"), &text);
+        let named = "ugphoton: note: the light of lamp `bulb` does not leave the closed body that it is in: move \
+                     it out, or give --no-shadows\n";
+        assert_eq!(found.contains(named), is_named, "{options} {body}: {found}");
+    };
+    check("", &cube(1.0, motion, &closed, "grey"), motion, true);
+    check("", &cube(1.0, "", &closed, "grey"), "", true);
+    check("--no-shadows", &cube(1.0, motion, &closed, "grey"), motion, false);
+    check("", &cube(1.0, motion, &closed[1..], "grey"), motion, false);
+    check("", &cube(1.0, motion, &closed, "glass"), motion, false);
+    check("", &cube(9.0, "", &inside, "grey"), "", false);
+}

@@ -81,6 +81,17 @@ impl Immersion {
     }
 }
 
+/// True if a closed body is around an event: paths into the past meet a face that `is_opaque` first,
+/// in every direction.
+pub fn is_enclosed(world: &World, faces: Faces<'_>, event: Event, is_opaque: impl Fn(u32) -> bool) -> bool {
+    let meets_opaque = |direction: &DVec3| {
+        let ray = Ray::in_vacuum(event, *direction);
+        let first = world.closest(faces, &ray, 0.0..f64::INFINITY);
+        first.is_some_and(|found| is_opaque(found.triangle.face))
+    };
+    DIRECTIONS.iter().all(meets_opaque)
+}
+
 /// Where a ray crosses the surface of a transparent solid.
 struct Crossing {
     solid: Solid,

@@ -1,12 +1,16 @@
 //! Notes for the user about a picture, above all why it is empty.
 
-use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace};
+use glam::DVec3;
+use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace, light_names};
+use ugphysics::Event;
 use ugpicture::Note;
 use ugscene::{Face, SurfaceProperties};
 
 use crate::config::Config;
+use crate::immersion::is_enclosed;
 use crate::pixels::Statistics;
 use crate::scenery::Scenery;
+use crate::shade::transmittance;
 
 /// One in so many samples is not visible.
 const FEW: u64 = 1000;
@@ -33,6 +37,7 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
     if lamps_shine_through_glass(scenery) {
         notes.push(Note::StraightThroughGlass);
     }
+    notes.extend(enclosed_lamp(scenery).map(Note::EnclosedLamp));
     let depth = config.rays.depth;
     if depth > 0 && statistics.n_too_deep > statistics.n_covered / FEW {
         let percent = 100.0 * statistics.n_too_deep as f64 / statistics.n_covered as f64;
@@ -53,6 +58,28 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
         _ => None,
     });
     notes
+}
+
+/// The name of a lamp in a closed opaque body that the eye is not in. Its light does not leave that.
+fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
+    if !scenery.has_lights() || !scenery.rays.shadows {
+        return None;
+    }
+    let is_opaque = |face| transmittance(scenery, face) == 0.0;
+    let is_enclosed = |event| is_enclosed(&scenery.world, scenery.faces(), event, is_opaque);
+    let is_dark = |row: usize| {
+        let LampPlace::At(place) = scenery.lamps[row].place else { return false };
+        let frame = match (&scenery.lamp_frames[row], &scenery.world.parts[..]) {
+            (Some(frame), _) => frame,
+            (None, [only]) => &only.frame,
+            // It rests with each of several bodies.
+            (None, _) => return false,
+        };
+        is_enclosed(frame.camera_from_rest(Event { t: -place.length(), x: place }))
+    };
+    let row = (0..scenery.lamps.len()).find(|&row| is_dark(row))?;
+    let is_around_the_eye = is_enclosed(Event { t: 0.0, x: DVec3::ZERO });
+    (!is_around_the_eye).then(|| light_names(&scenery.scene).swap_remove(row))
 }
 
 /// True if the light of lamps, which is followed backwards in straight lines (P24), may cross a

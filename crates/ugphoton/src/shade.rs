@@ -244,7 +244,7 @@ fn cross<'c>(inside: &mut Vec<&'c Crossing>, crossing: &'c Crossing) -> Option<&
 }
 
 /// Transmittance of a face for a ray that is not bent, 0…1.
-fn transmittance(scenery: &Scenery<'_>, face: u32) -> f64 {
+pub fn transmittance(scenery: &Scenery<'_>, face: u32) -> f64 {
     let face = &scenery.scene.faces[face as usize];
     if let Some(surface) = scenery.scene.surface(face) {
         return surface.transmitted;

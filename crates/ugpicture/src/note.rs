@@ -60,6 +60,8 @@ pub enum Note {
     OpenSolid,
     /// Light of lamps may cross a refracting solid.
     StraightThroughGlass,
+    /// The lamp of this name is in a closed opaque body.
+    EnclosedLamp(String),
     /// Samples end at the greatest depth.
     TooDeep {
         /// How many of them.
@@ -153,6 +155,9 @@ impl fmt::Display for Note {
             Self::StraightThroughGlass => {
                 "light of lamps goes straight through transparent solids, as fast as in a vacuum: it is absorbed \
                  there, but neither refracted nor slowed"
+            }
+            Self::EnclosedLamp(name) => {
+                return write!(f, "the light of lamp `{name}` does not leave the closed body that it is in");
             }
             Self::TooDeep { percent, depth } => {
                 return write!(

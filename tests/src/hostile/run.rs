@@ -105,8 +105,9 @@ fn pipe(
         let n_read = input.len() + case.files.iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
         let ended = within_memory(programs, &words, &input, folder, edge, n_read as u64).map_err(about)?;
         // Nothing is to be said of a scene that is right, and an empty one stays empty.
-        // The frames of a film may be files.
+        // The frames of a film may be files, and its commands are printed, not written to -fo.
         let is_silent = words.iter().any(|word| word == "check" || word.starts_with(FRAMES))
+            || words.iter().any(|word| word == "--print") && matches!(edge, Edge::File(_))
             || edge == Edge::Input(CLOSED);
         check(&words[0], &ended, is_silent, edge, folder).map_err(about)?;
         if ended.status.code() != Some(0) {

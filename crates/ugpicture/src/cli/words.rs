@@ -66,6 +66,7 @@ impl Words for Note {
             Self::BlackFaces | Self::BlackPanorama => {
                 "{}; try a lower speed, or --no-doppler --no-flux to see the shape"
             }
+            Self::EnclosedLamp(_) => "{}: move it out, or give --no-shadows",
             Self::TooDeep { .. } => "{}: a larger -rd shows it",
             Self::CutShort => "{}: give a smaller -rd or a larger -rc",
             Self::Adaptive(_) => "{} (-ad)",
