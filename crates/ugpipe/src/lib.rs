@@ -133,9 +133,11 @@ mod streams;
 mod text;
 #[cfg(feature = "cli")]
 mod usage;
+#[cfg(feature = "cli")]
+mod values;
 
 #[cfg(feature = "cli")]
-pub use args::{CommonArgs, ToolArgs, count, finite, number, one_of, vector, view_angle, whole};
+pub use args::{CommonArgs, ToolArgs};
 #[cfg(feature = "cli")]
 pub use cleanup::{Claim, Running};
 #[cfg(feature = "cli")]
@@ -162,3 +164,5 @@ pub use run::{main, parse_words};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
 pub use text::{is_printable, message, printable, shorten};
+#[cfg(feature = "cli")]
+pub use values::{count, finite, number, one_of, vector, view_angle, whole};

@@ -9,7 +9,7 @@ use std::ffi::OsString;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command};
 
-use crate::args::finite;
+use crate::values::finite;
 use crate::argv::StrayNumber;
 use crate::remedies;
 
