@@ -509,3 +509,34 @@ fn a_million_frames_and_a_folder_that_cannot_be_written() {
     let (status, messages) = shell.fail(&format!("{film} -only 3..9 -fo /proc/f_%07d.png"));
     assert!(status == Some(1) && messages.contains("cannot write `/proc/f_0000003.png`"), "{messages}");
 }
+
+/// A square passes a narrow view in the middle frames of a film.
+#[test]
+fn a_film_says_which_frames_are_empty_or_black() {
+    let shell = Shell::new();
+    let scene = "c red 1 0; v a -1 9 -1; v b 1 9 -1; v c 1 9 1; v d -1 9 1; f (a b c d) red;
+                 cam -ep 0 0 0 -vc 0 9 0 -va 20;";
+    let film = |options: &str, lamps: &str| {
+        fs::write(shell.folder.path().join("pass.ug"), format!("{scene} {lamps}")).unwrap();
+        let command = format!(
+            "ugfilm -frames 9 -vel .5 0 0 -ti -11..29 -sz 32 24 {options} -dt apng pass.ug > film.png"
+        );
+        shell.run(&command)[1].clone()
+    };
+    // The eye sees the middle at x = .5 (t − √(81 + x²)), which is −2.66 at t = 4, 0 at 9, 2.34 at 14 and
+    // 4.46 at 19. It is in view while |x| is less than about 9 tan 10° + 1 = 2.59.
+    let found = film("-look shape", "l 1;");
+    assert!(
+        found.contains("nothing is in the picture in 7 of 9 frames that were drawn, 1..4, 7..9: "),
+        "{found}"
+    );
+    assert!(!found.contains("is black in"), "{found}");
+    let found = film("-look shape", "l 0;");
+    assert!(
+        found.contains("all that is in the picture is black in 2 of 9 frames that were drawn, 5..6: "),
+        "{found}"
+    );
+    // Of a part of the film.
+    let found = film("-look shape -only 5..7", "l 1;");
+    assert!(found.contains("nothing is in the picture in 1 of 3 frames that were drawn, 7: "), "{found}");
+}

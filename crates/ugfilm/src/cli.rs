@@ -113,7 +113,7 @@ pub struct Args {
 const FILM: &str = "Film";
 
 const EXAMPLES: &str = "Examples:
-  ugfilm -frames 40 -vel .9 0 0 -ti 3..36 -va 90 -sz 640 240 -fo pass.gif teapot.ug
+  ugfilm -frames 40 -vel .9 0 0 -ti 3..36 -va 90 -look shape -sz 640 240 -fo pass.gif teapot.ug
   ugfilm -frames 40 -cv '0 0 0 .. 0 .99 0' -sp -ex auto -fo drive_%04d.png street.ug
   ugfilm -rays -frames 20 -vel .95 0 0 -ti -4..4 -fo shadow.apng shadow.ug";
 
@@ -225,7 +225,15 @@ fn shell_path(path: &Path) -> String {
 fn tell(summary: &Summary, context: &Context) {
     let notes = summary.notes.iter().flat_map(crate::note::Note::words);
     notes.for_each(|note| context.note(&format!("first frame: {note}")));
-    let Summary { n_drawn, n_done, n_elsewhere, .. } = summary;
+    let Summary { n_drawn, n_done, n_elsewhere, empty, black, .. } = summary;
+    let shares = [
+        (empty, "nothing is in the picture", "try other times -ti, -in, another -vc or a wider -va"),
+        (black, "all that is in the picture is black", "try -look light, or -look shape"),
+    ];
+    for (frames, finding, remedy) in shares.into_iter().filter(|(frames, ..)| !frames.is_empty()) {
+        let (count, list) = (frames.len(), ranges_of(frames));
+        context.note(&format!("{finding} in {count} of {n_drawn} frames that were drawn, {list}: {remedy}"));
+    }
     if *n_done + *n_elsewhere > 0 {
         let elsewhere = match n_elsewhere {
             0 => String::new(),
@@ -233,6 +241,16 @@ fn tell(summary: &Summary, context: &Context) {
         };
         context.note(&format!("{n_drawn} frames drawn, {n_done} were there already{elsewhere}"));
     }
+}
+
+/// Increasing numbers as ranges: `1..12, 17, 20..40`.
+fn ranges_of(numbers: &[u32]) -> String {
+    let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
+        [first, .., last] => format!("{first}..{last}"),
+        [only] => only.to_string(),
+        [] => String::new(),
+    });
+    runs.collect::<Vec<_>>().join(", ")
 }
 
 /// The input that was read.

@@ -54,6 +54,10 @@ pub struct Summary {
     pub n_elsewhere: u32,
     /// Notes of the first frame that was drawn.
     pub notes: Vec<Note>,
+    /// Frames that were drawn in which nothing is.
+    pub empty: Vec<u32>,
+    /// Frames that were drawn in which all is black.
+    pub black: Vec<u32>,
 }
 
 /// The outcome of a frame.
@@ -64,9 +68,14 @@ enum Outcome {
 }
 
 impl Summary {
-    fn add(&mut self, outcome: Outcome) {
+    fn add(&mut self, frame: u32, outcome: Outcome) {
         match outcome {
             Outcome::Drawn(notes) => {
+                let has = |is_it: fn(&ugpicture::Note) -> bool| {
+                    notes.iter().any(|note| matches!(note, Note::Picture(_, note) if is_it(note)))
+                };
+                self.empty.extend(has(ugpicture::Note::is_of_empty).then_some(frame));
+                self.black.extend(has(ugpicture::Note::is_of_black).then_some(frame));
                 if self.n_drawn == 0 {
                     self.notes = notes;
                 }
@@ -205,8 +214,8 @@ impl Film<'_> {
         remove_stale_claims(names);
         let mut summary = Summary::default();
         let write = |frame| self.write_file(frame, &names.path(frame));
-        self.each(("drawing", steps), frames, write, |_, outcome| {
-            summary.add(outcome);
+        self.each(("drawing", steps), frames, write, |frame, outcome| {
+            summary.add(frame, outcome);
             Ok(())
         })?;
         Ok(summary)
@@ -245,8 +254,8 @@ impl Film<'_> {
             ("drawing", steps),
             frames,
             |frame| self.frame(frame, keep),
-            |_, (frame, outcome)| {
-                summary.add(outcome);
+            |number, (frame, outcome)| {
+                summary.add(number, outcome);
                 consume(&frame)
             },
         )?;

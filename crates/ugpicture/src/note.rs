@@ -102,6 +102,33 @@ pub enum Note {
     NoOutline,
 }
 
+impl Note {
+    /// True if it says that nothing is in the picture.
+    pub fn is_of_empty(&self) -> bool {
+        matches!(
+            self,
+            Self::NothingInFront
+                | Self::NothingInPicture
+                | Self::NothingMet
+                | Self::NoPanorama
+                | Self::BackFacing
+                | Self::EdgeOn
+        )
+    }
+
+    /// True if it says that all that is in the picture is black.
+    pub fn is_of_black(&self) -> bool {
+        matches!(
+            self,
+            Self::BlackLines
+                | Self::NoLight
+                | Self::OutOfRange { percent: 100, is_black: true }
+                | Self::BlackFaces
+                | Self::BlackPanorama
+        )
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let text = match self {
