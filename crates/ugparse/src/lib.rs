@@ -105,7 +105,7 @@ pub struct Parsed {
     pub warnings: Diagnostics,
 }
 
-/// Parses a scene and flattens it. Of a mesh that went through [`include`] it returns the scene.
+/// Parses a scene and flattens it. Of a mesh that went through [`include()`] it returns the scene.
 ///
 /// # Errors
 /// All errors in the text, up to [`MAX_ERRORS`].

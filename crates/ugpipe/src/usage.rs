@@ -9,9 +9,9 @@ use std::ffi::OsString;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command};
 
-use crate::values::finite;
 use crate::argv::StrayNumber;
 use crate::remedies;
+use crate::values::finite;
 
 /// The message for an error of clap: one line, without the name of the program. `words`: the
 /// command line as it was typed.
