@@ -116,8 +116,7 @@ pub fn transcripts(path: &str) -> Vec<(String, String)> {
 /// its lights and camera, a scene that has been through `uglorentz`, and a panorama.
 const PREPARATION: &str = "\
     ugmesh -dt obj scenes/teapot.ug -fo teapot.obj; \
-    ugmesh -dt obj scenes/sphere.ug -fo bunny.obj; \
-    ugmesh -dt ply scenes/sphere.ug -fo bunny.ply; \
+    ugmesh -dt ply globe.obj -fo globe.ply; \
     printf 'cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -va 40 30 ; l .3 ; l .7 0 -1 1 ;' > stage.ug; \
     uglorentz -vel .3 0 0 -in scenes/ship.ug | ugdoppler > seen.ug; \
     ugphoton -qt -pan -aa 1 -sz 256 128 scenes/tunnel.ug -fo sky.png";
@@ -130,8 +129,9 @@ pub fn prepare(folder: &Path, programs: &Path) {
         for name in scenes::names() {
             fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
         }
-        let stars = "stars.csv";
-        fs::copy(scenes::root().join("scenes").join(stars), folder.join(stars)).expect("a copy");
+        for name in ["stars.csv", "globe.obj"] {
+            fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).expect("a copy");
+        }
     }
     Page::of_commands("preparation", &[])
         .run(PREPARATION, folder, programs)

@@ -70,7 +70,7 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   ugmesh --center -fit 2 teapot.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > fast.png
   uglorentz -vel .9 0 0 teapot.obj | ugmesh -dt ply > distorted.ply
-  ugmesh --center -fit 2 bunny.ply > bunny.ug
+  ugmesh --center -fit 2 globe.ply > globe.ug
   uglorentz -vel 0 .8 0 ship.ug | ugdoppler | ugmesh -fo ship.glb";
 
 #[derive(Clone, Copy, Debug, ValueEnum)]

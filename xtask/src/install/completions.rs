@@ -48,6 +48,16 @@ fn commands(manual: &Manual) -> impl Iterator<Item = (&str, &str)> {
     manual.commands.iter().map(move |sub| (&sub.name[name(sub)..], sub.about.as_str()))
 }
 
+/// Commands whose argument is one of several words, and the words.
+fn words_of_commands(manual: &Manual) -> Vec<(&str, String)> {
+    let words = |sub: &Manual| {
+        let words = sub.arguments.iter().flat_map(|argument| &argument.words);
+        words.map(|(word, _)| word.as_str()).collect::<Vec<_>>().join(" ")
+    };
+    let named = commands(manual).zip(&manual.commands).map(|((name, _), sub)| (name, words(sub)));
+    named.filter(|(_, words)| !words.is_empty()).collect()
+}
+
 /// For bash: a function that finds the option whose value is typed.
 pub fn bash(manual: &Manual) -> String {
     let program = &manual.name;
@@ -65,6 +75,9 @@ pub fn bash(manual: &Manual) -> String {
             option.values.len(),
             n_needed(option)
         );
+    }
+    for (command, words) in words_of_commands(manual) {
+        cases += &format!("        {command}) commands='{words}' ;;\n");
     }
     let words: Vec<&str> = commands(manual).map(|(name, _)| name).collect();
     let names: Vec<&str> = options.iter().flat_map(|option| &option.names).map(String::as_str).collect();
@@ -125,8 +138,12 @@ pub fn zsh(manual: &Manual) -> String {
         true => String::new(),
         false => " \\\n    '1:command or file:{ _describe command commands; _files }'".to_owned(),
     };
+    let mut files = "_files".to_owned();
+    for (command, words) in words_of_commands(manual) {
+        files = format!("{{ if (( ${{words[(I){command}]}} )); then compadd {words}; else _files; fi }}");
+    }
     format!(
-        "#compdef {program}\n# Completion of {program} for zsh.\nlocal -a commands=({})\n_arguments -S{first}{lines} \\\n    '*:file:_files'\n",
+        "#compdef {program}\n# Completion of {program} for zsh.\nlocal -a commands=({})\n_arguments -S{first}{lines} \\\n    '*:file:{files}'\n",
         commands.join(" ")
     )
 }
@@ -170,6 +187,10 @@ pub fn fish(manual: &Manual) -> String {
             "complete -c {program} -n __fish_use_subcommand -a {name} -d '{}'\n",
             fish_escaped(about)
         );
+    }
+    for (command, words) in words_of_commands(manual) {
+        text +=
+            &format!("complete -c {program} -n '__fish_seen_subcommand_from {command}' -f -a '{words}'\n");
     }
     for option in options {
         let flags: Vec<String> = all_names(option)

@@ -68,7 +68,7 @@ pub fn overview(manuals: &[Manual]) -> String {
     ]);
     page.paragraph("A mesh of your own (OBJ, PLY, STL, OFF or glTF):");
     page.examples(&[
-        "ugmesh bunny.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > bunny.png".to_owned()
+        "ugmesh globe.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > globe.png".to_owned()
     ]);
     page.exit_status();
     page.section("SEE ALSO");

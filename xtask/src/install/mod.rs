@@ -126,7 +126,7 @@ mod tests {
 
     /// Command lines with a word to complete, and the completed lines; `None`: several words, among
     /// them the one given.
-    const CASES: [(&str, &[&str]); 12] = [
+    const CASES: [(&str, &[&str]); 13] = [
         ("uglorentz -ve", &["-vel"]),
         ("uglorentz --keep", &["--keep-in-view"]),
         ("uglorentz -vel ", &[]),
@@ -139,6 +139,7 @@ mod tests {
         ("ugrainbow --tone-curve ", &["clip", "filmic"]),
         ("ugparse tid", &["tidy"]),
         ("ugparse tidy shi", &["ship one.ug"]),
+        ("ugparse example lat", &["lattice"]),
     ];
 
     #[test]
