@@ -59,6 +59,8 @@ impl Shell {
         let entries = fs::read_dir(self.folder.path().join(folder)).unwrap().flatten();
         entries
             .filter(|entry| entry.file_type().unwrap().is_file())
+            // What a film keeps for its next start is no frame.
+            .filter(|entry| entry.path().extension().is_none_or(|ending| ending != "exposure"))
             .map(|entry| (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap()))
             .collect()
     }
@@ -263,6 +265,27 @@ fn one_exposure_and_one_camera_for_all_frames() {
         .collect();
     assert_eq!(eyes.len(), 1, "{commands}");
     assert!(messages.contains("no camera in the scene") && messages.contains("in all frames"), "{messages}");
+}
+
+#[test]
+fn the_exposure_of_a_film_is_kept_for_the_next_start() {
+    let shell = Shell::new();
+    let film = |options: &str, scene: &str| {
+        let options = format!("-frames 2 -vel 0 -.8 0 -ti 0..1 -ex auto -sz 20 15 {options} -fo f_%d.png");
+        let [_, messages] = shell.run(&format!("ugfilm {options} {scene}"));
+        messages.lines().find(|line| line.contains("one exposure")).unwrap().to_owned()
+    };
+    let found = film("", "dice.ug");
+    // A number that was not measured shows that the file is read.
+    shell.run("sed -i 's/ .*/ 9.125/' .f_1.png.exposure");
+    let kept = "ugfilm: note: one exposure for all frames: -ex 9.125";
+    assert_eq!(film("", "dice.ug"), kept);
+    // It is that of other options or another scene no longer.
+    assert_ne!(film("-sp", "dice.ug"), kept);
+    assert_eq!(film("", "dice.ug"), found);
+    shell.run("sed -i 's/ .*/ 9.125/' .f_1.png.exposure");
+    shell.run("sed 's/^l 0.35/l 0.3/' dice.ug > dim.ug");
+    assert_ne!(film("", "dim.ug"), kept);
 }
 
 /// A number that is wrong in a later frame is found before the first is written.

@@ -17,7 +17,7 @@ use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
 use crate::blur::MotionBlur;
 use crate::film::{Film, Summary, Target};
-use crate::frame_files::valid_since;
+use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, valid_since};
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
 use crate::pipe::FilmSubject;
@@ -164,7 +164,8 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let blur = args.blur.map(|open| MotionBlur { open, n_moments: args.moments });
     if script.fixed("ex").as_deref() == Some("auto") {
         let film = Film { subject, script: &script, format, blur, valid_since: None };
-        let stops = film.exposure(&context.steps())?.to_string();
+        let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
+        let stops = exposure(&film, names, args.print.is_some(), context)?.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
         script.set("ex", vec![stops]);
     }
@@ -181,10 +182,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         }
         return context.print(&text);
     }
-    let names = match &output {
-        Output::Files(names, _) => Some(names),
-        _ => keep.as_ref(),
-    };
+    let names = output.names().or(keep.as_ref());
     film.valid_since = match (names, read.included()) {
         (Some(names), Some(sha256)) => Some(valid_since(names, sha256)?),
         _ => None,
@@ -213,6 +211,26 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     };
     tell(&summary, context);
     Ok(())
+}
+
+/// The exposure of all frames. Beside files of frames it is kept for the next start, unless their
+/// commands are only printed.
+fn exposure(
+    film: &Film<'_>,
+    names: Option<&FrameNames>,
+    is_printed: bool,
+    context: &Context,
+) -> Result<f64, Failure> {
+    let key = film.exposure_key()?;
+    let Some((names, key)) = names.zip(key) else { return film.exposure(&context.steps()) };
+    if let Some(stops) = kept_exposure(names, &key) {
+        return Ok(stops);
+    }
+    let stops = film.exposure(&context.steps())?;
+    if !is_printed {
+        keep_exposure(names, &key, stops)?;
+    }
+    Ok(stops)
 }
 
 /// A path as a word of a command line, which is not an option.

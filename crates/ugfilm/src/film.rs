@@ -7,7 +7,7 @@ use ugimage::{
     Format, Frame, LinearFrame, Metadata, PictureLimits, auto_exposure, read_png, read_png_header,
 };
 use ugpicture::Rendering;
-use ugpipe::{Context, Failure, Progress, Steps, Words};
+use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::{Motion, Picture};
 
 use crate::animation::{Palette, Shape};
@@ -192,6 +192,23 @@ impl Film<'_> {
         let frames = self.small(("measuring", steps), |pipe| pipe.light(self.subject))?;
         let pixels: Vec<[f32; 4]> = frames.iter().flat_map(LinearFrame::pixels).copied().collect();
         Ok(auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), tone))
+    }
+
+    /// A hash of all that the exposure depends on: the commands of the measured frames, and the
+    /// scene. `None` for panoramas, whose files are not kept.
+    ///
+    /// # Errors
+    /// The commands of a frame are wrong.
+    pub fn exposure_key(&self) -> Result<Option<String>, Failure> {
+        let FilmSubject::Scene(scene) = self.subject else { return Ok(None) };
+        let mut text = env!("CARGO_PKG_VERSION").to_owned();
+        for frame in self.spread(MOST_MEASURED) {
+            text.push('\n');
+            text += &self.script.commands(f64::from(frame), &[])?.line(None, None);
+        }
+        let mut bytes = text.into_bytes();
+        bytes.extend(ugparse::write(scene));
+        Ok(Some(sha256(&bytes)))
     }
 
     /// The colours of a GIF.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
 use ugimage::{Metadata, read_history};
-use ugpipe::{Claim, Context, Failure, stale};
+use ugpipe::{Claim, Context, Failure, finite, stale};
 
 /// Names of numbered files: `frame_%04d.png`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,6 +41,13 @@ impl FrameNames {
         PathBuf::from(format!("{before}{frame:0n_digits$}{after}"))
     }
 
+    /// The hidden file beside the first frame with this extension.
+    fn beside_first(&self, extension: &str) -> PathBuf {
+        let first = self.path(1);
+        let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        first.with_file_name(format!(".{name}.{extension}"))
+    }
+
     /// True for the file name of a frame, without its folder.
     fn is_one(&self, file_name: &str) -> bool {
         let before = self.before.rsplit_once('/').map_or(self.before.as_str(), |(_, name)| name);
@@ -57,15 +64,29 @@ impl FrameNames {
 /// # Errors
 /// The file cannot be written.
 pub fn valid_since(names: &FrameNames, sha256: &str) -> Result<SystemTime, Failure> {
-    let first = names.path(1);
-    let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    let path = first.with_file_name(format!(".{name}.scene"));
+    let path = names.beside_first("scene");
     let text = format!("{sha256}\n");
     if fs::read(&path).ok().as_deref() != Some(text.as_bytes()) {
         Context::write_now(&path, text.as_bytes())?;
     }
     let written = fs::metadata(&path).and_then(|found| found.modified());
     written.map_err(|error| Failure::Read { name: path.display().to_string(), error })
+}
+
+/// The exposure of a film in stops, from a file beside its first frame if that has the same `key`: a
+/// hash of all that the exposure depends on.
+pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
+    let text = fs::read_to_string(names.beside_first("exposure")).ok()?;
+    let (kept, stops) = text.trim_end().split_once(' ')?;
+    finite(stops).ok().filter(|_| kept == key)
+}
+
+/// Writes the file that [`kept_exposure`] reads.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn keep_exposure(names: &FrameNames, key: &str, stops: f64) -> Result<(), Failure> {
+    Context::write_now(&names.beside_first("exposure"), format!("{key} {stops}\n").as_bytes())
 }
 
 /// True if the file is whole, was made by the commands that these metadata state, and not before

@@ -68,12 +68,17 @@ impl Output {
         }
     }
 
+    /// The files of frames, if there are any.
+    pub fn names(&self) -> Option<&FrameNames> {
+        match self {
+            Self::Files(names, _) => Some(names),
+            Self::Film(_) | Self::Sheet => None,
+        }
+    }
+
     /// The files of single frames, those of a film as they could be named.
     pub fn frame_names(&self) -> FrameNames {
-        match self {
-            Self::Files(names, _) => names.clone(),
-            Self::Film(_) | Self::Sheet => FrameNames::default(),
-        }
+        self.names().cloned().unwrap_or_default()
     }
 }
 
