@@ -12,7 +12,9 @@ use ugscene::{ColorValue, Scene, Tint};
 
 fn colour(text: &str, config: &Config) -> (Scene, Vec<String>) {
     let (scene, notes) = apply(parsed("t.ug", text), config).unwrap_or_else(|error| panic!("{error}"));
-    (parsed("out.ug", ugparse::write(&scene)), notes.iter().map(Words::words).collect())
+    // `moving` gives velocities to scenes with positions as seen that state none.
+    let others = notes.iter().filter(|note| **note != ugdoppler::Note::TakenAsSeen);
+    (parsed("out.ug", ugparse::write(&scene)), others.map(Words::words).collect())
 }
 
 fn parsed(name: &str, text: impl Into<Vec<u8>>) -> Scene {

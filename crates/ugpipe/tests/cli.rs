@@ -176,10 +176,10 @@ fn errors_in_the_command_line() {
     check(&["-qt", "-qt"], "ugcat: error: `-qt` is given twice");
     check(&["-zz"], "ugcat: error: there is no option `-zz`");
     check(&["-vell", ".9", "0", "0"], "ugcat: error: there is no option `-vell`; did you mean `-vel`?");
-    check(&["-veloctiy", "1"], "ugcat: error: there is no option `--veloctiy`; did you mean `--velocity`?");
+    check(&["-veloctiy", "1"], "ugcat: error: there is no option `-veloctiy`; did you mean `--velocity`?");
     check(
         &["-speed", ".9"],
-        "ugcat: error: there is no option `--speed`; the velocity along x, y and z is `-vel`",
+        "ugcat: error: there is no option `-speed`; the velocity along x, y and z is `-vel`",
     );
     check(&["-sz", "80", "60"], "ugcat: error: `-sz` is an option of ugrainbow, not of ugcat");
     check(&["-7", "ship.ug"], "ugcat: error: there is no option `-7`");

@@ -66,6 +66,7 @@ pub fn run(case: &Case, programs: &Path) -> Result<bool, String> {
     let is_known = |name: &OsString| {
         name == MEASURED
             || name.to_string_lossy().starts_with(FRAMES)
+            || name.to_string_lossy().ends_with(".exposure")
             || case.files.iter().any(|(given, _)| name == given.as_str())
     };
     let others: Vec<_> = left.filter(|name| !is_known(name)).collect();
