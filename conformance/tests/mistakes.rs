@@ -242,9 +242,7 @@ fn collect(top: &Path, folder: &Path, files: &mut BTreeMap<PathBuf, Vec<u8>>) {
 fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
     let root = root();
     let mut files = BTreeMap::new();
-    for folder in
-        ["crates", "features", "conformance/src", "conformance/cases", "conformance/scenes", "scenes"]
-    {
+    for folder in ["crates", "conformance/src", "conformance/cases", "conformance/scenes", "scenes"] {
         collect(&root, &root.join(folder), &mut files);
     }
     for name in ["Cargo.toml", "Cargo.lock", "conformance/Cargo.toml"] {
@@ -261,7 +259,7 @@ fn mistaken_workspace() -> BTreeMap<PathBuf, Vec<u8>> {
         // `end` is text after the value that makes the expression unique.
         edit(&mut files, file, right, &switch);
     }
-    edit(&mut files, "Cargo.toml", "\"features\", \"tests\", \"xtask\"]", "\"features\"]");
+    edit(&mut files, "Cargo.toml", ", \"tests\", \"xtask\"]", "]");
     // A different version: otherwise cargo would use its builds of the original crates.
     let version = concat!("version = \"", env!("CARGO_PKG_VERSION"), "\"\nedition");
     edit(&mut files, "Cargo.toml", version, "version = \"0.0.0-mistaken\"\nedition");
