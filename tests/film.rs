@@ -54,6 +54,13 @@ impl Shell {
         (output.status.code(), String::from_utf8(output.stderr).unwrap())
     }
 
+    /// The pixels of a PNG file.
+    fn pixels(&self, name: &str) -> Vec<[u8; 4]> {
+        let file = fs::read(self.folder.path().join(name)).unwrap();
+        let (frame, _) = ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap();
+        frame.pixels().to_vec()
+    }
+
     /// The files in a folder, by name.
     fn files(&self, folder: &str) -> BTreeMap<String, Vec<u8>> {
         let entries = fs::read_dir(self.folder.path().join(folder)).unwrap().flatten();
@@ -404,16 +411,7 @@ fn motion_blur_is_the_mean_light_of_its_moments() {
     let rest = "-frames 2 -vel 0 .5 0 -in -sp -sz 60 40 -cap 'β = {beta}' dice.ug";
     shell.run(&format!("ugfilm {rest} -blur 1 -moments 7 -fo blurred_%d.png"));
     shell.run(&format!("ugfilm {rest} -ex 0 -fo sharp_%d.png"));
-    let pixels = |name: &str| {
-        ugimage::read_png(
-            &fs::read(shell.folder.path().join(name)).unwrap(),
-            &ugimage::PictureLimits::default(),
-        )
-        .unwrap()
-        .0
-        .pixels()
-        .to_vec()
-    };
+    let pixels = |name: &str| shell.pixels(name);
     assert!(pixels("blurred_1.png") == pixels("sharp_1.png"));
     // `--print` prints one command for each moment.
     let film = "ugfilm -frames 4 -vel 0 0..0.6 0 -in -ex -1 -tc filmic -sz 60 40 dice.ug -blur .8 -moments 5";
@@ -482,16 +480,7 @@ fn chosen_frames_on_one_sheet() {
     let film = "ugfilm -frames 5 -vel 0 0..0.8 0 -in -sz 80 60 dice.ug";
     shell.run(&format!("{film} -fo f_%d.png; ugsheet f_1.png f_3.png f_5.png -fo expected.png"));
     shell.run(&format!("{film} -sheet 3 -fo spread.png; {film} -sheet -only 1,3,5 -fo chosen.png"));
-    let pixels = |name: &str| {
-        ugimage::read_png(
-            &fs::read(shell.folder.path().join(name)).unwrap(),
-            &ugimage::PictureLimits::default(),
-        )
-        .unwrap()
-        .0
-        .pixels()
-        .to_vec()
-    };
+    let pixels = |name: &str| shell.pixels(name);
     assert!(pixels("spread.png") == pixels("expected.png"));
     assert!(pixels("chosen.png") == pixels("expected.png"));
     let (status, messages) = shell.fail(&format!("{film} -sheet -fo sheet.gif"));
@@ -546,8 +535,8 @@ fn a_film_says_which_frames_are_empty_or_black() {
         );
         shell.run(&command)[1].clone()
     };
-    // The eye sees the middle at x = .5 (t − √(81 + x²)), which is −2.66 at t = 4, 0 at 9, 2.34 at 14 and
-    // 4.46 at 19. It is in view while |x| is less than about 9 tan 10° + 1 = 2.59.
+    // The eye sees the middle at x = .5 (t − √(81 + x²)), which is −2.66 at t = 4, 0 at 9, 2.34 at
+    // 14 and 4.46 at 19. It is in view while |x| is less than about 9 tan 10° + 1 = 2.59.
     let found = film("-look shape", "l 1;");
     assert!(
         found.contains("nothing is in the picture in 7 of 9 frames that were drawn, 1..4, 7..9: "),

@@ -107,8 +107,8 @@ fn red_green_and_blue_that_are_read_as_lightness_and_hue_are_noted_once() {
     assert!(found.contains("for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"), "{found}");
 }
 
-/// A lamp in a closed box of its own motion lights nothing outside. In a room with the eye, above an
-/// open box, in a box of glass, and without shadows it does.
+/// A lamp in a closed box of its own motion lights nothing outside. In a room with the eye, above
+/// an open box, in a box of glass, and without shadows it does.
 #[test]
 fn a_lamp_in_a_closed_body_is_named() {
     let folder = programs::of_this_profile();

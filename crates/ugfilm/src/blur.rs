@@ -50,7 +50,8 @@ impl Shot {
     /// Checks that the frame can have what its options ask for.
     ///
     /// # Errors
-    /// It is the mean of moments, which has no annotations but a caption, no channels and no vectors.
+    /// It is the mean of moments, which has no annotations but a caption, no channels and no
+    /// vectors.
     pub fn check(&self) -> Result<(), Error> {
         let PictureOptions { annotations, channels, output, .. } = &self.frame.picture;
         let has_more = annotations.legend || annotations.outline || annotations.grid;

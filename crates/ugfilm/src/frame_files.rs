@@ -73,8 +73,8 @@ pub fn valid_since(names: &FrameNames, sha256: &str) -> Result<SystemTime, Failu
     written.map_err(|error| Failure::Read { name: path.display().to_string(), error })
 }
 
-/// The exposure of a film in stops, from a file beside its first frame if that has the same `key`: a
-/// hash of all that the exposure depends on.
+/// The exposure of a film in stops, from a file beside its first frame if that has the same `key`:
+/// a hash of all that the exposure depends on.
 pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
     let text = fs::read_to_string(names.beside_first("exposure")).ok()?;
     let (kept, stops) = text.trim_end().split_once(' ')?;

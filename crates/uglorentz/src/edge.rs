@@ -10,15 +10,15 @@
 //! So the true curve deviates from the chord that a renderer draws only along the motion, by a
 //! closed form. Three rules test its visibility:
 //!
-//! 1. **outline**: the edge and the eye span a plane in S' with unit normal n'. By (P6) its directions d
-//!    in S satisfy m·d + k = 0 with m = n' + (γ − 1)(n'·û)û, k = γ n'·v and |m|² − k² = 1: a circle on
+//! 1. **outline**: the edge and the eye span a plane in S' with unit normal n'. By (P6) its
+//!    directions d in S satisfy m·d + k = 0 with m = n' + (γ − 1)(n'·û)û, k = γ n'·v and |m|² − k² = 1: a circle on
 //!    the sphere of directions, of geodesic curvature k. The chord is a great circle. The angle between
 //!    the two is largest in the middle (E2) and must be within the bound;
 //! 2. **depth**: the distance from C(s) to the chord in space, over |C(s)|, must be within the bound,
 //!    since depth decides which face is occluded, and a decal is close in front of its wall. Its maximum
 //!    is (E3);
-//! 3. **colour**: D and 1/D interpolated linearly along the chord must agree with D in that direction
-//!    ([`crate::color`]).
+//! 3. **colour**: D and 1/D interpolated linearly along the chord must agree with D in that
+//!    direction ([`crate::color`]).
 //!
 //! The result depends on the two points, their body and the bound, not on the face, so faces that
 //! share an edge agree. [`shows`] then decides for one piece. Derivations are in

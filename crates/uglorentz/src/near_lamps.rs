@@ -111,8 +111,8 @@ impl NearLamps {
 
 impl NearLamp {
     /// The relative errors of light, wavelength and shifted spectra, interpolated linearly between
-    /// the ends. That of light is relative to the light at the point if it is brighter than the intensity of the
-    /// lamp, else to that.  (E6)
+    /// the ends. That of light is relative to the light at the point if it is brighter than the
+    /// intensity of the lamp, else to that.  (E6)
     fn error(&self, a: DVec3, b: DVec3, motion: &RelativeMotion, shift: DVec3) -> f64 {
         let light = |point: DVec3| self.light(point, motion, shift);
         // At the lamp itself the direction is undefined.

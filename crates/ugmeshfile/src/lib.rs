@@ -4,8 +4,8 @@
 //! bytes ─read→ Builder → MeshScene ─z_up→ Scene
 //! ```
 //!
-//! Meshes that a scene cannot represent are errors, whose messages name a remedy. Counts and offsets
-//! in files are checked before they are used, since files may be damaged or malicious.
+//! Meshes that a scene cannot represent are errors, whose messages name a remedy. Counts and
+//! offsets in files are checked before they are used, since files may be damaged or malicious.
 //!
 //! ```
 //! use ugmeshfile::{MeshFormat, read};

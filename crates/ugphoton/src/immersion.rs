@@ -81,8 +81,8 @@ impl Immersion {
     }
 }
 
-/// True if a closed body is around an event: paths into the past meet a face that `is_opaque` first,
-/// in every direction.
+/// True if a closed body is around an event: paths into the past meet a face that `is_opaque`
+/// first, in every direction.
 pub fn is_enclosed(world: &World, faces: Faces<'_>, event: Event, is_opaque: impl Fn(u32) -> bool) -> bool {
     let meets_opaque = |direction: &DVec3| {
         let ray = Ray::in_vacuum(event, *direction);

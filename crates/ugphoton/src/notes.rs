@@ -60,7 +60,8 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
     notes
 }
 
-/// The name of a lamp in a closed opaque body that the eye is not in. Its light does not leave that.
+/// The name of a lamp in a closed opaque body that the eye is not in. Its light does not leave
+/// that.
 fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
     if !scenery.has_lights() || !scenery.rays.shadows {
         return None;

@@ -116,8 +116,8 @@ impl RestFrame {
         rest - axis * (self.gamma_minus_one / self.velocity.gamma() * rest.dot(axis))
     }
 
-    /// The space part, in this frame, of the step of a ray of light into the past, which is (−|d|, d)
-    /// in the frame of the camera. It loses no digits.  Eq. (P6)
+    /// The space part, in this frame, of the step of a ray of light into the past, which is
+    /// (−|d|, d) in the frame of the camera. It loses no digits.  Eq. (P6)
     #[inline]
     #[must_use]
     pub fn light_to_rest(&self, d: DVec3) -> DVec3 {

@@ -49,8 +49,8 @@ pub(crate) struct Pyramid {
 }
 
 impl Pyramid {
-    /// `width`: texels per row of `texels`. `levels`: for each level and row, the number of texels and
-    /// the weight of one texel in means; level 0 has the rows of `texels`.
+    /// `width`: texels per row of `texels`. `levels`: for each level and row, the number of texels
+    /// and the weight of one texel in means; level 0 has the rows of `texels`.
     pub fn new(mut texels: Texels, width: usize, is_closed: bool, levels: &[Vec<(usize, f32)>]) -> Self {
         if let Texels::Light(texels) = &mut texels {
             texels.par_iter_mut().for_each(premultiply);

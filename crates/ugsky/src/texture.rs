@@ -73,9 +73,9 @@ impl Texture {
         Ok(Self { pyramid, sizes, wrap, simd: Level::new() })
     }
 
-    /// The mean light of a footprint around (u, v): light times alpha, and alpha. `axes`: the change
-    /// of (u, v) per column and per row of the picture, two axes of an ellipse; `spread`: the variance
-    /// of the pixel filter along each relative to that of a box.
+    /// The mean light of a footprint around (u, v): light times alpha, and alpha. `axes`: the
+    /// change of (u, v) per column and per row of the picture, two axes of an ellipse; `spread`:
+    /// the variance of the pixel filter along each relative to that of a box.
     #[must_use]
     pub fn light(&self, place: [f64; 2], axes: [[f64; 2]; 2], spread: f64) -> [f32; 4] {
         let longest = axes.as_flattened().iter().fold(0.0, |most: f64, part| most.max(part.abs()));

@@ -174,8 +174,8 @@ fn within_memory(
     Ok(whole)
 }
 
-/// The pixels of a PNG or PDF file: sheets have a limit of their own, and a large one that is nearly
-/// empty is packed into few bytes.
+/// The pixels of a PNG or PDF file: sheets have a limit of their own, and a large one that is
+/// nearly empty is packed into few bytes.
 fn n_pixels(file: &[u8]) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) =
         file.strip_prefix(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR").and_then(<[u8]>::first_chunk)

@@ -2,8 +2,8 @@
 //!
 //! Coordinates of a [`Figure`] are in pixels from the upper left corner; one pixel is one point
 //! (1/72 inch). Later elements cover earlier ones. How smooth colour is represented depends on the
-//! format: PostScript level 3 and PDF interpolate between the corners of [`GouraudTriangle`]s (shading
-//! type 4), and SVG has [`Gradient`]s along a line.
+//! format: PostScript level 3 and PDF interpolate between the corners of [`GouraudTriangle`]s
+//! (shading type 4), and SVG has [`Gradient`]s along a line.
 //!
 //! Colours are display-encoded, because these formats interpolate encoded colours.
 //!

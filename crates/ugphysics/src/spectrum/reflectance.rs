@@ -10,8 +10,8 @@ use crate::spectrum::weighted_daylight::WeightedDaylight;
 /// saturated, so they get a second try with the second value.
 const LARGEST_CHANNEL: [f64; 2] = [0.98, 0.25];
 
-/// A smooth reflectance under [`daylight`](crate::spectrum::daylight): a factor times a sigmoid of a
-/// quadratic in the wavelength (Jakob and Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
+/// A smooth reflectance under [`daylight`](crate::spectrum::daylight): a factor times a sigmoid of
+/// a quadratic in the wavelength (Jakob and Hanika 2019), constant outside 380…780 nm.  Eq. (P20)
 ///
 /// Greys have a constant reflectance, so white keeps the chromaticity of the illuminant. Colours
 /// with the same ratios of channels differ only by the factor. A colour with channels up to 1 has a

@@ -3,8 +3,8 @@
 //!
 //! Caption and legend are on strips below the picture of the scene. The file keeps the requested
 //! size: the scene is drawn in the remaining rows, exactly as a picture of that size. Grid and
-//! outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]), drawn after
-//! the light of the scene has been developed.
+//! outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]),
+//! drawn after the light of the scene has been developed.
 
 mod composite;
 mod grid;
