@@ -92,7 +92,7 @@ impl<'a> Middles<'a> {
         self.scenery.media_at(ray.origin).innermost()?;
         let frame = *self.scenery.appearance.surface.frames().of(body);
         Some(MediumLight {
-            doppler: ray.wave.frequency / frame.wave_to_rest(ray.wave).frequency,
+            doppler: (ray.wave.frequency / frame.wave_to_rest(ray.wave).frequency).abs(),
             rest_direction: frame.rest_from_camera(ray.step).x.normalize_or_zero(),
         })
     }

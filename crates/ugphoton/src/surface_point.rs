@@ -73,9 +73,11 @@ impl SurfacePoint {
         }
     }
 
-    /// D, from here to the eye: the product over all changes of frame along the path.
+    /// D, from here to the eye: the product over all changes of frame along the path. Light of a
+    /// body that is faster than light in the medium around it has the frequency −|f| in the frame
+    /// of the body: what was sent last arrives first, shifted by 1/|f|.  Eq. (P37)
     pub fn doppler(&self) -> f64 {
-        1.0 / self.wave.frequency
+        1.0 / self.wave.frequency.abs()
     }
 
     /// The direction towards the eye along the ray, a unit vector.

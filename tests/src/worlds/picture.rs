@@ -6,7 +6,7 @@ use uglorentz::Pieces;
 use ugparse::{Options, Source};
 use ugphoton::{Channel, Lens, Output, PictureOptions, RayOptions, Shutter};
 use ugphysics::Brightness;
-use ugscene::{Anchor, ColorValue, MotionOptions, Scene, VertexId};
+use ugscene::{Anchor, ColorValue, MotionOptions, Scene, Tint, VertexId};
 
 use super::world::World;
 
@@ -176,30 +176,53 @@ impl Picture {
         ugrainbow::light(&colored, &config).map_err(words)
     }
 
-    /// For each piece of a face in the pipe, whether a lamp sets in it: one that lights some of its
-    /// corners and not others.
+    /// For each piece of a face in the pipe, whether light at its corners does not tell the light
+    /// between them: a lamp sets in it, that is, lights some of its corners and not others; or their
+    /// hues are far apart, at the two ends of the spectrum or on the two sides of grey.
     ///
     /// # Errors
     /// The answer of a program instead.
-    pub fn pieces_with_dusk(&self) -> Result<Vec<bool>, String> {
+    pub fn uneven_pieces(&self) -> Result<Vec<bool>, String> {
         let pieces = self.pieces()?;
-        let mut has_dusk = vec![false; pieces.faces.len()];
-        for lamp in &pieces.lights {
-            let colored = self.colored(Scene { lights: vec![lamp.clone()], ..pieces.clone() })?;
-            let is_dark = |corner: &VertexId| {
-                let color = colored.vertices[corner.index()].color;
-                color.is_some_and(|color| match colored.colors[color.index()].value {
-                    ColorValue::Xyz(xyz) => xyz == [0.0; 3],
-                    ColorValue::Hsv { value, .. } => value == 0.0,
-                    _ => false,
+        let mut is_uneven = self.of_pieces(&pieces, |values| {
+            let hues: Vec<f64> = values
+                .iter()
+                .filter_map(|value| match value {
+                    ColorValue::Hsv { tint: Tint::Hue(hue), saturation, .. } if *saturation > 0.0 => {
+                        Some(*hue)
+                    }
+                    _ => None,
                 })
-            };
-            for (face, has_dusk) in colored.faces.iter().zip(&mut has_dusk) {
-                let corners = colored.contours.corners(face.contours.clone());
-                *has_dusk |= corners.iter().any(is_dark) && !corners.iter().all(is_dark);
-            }
+                .collect();
+            hues.iter().any(|a| hues.iter().any(|b| (a - b).abs() > 60.0))
+        })?;
+        for lamp in &pieces.lights {
+            let lit = Scene { lights: vec![lamp.clone()], ..pieces.clone() };
+            let has_dusk = self.of_pieces(&lit, |values| {
+                let is_dark = |value: &ColorValue| match value {
+                    ColorValue::Xyz(xyz) => *xyz == [0.0; 3],
+                    ColorValue::Hsv { value, .. } => *value == 0.0,
+                    _ => false,
+                };
+                values.iter().any(is_dark) && !values.iter().all(is_dark)
+            })?;
+            is_uneven.iter_mut().zip(has_dusk).for_each(|(uneven, dusk)| *uneven |= dusk);
         }
-        Ok(has_dusk)
+        Ok(is_uneven)
+    }
+
+    /// For each face of a scene whether something holds of the colours of its corners.
+    fn of_pieces(&self, scene: &Scene, holds: impl Fn(&[ColorValue]) -> bool) -> Result<Vec<bool>, String> {
+        let colored = self.colored(scene.clone())?;
+        let value = |corner: &VertexId| {
+            let color = colored.vertices[corner.index()].color;
+            color.map(|color| colored.colors[color.index()].value)
+        };
+        let of_face = |face: &ugscene::Face| {
+            let corners = colored.contours.corners(face.contours.clone());
+            holds(&corners.iter().filter_map(value).collect::<Vec<_>>())
+        };
+        Ok(colored.faces.iter().map(of_face).collect())
     }
 
     fn pieces(&self) -> Result<Scene, String> {

@@ -38,7 +38,7 @@ pub fn colored_exact(random: &mut Random) -> Outcome {
     check_exact(random, |_, world| world)
 }
 
-/// As [`pipe`], under coloured lamps.
+/// As [`pipe`], under coloured lamps, and off pieces whose corners have hues far apart.
 pub fn colored_pipe(random: &mut Random) -> Outcome {
     check_pipe(random, |_, world| world)
 }
@@ -62,15 +62,17 @@ fn check_pipe(random: &mut Random, change: fn(&mut Random, World) -> World) -> O
     let channels = vec![Channel::Id];
     let rays = Picture { channels, ..Picture::new(&world, shift).like_pipe() };
     let pipe = rays.clone().by(Renderer::Pipe);
-    let (one, other, has_dusk) = (pipe.draw()?, rays.draw()?, pipe.pieces_with_dusk()?);
+    let (one, other, is_uneven) = (pipe.draw()?, rays.draw()?, pipe.uneven_pieces()?);
     let (width, light, ids) = (rays.size[0] as usize, other.light(), other.ids());
     // Between different faces, and where a light sets, light changes from sample to sample. Light at
     // a point of a flat face is 0 behind the line where a moving lamp sets; the pipe, which has the
-    // light of corners alone, interpolates between those in light and those in the dark.
+    // light of corners alone, interpolates between those in light and those in the dark. Hue turns
+    // by 180° where the sum of coloured lamps is grey, and leaps from one end of the spectrum to the
+    // other at magenta; the pipe interpolates between such corners, too.
     let pieces = one.ids();
     let is_smooth = |at: usize| {
         let piece = (pieces[at] as usize).checked_sub(1);
-        !piece.is_some_and(|piece| has_dusk[piece])
+        !piece.is_some_and(|piece| is_uneven[piece])
             && are_around(at, width, light.len(), |near| {
                 ids[near] == ids[at] && is_within(light[near], light[at], 0.5)
             })

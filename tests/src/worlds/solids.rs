@@ -5,7 +5,7 @@ use ugphysics::Brightness;
 use ugtesting::Random;
 
 use super::Outcome;
-use super::compare::{check_same, is_same};
+use super::compare::{check, check_same, is_same};
 use super::generate::{self, Lamps, Recipe, Surfaces, rotation, velocity, world};
 use super::picture::{Picture, SPECTRA, UNSHIFTED, by_law};
 use super::spacetime::{Event, rest_place};
@@ -13,6 +13,15 @@ use super::world::{Body, Camera, Surface, World};
 
 /// Distances that do not matter, between bodies of size 1.
 const SMALL: f64 = 1e-5;
+
+/// Surfaces that a path may meet in nested solids.
+const DEPTH: u32 = 200;
+
+/// The part of a pixel from which they are followed.
+const CUTOFF: f64 = 0.01;
+
+/// From the eye to a plate before it.
+const NEAR: f64 = 0.01;
 
 const WHITE: [f64; 4] = [1.0, 1.0, 1.0, 0.0];
 
@@ -86,13 +95,21 @@ pub fn nested(random: &mut Random) -> Outcome {
     }
     let mut picture = picture(random, &world);
     // Most light that is mirrored within is too faint to follow.
-    (picture.rays.depth, picture.rays.cutoff) = (200, 0.01);
+    (picture.rays.depth, picture.rays.cutoff) = (DEPTH, CUTOFF);
     let mut more = world.clone();
     let n_more = 1 + if random.one_in(2) { 0 } else { random.below(10) };
     for row in 0..n_more {
         more.bodies.push(scaled(0.3 + 0.6 * row as f64 / n_more as f64, clear(index, absorption)));
     }
-    check_same(&picture.draw()?, &Picture { text: more.text(), ..picture }.draw()?)
+    // Light that total reflection catches, or that grows faint, ends elsewhere where it meets more
+    // surfaces: only pixels are compared whose light all comes by few surfaces, each way between two
+    // of which crosses each added solid at most twice, and not nearly as faint as the cutoff.
+    let (one, other) = (picture.draw()?, Picture { text: more.text(), ..picture.clone() }.draw()?);
+    (picture.rays.depth, picture.rays.cutoff) = (DEPTH / (2 * n_more as u32 + 1), 5.0 * CUTOFF);
+    let short = picture.draw()?;
+    let lights = one.light().into_iter().zip(other.light()).zip(short.light());
+    let pairs: Vec<_> = lights.filter(|(pair, short)| pair.0 == *short).map(|(pair, _)| pair).collect();
+    check(&pairs, [&one, &other])
 }
 
 /// The wall, bodies and lamps of a world with a camera that has some room around it.
@@ -132,15 +149,20 @@ fn check_pixel(picture: &Picture, one: &World, other: &World) -> Outcome {
 }
 
 /// Seen straight through, a plate of index n and thickness s shows what was there (n − 1) s
-/// earlier, in its rest frame.
+/// earlier, in its rest frame, if nothing is in the plate.
 pub fn delay(random: &mut Random) -> Outcome {
     let mut world = spacious(random);
     let camera = world.camera.looking(direction(random, &world.camera));
     world.camera = camera;
     let (index, thickness) = (random.between(1.05, 2.0), random.between(0.3, 1.0));
+    let entered = camera.displaced(NEAR * camera.forward, -NEAR).event;
+    let left = camera.displaced((NEAR + thickness) * camera.forward, -(NEAR + index * thickness)).event;
+    if world.bodies.iter().any(|body| body.is_crossed([entered, left])) {
+        return Ok(0);
+    }
     let mut behind = world.clone();
     // Small, so that hardly any light of lamps goes through it.
-    let plate = slab(&camera, [0.01, 0.01 + thickness], 0.01, false);
+    let plate = slab(&camera, [NEAR, NEAR + thickness], 0.01, false);
     behind.bodies.push(Body { surface: clear(index, 0.0), ..plate });
     let mut earlier = world.clone();
     earlier.camera = camera.displaced(DVec3::ZERO, -(index - 1.0) * thickness);

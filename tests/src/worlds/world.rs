@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use glam::{DMat3, DVec3};
 use ugscene::{Anchor, MotionOptions};
 
-use super::spacetime::{Change, Event, boost};
+use super::spacetime::{Change, Event, boost, rest_place};
 
 /// Bodies, lamps and a camera. All rest frames have the same origin: the event at place and time 0.
 #[derive(Clone, Debug)]
@@ -203,6 +203,21 @@ impl World {
 }
 
 impl Body {
+    /// True if something that goes straight from one event to another meets a face.
+    pub fn is_crossed(&self, way: [Event; 2]) -> bool {
+        let [from, to] = way.map(|event| rest_place(event, self.velocity.unwrap_or_default()));
+        let volume = |a: DVec3, b: DVec3, c: DVec3| (a - from).dot((b - from).cross(c - from));
+        self.faces.iter().flat_map(|face| face.windows(2).map(|pair| [face[0], pair[0], pair[1]])).any(
+            |rows| {
+                let [a, b, c] = rows.map(|row| self.vertices[row]);
+                let normal = (b - a).cross(c - a);
+                let sides = [volume(a, b, to), volume(b, c, to), volume(c, a, to)];
+                let is_through = sides.iter().all(|side| *side > 0.0) || sides.iter().all(|side| *side < 0.0);
+                is_through && normal.dot(from - a) * normal.dot(to - a) < 0.0
+            },
+        )
+    }
+
     fn write(&self, row: usize, anchor: DVec3, all: &mut Vec<String>) {
         all.push(paint(&format!("c{row}"), &self.paint));
         for (corner, place) in self.vertices.iter().enumerate() {

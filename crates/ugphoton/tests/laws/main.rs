@@ -178,6 +178,19 @@ fn moving_glass_around_the_eye_changes_frequencies() {
     }
 }
 
+/// A wall in the glass around the eye: D = 1/(γ|1 − nβ|). Faster than light in glass it is seen
+/// after it has passed the eye, what was sent last first.
+#[test]
+fn bodies_may_be_faster_than_light_in_glass() {
+    for (beta, rest_place) in [(0.5_f64, -0.1), (-0.9, -0.3), (0.9, 0.3), (0.98, 0.3)] {
+        let wall = square("w", DVec3::Z * rest_place, DVec3::Z, 900.0, &format!("white .5 <0 0 {beta}>"));
+        let gamma = 1.0 / (1.0 - beta * beta).sqrt();
+        let factor = 0.5 / (gamma * (1.0 - 1.5 * beta).abs());
+        let found = value(&format!("{HEAD}{}{wall}", slab(0.5, 300.0, "")), DVec3::NEG_Z, Config::default());
+        assert!((found / factor - 1.0).abs() < 1e-6, "{beta}: {found} {factor}");
+    }
+}
+
 /// Twelve solids within each other, more than half of the light of each transmitted: all are kept
 /// track of, so light leaves the innermost and the outermost as it entered them.
 #[test]
