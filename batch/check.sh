@@ -67,8 +67,8 @@ drive=(-frames 12 -cv '0 0 0 .. 0 .99 0' -sp -ex -3.87 -sz 320 180)
 mkdir whole drive array array-room
 ugfilm "${drive[@]}" -fo whole/frame_%06d.png street.ug
 ugfilm "${drive[@]}" -keep whole/frame_%06d.png -fo whole.apng street.ug
-ugphoton -aa 2 -sz 200 200 -fo whole.png room.ug
-ugphoton -aa 2 -sz 256 256 -fo whole256.png room.ug
+ugphoton -ex 0 -aa 2 -sz 200 200 -fo whole.png room.ug
+ugphoton -ex 0 -aa 2 -sz 256 256 -fo whole256.png room.ug
 ! cmp -s whole/frame_000001.png whole/frame_000002.png || fail "all frames are alike"
 
 say "Snakemake: a film, of which a job is killed, and a picture"

@@ -40,7 +40,7 @@ flyby() {
     local name=$1 rows=() time row
     for time in 07 12 17 22; do
         row=$out/rows/$name-$time.png
-        ugphoton -qt -vel .95 0 0 -ti $time --no-doppler -va 90 -ex "$3" -tc filmic -sz "$width" $((height / 4 - 3)) -fo "$row" "$2"
+        ugphoton -look 1988 -qt -vel .95 0 0 -ti $time --no-doppler -va 90 -ex "$3" -tc filmic -sz "$width" $((height / 4 - 3)) -fo "$row" "$2"
         rows+=("$row")
     done
     tile "$out/$name.png" 1 "${rows[@]}"
@@ -64,7 +64,7 @@ draw() {
 trace() {
     local name=$1
     shift
-    ugphoton -qt --no-doppler --no-flux -bg .8 210 .25 -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    ugphoton -look 1988 -qt --no-doppler --no-flux -bg .8 210 .25 -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -72,7 +72,7 @@ trace() {
 shine() {
     local name=$1
     shift
-    ugphoton -qt --no-doppler -tc filmic -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    ugphoton -look 1988 -qt --no-doppler -tc filmic -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -80,7 +80,7 @@ shine() {
 warp() {
     local name=$1
     shift
-    ugwarp -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    ugwarp -look 1988 -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -192,7 +192,7 @@ uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c
 uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03d-0.6c-searchlight -ex -3.32
 
 # The same four from a panorama of the tunnel at rest.
-ugphoton -qt -sp -pan -aa 2 -sz 4096 2048 -dt exr tunnel.ug -fo "$out/rows/tunnel.exr"
+ugphoton -look 1988 -qt -sp -pan -aa 2 -sz 4096 2048 -dt exr tunnel.ug -fo "$out/rows/tunnel.exr"
 tunnel_view() { warp "$1" --basis 3500 5900 10000 -va 90 73.74 -aa 2 "${@:2}" "$out/rows/tunnel.exr"; }
 tunnel_view weiskopf-03a-warped-rest
 tunnel_view weiskopf-03b-warped-0.6c-shape -cv 0 .6 0 --no-doppler --no-flux

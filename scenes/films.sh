@@ -24,8 +24,8 @@ film() {
     local name=$1 height=$((width * $2 / 100))
     shift 2
     mkdir -p "$out/$name"
-    ugfilm -qt -frames "$frames" -sz "$width" "$height" "$@" -keep "$out/$name/%05d.png" -fo "$out/$name.apng"
-    ugfilm -qt -frames "$frames" -sz $((width / 4)) $((height / 4)) "$@" -sheet 12 -fo "$out/$name-sheet.png"
+    ugfilm -look 1988 -qt -frames "$frames" -sz "$width" "$height" "$@" -keep "$out/$name/%05d.png" -fo "$out/$name.apng"
+    ugfilm -look 1988 -qt -frames "$frames" -sz $((width / 4)) $((height / 4)) "$@" -sheet 12 -fo "$out/$name-sheet.png"
     printf '%s\n' "$name.apng"
 }
 
@@ -54,7 +54,7 @@ clip() {
 half() {
     local scene=$out/$2/$1.ug
     sed "/^i cube/{s/<.*>/<$5>/; s/-ta 0/-ta $4/}; s/white glass/white $3/g" room.ug > "$scene"
-    ugfilm -qt -rays --no-doppler --no-flux -frames "$frames" -sz $((width / 2)) $((width * 3 / 8)) -ti "$6" \
+    ugfilm -look 1988 -qt -rays --no-doppler --no-flux -frames "$frames" -sz $((width / 2)) $((width * 3 / 8)) -ti "$6" \
         "$scene" -keep "$out/$2/$1-%05d.png" -fo "$out/$2-$1.apng"
 }
 
@@ -71,7 +71,7 @@ film nguyen-ship 75 -vel '0 0 0 .. .99 0 0' -in --no-doppler --no-flux ship.ug
 film street 80 -cv '0 0 0 .. 0 .99 0' -ep 0 -14..6 3 -sp -ex auto street.ug
 
 # A panorama of the tunnel, seen at growing speed.
-ugphoton -qt -pan -sz 2048 1024 tunnel.ug -fo "$out/sky.png"
+ugphoton -look 1988 -qt -pan -sz 2048 1024 tunnel.ug -fo "$out/sky.png"
 film panorama 75 -warp -cv '0 0 0 .. 0 .95 0' -sp -ex auto -va 100 "$out/sky.png"
 
 # Li, Shum and Peng 2001: six clips, of the cubes of figures 5 and 6, each at a hundredth of the speed

@@ -288,7 +288,7 @@ fn the_exposure_of_a_film_is_kept_for_the_next_start() {
     let kept = "ugfilm: note: one exposure for all frames: -ex 9.125";
     assert_eq!(film("", "dice.ug"), kept);
     // It is that of other options or another scene no longer.
-    assert_ne!(film("-sp", "dice.ug"), kept);
+    assert_ne!(film("-br photon", "dice.ug"), kept);
     assert_eq!(film("", "dice.ug"), found);
     shell.run("sed -i 's/ .*/ 9.125/' .f_1.png.exposure");
     shell.run("sed 's/^l 0.35/l 0.3/' dice.ug > dim.ug");
@@ -408,9 +408,9 @@ fn light(shell: &Shell, name: &str) -> Vec<[f32; 4]> {
 fn motion_blur_is_the_mean_light_of_its_moments() {
     let shell = Shell::new();
     // What does not change over the film is not blurred.
-    let rest = "-frames 2 -vel 0 .5 0 -in -sp -sz 60 40 -cap 'β = {beta}' dice.ug";
+    let rest = "-frames 2 -vel 0 .5 0 -in -ex 0 -sz 60 40 -cap 'β = {beta}' dice.ug";
     shell.run(&format!("ugfilm {rest} -blur 1 -moments 7 -fo blurred_%d.png"));
-    shell.run(&format!("ugfilm {rest} -ex 0 -fo sharp_%d.png"));
+    shell.run(&format!("ugfilm {rest} -fo sharp_%d.png"));
     let pixels = |name: &str| shell.pixels(name);
     assert!(pixels("blurred_1.png") == pixels("sharp_1.png"));
     // `--print` prints one command for each moment.

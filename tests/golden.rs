@@ -268,7 +268,7 @@ fn check_commands(commands: &str, names: &[&str]) {
 
 #[test]
 fn rays_show_mirrors_shadows_and_glass() {
-    const SHAPES: &str = "--no-doppler --no-flux -bg .8 210 .25 -aa 3 -sz 160 120 -in";
+    const SHAPES: &str = "-look 1988 --no-doppler --no-flux -bg .8 210 .25 -aa 3 -sz 160 120 -in";
     for (name, options) in [
         ("rays-cube-and-its-mirror-image-0.9c", "mirrors.ug"),
         ("rays-shadow-lags-0.95c", "shadow.ug"),
@@ -284,9 +284,9 @@ fn rays_show_mirrors_shadows_and_glass() {
 #[test]
 fn panoramas_are_warped_and_stars_drawn() {
     check_commands(
-        "ugphoton -pan -sz 512 256 -aa 2 street.ug -fo sky.png
-         ugwarp -cv 0 .5 0 -va 90 -sz 160 120 sky.png -fo warp-street-0.5c.png
-         ugwarp -cv 0 .9 0 -va 90 -ex auto -sz 160 120 stars.csv -fo warp-stars-0.9c.png",
+        "ugphoton -look 1988 -pan -sz 512 256 -aa 2 street.ug -fo sky.png
+         ugwarp -look 1988 -cv 0 .5 0 -va 90 -sz 160 120 sky.png -fo warp-street-0.5c.png
+         ugwarp -look 1988 -cv 0 .9 0 -va 90 -ex auto -sz 160 120 stars.csv -fo warp-stars-0.9c.png",
         &["warp-street-0.5c", "warp-stars-0.9c"],
     );
 }
@@ -294,7 +294,7 @@ fn panoramas_are_warped_and_stars_drawn() {
 #[test]
 fn frames_of_a_film_follow_a_shadow() {
     check_commands(
-        "ugfilm -rays -frames 3 -ti -3..3 -vel .9 0 0 -in --no-doppler --no-flux -bg .8 210 .25 \
+        "ugfilm -look 1988 -rays -frames 3 -ti -3..3 -vel .9 0 0 -in --no-doppler --no-flux -bg .8 210 .25 \
          -sz 96 72 -aa 2 shadow.ug -fo film-shadow-lags-0.9c-%d.png",
         &["film-shadow-lags-0.9c-1", "film-shadow-lags-0.9c-2", "film-shadow-lags-0.9c-3"],
     );

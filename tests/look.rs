@@ -35,8 +35,8 @@ fn of_program(words: &[&str]) -> String {
 fn check(words: &[&str], options: &[&str]) {
     let (name, others) = words.split_first().unwrap();
     // The options of a look come first.
-    let spelt: Vec<&str> = [&[*name], options, others].concat();
-    let spelt: Vec<&str> = spelt.into_iter().filter(|word| !is_look(word)).collect();
+    let others = others.iter().filter(|word| !is_look(word)).copied();
+    let spelt: Vec<&str> = [&[*name, "-look=1988"], options].concat().into_iter().chain(others).collect();
     assert_eq!(of_program(words), of_program(&spelt), "{words:?} is not {spelt:?}");
 }
 
@@ -61,6 +61,17 @@ fn looks_stand_for_the_options_of_the_manual() {
                 if options == "no change" { Vec::new() } else { options.split(' ').collect() };
             check(&[&program, &[look][..]].concat(), &options);
         }
+    }
+}
+
+#[test]
+fn programs_have_looks_of_their_own() {
+    check(&["ugphoton"], &["-sp", "-vr", "-ex", "auto", "-tc", "filmic"]);
+    check(&["ugphoton", "-crop", "0", "0", "9", "9"], &["-sp", "-vr", "-tc", "filmic"]);
+    check(&["ugwarp"], &["-sp", "-ex", "auto", "-tc", "filmic"]);
+    check(&["ugfilm"], &["-sp", "-vr", "-ex", "auto", "-tc", "filmic"]);
+    for name in ["uglorentz", "ugdoppler", "ugrainbow"] {
+        check(&[name], &[]);
     }
 }
 

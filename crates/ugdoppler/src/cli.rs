@@ -8,7 +8,7 @@ use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::Velocity;
 use ugpipe::{
-    CommonArgs, Context, Failure, LookArgs, Looks, Manual, Progress, ToolArgs, Words, numbers, remedies,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, Progress, ToolArgs, Words, numbers, remedies,
 };
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
@@ -92,6 +92,7 @@ impl ToolArgs for Args {
         &["-sp", "-look", "-br", "-gw", "-ir", "-hd", "-li", "-vr", "--no-doppler", "--no-flux", "-fo"];
 
     const LOOKS: Looks = Looks {
+        default: Look::Report,
         light: &[ShiftArgs::SPECTRA, RepeatArgs::APART],
         shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART],
     };

@@ -9,8 +9,8 @@ use ugimage::Format;
 use ugparse::pipe;
 use ugpicture::cli::PictureArgs;
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given, one_of,
-    parse_words, sha256, shell_os_word, whole,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
+    one_of, parse_words, sha256, shell_os_word, whole,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
@@ -114,7 +114,7 @@ const FILM: &str = "Film";
 
 const EXAMPLES: &str = "Examples:
   ugfilm -frames 40 -vel .9 0 0 -ti 3..36 -va 90 -look shape -sz 640 240 -fo pass.gif teapot.ug
-  ugfilm -frames 40 -cv '0 0 0 .. 0 .99 0' -sp -ex auto -fo drive_%04d.png street.ug
+  ugfilm -frames 40 -cv '0 0 0 .. 0 .99 0' -fo drive_%04d.png street.ug
   ugfilm -rays -frames 20 -vel .95 0 0 -ti -4..4 -fo shadow.apng shadow.ug";
 
 /// Frames by number.
@@ -131,6 +131,7 @@ impl ToolArgs for Args {
         &["--frames", "-vel", "-cv", "-ti", "-ep", "-look", "-ex", "-sz", "-rays", "-only", "--print", "-fo"];
 
     const LOOKS: Looks = Looks {
+        default: Look::Light,
         light: &[
             ShiftArgs::SPECTRA,
             RepeatArgs::APART.with(has_faces),
@@ -213,8 +214,8 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The exposure of all frames. Beside files of frames it is kept for the next start, unless their
-/// commands are only printed.
+/// The exposure of all frames. Beside files of frames it is kept for the next start, if they can be
+/// written there, unless their commands are only printed.
 fn exposure(
     film: &Film<'_>,
     names: Option<&FrameNames>,
@@ -228,7 +229,8 @@ fn exposure(
     }
     let stops = film.exposure(&context.steps())?;
     if !is_printed {
-        keep_exposure(names, &key, stops)?;
+        // Where it cannot be written the frames cannot either, which is told of them.
+        let _ = keep_exposure(names, &key, stops);
     }
     Ok(stops)
 }

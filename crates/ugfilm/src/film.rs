@@ -188,7 +188,7 @@ impl Film<'_> {
     /// # Errors
     /// A frame cannot be drawn.
     pub fn exposure(&self, steps: &Steps<'_>) -> Result<f64, Failure> {
-        let tone = self.pipe(1)?.picture.tone;
+        let tone = about(1, self.pipe(1))?.picture.tone;
         let frames = self.small(("measuring", steps), |pipe| pipe.light(self.subject))?;
         let pixels: Vec<[f32; 4]> = frames.iter().flat_map(LinearFrame::pixels).copied().collect();
         Ok(auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), tone))
@@ -204,7 +204,7 @@ impl Film<'_> {
         let mut text = env!("CARGO_PKG_VERSION").to_owned();
         for frame in self.spread(MOST_MEASURED) {
             text.push('\n');
-            text += &self.script.commands(f64::from(frame), &[])?.line(None, None);
+            text += &about(frame, self.script.commands(f64::from(frame), &[]))?.line(None, None);
         }
         let mut bytes = text.into_bytes();
         bytes.extend(ugparse::write(scene));

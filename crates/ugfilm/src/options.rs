@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::{CommonArgs, Failure, SetNumbers, ToolArgs, parse_words, set_numbers};
+use ugpipe::{CommonArgs, Failure, Look, SetNumbers, ToolArgs, parse_words, set_numbers};
 
 use crate::program::Program;
 
@@ -14,6 +14,7 @@ pub struct Tool {
     /// The heading of its options in `--help`.
     heading: &'static str,
     command: fn() -> Command,
+    look: Look,
     /// Parses its words, of which the first is its name.
     pub parse: fn(&[String]) -> Result<Typed, Failure>,
 }
@@ -28,6 +29,7 @@ macro_rules! tool {
         &Tool {
             heading: concat!("Options of ", stringify!($krate)),
             command: $krate::Args::command,
+            look: <$krate::Args as ToolArgs>::LOOKS.default,
             parse: |words| typed(words, |$args: &$krate::Args| Ok(Program::$variant($config?))),
         }
     };
@@ -113,6 +115,12 @@ impl Tool {
     /// Its name.
     pub fn name(&self) -> &'static str {
         self.heading.trim_start_matches("Options of ")
+    }
+
+    /// Words before all options, so that nothing but these decides the picture: a look of its own
+    /// would add others.
+    pub fn first_words(&self) -> &'static [&'static str] {
+        if self.look == Look::Report { &[] } else { &["--look", "1988"] }
     }
 
     /// Its options that a film has, too.

@@ -82,8 +82,13 @@ impl Script {
     /// # Errors
     /// No program of the pipe has this option, or it was added before.
     pub fn add_timeline(&mut self, name: &str, timeline: Timeline) -> Result<(), Failure> {
-        if self.get(name).is_some() {
-            return Err(refused(name, "it is given twice"));
+        match self.get(name) {
+            // Of a look; the film has numbers.
+            Some(Timeline::Fixed(words)) if words[..] == ["auto"] => {
+                self.options.retain(|setting| setting.name != name);
+            }
+            Some(_) => return Err(refused(name, "it is given twice")),
+            None => {}
         }
         let owners = self.owners(name);
         if owners.is_empty() {
@@ -209,7 +214,10 @@ impl Script {
     /// # Errors
     /// A caption asks for what the frame does not have.
     pub fn commands(&self, frame: f64, left_out: &[&str]) -> Result<Commands, Failure> {
-        let begin = |tool: &&Tool| [tool.name().to_owned()].into_iter().chain(self.reading.clone()).collect();
+        let begin = |tool: &&Tool| {
+            let first = [tool.name()].into_iter().chain(tool.first_words().iter().copied());
+            first.map(str::to_owned).chain(self.reading.clone()).collect()
+        };
         let mut commands = Commands(self.tools.iter().map(begin).collect());
         for setting in self.settings(left_out) {
             let values = self.values(setting, frame)?;

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, LookArgs, Looks, Manual, Progress, ToolArgs, count, finite, numbers, whole,
+    CommonArgs, Context, Failure, LookArgs, Manual, Progress, ToolArgs, count, finite, numbers, whole,
 };
 use ugscene::Provenance;
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
@@ -175,8 +175,6 @@ impl ToolArgs for Args {
         "-at",
         "-fo",
     ];
-
-    const LOOKS: Looks = Looks { light: &[], shape: &[] };
 
     fn common(&self) -> &CommonArgs {
         &self.common

@@ -14,7 +14,8 @@ use ugpicture::cli::{
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpipe::{
-    CommonArgs, Context, Failure, LookArgs, Looks, Manual, ToolArgs, count, number, numbers, one_of, whole,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, count, number, numbers, one_of,
+    whole,
 };
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
@@ -192,6 +193,7 @@ impl ToolArgs for Args {
     ];
 
     const LOOKS: Looks = Looks {
+        default: Look::Light,
         light: &[ShiftArgs::SPECTRA, RepeatArgs::APART, PictureArgs::AUTO_EXPOSURE, PictureArgs::FILMIC],
         shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS, RepeatArgs::APART],
     };

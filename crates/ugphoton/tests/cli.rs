@@ -96,7 +96,7 @@ fn mistakes_have_answers() {
     let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
     refused(&[], seen, 1, "give the scene at rest");
     let glowing = "c_bb hot 3000 1; v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c) hot <.5 0 0>; cam -ep 0 0 0;";
-    refused(&[], glowing, 1, "give -sp");
+    refused(&["-look", "1988"], glowing, 1, "give -sp");
 }
 
 #[test]
@@ -114,7 +114,7 @@ fn notes_say_what_is_missing() {
 
 #[test]
 fn a_closed_pipe_ends_it_silently() {
-    let mut child = ugphoton(&["-sz", "600", "600", "-aa", "1", "-dt", "ppm"]).spawn().unwrap();
+    let mut child = ugphoton(&["-sz", "600", "600", "-ex", "0", "-aa", "1", "-dt", "ppm"]).spawn().unwrap();
     let _ = child.stdin.take().unwrap().write_all(SCENE.as_bytes());
     let mut pipe = child.stdout.take().unwrap();
     pipe.read_exact(&mut [0; 2]).unwrap();

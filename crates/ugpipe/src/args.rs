@@ -12,7 +12,7 @@ pub trait ToolArgs: clap::Parser {
     const ESSENTIAL: &'static [&'static str];
 
     /// The options that the looks of [`crate::LookArgs`] stand for, if it has these.
-    const LOOKS: Looks = Looks { light: &[], shape: &[] };
+    const LOOKS: Looks = Looks::NONE;
 
     /// The options that every program has.
     fn common(&self) -> &CommonArgs;

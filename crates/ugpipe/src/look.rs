@@ -9,7 +9,8 @@ use crate::values::one_of;
 /// [`crate::ToolArgs::LOOKS`].
 #[derive(Args, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LookArgs {
-    /// Look of the picture, in one word: 1988, light, shape
+    /// Look of the picture, in one word: 1988, light, shape [default: light in ugphoton, ugwarp
+    /// and ugfilm, 1988 in the others]
     ///
     /// 1988: the colours of the report of 1988, one wavelength each. light: spectra, exposed as a
     /// camera does. shape: the colours at rest. The word stands for options of this program, all
@@ -51,9 +52,11 @@ fn look(word: &str) -> Result<Look, String> {
     found.ok_or_else(|| format!("none of the looks {}", Look::ALL.map(Look::name).join(", ")))
 }
 
-/// The options that looks stand for in a program; [`Look::Report`] stands for its defaults.
-#[derive(Clone, Copy, Debug, Default)]
+/// The options that looks stand for in a program; [`Look::Report`] stands for none.
+#[derive(Clone, Copy, Debug)]
 pub struct Looks {
+    /// The look unless one is given.
+    pub default: Look,
     /// Of [`Look::Light`].
     pub light: &'static [Preset],
     /// Of [`Look::Shape`].
@@ -69,6 +72,11 @@ pub struct Preset {
     pub unless: &'static [&'static str],
     /// True if it suits the command line.
     pub suits: fn(&ArgMatches) -> bool,
+}
+
+impl Looks {
+    /// Of a program without options that looks stand for.
+    pub const NONE: Self = Self { default: Look::Report, light: &[], shape: &[] };
 }
 
 impl Preset {
@@ -96,10 +104,10 @@ pub fn is_given(matches: &ArgMatches, name: &str) -> bool {
 
 /// The words of the look on a command line, with two dashes.
 pub(crate) fn words(matches: &ArgMatches, looks: &Looks) -> Vec<String> {
-    let presets = match matches.try_get_one(LOOK).ok().flatten() {
-        Some(Look::Light) => looks.light,
-        Some(Look::Shape) => looks.shape,
-        Some(Look::Report) | None => return Vec::new(),
+    let presets = match matches.try_get_one(LOOK).ok().flatten().unwrap_or(&looks.default) {
+        Look::Light => looks.light,
+        Look::Shape => looks.shape,
+        Look::Report => return Vec::new(),
     };
     let presets = presets.iter().filter(|preset| !preset.is_replaced(matches) && (preset.suits)(matches));
     let words = |preset: &Preset| {

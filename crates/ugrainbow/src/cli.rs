@@ -14,7 +14,7 @@ use ugpicture::cli::{
     pixel, refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpipe::{
-    CommonArgs, Context, Failure, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, numbers,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, numbers,
     one_of,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
@@ -175,6 +175,7 @@ impl ToolArgs for Args {
         &["-sz", "-ep", "-vc", "-va", "-look", "-ex", "-bg", "-aa", "-lg", "-vec", "-xc", "-fo"];
 
     const LOOKS: Looks = Looks {
+        default: Look::Report,
         light: &[
             RepeatArgs::APART.with(is_exact),
             PictureArgs::AUTO_EXPOSURE,

@@ -17,8 +17,8 @@ use ugpicture::cli::{
     write_picture,
 };
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, LookArgs, Looks, Manual, ToolArgs, Words, finite, number, numbers,
-    one_of, remedies, sha256, vector,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
+    numbers, one_of, remedies, sha256, vector,
 };
 use ugscene::Provenance;
 use ugscene::cli::ShiftArgs;
@@ -179,6 +179,7 @@ impl ToolArgs for Args {
         &["-vel", "-cv", "-part", "-look", "-vc", "-va", "-pan", "-fish", "-sz", "-ex", "-fo"];
 
     const LOOKS: Looks = Looks {
+        default: Look::Light,
         light: &[ShiftArgs::SPECTRA, PictureArgs::AUTO_EXPOSURE, PictureArgs::FILMIC],
         shape: &[ShiftArgs::REST_WAVELENGTHS, ShiftArgs::REST_BRIGHTNESS],
     };

@@ -131,7 +131,7 @@ fn light_that_is_not_finite_is_bounded() {
 
 #[test]
 fn a_closed_pipe_ends_the_program() {
-    let mut child = ugwarp(&["-sz", "2000", "2000", "-dt", "ppm"]).spawn().unwrap();
+    let mut child = ugwarp(&["-sz", "2000", "2000", "-ex", "0", "-dt", "ppm"]).spawn().unwrap();
     child.stdin.take().unwrap().write_all(&sky()).unwrap();
     let mut stdout = child.stdout.take().unwrap();
     stdout.read_exact(&mut [0; 9]).unwrap();
