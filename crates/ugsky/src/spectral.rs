@@ -13,8 +13,12 @@ use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 /// basis is an assumption about both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Basis {
-    /// Daylight on a surface with a smooth reflectance (P20): few features, daylight outside the
-    /// visible range.
+    /// Daylight on a mixture of white, a pair of primaries and a primary, each with the reflectance
+    /// of (P20) (Smits 1999). Colours that differ little have spectra that differ little, in the
+    /// infrared as well.
+    Mixture,
+    /// Daylight on a surface with a smooth reflectance (P20), as scenes have it. A hardly visible
+    /// tint decides how much infrared light there is.
     Smooth,
     /// Sums of black bodies at three temperatures, in kelvins (Weiskopf 2000). Saturated colours
     /// need negative amounts of some.
@@ -89,7 +93,23 @@ enum Kind {
         ratio: Vec<f64>,
     },
     Smooth(SmoothTable),
+    /// The light seen of [`PURE`], by ln D.
+    Mixture {
+        first: f64,
+        lights: Vec<[[f32; 3]; PURE.len()]>,
+    },
 }
+
+/// White, the primaries, and the pairs that lack one of them.
+const PURE: [[f64; 3]; 7] = [
+    [1.0, 1.0, 1.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [1.0, 1.0, 0.0],
+];
 
 impl SpectralTable {
     /// A table for Doppler factors up to e^±`reach`. `doppler`: wavelengths are shifted; `flux`:
@@ -111,6 +131,7 @@ impl SpectralTable {
             Basis::BlackBody if range != ALL_NM => return Err(BasisError::BlackBodyRange),
             Basis::BlackBody => black_bodies(reach),
             Basis::Smooth => Kind::Smooth(SmoothTable::new(reach, range)),
+            Basis::Mixture => mixture(reach, &range),
             Basis::Grey => grey(reach, &range),
         };
         Ok(Self { doppler, flux, kind })
@@ -132,6 +153,10 @@ impl SpectralTable {
             }
             Kind::BlackBody { first, points, ratio } => black_body_seen(rgb, shift, *first, points, ratio),
             Kind::Smooth(table) => table.seen(rgb, shift),
+            Kind::Mixture { first, lights } => {
+                let (idx, part) = place(shift, *first, STEP, lights.len());
+                mixture_seen(rgb, [&lights[idx], &lights[idx + 1]], part)
+            }
         };
         if !self.flux {
             return seen;
@@ -181,15 +206,7 @@ fn planck(kelvin: [f64; 3], reach: f64, range: &Range<f64>) -> Result<Kind, Basi
         return Err(error);
     }
     let spectra = kelvin.map(|kelvin| Spectrum::blackbody(kelvin, 1.0));
-    let lights = spectra.each_ref().map(LightSpectrum::new);
-    let colors = |ln_doppler: f64| -> [[f64; 3]; 3] {
-        std::array::from_fn(|idx| {
-            xyz_to_linear_srgb(match *range == ALL_NM {
-                true => spectra[idx].shifted(libm::exp(ln_doppler)),
-                false => shifted(&lights[idx], range, ln_doppler),
-            })
-        })
-    };
+    let colors = colors_of(&spectra, range);
     // The amounts of the three bodies in a colour are those of the whole light at rest.
     let rest = spectra.each_ref().map(|spectrum| xyz_to_linear_srgb(spectrum.shifted(1.0)));
     let inverse = inverse(rest).ok_or(error)?;
@@ -201,6 +218,50 @@ fn planck(kelvin: [f64; 3], reach: f64, range: &Range<f64>) -> Result<Kind, Basi
         })
     };
     Ok(Kind::Linear { first, maps: (0..n).into_par_iter().map(map).collect() })
+}
+
+/// The linear red, green and blue of spectra by ln D, without D⁵.
+fn colors_of<const N: usize>(
+    spectra: &[Spectrum; N],
+    range: &Range<f64>,
+) -> impl Fn(f64) -> [[f64; 3]; N] + Sync {
+    let lights = spectra.each_ref().map(LightSpectrum::new);
+    move |ln_doppler| {
+        std::array::from_fn(|idx| {
+            xyz_to_linear_srgb(match *range == ALL_NM {
+                true => spectra[idx].shifted(libm::exp(ln_doppler)),
+                false => shifted(&lights[idx], range, ln_doppler),
+            })
+        })
+    }
+}
+
+fn mixture(reach: f64, range: &Range<f64>) -> Kind {
+    let spectra = PURE.map(Spectrum::from_linear_srgb);
+    let colors = colors_of(&spectra, range);
+    let (first, n) = range_of(reach, STEP);
+    let light = |idx: usize| colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
+    Kind::Mixture { first, lights: (0..n).into_par_iter().map(light).collect() }
+}
+
+/// The light of a mixture between two entries of the table: as much white as all channels have, as
+/// much of a pair as the two brighter ones have more, and the rest of the brightest.
+fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; PURE.len()]; 2], part: f32) -> [f32; 3] {
+    let rgb = rgb.map(|part| part.max(0.0));
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| rgb[*a].total_cmp(&rgb[*b]));
+    let [darkest, middle, brightest] = order;
+    let amounts = [
+        (0, rgb[darkest]),
+        (4 + darkest, rgb[middle] - rgb[darkest]),
+        (1 + brightest, rgb[brightest] - rgb[middle]),
+    ];
+    std::array::from_fn(|c| {
+        amounts
+            .iter()
+            .map(|&(pure, amount)| amount * (low[pure][c] + part * (high[pure][c] - low[pure][c])))
+            .sum()
+    })
 }
 
 /// The matrix that gives the amounts of three colours in a colour; `None` if they are not
@@ -386,14 +447,12 @@ mod tests {
     const COLORS: [[f32; 3]; 5] =
         [[0.5, 0.5, 0.5], [0.5, 0.2, 0.1], [0.1, 0.5, 0.3], [0.2, 0.3, 0.5], [0.5, 0.45, 0.05]];
 
-    fn bases() -> [Basis; 3] {
-        [Basis::Smooth, Basis::Planck([3500.0, 5900.0, 10_000.0]), Basis::BlackBody]
-    }
+    const KEEPING: [Basis; 3] = [Basis::Smooth, Basis::Mixture, Basis::Planck([3500.0, 5900.0, 10_000.0])];
 
     #[test]
     fn colours_at_rest_are_kept() {
-        for basis in &bases()[..2] {
-            let table = SpectralTable::new(*basis, true, true, 1.0, ALL_NM).unwrap();
+        for basis in KEEPING {
+            let table = SpectralTable::new(basis, true, true, 1.0, ALL_NM).unwrap();
             for rgb in COLORS {
                 let seen = table.seen(rgb, 1.0);
                 let error = (0..3).map(|i| (seen[i] - rgb[i]).abs()).fold(0.0, f32::max);
@@ -469,6 +528,43 @@ mod tests {
         assert!((sum / n).sqrt() < 0.02, "{}", (sum / n).sqrt());
     }
 
+    /// White, primaries and pairs are the surfaces of scenes.
+    #[test]
+    fn mixtures_are_of_surfaces() {
+        let table = SpectralTable::new(Basis::Mixture, true, true, 1.0, ALL_NM).unwrap();
+        for pure in PURE {
+            let spectrum = Spectrum::from_linear_srgb(pure);
+            for step in -9..=9 {
+                let doppler = libm::exp(0.1037 * f64::from(step));
+                let seen = table.seen(pure.map(|part| part as f32), doppler).map(f64::from);
+                let exact = xyz_to_linear_srgb(spectrum.seen(doppler));
+                let size = exact.iter().fold(1e-6, |most: f64, part| most.max(part.abs()));
+                let error = (0..3).map(|i| (seen[i] - exact[i]).abs() / size).fold(0.0, f64::max);
+                assert!(error < 2e-3, "{pure:?} {doppler}: {seen:?} {exact:?}");
+            }
+        }
+    }
+
+    /// Along a line from one colour to another no light is darker than at its ends: the edge of a
+    /// yellowish line on a bluish road is between both, as it was at rest.
+    #[test]
+    fn mixtures_of_similar_colours_are_between_them() {
+        let table = SpectralTable::new(Basis::Mixture, true, true, 1.0, ALL_NM).unwrap();
+        let [road, line] = [[0.053, 0.054, 0.062], [0.352, 0.352, 0.283]];
+        for ln_doppler in [-0.6, -0.3, 0.3, 0.6, 0.9] {
+            let brightness = |rgb| luminance(table.seen(rgb, libm::exp(ln_doppler)).map(f64::from));
+            let [dark, bright] = [road, line].map(brightness);
+            for step in 0..=20 {
+                let part = 0.05 * step as f32;
+                let seen = brightness(std::array::from_fn(|i| road[i] + part * (line[i] - road[i])));
+                assert!(
+                    seen > dark * 0.999 && seen < bright * 1.001,
+                    "{ln_doppler} {part}: {dark} {seen} {bright}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn dependent_temperatures_are_refused() {
         for kelvin in [[3500.0, 3500.0, 9000.0], [3500.0, 5900.0, f64::NAN], [1.0, 5900.0, 9000.0]] {
@@ -480,7 +576,7 @@ mod tests {
     #[test]
     fn parts_of_spectra_add_up() {
         let (grey, ranges) = ([0.4_f32; 3], [0.0..360.0, 360.0..830.0, 830.0..f64::INFINITY]);
-        for basis in [Basis::Smooth, Basis::Grey, Basis::Planck([3500.0, 5900.0, 10_000.0])] {
+        for basis in [Basis::Mixture, Basis::Smooth, Basis::Grey, Basis::Planck([3500.0, 5900.0, 10_000.0])] {
             let table = |range| SpectralTable::new(basis, true, true, 1.0, range).unwrap();
             let (whole, parts) = (table(ALL_NM), ranges.clone().map(table));
             // At rest only visible light is seen.

@@ -70,11 +70,12 @@ pub struct Args {
     #[command(flatten, next_help_heading = COLOR)]
     shift: ShiftArgs,
 
-    /// Spectra of colours: smooth, blackbody, or three temperatures [default: smooth]
+    /// Spectra of colours: mixture, smooth, blackbody, or three temperatures [default: mixture]
     ///
     /// A picture has three numbers per colour and no infrared or ultraviolet light, so its spectra
-    /// are an assumption. smooth: daylight on surfaces with smooth reflectances. blackbody: each
-    /// colour is a black body. Three temperatures in kelvins, such as 3500 5900 10000: sums of
+    /// are an assumption. mixture: daylight on mixtures of white and pure colours, for photographs.
+    /// smooth: daylight on the surfaces of scenes, for panoramas that were drawn of one. blackbody:
+    /// each colour is a black body. Three temperatures in kelvins, such as 3500 5900 10000: sums of
     /// black bodies. Implies -sp.
     #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
           conflicts_with = "br", help_heading = COLOR)]
@@ -200,7 +201,7 @@ impl Args {
         Ok(Config {
             velocity: self.velocity()?,
             shift: self.color_shift(),
-            basis: self.basis.as_deref().map_or(Ok(Basis::Smooth), basis)?,
+            basis: self.basis.as_deref().map_or(Ok(Basis::Mixture), basis)?,
             picture: self.picture.options(output, self.annotations.options())?,
             lens: self.lens.lens(),
             stars: StarOptions {
@@ -354,6 +355,7 @@ fn arrangement(word: &str) -> Result<Arrangement, String> {
 /// The name of a basis, or three temperatures.
 fn basis(words: &[String]) -> Result<Basis, Failure> {
     match words {
+        [word] if word == "mixture" => Ok(Basis::Mixture),
         [word] if word == "smooth" => Ok(Basis::Smooth),
         [word] if word == "blackbody" => Ok(Basis::BlackBody),
         [first, second, third] => {
@@ -361,7 +363,7 @@ fn basis(words: &[String]) -> Result<Basis, Failure> {
             Ok(Basis::Planck([kelvin(first)?, kelvin(second)?, kelvin(third)?]))
         }
         _ => Err(Failure::Usage(format!(
-            "`{}` is no basis: --basis takes smooth, blackbody or three temperatures",
+            "`{}` is no basis: --basis takes mixture, smooth, blackbody or three temperatures",
             words.join(" ")
         ))),
     }

@@ -36,7 +36,7 @@ impl Default for Config {
         Self {
             velocity: Velocity::ZERO,
             shift: ColorShift::default(),
-            basis: Basis::Smooth,
+            basis: Basis::Mixture,
             picture: PictureOptions { samples: 1, ..PictureOptions::default() },
             lens: Lens::Pinhole,
             stars: StarOptions::default(),

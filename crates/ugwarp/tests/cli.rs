@@ -80,7 +80,7 @@ fn mistakes_have_answers() {
     refused(&["-gr"], &sky, 2, "are for scenes");
     refused(&["-cube"], &sky, 2, "give -sz W H with W = 6 H");
     refused(&["-dt", "exr", "-ch", "time"], &sky, 2, "the channels of a panorama are D, direction");
-    refused(&["--basis", "green"], &sky, 2, "--basis takes smooth, blackbody or three temperatures");
+    refused(&["--basis", "green"], &sky, 2, "--basis takes mixture, smooth, blackbody or three temperatures");
     refused(&["--basis", "5000", "5000", "9000"], &sky, 2, "are no basis of colours");
     refused(&["-part", "10", "-10", "0", "20"], &sky, 2, "must increase from west to east");
     refused(&["-vc", "0", "0", "0"], &sky, 1, "no direction to look in");
