@@ -94,7 +94,9 @@ impl StarField {
         }
         let (mut sum, mut first, mut last) = (0.0, u32::MAX, 0);
         for window in self.film.cap(direction, StarOptions::REACH * deviation) {
-            self.film.visit(&window, |facet| {
+            // Pixels may be much longer than wide: along a disc there are more than can be counted,
+            // and the sum over some of them is as exact.
+            self.film.visit_evenly(&window, |facet| {
                 let square = (facet.direction - direction).length_squared();
                 sum += StarOptions::profile(square, deviation) * facet.solid_angle;
             });
@@ -128,7 +130,11 @@ impl StarField {
         let bottom = i64::from(top) + (pixels.len() / width) as i64;
         for window in self.film.cap(point.direction, StarOptions::REACH * point.deviation) {
             let rows = window.rows.start.max(i64::from(top))..window.rows.end.min(bottom);
-            self.film.visit(&Window { rows, ..window }, |facet| {
+            let columns = match self.lens {
+                Lens::Pinhole => window.columns.start.max(0)..window.columns.end.min(width as i64),
+                _ => window.columns,
+            };
+            self.film.visit(&Window { columns, rows, ..window }, |facet| {
                 let Some([column, row]) = facet.place else { return };
                 let square = (facet.direction - point.direction).length_squared();
                 let weight = StarOptions::profile(square, point.deviation);

@@ -19,6 +19,9 @@ pub struct Window {
     pub rows: Range<i64>,
 }
 
+/// Pixels in a row or a column of which [`Film::visit_evenly`] visits all.
+const MOST_ACROSS: i64 = 512;
+
 /// A pixel as seen from the eye.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Facet {
@@ -163,6 +166,23 @@ impl Film {
         }
     }
 
+    /// Calls `each` for pixels evenly spread over a window, at most 512 in a row or a
+    /// column, each with the solid angle of all those for which it stands.
+    pub fn visit_evenly(&self, window: &Window, mut each: impl FnMut(&Facet)) {
+        let step = |range: &Range<i64>| (range.end - range.start - 1).max(0) / MOST_ACROSS + 1;
+        let [across, down] = [step(&window.columns), step(&window.rows)];
+        if [across, down] == [1, 1] {
+            return self.visit(window, each);
+        }
+        let part = across as f64 * down as f64;
+        for row in window.rows.clone().step_by(down as usize) {
+            for column in window.columns.clone().step_by(across as usize) {
+                let pixel = Window { columns: column..column + 1, rows: row..row + 1, ..*window };
+                self.visit(&pixel, |facet| each(&Facet { solid_angle: part * facet.solid_angle, ..*facet }));
+            }
+        }
+    }
+
     fn visit_flat(&self, window: &Window, each: &mut impl FnMut(&Facet)) {
         let flat = self.flat(window.frame);
         let area = flat.across.cross(flat.down).length();
@@ -276,6 +296,7 @@ fn clipped(range: &Range<i64>, n: i64) -> Range<i64> {
 mod tests {
     use super::*;
     use crate::lens::tests::film;
+    use ugscene::{CameraOptions, View};
 
     const LENSES: [(Lens, [u32; 2]); 6] = [
         (Lens::Pinhole, [40, 20]),
@@ -368,6 +389,29 @@ mod tests {
             };
             // The rim of a disc goes through pixels.
             assert!((sum / expected - 1.0).abs() < 0.02, "{lens:?}: {sum}, not {expected}");
+        }
+    }
+
+    /// A profile over pixels a million times longer than wide has its integral: the solid angle
+    /// within a chord c is πc².
+    #[test]
+    fn sums_over_some_pixels_are_those_over_all() {
+        for view_angle in [(2.0, Some(2e-6)), (2e-6, Some(2.0)), (2.0, Some(2.0))] {
+            let center = Some(DVec3::Y);
+            let options = CameraOptions { center, view_angle: Some(view_angle), ..CameraOptions::default() };
+            let Ok(view) = View::without_scene(&options, [9, 9]) else { panic!("a camera") };
+            let film = Film::new(Lens::Pinhole, None, &view, [9, 9]);
+            let direction = film.sight([4.7, 4.4]).map_or(DVec3::ZERO, |sight| sight.direction.normalize());
+            let deviation = 4.0 * film.pixel_side(direction);
+            let mut sum = 0.0;
+            for window in film.cap(direction, 4.0 * deviation) {
+                film.visit_evenly(&window, |facet| {
+                    let square = (facet.direction - direction).length_squared();
+                    sum += libm::exp(-0.5 * square / (deviation * deviation)) * facet.solid_angle;
+                });
+            }
+            let expected = TAU * deviation * deviation;
+            assert!((sum / expected - 1.0).abs() < 1e-3, "{view_angle:?}: {sum} {expected}");
         }
     }
 }
