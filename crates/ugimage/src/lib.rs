@@ -64,6 +64,7 @@ mod quantizer;
 mod read;
 mod read_hdr;
 mod read_light;
+mod read_pfm;
 mod svg;
 
 pub use develop::{Development, DevelopmentSteps, Tone, auto_exposure};

@@ -1,4 +1,4 @@
-//! Reads pictures of several formats: PNG, JPEG, Radiance HDR and OpenEXR.
+//! Reads pictures of several formats: PNG, JPEG, Radiance HDR, OpenEXR and PFM.
 
 use std::io::Cursor;
 
@@ -14,7 +14,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 use crate::read::{
     MOST_INFLATED, PictureLimits, ReadError, check_packed, is_png_deep, read_png, read_png_light, reserved,
 };
-use crate::read_hdr;
+use crate::{read_hdr, read_pfm};
 
 /// The pixels of a picture, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,11 +36,11 @@ impl Pixels {
     }
 }
 
-/// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR or OpenEXR. Returns its
-/// size and its pixels. Memory is used only for pixels that the file has.
+/// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR, OpenEXR or PFM.
+/// Returns its size and its pixels. Memory is used only for pixels that the file has.
 ///
 /// Colours of PNG and JPEG are assumed to be sRGB; PNG files with 16 bits per channel are converted
-/// to light. Those of HDR and OpenEXR are assumed to be linear light with the primaries of sRGB.
+/// to light. Those of the others are assumed to be linear light with the primaries of sRGB.
 /// Colour profiles and the orientation that cameras note are not used.
 ///
 /// # Errors
@@ -59,7 +59,10 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pi
         [0xff, 0xd8, 0xff, ..] => jpeg(file, limits),
         [b'#', b'?', ..] => read_hdr::read(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels))),
         [0x76, 0x2f, 0x31, 0x01, ..] => exr(file, limits),
-        _ => Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR or EXR")),
+        [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => {
+            read_pfm::read(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels)))
+        }
+        _ => Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM")),
     }
 }
 

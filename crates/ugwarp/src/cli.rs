@@ -31,9 +31,9 @@ use crate::render::{PROVENANCE, metadata, run};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///
-/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR or EXR) or a list of stars (CSV)
-/// and writes a picture: a perspective view, a panorama, a fisheye or a cube map. In the panorama y
-/// is ahead, in its middle, x is to the right and z up.
+/// Reads an equirectangular panorama or a cube map (PNG, JPEG, HDR, EXR or PFM) or a list of stars
+/// (CSV) and writes a picture: a perspective view, a panorama, a fisheye or a cube map. In the
+/// panorama y is ahead, in its middle, x is to the right and z up.
 #[derive(Clone, Debug, Parser)]
 #[command(name = "ugwarp", version, after_help = EXAMPLES)]
 #[command(mut_arg("aa", |arg| arg.default_value("1")))]

@@ -6,8 +6,8 @@
 //! the spectrum of its colours, infrared and ultraviolet light above all: [`Basis`] and
 //! [`ColorShift`] are assumptions about it.
 //!
-//! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR or EXR files, cube maps among them;
-//!   [`read_stars`] reads a list of stars.
+//! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR, EXR or PFM files, cube maps among
+//!   them; [`read_stars`] reads a list of stars.
 //! - [`render`] draws a panorama, stars or both as a picture; [`light`] returns linear light
 //!   instead.
 //! - [`Warp`] is a picture's map to a sky, and the light of its velocity.

@@ -89,7 +89,7 @@ fn mistakes_have_answers() {
 
 #[test]
 fn what_is_no_panorama_is_refused() {
-    refused(&[], b"GIF89a", 1, "not a picture of a kind that is read: PNG, JPEG, HDR or EXR");
+    refused(&[], b"GIF89a", 1, "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM");
     refused(&[], b"\xff\xd8\xff\xe0", 1, "not a readable JPEG file: the file is truncated");
     refused(&[], b"#?RADIANCE\n", 1, "not a readable HDR file");
     refused(&[], b"\x76\x2f\x31\x01", 1, "not a readable EXR file");

@@ -116,7 +116,7 @@ pub enum File {
     Mesh(ugmesh::MeshFormat),
     /// A PNG file.
     Picture,
-    /// A panorama: a PNG, JPEG, HDR or EXR file.
+    /// A panorama: a PNG, JPEG, HDR, EXR or PFM file.
     Panorama,
     /// A list of stars.
     Stars,

@@ -1,0 +1,105 @@
+//! Reads PFM files: a header of three lines and 32-bit floating point samples, rows from bottom to
+//! top.
+
+use crate::read::{PictureLimits, ReadError, reserved};
+
+const N_BYTES_OF_SAMPLE: usize = 4;
+
+/// The size and the light of a file, in colour (`PF`) or grey (`Pf`).
+///
+/// # Errors
+/// [`ReadError`] if the file is truncated or corrupt, or exceeds a limit.
+pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+    let mut rest = file;
+    let n_channels = match word(&mut rest) {
+        Some("PF") => 3,
+        Some("Pf") => 1,
+        _ => return Err(broken("it begins with another word than PF or Pf")),
+    };
+    let mut side = || word(&mut rest).and_then(|word| word.parse::<u32>().ok());
+    let (Some(width), Some(height)) = (side(), side()) else {
+        return Err(broken("its size is not two numbers"));
+    };
+    let (width, height) = (width as usize, height as usize);
+    let size = limits.check([width, height], size_of::<[f32; 4]>() as u64)?;
+    // The scale has no defined unit; its sign is the byte order.
+    let Some(scale) = word(&mut rest).and_then(|word| word.parse::<f32>().ok()) else {
+        return Err(broken("its scale is not a number"));
+    };
+    let sample = |bytes: &[u8]| {
+        let bytes = bytes.try_into().unwrap_or_default();
+        if scale < 0.0 { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) }
+    };
+    let n_bytes_of_row = N_BYTES_OF_SAMPLE * n_channels * width;
+    let Some(data) = rest.get(..n_bytes_of_row * height) else {
+        return Err(broken("the file is truncated, or its header is wrong"));
+    };
+    let mut pixels = reserved(width * height)?;
+    for row in data.chunks_exact(n_bytes_of_row.max(1)).rev() {
+        pixels.extend(row.chunks_exact(N_BYTES_OF_SAMPLE * n_channels).map(|bytes| {
+            let channel = |idx: usize| {
+                let start = N_BYTES_OF_SAMPLE * (idx % n_channels);
+                sample(&bytes[start..start + N_BYTES_OF_SAMPLE])
+            };
+            [channel(0), channel(1), channel(2), 1.0]
+        }));
+    }
+    Ok((size, pixels))
+}
+
+fn broken(what: &str) -> ReadError {
+    ReadError::new(&format!("not a readable PFM file: {what}"))
+}
+
+/// The next word, and the one blank or line feed after it, which ends the header after the last.
+fn word<'f>(rest: &mut &'f [u8]) -> Option<&'f str> {
+    let start = rest.iter().position(|byte| !byte.is_ascii_whitespace())?;
+    let text = &rest[start..];
+    let end = text.iter().position(u8::is_ascii_whitespace)?;
+    *rest = &text[end + 1..];
+    str::from_utf8(&text[..end]).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(file: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
+        super::read(file, &PictureLimits::default()).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn files_are_read_as_they_were_written() {
+        for frame in crate::linear::test_frames() {
+            let (size, pixels) = read(&crate::pfm::encode(&frame)).unwrap();
+            assert_eq!(size, [frame.width(), frame.height()]);
+            let bits = |light: [f32; 3]| light.map(f32::to_bits);
+            let written: Vec<_> = frame.pixels().iter().map(|&pixel| bits(frame.light_of(pixel))).collect();
+            let read: Vec<_> = pixels.iter().map(|&[r, g, b, _]| bits([r, g, b])).collect();
+            assert_eq!(read, written);
+        }
+    }
+
+    #[test]
+    fn grey_and_the_other_byte_order_are_read() {
+        let file = [&b"Pf 1 2\r\n1.0\n"[..], &2.0_f32.to_be_bytes(), &0.5_f32.to_be_bytes()].concat();
+        // Rows run from bottom to top.
+        assert_eq!(read(&file), Ok(([1, 2], vec![[0.5, 0.5, 0.5, 1.0], [2.0, 2.0, 2.0, 1.0]])));
+        assert_eq!(read(b"PF 0 0 -1\n"), Ok(([0, 0], Vec::new())));
+    }
+
+    #[test]
+    fn invalid_files_are_refused() {
+        for (file, problem) in [
+            (&b"PF\n"[..], "its size is not two numbers"),
+            (b"PF\n2 -1\n-1.0\n", "its size is not two numbers"),
+            (b"PF\n2 1\nx\n", "its scale is not a number"),
+            (b"PF\n2 1\n-1.0\n0123", "the file is truncated, or its header is wrong"),
+            (b"PG\n2 1\n-1.0\n0123", "it begins with another word than PF or Pf"),
+        ] {
+            assert_eq!(read(file), Err(format!("not a readable PFM file: {problem}")));
+        }
+        let large = read(b"PF 4294967295 4294967295 -1 ").unwrap_err();
+        assert!(large.contains("exceed the limit"), "{large}");
+    }
+}
