@@ -873,7 +873,18 @@ def camera(event, u, w):
     return r, received / sent
 
 
+def check_cube():
+    """The faces of the picture `cube`: its scene has the centre, in the frame of the cube, at (2000, 1500, 0)."""
+    v = along("0.8")
+    assert abs(norm(plus(seen(vec(2000, 1500, 0), v), -1, vec(0, 1500, 0)))) < mpf(10) ** -30
+    film = lambda x, y: (lambda p: 400 * 1500 * p[0] / p[1])(seen(vec(x, y, 0), v))  # pixels from the middle
+    far, left, right = film("1999.5", "1500.5"), film("1999.5", "1499.5"), film("2000.5", "1499.5")
+    # Without perspective they are 0.6 and 0.8 of 400 pixels.
+    assert abs(right - left - 240) < 0.1 and abs(left - far - 320) < 0.1
+
+
 def main():
+    check_cube()
     for name, make in sorted((n, f) for n, f in globals().items() if len(n) == 3 and n[0] == "t" and n[1:].isdigit()):
         make()
     check = "--check" in sys.argv

@@ -1,4 +1,4 @@
-//! T08, T09: a unit cube at 0.8 c. At its centre one unit is 400 pixels.
+//! T08, T09: a unit cube at 0.8 c, seen at distance 1500. At its centre one unit is 400 pixels.
 
 use super::pixels::Dominant;
 use super::{MeasuredQuantity, Picture};
@@ -19,7 +19,7 @@ pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let is_left = f64::from(u8::from(last_green < first_red));
     let rest = (1.0 - SPEED * SPEED).sqrt();
     let turned_deg = libm::atan2(side, front).to_degrees();
-    // Half a pixel at both ends, and the effect of perspective over the cube's depth: 1 in 2000.
+    // Half a pixel at both ends, and the effect of perspective over the cube's depth: 1 in 3000.
     let edges = 1.2;
     Ok(vec![
         MeasuredQuantity::new("front, pixels", front, rest * PER_UNIT, edges),

@@ -15,7 +15,7 @@ use std::fmt;
 
 use image::{ImageFormat, RgbImage};
 use ugparse::{Options, Source};
-use ugphoton::{ColorShift, MotionOptions};
+use ugphoton::ColorShift;
 use ugrainbow::PictureOptions;
 
 use camera::Pinhole;
@@ -47,8 +47,6 @@ pub enum DrawnBy {
 /// Options of this project's programs.
 #[derive(Clone, Copy, Default)]
 struct DrawOptions {
-    /// Bodies are placed so that they appear at their coordinates in the scene.
-    in_place: bool,
     /// Colours are shifted.
     shift: bool,
     /// As spectra instead of hues.
@@ -120,7 +118,7 @@ impl fmt::Display for MeasuredQuantity {
     }
 }
 
-const SHAPE: DrawOptions = DrawOptions { in_place: false, shift: false, spectral: false, samples: 1 };
+const SHAPE: DrawOptions = DrawOptions { shift: false, spectral: false, samples: 1 };
 
 /// All cases.
 pub const CASES: [PictureCase; 8] = [
@@ -137,7 +135,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T08, T09: a distant cube seen at right angles to its motion looks rotated by asin 0.8",
         scene: include_str!("../../scenes/cube.ug"),
         size: [800, 800],
-        options: DrawOptions { in_place: true, ..SHAPE },
+        options: SHAPE,
         measure: cube::measure,
     },
     PictureCase {
@@ -177,7 +175,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T22: a moving black body has the colour of a hotter or colder one",
         scene: include_str!("../../scenes/blackbody.ug"),
         size: [400, 100],
-        options: DrawOptions { shift: true, spectral: true, samples: 2, ..SHAPE },
+        options: DrawOptions { shift: true, spectral: true, samples: 2 },
         measure: colours::measure_moving,
     },
     PictureCase {
@@ -232,10 +230,10 @@ impl PictureCase {
     }
 
     fn draw_by_pipe(&self) -> Result<Vec<u8>, String> {
-        let lorentz = uglorentz::Config { in_place: self.options.in_place, ..Default::default() };
         let parsed = ugparse::parse(&self.source("uglorentz"), &Options::default())
             .map_err(|error| error.to_string())?;
-        let (seen, _) = uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
+        let (seen, _) = uglorentz::apply(parsed.scene, &uglorentz::Config::default())
+            .map_err(|error| error.to_string())?;
         // `-vr`: faces of one body keep their own colours.
         let doppler = ugdoppler::Config { repeat: true, shift: self.color_shift(), ..Default::default() };
         let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;
@@ -247,7 +245,6 @@ impl PictureCase {
 
     fn draw_by_rays(&self) -> Result<Vec<u8>, String> {
         let config = ugphoton::Config {
-            motion: MotionOptions { in_place: self.options.in_place, ..Default::default() },
             shift: self.color_shift(),
             picture: self.picture_options(),
             repeat: true,
