@@ -2,14 +2,16 @@
 
 use std::cell::Cell;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
 
 use crate::answer::answer;
+use crate::compare::Comparison;
 use crate::picture::{self, DrawnBy, PictureCase};
+use crate::precision::Precision;
 use crate::scorecard::{Answers, Scorecard, read_answers};
 use crate::suite::{Topic, topics};
 
@@ -32,7 +34,8 @@ const EXAMPLES: &str = "Examples:
   ugconformance questions | ugconformance answer | ugconformance score
   ugconformance draw sphere > sphere.png
   ugconformance draw --rays sphere > sphere.png
-  ugconformance score-image sphere sphere.png";
+  ugconformance score-image sphere sphere.png
+  ugconformance compare mine.png truth.png";
 
 /// Allows options before the command as well as after it, except the one that names the file.
 fn globally(arg: Arg) -> Arg {
@@ -46,13 +49,35 @@ enum Command {
     /// Answer questions with the crates of this project
     Answer(CommonArgs),
     /// Compare answers with the expected ones; status 1 if one is wrong
-    Score(CommonArgs),
+    Score(ScoreArgs),
     /// Measure a PNG of a scene; status 1 if a number is wrong
     ScoreImage(ImageArgs),
+    /// Compare two pictures; status 1 if too many pixels differ
+    Compare(CompareArgs),
     /// Draw a scene with the programs of this project
     Draw(DrawArgs),
-    /// Answer, draw (also by rays) and compare everything; status 1 if something is wrong
-    Check(CommonArgs),
+    /// Write a scene as OBJ, for renderers that do not read UniGrafix
+    Mesh(ImageArgs),
+    /// Write a table: objects (velocity, colour, wavelength) or cameras
+    Table(TableArgs),
+    /// Test the programs of this project; status 1 if one is wrong
+    ///
+    /// Answers, draws, also by rays, and measures everything.
+    Check(ScoreArgs),
+}
+
+#[derive(clap::Args, Debug)]
+struct ScoreArgs {
+    /// Precision of the program's numbers: double, single
+    ///
+    /// In single precision the tolerance of a question is what rounding to 24 bits costs there:
+    /// see conformance/README.md.
+    #[arg(long, value_name = "CLASS", default_value = "double",
+          value_parser = one_of(Precision::ALL.map(Precision::name), precision))]
+    precision: Precision,
+
+    #[command(flatten)]
+    common: CommonArgs,
 }
 
 #[derive(clap::Args, Debug)]
@@ -66,6 +91,55 @@ struct ImageArgs {
 }
 
 #[derive(clap::Args, Debug)]
+struct TableArgs {
+    /// Contents of the table, of all pictures
+    #[arg(value_parser = one_of(TABLES.map(|(name, _)| name), table))]
+    table: Table,
+
+    #[command(flatten)]
+    common: CommonArgs,
+}
+
+/// Writes a table of all pictures.
+type Table = fn() -> Result<String, String>;
+
+const TABLES: [(&str, Table); 2] = [("objects", picture::objects), ("cameras", picture::cameras)];
+
+fn table(name: &str) -> Result<Table, String> {
+    let found = TABLES.into_iter().find(|(known, _)| *known == name);
+    found
+        .map(|(_, table)| table)
+        .ok_or_else(|| format!("unknown table; choose one of {}", TABLES.map(|(name, _)| name).join(", ")))
+}
+
+/// Compares FILE with TRUTH: PNG, EXR, HDR or PFM, of one size.
+#[derive(clap::Args, Debug)]
+struct CompareArgs {
+    /// Difference of a pixel that is allowed, in linear light, relative to the brightest of TRUTH
+    ///
+    /// That of the channel that differs most.
+    #[arg(long, value_name = "T", default_value = "0.01", value_parser = part)]
+    tolerance: f64,
+
+    /// Share of the pixels that may differ by more than that, 0 to 1
+    #[arg(long, value_name = "S", default_value = "0", value_parser = part)]
+    share: f64,
+
+    #[command(flatten)]
+    common: CommonArgs,
+
+    /// The picture to compare with
+    #[arg(id = "files", value_name = "TRUTH")]
+    truth: Option<PathBuf>,
+}
+
+/// Value parser of numbers from 0 to 1.
+fn part(word: &str) -> Result<f64, String> {
+    let part = ugpipe::finite(word)?;
+    if (0.0..=1.0).contains(&part) { Ok(part) } else { Err("must be from 0 to 1".to_string()) }
+}
+
+#[derive(clap::Args, Debug)]
 struct DrawArgs {
     /// Trace rays with ugphoton, instead of the pipe of three programs
     #[arg(long)]
@@ -73,6 +147,11 @@ struct DrawArgs {
 
     #[command(flatten)]
     image: ImageArgs,
+}
+
+fn precision(name: &str) -> Result<Precision, String> {
+    Precision::named(name)
+        .ok_or_else(|| format!("none of the classes {}", Precision::ALL.map(Precision::name).join(", ")))
 }
 
 fn picture_case(name: &str) -> Result<&'static str, String> {
@@ -83,18 +162,18 @@ fn picture_case(name: &str) -> Result<&'static str, String> {
 }
 
 impl ToolArgs for Args {
-    const ESSENTIAL: &'static [&'static str] = &["-fi", "-fo", "-qt"];
+    const ESSENTIAL: &'static [&'static str] = &["-fo", "-qt"];
 
     fn common(&self) -> &CommonArgs {
         match &self.command {
             None => &self.rest,
+            Some(Command::Questions(common) | Command::Answer(common)) => common,
+            Some(Command::Table(table)) => &table.common,
+            Some(Command::Score(score) | Command::Check(score)) => &score.common,
+            Some(Command::Compare(compare)) => &compare.common,
             Some(
-                Command::Questions(common)
-                | Command::Answer(common)
-                | Command::Score(common)
-                | Command::Check(common),
-            ) => common,
-            Some(Command::ScoreImage(image) | Command::Draw(DrawArgs { image, .. })) => &image.common,
+                Command::ScoreImage(image) | Command::Mesh(image) | Command::Draw(DrawArgs { image, .. }),
+            ) => &image.common,
         }
     }
 }
@@ -129,11 +208,11 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             let input = context.input()?;
             context.write_text(&answers(&String::from_utf8_lossy(&input.text)))?;
         }
-        Command::Score(_) => {
+        Command::Score(ScoreArgs { precision, .. }) => {
             let input = context.input()?;
             let answers = read_answers(&String::from_utf8_lossy(&input.text), &topics)
                 .map_err(|error| Failure::failed(format!("{}:{error}", input.name)))?;
-            let card = Scorecard::new(&topics, &answers);
+            let card = Scorecard::new(&topics, &answers, *precision);
             context.write_text(&card.to_string())?;
             return Ok(card.counts()[1] == 0);
         }
@@ -145,6 +224,11 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             context.write_text(&text)?;
             return Ok(is_right);
         }
+        Command::Compare(compare) => {
+            let comparison = compare.compared(context)?;
+            context.write_text(&comparison.to_string())?;
+            return Ok(comparison.share() <= compare.share);
+        }
         Command::Draw(DrawArgs { rays, image }) => {
             if context.output_is_terminal() {
                 return Err(Failure::usage(
@@ -154,8 +238,12 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             let drawn_by = if *rays { DrawnBy::Rays } else { DrawnBy::Pipe };
             context.write(&known(image.case)?.draw(drawn_by).map_err(Failure::failed)?)?;
         }
-        Command::Check(_) => {
-            let (text, is_right) = check(&topics);
+        Command::Mesh(image) => context.write(&known(image.case)?.mesh().map_err(Failure::failed)?)?,
+        Command::Table(TableArgs { table, .. }) => {
+            context.write_text(&table().map_err(Failure::failed)?)?;
+        }
+        Command::Check(ScoreArgs { precision, .. }) => {
+            let (text, is_right) = check(&topics, *precision);
             context.write_text(&text)?;
             return Ok(is_right);
         }
@@ -163,9 +251,20 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     Ok(true)
 }
 
+impl CompareArgs {
+    fn compared(&self, context: &mut Context) -> Result<Comparison, Failure> {
+        let Some(truth) = &self.truth else {
+            return Err(Failure::usage("compare requires two pictures: `ugconformance compare MINE TRUTH`"));
+        };
+        let (mine, truth) = (context.input()?, context.input_file(truth)?);
+        Comparison::new((&mine.name, &mine.text), (&truth.name, &truth.text), self.tolerance)
+            .map_err(Failure::failed)
+    }
+}
+
 /// The error for a command line without a command. A word before it is the name of a file.
 fn no_command(word: Option<&Path>) -> Failure {
-    let commands = "commands are questions, answer, score, score-image, draw and check";
+    let commands = "commands are questions, answer, score, score-image, compare, draw, mesh, table and check";
     Failure::Usage(match word {
         Some(word) => format!("`{}` is not a command; {commands}", word.display()),
         None => format!("a command is missing; {commands}"),
@@ -218,10 +317,10 @@ const BOTH_WAYS: [DrawnBy; 2] = [DrawnBy::Pipe, DrawnBy::Rays];
 
 /// Returns the scorecard and the measurements of this project's programs, with a last line that
 /// lists everything wrong.
-fn check(topics: &[Topic]) -> (String, bool) {
+fn check(topics: &[Topic], precision: Precision) -> (String, bool) {
     // A mistake in our crates may also produce answers that cannot be parsed.
     let answers = read_answers(&answers(&questions(topics)), topics).unwrap_or_else(|_| Answers::new());
-    let card = Scorecard::new(topics, &answers);
+    let card = Scorecard::new(topics, &answers, precision);
     let mut text = card.to_string();
     let mut wrong: Vec<String> = card.failed().map(str::to_string).collect();
     for (case, drawn_by) in picture::CASES.iter().flat_map(|case| BOTH_WAYS.map(|drawn_by| (case, drawn_by)))

@@ -11,20 +11,23 @@
 //! `conformance/README.md` defines every question.
 //!
 //! ```
+//! use ugconformance::precision::Precision;
 //! use ugconformance::suite;
 //!
 //! let topics = suite::topics()?;
 //! let case = &topics[0].cases[3];
 //! assert_eq!(case.question(), "T01.04 gamma 0.5");
 //! assert!(case.error(&[1.1547005383792515]) < case.tolerance);
-//! assert_eq!(case.recognized(&[1.3333333333333333]), ["M2"]);
+//! assert_eq!(Precision::Double.recognized(case, &[1.3333333333333333]), ["M2"]);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod answer;
 mod cli;
+pub mod compare;
 pub mod mistakes;
 pub mod picture;
+pub mod precision;
 pub mod scorecard;
 pub mod suite;
 

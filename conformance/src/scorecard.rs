@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt::{self, Write};
 
 use crate::mistakes;
+use crate::precision::Precision;
 use crate::suite::{Case, Topic};
 
 /// The answers of a program, by the id of the question.
@@ -68,6 +69,7 @@ pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, AnswerError
 /// The result of a program.
 #[derive(Clone, Debug)]
 pub struct Scorecard<'a> {
+    precision: Precision,
     rows: Vec<Row<'a>>,
     failures: Vec<Failure<'a>>,
 }
@@ -91,11 +93,12 @@ impl Row<'_> {
 struct Failure<'a> {
     case: &'a Case,
     answer: &'a [f64],
+    tolerance: f64,
 }
 
 impl<'a> Scorecard<'a> {
-    /// Compares answers with the expected ones.
-    pub fn new(topics: &'a [Topic], answers: &'a Answers) -> Self {
+    /// Compares answers of a program of this class with the expected ones.
+    pub fn new(topics: &'a [Topic], answers: &'a Answers, precision: Precision) -> Self {
         let mut failures = Vec::new();
         let rows = topics
             .iter()
@@ -103,20 +106,21 @@ impl<'a> Scorecard<'a> {
                 let mut row = Row { topic, passed: 0, failed: 0, worst: 0.0 };
                 for case in &topic.cases {
                     let Some(answer) = answers.get(&case.id) else { continue };
-                    let error = case.error(answer) / case.tolerance;
+                    let tolerance = precision.tolerance(case);
+                    let error = case.error(answer) / tolerance;
                     row.worst = if error <= row.worst { row.worst } else { error };
                     // NaN fails the comparison.
                     if error <= 1.0 {
                         row.passed += 1;
                     } else {
                         row.failed += 1;
-                        failures.push(Failure { case, answer });
+                        failures.push(Failure { case, answer, tolerance });
                     }
                 }
                 row
             })
             .collect();
-        Self { rows, failures }
+        Self { precision, rows, failures }
     }
 
     /// Cases passed, failed, and without an answer.
@@ -150,13 +154,21 @@ impl fmt::Display for Scorecard<'_> {
         }
         let [passed, failed, unanswered] = self.counts();
         writeln!(f, "all    {passed:6}  {failed:6}  {unanswered:10}\n")?;
-        writeln!(f, "The worst error is in units of the tolerance: up to 1 is correct.")?;
-        for Failure { case, answer } in &self.failures {
+        write!(f, "The worst error is in units of the tolerance")?;
+        if self.precision != Precision::Double {
+            write!(f, " for {} precision", self.precision.name())?;
+        }
+        writeln!(f, ": up to 1 is correct.")?;
+        for &Failure { case, answer, tolerance } in &self.failures {
             writeln!(f, "\n{}", case.question())?;
             writeln!(f, "  answered {}", list(answer))?;
             writeln!(f, "  expected {}  ({})", list(&case.expected), case.source)?;
-            writeln!(f, "  error {}, tolerance {:e}", short(case.error(answer)), case.tolerance)?;
-            for name in case.recognized(answer) {
+            let shown = match self.precision {
+                Precision::Double => format!("{tolerance:e}"),
+                Precision::Single => short(tolerance),
+            };
+            writeln!(f, "  error {}, tolerance {shown}", short(case.error(answer)))?;
+            for name in self.precision.recognized(case, answer) {
                 writeln!(f, "  looks like {name}: {}", mistakes::describe(name))?;
             }
         }

@@ -104,7 +104,8 @@ fn text_from_outside_cannot_command_the_terminal() {
 #[test]
 fn wrong_usage_is_reported() {
     for (args, message) in [
-        (&["score-image", "moon"][..], "unknown picture; choose one of sphere, cube, "),
+        (&["table", "moons"][..], "unknown table; choose one of objects, cameras"),
+        (&["score-image", "moon"], "unknown picture; choose one of sphere, cube, "),
         (&["sphere.png"], "`sphere.png` is not a command; commands are questions, answer"),
         (&[], "a command is missing; commands are questions, answer"),
     ] {
@@ -127,4 +128,83 @@ fn short_help_is_one_screenful() {
         let (_, name) = command.name.split_once(' ').expect("the program and its command");
         assert!(help.contains(&format!("\n  {name} ")), "{help}");
     }
+}
+
+#[test]
+fn single_precision_has_its_own_tolerances() {
+    let answer = b"T01.04 1.1547005\nT01.05 1.5625\n";
+    let card = run(&["score", "-precision", "single"], answer);
+    assert_eq!(card.status.code(), Some(1));
+    let shown = "
+The worst error is in units of the tolerance for single precision: up to 1 is correct.
+
+T01.05 gamma 0.6
+  answered 1.5625
+  expected 1.25  (Einstein 1905, sec. 4)
+  error 2.5e-1, tolerance 7.5e-7
+  looks like M2: gamma without its square root
+";
+    assert!(text(&card).ends_with(shown), "{}", text(&card));
+    let card = text(&run(&["score"], answer));
+    assert!(card.contains("answered 1.1547005\n") && card.contains("looks like M16: "), "{card}");
+    let bad = run(&["score", "-precision", "half"], answer);
+    assert_eq!(bad.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&bad.stderr).contains("double, single"));
+}
+
+#[test]
+fn pictures_are_compared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let (mine, truth, jpeg) = (file("mine.png"), file("truth.png"), file("mine.jpg"));
+    let mut picture = image::RgbImage::from_pixel(4, 5, image::Rgb([255, 0, 0]));
+    picture.save(&truth).expect("a picture");
+    picture.put_pixel(3, 2, image::Rgb([0, 0, 0]));
+    picture.save(&mine).expect("a picture");
+    fs::write(&jpeg, b"\xff\xd8\xff\xe0 and so on").expect("a file");
+
+    let same = run(&["compare", &truth, &truth], b"");
+    assert!(same.status.success());
+    assert_eq!(
+        text(&same),
+        "size: 4 x 5 pixels\nmean difference: 0.000000\nlargest difference: 0.000000\n\
+         pixels that differ by more than 0.01: 0 of 20, 0.0000 %\n"
+    );
+    let other = run(&["compare", &mine, &truth], b"");
+    assert_eq!(other.status.code(), Some(1));
+    assert!(
+        text(&other).ends_with(
+            "mean difference: 0.050000\nlargest difference: 1.000000, at column 3, row 2: \
+             0.000000 0.000000 0.000000 instead of 1.000000 0.000000 0.000000\n\
+             pixels that differ by more than 0.01: 1 of 20, 5.0000 %\n"
+        ),
+        "{}",
+        text(&other)
+    );
+    // The first picture may come through a pipe, and a few pixels may differ.
+    let bytes = fs::read(&mine).expect("a picture");
+    assert!(run(&["compare", "-share", ".05", "-", &truth], &bytes).status.success());
+    assert!(run(&["compare", "-tolerance", "1", &mine, &truth], b"").status.success());
+
+    for (args, status, message) in [
+        (&["compare", &jpeg, &truth][..], 1, "a JPEG cannot be scored: its compression changes the pixels"),
+        (&["score-image", "cube", &jpeg], 1, "write the picture as PNG\n"),
+        (&["compare", &mine], 2, "compare requires two pictures: `ugconformance compare MINE TRUTH`"),
+        (&["compare", "-share", "2", &mine, &truth], 2, "must be from 0 to 1"),
+    ] {
+        let output = run(args, b"");
+        let talk = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(status) && talk.contains(message), "{args:?}: {talk}");
+        assert!(output.stdout.is_empty());
+    }
+}
+
+#[test]
+fn scenes_are_written_for_other_renderers() {
+    assert!(text(&run(&["mesh", "edge"], b"")).contains("\nusemtl white\nf 1 2 3 4\n"));
+    assert!(text(&run(&["table", "objects"], b"")).contains("\nedge,white,0.9,0.0,0.0,grey 1.0,,\n"));
+    assert!(
+        text(&run(&["table", "cameras"], b""))
+            .contains("\nedge,600,450,0.0,0.0,0.0,-2.4,0.0,1.0,0.0,0.0,1.0,44.0\n")
+    );
 }

@@ -5,6 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use ugconformance::picture::{CASES, DrawnBy};
+use ugconformance::precision::Precision;
 use ugconformance::scorecard::{Answers, Scorecard, read_answers};
 use ugconformance::suite::{Case, topics};
 use ugconformance::{answers, questions};
@@ -36,7 +37,11 @@ fn the_suite_is_complete() {
         assert_eq!(case.error(&case.expected), 0.0, "{}", case.id);
         for (name, wrong) in &case.mistakes {
             assert!(case.error(wrong) > case.tolerance, "{}: {name}", case.id);
-            assert!(case.recognized(wrong).contains(&name.as_str()), "{}: {name}", case.id);
+            assert!(
+                Precision::Double.recognized(case, wrong).contains(&name.as_str()),
+                "{}: {name}",
+                case.id
+            );
         }
     }
 }
@@ -72,7 +77,7 @@ fn every_kind_and_picture_is_explained() {
 fn our_crates_answer_correctly() {
     let topics = topics().unwrap();
     let answers = read_answers(&answers(&questions(&topics)), &topics).unwrap();
-    let card = Scorecard::new(&topics, &answers);
+    let card = Scorecard::new(&topics, &answers, Precision::Double);
     let [passed, failed, unanswered] = card.counts();
     assert_eq!(failed, 0, "{card}");
     assert_eq!(unanswered, 0, "{card}");
@@ -93,14 +98,14 @@ fn missing_answers_are_not_wrong() {
     let topics = topics().unwrap();
     let card_of = |text: &str| {
         let answers = read_answers(text, &topics).unwrap();
-        Scorecard::new(&topics, &answers).counts()
+        Scorecard::new(&topics, &answers, Precision::Double).counts()
     };
     let n = cases().len();
     assert_eq!(card_of(""), [0, 0, n]);
     assert_eq!(card_of("# nothing\n\nT01.04 -\n"), [0, 0, n]);
     assert_eq!(card_of("T01.04 1.1547005383792515\nT01.01 nan\nT01.02 1 1\n"), [1, 2, n - 3]);
     let empty = Answers::new();
-    assert_eq!(Scorecard::new(&topics, &empty).failed().count(), 0);
+    assert_eq!(Scorecard::new(&topics, &empty, Precision::Double).failed().count(), 0);
 }
 
 #[test]

@@ -8,6 +8,7 @@ mod colours;
 mod cube;
 mod depth;
 mod edge;
+mod export;
 mod pixels;
 mod sphere;
 
@@ -17,8 +18,11 @@ use image::{ImageFormat, RgbImage};
 use ugparse::{Options, Source};
 use ugphoton::ColorShift;
 use ugrainbow::PictureOptions;
+use ugscene::Scene;
 
+use crate::compare::refuse_lossy;
 use camera::Pinhole;
+pub use export::{cameras, objects};
 
 /// A case of the suite: a picture to be drawn and measured.
 pub struct PictureCase {
@@ -199,8 +203,9 @@ impl PictureCase {
     /// # Errors
     /// It is not a PNG, has a wrong size, or does not show what is to be measured.
     pub fn measure(&self, png: &[u8]) -> Result<Vec<MeasuredQuantity>, String> {
+        refuse_lossy(png, "PNG")?;
         let pixels = image::load_from_memory_with_format(png, ImageFormat::Png)
-            .map_err(|error| format!("the picture cannot be read: {error}"))?
+            .map_err(|error| format!("the picture cannot be read: {error}; write it as PNG"))?
             .into_rgb8();
         let [width, height] = self.size;
         if pixels.dimensions() != (width, height) {
@@ -211,9 +216,14 @@ impl PictureCase {
         (self.measure)(&Picture { pixels, brightest, camera: self.camera()? })
     }
 
-    fn camera(&self) -> Result<Pinhole, String> {
+    fn parsed(&self) -> Result<Scene, String> {
         let source = Source::new(self.name, self.scene);
-        let scene = ugparse::parse(&source, &Options::default()).map_err(|error| error.to_string())?.scene;
+        let parsed = ugparse::parse(&source, &Options::default());
+        parsed.map(|parsed| parsed.scene).map_err(|error| error.to_string())
+    }
+
+    fn camera(&self) -> Result<Pinhole, String> {
+        let scene = self.parsed()?;
         let camera = scene.camera().and_then(|camera| Pinhole::new(camera, self.size));
         camera.ok_or_else(|| format!("the scene `{}` has no camera", self.name))
     }
