@@ -35,7 +35,7 @@ pub struct Args {
 }
 
 /// The manuals of all programs.
-fn manuals() -> [Manual; 9] {
+fn manuals() -> [Manual; 10] {
     [
         uglorentz::manual(),
         ugdoppler::manual(),
@@ -46,6 +46,7 @@ fn manuals() -> [Manual; 9] {
         ugparse::manual(),
         ugsheet::manual(),
         ugfilm::manual(),
+        ugconformance::manual(),
     ]
 }
 
@@ -126,7 +127,7 @@ mod tests {
 
     /// Command lines with a word to complete, and the completed lines; `None`: several words, among
     /// them the one given.
-    const CASES: [(&str, &[&str]); 13] = [
+    const CASES: [(&str, &[&str]); 15] = [
         ("uglorentz -ve", &["-vel"]),
         ("uglorentz --keep", &["--keep-in-view"]),
         ("uglorentz -vel ", &[]),
@@ -140,6 +141,8 @@ mod tests {
         ("ugparse tid", &["tidy"]),
         ("ugparse tidy shi", &["ship one.ug"]),
         ("ugparse example lat", &["lattice"]),
+        ("ugconformance score-im", &["score-image"]),
+        ("ugconformance table cam", &["cameras"]),
     ];
 
     #[test]
@@ -154,12 +157,12 @@ mod tests {
             let mut listed = Vec::new();
             write(&mut listed, &args).expect("everything is installed");
             let listed = String::from_utf8(listed).expect("text");
-            assert_eq!(listed.lines().count(), 9 + 1 + 9 * 4, "{listed}");
+            assert_eq!(listed.lines().count(), 10 + 1 + 10 * 4, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
         }
         assert_eq!(fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"), "ugrainbow");
         let left = fs::read_dir(to.path().join("bin")).expect("a folder").count();
-        assert_eq!(left, 9);
+        assert_eq!(left, 10);
     }
 
     #[test]
