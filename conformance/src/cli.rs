@@ -313,8 +313,6 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     Ok((text, measured.iter().all(picture::MeasuredQuantity::passes)))
 }
 
-const BOTH_WAYS: [DrawnBy; 2] = [DrawnBy::Pipe, DrawnBy::Rays];
-
 /// Returns the scorecard and the measurements of this project's programs, with a last line that
 /// lists everything wrong.
 fn check(topics: &[Topic], precision: Precision) -> (String, bool) {
@@ -323,8 +321,8 @@ fn check(topics: &[Topic], precision: Precision) -> (String, bool) {
     let card = Scorecard::new(topics, &answers, precision);
     let mut text = card.to_string();
     let mut wrong: Vec<String> = card.failed().map(str::to_string).collect();
-    for (case, drawn_by) in picture::CASES.iter().flat_map(|case| BOTH_WAYS.map(|drawn_by| (case, drawn_by)))
-    {
+    let drawings = picture::CASES.iter().flat_map(|case| case.renderers().iter().map(move |by| (case, *by)));
+    for (case, drawn_by) in drawings {
         let (title, name) = match drawn_by {
             DrawnBy::Pipe => ("", case.name.to_string()),
             DrawnBy::Rays => ("By rays: ", format!("{}-by-rays", case.name)),

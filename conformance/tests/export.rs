@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use ugconformance::picture::{CASES, PictureCase, cameras, objects};
+use ugphoton::Lens;
 use ugscene::{Scene, Tint};
 
 /// The corners of a polygon and the name of its object.
@@ -109,8 +110,13 @@ fn tables_have_the_cameras_of_the_scenes() {
         let camera = scene.camera().unwrap();
         let vectors = [camera.eye, camera.center, camera.up].map(|vector| vector.unwrap().to_array());
         let size = case.size.map(f64::from);
-        let angle = camera.view_angle.unwrap();
-        let expected = [&size[..], vectors.as_flattened(), &angle[..1]].concat();
-        assert_eq!(numbers(table[case.name].iter().map(String::as_str)), expected, "{}", case.name);
+        let expected = [&size[..], vectors.as_flattened()].concat();
+        let (lens, view) = match case.lens {
+            Lens::Panorama => ("equirectangular", 360.0),
+            _ => ("pinhole", camera.view_angle.unwrap()[0]),
+        };
+        let cells = &table[case.name];
+        assert_eq!(numbers(cells[..11].iter().map(String::as_str)), expected, "{}", case.name);
+        assert_eq!(cells[11..], [lens.to_string(), format!("{view:?}")], "{}", case.name);
     }
 }

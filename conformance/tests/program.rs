@@ -105,7 +105,7 @@ fn text_from_outside_cannot_command_the_terminal() {
 fn wrong_usage_is_reported() {
     for (args, message) in [
         (&["table", "moons"][..], "unknown table; choose one of objects, cameras"),
-        (&["score-image", "moon"], "unknown picture; choose one of sphere, cube, "),
+        (&["score-image", "moon"], "unknown picture; choose one of sphere, panorama, cube, "),
         (&["sphere.png"], "`sphere.png` is not a command; commands are questions, answer"),
         (&[], "a command is missing; commands are questions, answer"),
     ] {
@@ -205,6 +205,6 @@ fn scenes_are_written_for_other_renderers() {
     assert!(text(&run(&["table", "objects"], b"")).contains("\nedge,white,0.9,0.0,0.0,grey 1.0,,\n"));
     assert!(
         text(&run(&["table", "cameras"], b""))
-            .contains("\nedge,600,450,0.0,0.0,0.0,-2.4,0.0,1.0,0.0,0.0,1.0,44.0\n")
+            .contains("\nedge,600,450,0.0,0.0,0.0,-2.4,0.0,1.0,0.0,0.0,1.0,pinhole,44.0\n")
     );
 }

@@ -86,10 +86,12 @@ fn our_crates_answer_correctly() {
 
 #[test]
 fn our_programs_draw_correctly() {
-    for (case, drawn_by) in CASES.iter().flat_map(|case| [(case, DrawnBy::Pipe), (case, DrawnBy::Rays)]) {
-        let png = case.draw(drawn_by).unwrap();
-        let (text, is_right) = ugconformance::score_image(case, &png).unwrap();
-        assert!(is_right, "{drawn_by:?} {text}");
+    for case in &CASES {
+        for &drawn_by in case.renderers() {
+            let png = case.draw(drawn_by).unwrap();
+            let (text, is_right) = ugconformance::score_image(case, &png).unwrap();
+            assert!(is_right, "{drawn_by:?} {text}");
+        }
     }
 }
 
@@ -149,12 +151,34 @@ fn a_picture_of_something_else_is_refused() {
     let sphere = &CASES[0];
     let refused = |png: &[u8]| sphere.measure(png).unwrap_err();
     assert!(refused(b"not a picture").starts_with("the picture cannot be read: "));
-    let other = CASES[1].draw(DrawnBy::Pipe).unwrap();
+    let cube = ugconformance::picture::case("cube").unwrap();
+    let other = cube.draw(DrawnBy::Pipe).unwrap();
     assert_eq!(refused(&other), "the picture is 800 x 800 pixels; `sphere` is 600 x 600");
     let black = image::RgbImage::new(600, 600);
     let mut png = std::io::Cursor::new(Vec::new());
     black.write_to(&mut png, image::ImageFormat::Png).unwrap();
     assert_eq!(refused(png.get_ref()), "no outline of a sphere is visible");
+}
+
+/// A panorama that is mirrored, or turned by 180°, has the outline on the wrong side; one with the
+/// rear hemisphere folded into the front one has no circle.
+#[test]
+fn wrong_panoramas_fail() {
+    let case = ugconformance::picture::case("panorama").unwrap();
+    let right = image::load_from_memory(&case.draw(DrawnBy::Rays).unwrap()).unwrap().into_rgb8();
+    let [width, height] = case.size;
+    let drawn = |from: &dyn Fn(u32) -> u32| {
+        let wrong = image::RgbImage::from_fn(width, height, |x, y| *right.get_pixel(from(x), y));
+        let mut png = std::io::Cursor::new(Vec::new());
+        wrong.write_to(&mut png, image::ImageFormat::Png).unwrap();
+        ugconformance::score_image(case, png.get_ref()).unwrap()
+    };
+    let (quarter, half) = (width / 4, width / 2);
+    let (text, is_right) = drawn(&|x| x);
+    assert!(is_right, "{text}");
+    assert!(!drawn(&|x| width - 1 - x).1);
+    assert!(!drawn(&|x| (x + half) % width).1);
+    assert!(!drawn(&|x| if x < quarter { half - 1 - x } else { x }).1);
 }
 
 /// Scenes name the command that draws them, and none causes a warning.

@@ -4,6 +4,7 @@
 use std::fmt::Write;
 
 use ugmesh::{Axis, Config, MeshFile, Target};
+use ugphoton::Lens;
 use ugphysics::{Velocity, hue_to_wavelength};
 use ugscene::{Camera, ColorValue, Scene, Tint};
 
@@ -80,7 +81,7 @@ fn described(value: ColorValue) -> (String, Option<f64>) {
 /// A scene is invalid. There is none in the suite.
 pub fn cameras() -> Result<String, String> {
     let mut table = "case,width,height,eye_x,eye_y,eye_z,centre_x,centre_y,centre_z,up_x,up_y,up_z,\
-                     horizontal_view_angle_deg\n"
+                     lens,horizontal_view_angle_deg\n"
         .to_string();
     for case in &CASES {
         let scene = case.parsed()?;
@@ -94,7 +95,10 @@ pub fn cameras() -> Result<String, String> {
             let _ = write!(table, ",{:?},{:?},{:?}", vector.x, vector.y, vector.z);
         }
         let [across_deg, _] = view_angle.ok_or_else(missing)?;
-        let _ = writeln!(table, ",{across_deg:?}");
+        let _ = match case.lens {
+            Lens::Panorama => writeln!(table, ",equirectangular,360.0"),
+            _ => writeln!(table, ",pinhole,{across_deg:?}"),
+        };
     }
     Ok(table)
 }

@@ -16,12 +16,12 @@ use std::fmt;
 
 use image::{ImageFormat, RgbImage};
 use ugparse::{Options, Source};
-use ugphoton::ColorShift;
+use ugphoton::{ColorShift, Lens};
 use ugrainbow::PictureOptions;
 use ugscene::Scene;
 
 use crate::compare::refuse_lossy;
-use camera::Pinhole;
+use camera::Sight;
 pub use export::{cameras, objects};
 
 /// A case of the suite: a picture to be drawn and measured.
@@ -34,6 +34,8 @@ pub struct PictureCase {
     pub scene: &'static str,
     /// Width and height in pixels.
     pub size: [u32; 2],
+    /// A pinhole, or an equirectangular panorama.
+    pub lens: Lens,
     /// Options with which this project's programs draw it.
     options: DrawOptions,
     measure: fn(&Picture) -> Result<Vec<MeasuredQuantity>, String>,
@@ -64,7 +66,7 @@ struct Picture {
     pixels: RgbImage,
     /// The largest channel of all pixels.
     brightest: u8,
-    camera: Pinhole,
+    camera: Sight,
 }
 
 /// A quantity measured in a picture.
@@ -125,20 +127,31 @@ impl fmt::Display for MeasuredQuantity {
 const SHAPE: DrawOptions = DrawOptions { shift: false, spectral: false, samples: 1 };
 
 /// All cases.
-pub const CASES: [PictureCase; 8] = [
+pub const CASES: [PictureCase; 9] = [
     PictureCase {
         name: "sphere",
         about: "T11: the outline of a moving sphere is a circle on the sphere of directions",
         scene: include_str!("../../scenes/sphere.ug"),
         size: [600, 600],
+        lens: Lens::Pinhole,
         options: SHAPE,
         measure: sphere::measure,
+    },
+    PictureCase {
+        name: "panorama",
+        about: "T11: the same outline in a panorama, in both hemispheres",
+        scene: include_str!("../../scenes/panorama.ug"),
+        size: [2000, 1000],
+        lens: Lens::Panorama,
+        options: SHAPE,
+        measure: sphere::measure_panorama,
     },
     PictureCase {
         name: "cube",
         about: "T08, T09: a distant cube seen at right angles to its motion looks rotated by asin 0.8",
         scene: include_str!("../../scenes/cube.ug"),
         size: [800, 800],
+        lens: Lens::Pinhole,
         options: SHAPE,
         measure: cube::measure,
     },
@@ -147,6 +160,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T10: a straight edge perpendicular to the motion appears as a hyperbola",
         scene: include_str!("../../scenes/edge.ug"),
         size: [600, 450],
+        lens: Lens::Pinhole,
         options: SHAPE,
         measure: edge::measure,
     },
@@ -155,6 +169,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T36: occlusion is determined in the frame of the eye",
         scene: include_str!("../../scenes/depth.ug"),
         size: [400, 400],
+        lens: Lens::Pinhole,
         options: SHAPE,
         measure: depth::measure,
     },
@@ -163,6 +178,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T19: D depends on the direction, not on the aspect ratio of the picture",
         scene: include_str!("../../scenes/wide.ug"),
         size: [640, 360],
+        lens: Lens::Pinhole,
         options: DrawOptions { shift: true, samples: 2, ..SHAPE },
         measure: colours::measure_wide,
     },
@@ -171,6 +187,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T22: the shift is applied once",
         scene: include_str!("../../scenes/shift.ug"),
         size: [400, 200],
+        lens: Lens::Pinhole,
         options: DrawOptions { shift: true, samples: 2, ..SHAPE },
         measure: colours::measure_shift,
     },
@@ -179,6 +196,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T22: a moving black body has the colour of a hotter or colder one",
         scene: include_str!("../../scenes/blackbody.ug"),
         size: [400, 100],
+        lens: Lens::Pinhole,
         options: DrawOptions { shift: true, spectral: true, samples: 2 },
         measure: colours::measure_moving,
     },
@@ -187,6 +205,7 @@ pub const CASES: [PictureCase; 8] = [
         about: "T22: black bodies and greys on an sRGB screen",
         scene: include_str!("../../scenes/colours.ug"),
         size: [600, 200],
+        lens: Lens::Pinhole,
         options: DrawOptions { samples: 2, ..SHAPE },
         measure: colours::measure_patches,
     },
@@ -222,20 +241,29 @@ impl PictureCase {
         parsed.map(|parsed| parsed.scene).map_err(|error| error.to_string())
     }
 
-    fn camera(&self) -> Result<Pinhole, String> {
+    fn camera(&self) -> Result<Sight, String> {
         let scene = self.parsed()?;
-        let camera = scene.camera().and_then(|camera| Pinhole::new(camera, self.size));
+        let camera = scene.camera().and_then(|camera| Sight::new(camera, self.lens, self.size));
         camera.ok_or_else(|| format!("the scene `{}` has no camera", self.name))
     }
 
-    /// Draws the scene with this project's programs, in one process, to a PNG.
+    /// The programs of this project that draw the scene: panoramas are traced only.
+    pub fn renderers(&self) -> &'static [DrawnBy] {
+        match self.lens {
+            Lens::Pinhole => &[DrawnBy::Pipe, DrawnBy::Rays],
+            _ => &[DrawnBy::Rays],
+        }
+    }
+
+    /// Draws the scene with this project's programs, in one process, to a PNG; by rays if the other
+    /// programs do not draw it.
     ///
     /// # Errors
     /// The message of a program. There is none for the scenes of the suite.
     pub fn draw(&self, drawn_by: DrawnBy) -> Result<Vec<u8>, String> {
         match drawn_by {
-            DrawnBy::Pipe => self.draw_by_pipe(),
-            DrawnBy::Rays => self.draw_by_rays(),
+            DrawnBy::Pipe if self.lens == Lens::Pinhole => self.draw_by_pipe(),
+            DrawnBy::Pipe | DrawnBy::Rays => self.draw_by_rays(),
         }
     }
 
@@ -257,6 +285,7 @@ impl PictureCase {
         let config = ugphoton::Config {
             shift: self.color_shift(),
             picture: self.picture_options(),
+            lens: self.lens,
             repeat: true,
             ..Default::default()
         };

@@ -1,17 +1,38 @@
-//! T11: a sphere of radius 1, at distance 3 perpendicular to the motion in its own frame, 0.9 c.
+//! T11: a sphere of radius 1, at distance 3 in its own frame, 0.9 c.
 
 use glam::{DMat3, DVec3};
 
 use super::{MeasuredQuantity, Picture};
 
-const RADIUS_DEG: f64 = 8.760_949_008;
-const AXIS_DEG: f64 = 152.810_381_4;
+/// The circle that is seen.
+struct Circle {
+    radius_deg: f64,
+    /// Angle of its axis from the motion.
+    axis_deg: f64,
+    /// How much smaller the radius of a polyhedron may be, and how far its axis may be from this.
+    /// The sagitta of a face is 1 − cos 1.5° = 3.5e-4 of the radius.
+    polyhedron_deg: [f64; 2],
+}
 
-/// How far the faces of a polyhedron may be inside the sphere (sagitta), relative to its radius: 1
-/// − cos 1.5°.
-const POLYHEDRON: f64 = 3.5e-4;
+/// Seen perpendicular to the motion in the frame of the sphere: T11.01.
+const ABEAM: Circle =
+    Circle { radius_deg: 8.760_949_008, axis_deg: 152.810_381_4, polyhedron_deg: [3.5e-4 * 8.76, 0.0] };
+
+/// Seen at 30° from the motion in the frame of the sphere: T11.04. There the sagitta is 0.007°.
+/// Aberration enlarges it 3.8 times on the side of the motion, and 1.05 times on the other. Half
+/// the sum is missing in the radius, and half the difference is the error of the axis.
+const LARGE: Circle =
+    Circle { radius_deg: 41.646_166_84, axis_deg: 85.409_969_56, polyhedron_deg: [0.007 * 2.4, 0.007 * 1.4] };
 
 pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
+    measure_circle(picture, &ABEAM)
+}
+
+pub fn measure_panorama(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
+    measure_circle(picture, &LARGE)
+}
+
+fn measure_circle(picture: &Picture, expected: &Circle) -> Result<Vec<MeasuredQuantity>, String> {
     let outline = outline(picture);
     if outline.len() < 400 {
         return Err("no outline of a sphere is visible".to_string());
@@ -21,14 +42,22 @@ pub fn measure(picture: &Picture) -> Result<Vec<MeasuredQuantity>, String> {
     let axis_deg = axis.angle_between(DVec3::X).to_degrees();
     // An edge is uncertain by half a pixel, and the mean of a thousand by a twentieth.
     let mean = 0.1 * pixel_deg;
+    let [smaller_deg, turned_deg] = expected.polyhedron_deg;
     Ok(vec![
+        MeasuredQuantity::new("angular radius, degrees", radius_deg, expected.radius_deg, mean + smaller_deg),
         MeasuredQuantity::new(
-            "angular radius, degrees",
-            radius_deg,
-            RADIUS_DEG,
-            mean + POLYHEDRON * RADIUS_DEG,
+            "axis of the circle from the motion, degrees",
+            axis_deg,
+            expected.axis_deg,
+            mean + turned_deg,
         ),
-        MeasuredQuantity::new("axis of the circle from the motion, degrees", axis_deg, AXIS_DEG, mean),
+        // In a panorama the other side would have the same angle.
+        MeasuredQuantity::new(
+            "azimuth of the axis, degrees",
+            libm::atan2(axis.y, axis.x).to_degrees(),
+            expected.axis_deg,
+            mean + turned_deg,
+        ),
         MeasuredQuantity::new(
             "axis of the circle, height, degrees",
             libm::asin(axis.z).to_degrees(),
