@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use ugpipe::{Context, Failure, one_of};
 
 /// Names of files and texts.
-const FILES: [(&str, &str); 26] = [
+const FILES: [(&str, &str); 27] = [
     ("house.ug", include_str!("../../../../scenes/house.ug")),
+    ("houses.ug", include_str!("../../../../scenes/houses.ug")),
     ("ship.ug", include_str!("../../../../scenes/ship.ug")),
     ("street.ug", include_str!("../../../../scenes/street.ug")),
     ("teapot.ug", include_str!("../../../../scenes/teapot.ug")),
