@@ -52,6 +52,26 @@ tile() {
     ugsheet -qt -lb none -gap 4 0 -bg .25 -cols "$2" -fo "$1" "${@:3}"
 }
 
+# sheet NAME TITLE PICTURE...: a contact sheet with the numbers of figures as labels
+sheet() {
+    local name=$1 title=$2 labels=() picture label number
+    shift 2
+    for picture; do
+        label=$(basename "$picture" .png)
+        number=${label#*-}
+        number=${number%%-*}
+        if [[ $number == [0-9]* ]]; then
+            label=${label#*-"$number"-}
+            label="Figure ${number#0}: ${label//-/ }"
+        else
+            label=${label//-/ }
+            label=${label#"$name "}
+        fi
+        labels+=(-label "$label")
+    done
+    ugsheet -qt "${labels[@]}" -cap "$title" -bg .25 -cols 4 -fo "$out/sheet-$name.png" "$@"
+}
+
 # draw NAME [OPTION...]: the last stage, to OUTDIR/NAME.png
 draw() {
     local name=$1
@@ -96,7 +116,7 @@ for plot in nguyen-3.3.1-hues nguyen-3.3.2-attenuation chang-01-aberration \
 done
 
 # Nguyen 1988, figure 1: the rainbow.
-draw nguyen-01 -wi rainbow.ug
+draw nguyen-01-rainbow -wi rainbow.ug
 
 # Nguyen 1988, figure 2: the ship at rest and at 0.3, 0.6 and 0.9c. Then in colour: at 0.6c the
 # stern still comes nearer while the bow goes away; head-on, much above 0.2c much of the ship
@@ -248,10 +268,11 @@ trace howard-shutter-film -cv 0 .5 0 -ep 0 -1.5 0 -va 112 --film-shutter 2 grid.
 
 # Li, Shum and Peng 2001, figures 5 and 6: glass and metal in a room of letters. Their clips are
 # drawn by films.sh.
-for material in glass metal; do
-    trace "li-$material-a-right-0.99c" -in <($material '.99 0 0')
-    trace "li-$material-b-near-0.9c" -in <($material '0 -.9 0')
-    trace "li-$material-c-away-0.99c" -in <($material '0 .99 0')
+for material in 05-glass 06-metal; do
+    number=${material%-*} material=${material#*-}
+    trace "li-${number}a-$material-right-0.99c" -in <($material '.99 0 0')
+    trace "li-${number}b-$material-near-0.9c" -in <($material '0 -.9 0')
+    trace "li-${number}c-$material-away-0.99c" -in <($material '0 .99 0')
 done
 
 # Our own: a glass of water.
@@ -267,5 +288,14 @@ uglorentz -in -vel .9 0 0 glass.ug | draw glass-b-0.9c
 uglorentz -in -vel .9 0 0 glass.ug | draw glass-c-0.9c-edges -wf -lc 1 -dc 7 12
 uglorentz -in -vel .9 0 0 glass.ug | draw glass-d-0.9c-both -ed
 
-ugsheet -qt -lb names -bg .25 -cols 6 -fo "$out/sheet.png" "$out"/{nguyen,chang,howard,weiskopf,stars,li,lattice,halves,dice,traffic,lamp,glass,water}*.png
-printf 'The pictures are in %s, all of them on %s/sheet.png\n' "$out" "$out"
+# A sheet for each paper, in its order: within a figure its parts before what we add.
+shopt -s nullglob
+cd "$out"
+sheet nguyen 'H. P. Nguyen, Implementation of Two Relativistic Renderers, 1988' \
+    nguyen-3.3.*.png nguyen-0{1,2,3,4}{[a-z]-,-}*.png
+sheet chang 'M.-C. Chang, F. Lai and W.-C. Chen 1996' chang-{01,09,10,11,12,13,14,15,16,17,18}{[a-z]-,-}*.png
+sheet howard 'A. Howard, S. Dance and L. Kitchen 1995' howard-0{2,3,4,5,6,7,8}{[a-z]-,-}*.png howard-shutter-*.png
+sheet weiskopf 'D. Weiskopf 2000' weiskopf-0{1,3}{[a-z]-[0-9r],[a-z]-w,-}*.png
+sheet li 'J. Li, H. Shum and Q. Peng 2001' li-0{5,6}{[a-z]-,-}*.png
+sheet ours 'Other figures' {stars,lattice,halves,dice,traffic,lamp,glass,water}*.png
+printf 'The pictures are in %s, those of each paper on one sheet, %s/sheet-*.png\n' "$out" "$out"
