@@ -20,6 +20,7 @@
 //! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
 //! cargo xtask install --prefix ~/.local
+//! cargo xtask uninstall --prefix ~/.local
 //! ```
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
@@ -201,8 +202,11 @@ enum Task {
     /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
     /// missing, and Snakemake in the cache folder of the user.
     Cluster,
-    /// Install the programs, their man pages, and completions for bash, zsh and fish
+    /// Install the programs, their man pages and documentation, and completions for bash, zsh and
+    /// fish
     Install(install::Args),
+    /// Remove what `install` has written, and nothing else
+    Uninstall(install::UninstallArgs),
     /// Draw a scene and print the time in seconds and the peak memory in megabytes
     #[command(hide = true)]
     DrawOnce {
@@ -302,7 +306,8 @@ fn run(task: &Task) -> io::Result<()> {
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => cluster::check()?,
-        Task::Install(args) => install::write(&mut out, args)?,
+        Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
+        Task::Uninstall(args) => install::remove(&mut out, args)?,
         Task::ReadOnce { scene, threads } => {
             reading::read_once(&mut out, scene, *threads)
                 .map_err(|error| io::Error::other(error.to_string()))?;

@@ -26,7 +26,8 @@ pub const EXIT_STATUS: [(&str, &str); 4] = [
 pub const DASHES: &str = "Options have one dash or two: -fo FILE, --fo FILE or -fo=FILE.";
 
 /// Where more is written, for help and man pages.
-pub const DOCUMENTATION: &str = "Man page `ugtools` is an overview. The pages in the folder docs of the source are: \
+pub const DOCUMENTATION: &str = "Man page `ugtools` is an overview, and `unigrafix` is the scene language. The pages in \
+     share/doc/ugtools/docs of the installation, or docs of the source, are: \
      start.md (a first scene, and the effects of motion one by one), pipeline.md (all programs \
      and options), unigrafix.md (the scene language), physics.md (numbered equations).";
 

@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
+use super::markdown;
 use ugpipe::{DASHES, DOCUMENTATION, EXIT_STATUS, Entry, Manual};
 
 /// Date of the last change to the words in this file; pages have to have one.
-const DATE: &str = "2026-11-22";
+const DATE: &str = "2026-11-24";
 
 /// The page of a program.
 pub fn page(manual: &Manual) -> String {
@@ -32,7 +33,7 @@ pub fn page(manual: &Manual) -> String {
     }
     page.section("EXAMPLES").examples(&manual.examples);
     page.exit_status();
-    page.section("SEE ALSO").paragraph("ugtools(7)");
+    page.section("SEE ALSO").paragraph("ugtools(7), unigrafix(5)");
     page.paragraph(DOCUMENTATION);
     page.text
 }
@@ -73,27 +74,38 @@ pub fn overview(manuals: &[Manual]) -> String {
     page.exit_status();
     page.section("SEE ALSO");
     let names: Vec<String> = manuals.iter().map(|manual| format!("{}(1)", manual.name)).collect();
-    page.paragraph(&names.join(", "));
+    page.paragraph(&format!("{}, unigrafix(5)", names.join(", ")));
+    page.paragraph(DOCUMENTATION);
+    page.text
+}
+
+/// The page `unigrafix(5)`: the scene language, from its page in the documentation.
+pub fn language(version: &str) -> String {
+    let mut page = Page::new("unigrafix", 5, version);
+    page.section("NAME").paragraph("unigrafix - the language of scenes that the ugtools read and write");
+    page.section("DESCRIPTION");
+    markdown::add(&mut page, include_str!("../../../docs/unigrafix.md"));
+    page.section("SEE ALSO").paragraph("ugparse(1), ugtools(7)");
     page.paragraph(DOCUMENTATION);
     page.text
 }
 
 /// A page that is being written.
-struct Page {
-    text: String,
+pub(super) struct Page {
+    pub text: String,
 }
 
 impl Page {
-    fn new(name: &str, section: u8, version: &str) -> Self {
+    pub fn new(name: &str, section: u8, version: &str) -> Self {
         let title = format!(".TH {} {section} {DATE} \"ugtools {version}\"\n", name.to_uppercase());
         Self { text: title }
     }
 
-    fn section(&mut self, heading: &str) -> &mut Self {
+    pub fn section(&mut self, heading: &str) -> &mut Self {
         self.request(".SH", heading)
     }
 
-    fn subsection(&mut self, heading: &str) -> &mut Self {
+    pub fn subsection(&mut self, heading: &str) -> &mut Self {
         self.request(".SS", heading)
     }
 
@@ -103,22 +115,38 @@ impl Page {
     }
 
     /// A paragraph; the first of a section begins by itself.
-    fn paragraph(&mut self, text: &str) {
+    pub fn paragraph(&mut self, text: &str) {
+        self.escaped_paragraph(&escaped(text));
+    }
+
+    /// A paragraph of escaped text.
+    pub fn escaped_paragraph(&mut self, text: &str) {
         let is_first = self.text.lines().next_back().is_some_and(|line| line.starts_with(".S"));
         if !is_first {
             self.text += ".PP\n";
         }
-        self.fill(text);
+        self.fill_escaped(text);
+    }
+
+    /// An item of a list, of escaped text.
+    pub fn item(&mut self, mark: &str, text: &str) {
+        let _ = writeln!(self.text, ".IP {mark} 4");
+        self.fill_escaped(text);
     }
 
     /// A line with its explanation. `tag` is escaped.
-    fn tagged(&mut self, tag: &str, text: &str) {
+    pub fn tagged(&mut self, tag: &str, text: &str) {
+        self.escaped_tagged(tag, &escaped(text));
+    }
+
+    /// A line with its explanation, both escaped.
+    pub fn escaped_tagged(&mut self, tag: &str, text: &str) {
         let _ = writeln!(self.text, ".TP\n{tag}");
-        self.fill(text);
+        self.fill_escaped(text);
     }
 
     /// Another paragraph of an explanation.
-    fn continued(&mut self, text: &str) {
+    pub fn continued(&mut self, text: &str) {
         self.text += ".IP\n";
         self.fill(text);
     }
@@ -142,7 +170,7 @@ impl Page {
     }
 
     /// Command lines as they are.
-    fn examples(&mut self, lines: &[String]) {
+    pub fn examples(&mut self, lines: &[String]) {
         self.text += ".RS 2\n.EX\n";
         lines.iter().for_each(|line| self.line(&escaped(line)));
         self.text += ".EE\n.RE\n";
@@ -157,15 +185,20 @@ impl Page {
 
     /// Text that is filled, in lines of less than 80 columns.
     fn fill(&mut self, text: &str) {
+        self.fill_escaped(&escaped(text));
+    }
+
+    /// The same of escaped text.
+    fn fill_escaped(&mut self, text: &str) {
         const WIDTH: usize = 72;
         let mut line = String::new();
-        for word in text.split_whitespace().map(escaped) {
+        for word in text.split_whitespace() {
             if !line.is_empty() && line.len() + word.len() >= WIDTH {
                 self.line(&line);
                 line.clear();
             }
             line += if line.is_empty() { "" } else { " " };
-            line += &word;
+            line += word;
         }
         self.line(&line);
     }
@@ -177,12 +210,12 @@ impl Page {
     }
 }
 
-fn bold(text: &str) -> String {
+pub(super) fn bold(text: &str) -> String {
     format!("\\fB{}\\fR", escaped(text))
 }
 
 /// Text without anything that the formatter would obey or change.
-fn escaped(text: &str) -> String {
+pub(super) fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for c in text.chars() {
         match c {

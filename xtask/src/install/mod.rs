@@ -3,10 +3,11 @@
 //! | folder below the prefix | contents |
 //! | --- | --- |
 //! | `bin` | the programs |
-//! | `share/man/man1`, `man7` | a page for each program, and `ugtools(7)`, the overview |
+//! | `share/man/man1`, `man5`, `man7` | a page for each program, `unigrafix(5)`, the scene language, and `ugtools(7)`, the overview |
 //! | `share/bash-completion/completions` | completions for bash |
 //! | `share/zsh/site-functions` | completions for zsh |
 //! | `share/fish/vendor_completions.d` | completions for fish |
+//! | `share/doc/ugtools` | the pages of the documentation, and the record of all that was installed |
 //!
 //! Pages and completions are made from the definitions of the options, as the help is. clap_mangen
 //! and clap_complete do not fit: both write options with two dashes, the pages lack second names
@@ -15,13 +16,18 @@
 
 mod completions;
 mod man;
+mod markdown;
+mod record;
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ugpipe::Manual;
-use ugtests::programs;
+use ugtests::{programs, scenes};
+
+use record::Record;
 
 /// The files to install, and their places.
 #[derive(clap::Args)]
@@ -50,26 +56,114 @@ fn manuals() -> [Manual; 10] {
     ]
 }
 
-/// Installs everything, and prints the name of every file.
-pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
-    let programs = args.programs.clone().unwrap_or_else(programs::released);
-    for manual in manuals() {
-        let file = args.prefix.join("bin").join(&manual.name);
-        replace(&file, |new| fs::copy(programs.join(&manual.name), new).map(drop))?;
+/// The place of an installation that is removed.
+#[derive(clap::Args)]
+pub struct UninstallArgs {
+    /// Folder with bin and share, as given to install
+    #[arg(long, value_name = "DIR")]
+    prefix: PathBuf,
+}
+
+/// Removes what was installed, and prints the name of every file.
+pub fn remove(out: &mut impl Write, args: &UninstallArgs) -> io::Result<()> {
+    record::remove(out, &args.prefix)
+}
+
+/// The content of a file to install.
+enum Content {
+    /// That of another file.
+    Of(PathBuf),
+    Text(String),
+}
+
+/// Installs everything, and prints the name of every file. `path`: the folders in which the shell
+/// finds programs.
+pub fn write(out: &mut impl Write, args: &Args, path: Option<&OsStr>) -> io::Result<()> {
+    let Args { prefix, programs } = args;
+    let programs = programs.clone().unwrap_or_else(programs::released);
+    let mut files: Vec<(String, Content)> = manuals()
+        .map(|manual| (format!("bin/{}", manual.name), Content::Of(programs.join(&manual.name))))
+        .into();
+    files.extend(documents().into_iter().map(|(name, text)| (format!("share/{name}"), Content::Text(text))));
+    files.extend(
+        pages(&scenes::root())?
+            .into_iter()
+            .map(|page| (format!("{PAGES}/{page}"), Content::Of(scenes::root().join(page)))),
+    );
+    let mut record = Record::read(prefix)?;
+    files
+        .iter()
+        .map(|(name, _)| name.as_str())
+        .chain([record::FILE])
+        .for_each(|name| record.add(prefix, name));
+    // First, so that an interrupted installation can be removed.
+    files.insert(0, (record::FILE.to_owned(), Content::Text(record.text())));
+    for (name, content) in &files {
+        let file = prefix.join(name);
+        replace(&file, |new| match content {
+            Content::Of(other) => fs::copy(other, new).map(drop),
+            Content::Text(text) => fs::write(new, text),
+        })
+        .map_err(|error| io::Error::new(error.kind(), format!("{}: {error}", file.display())))?;
         writeln!(out, "{}", file.display())?;
     }
-    for (name, text) in documents() {
-        let file = args.prefix.join("share").join(name);
-        replace(&file, |new| fs::write(new, &text))?;
-        writeln!(out, "{}", file.display())?;
+    write!(out, "{}", path_note(&fs::canonicalize(prefix.join("bin"))?, path))
+}
+
+/// What to do so that the shell finds the programs in the folder `bin`; empty if it does.
+fn path_note(bin: &Path, path: Option<&OsStr>) -> String {
+    let is_bin = |folder: PathBuf| fs::canonicalize(folder).is_ok_and(|folder| folder == bin);
+    if path.is_some_and(|path| std::env::split_paths(path).any(is_bin)) {
+        return String::new();
     }
-    Ok(())
+    let bin = bin.display();
+    format!(
+        "\nThe shell does not find the programs: {bin} is not in PATH. Add this line to ~/.profile\n\
+         (for fish, run `fish_add_path {bin}` once), and log in again:\n\n    \
+         export PATH=\"$PATH:{bin}\"\n"
+    )
+}
+
+/// The folder of the pages of the documentation, below the prefix.
+const PAGES: &str = "share/doc/ugtools";
+
+/// The pages of the documentation with their pictures and all that they link to: paths in the
+/// repository.
+fn pages(root: &Path) -> io::Result<Vec<String>> {
+    let mut pages: Vec<String> = [
+        "CITATION.cff",
+        "LICENSE",
+        "LICENSE-APACHE",
+        "LICENSE-MIT",
+        "conformance/README.md",
+        "crates/ugrainbow/examples/in_memory.rs",
+        "scenes/README.md",
+    ]
+    .map(str::to_owned)
+    .into();
+    for entry in fs::read_dir(root)? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        pages.extend((name.ends_with(".md")).then_some(name));
+    }
+    let mut folders = vec!["docs".to_owned()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(root.join(&folder))? {
+            let entry = entry?;
+            let path = format!("{folder}/{}", entry.file_name().to_string_lossy());
+            if entry.file_type()?.is_dir() { folders.push(path) } else { pages.push(path) }
+        }
+    }
+    pages.sort();
+    Ok(pages)
 }
 
 /// Man pages and completions: paths below `share`, and contents.
 fn documents() -> Vec<(String, String)> {
     let manuals = manuals();
-    let mut files = vec![("man/man7/ugtools.7".to_owned(), man::overview(&manuals))];
+    let mut files = vec![
+        ("man/man7/ugtools.7".to_owned(), man::overview(&manuals)),
+        ("man/man5/unigrafix.5".to_owned(), man::language(&manuals[0].version)),
+    ];
     for manual in &manuals {
         let name = &manual.name;
         files.extend([
@@ -145,24 +239,125 @@ mod tests {
         ("ugconformance table cam", &["cameras"]),
     ];
 
-    #[test]
-    fn programs_pages_and_completions_are_installed() {
-        let (from, to) = (tempfile::tempdir().expect("a folder"), tempfile::tempdir().expect("a folder"));
+    /// Installs into a folder, with programs of some bytes; returns what was printed.
+    fn installed(to: &Path) -> String {
+        let from = tempfile::tempdir().expect("a folder");
         for manual in manuals() {
             fs::write(from.path().join(&manual.name), &manual.name).expect("a file");
         }
-        let args = Args { prefix: to.path().to_owned(), programs: Some(from.path().to_owned()) };
+        let args = Args { prefix: to.to_owned(), programs: Some(from.path().to_owned()) };
+        let path = std::env::join_paths([to.join("bin")]).expect("a path without colons");
+        let mut listed = Vec::new();
+        write(&mut listed, &args, Some(&path)).expect("everything is installed");
+        String::from_utf8(listed).expect("text")
+    }
+
+    /// The files and folders below a folder.
+    fn below(folder: &Path) -> Vec<PathBuf> {
+        let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+        entries
+            .flat_map(
+                |path| if path.is_dir() { [vec![path.clone()], below(&path)].concat() } else { vec![path] },
+            )
+            .collect()
+    }
+
+    #[test]
+    fn programs_pages_and_completions_are_installed() {
+        let to = tempfile::tempdir().expect("a folder");
         // The second time, everything is replaced.
         for _ in 0..2 {
-            let mut listed = Vec::new();
-            write(&mut listed, &args).expect("everything is installed");
-            let listed = String::from_utf8(listed).expect("text");
-            assert_eq!(listed.lines().count(), 10 + 1 + 10 * 4, "{listed}");
+            let listed = installed(to.path());
+            let n_pages = pages(&scenes::root()).expect("pages").len();
+            assert!(n_pages > 60, "{n_pages}");
+            assert_eq!(listed.lines().count(), 10 + 2 + 10 * 4 + n_pages + 1, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
         }
         assert_eq!(fs::read_to_string(to.path().join("bin/ugrainbow")).expect("a file"), "ugrainbow");
-        let left = fs::read_dir(to.path().join("bin")).expect("a folder").count();
-        assert_eq!(left, 10);
+        assert_eq!(below(&to.path().join("bin")).len(), 10);
+    }
+
+    /// Every link in an installed page leads to a file that is installed, too.
+    #[test]
+    fn links_of_installed_pages_hold() {
+        let root = scenes::root();
+        let pages = pages(&root).expect("pages");
+        let mut n_links = 0;
+        for page in pages.iter().filter(|page| page.ends_with(".md")) {
+            let text = fs::read_to_string(root.join(page)).expect("a page");
+            let links = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#', ' ']).next());
+            for link in links.filter(|link| !link.is_empty() && !link.contains(':')) {
+                let file = root.join(page).parent().expect("a folder").join(link);
+                let file = fs::canonicalize(&file).unwrap_or_else(|error| panic!("{page}: {link}: {error}"));
+                let root = fs::canonicalize(&root).expect("a folder");
+                let name = file.strip_prefix(&root).expect("a file of the repository").display().to_string();
+                assert!(pages.contains(&name) || file.is_dir(), "{page}: {link} is not installed");
+                n_links += 1;
+            }
+        }
+        assert!(n_links > 150, "{n_links}");
+    }
+
+    #[test]
+    fn uninstalling_leaves_what_was_there() {
+        let to = tempfile::tempdir().expect("a folder");
+        let remove = || {
+            let mut listed = Vec::new();
+            remove(&mut listed, &UninstallArgs { prefix: to.path().to_owned() }).map(|()| listed)
+        };
+        let error = remove().expect_err("nothing is installed").to_string();
+        assert!(error.starts_with("nothing was installed in ") && error.contains("installed.txt"), "{error}");
+
+        installed(to.path());
+        installed(to.path());
+        remove().expect("everything is removed");
+        assert_eq!(below(to.path()), <[PathBuf; 0]>::default());
+
+        // Files and folders of others stay, empty ones too.
+        let theirs = ["bin", "bin/theirs", "share", "share/doc", "share/man", "share/man/man1"];
+        for name in theirs {
+            let path = to.path().join(name);
+            if name.ends_with("theirs") { fs::write(path, "") } else { fs::create_dir(path) }
+                .expect("written");
+        }
+        installed(to.path());
+        let later = to.path().join("share/doc/ugtools/notes.txt");
+        fs::write(&later, "").expect("a file");
+        fs::remove_file(to.path().join("bin/ugwarp")).expect("a file");
+        let listed = String::from_utf8(remove().expect("everything is removed")).expect("text");
+        assert!(!listed.contains("bin/ugwarp\n") && listed.contains("bin/ugphoton\n"), "{listed}");
+        let expected = theirs.map(|name| to.path().join(name)).into_iter();
+        let mut expected: Vec<PathBuf> =
+            expected.chain([later.clone(), later.parent().expect("a folder").to_owned()]).collect();
+        let mut left = below(to.path());
+        expected.sort();
+        left.sort();
+        assert_eq!(left, expected);
+    }
+
+    #[test]
+    fn only_paths_below_the_prefix_are_removed() {
+        let to = tempfile::tempdir().expect("a folder");
+        for line in ["../outside", "/etc/none", "bin/../../outside", ""] {
+            replace(&to.path().join(record::FILE), |new| fs::write(new, format!("bin/a\n{line}\n")))
+                .expect("a file");
+            let args = UninstallArgs { prefix: to.path().to_owned() };
+            let error = remove(&mut Vec::new(), &args).expect_err("refused").to_string();
+            assert!(error.ends_with("is not a path below the prefix"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_missing_path_is_told() {
+        let bin = tempfile::tempdir().expect("a folder");
+        let bin = fs::canonicalize(bin.path()).expect("a folder");
+        let line = format!("export PATH=\"$PATH:{}\"", bin.display());
+        for path in [None, Some("/usr/bin"), Some("")] {
+            let note = path_note(&bin, path.map(OsStr::new));
+            assert!(note.contains(&line), "{note}");
+        }
+        let path = format!("/usr/bin:{}/", bin.display());
+        assert_eq!(path_note(&bin, Some(OsStr::new(&path))), "");
     }
 
     #[test]
@@ -180,10 +375,32 @@ mod tests {
             };
             assert_eq!(run(&["-T", "lint", "-W", "warning"]), (true, String::new()), "{name}");
             let (_, text) = run(&["-T", "html"]);
-            assert!(text.contains("EXIT_STATUS") && text.contains("SEE_ALSO"), "{text}");
+            assert!(text.contains("SEE_ALSO"), "{text}");
+            assert!(text.contains("EXIT_STATUS") != name.ends_with(".5"), "{name}");
             n_pages += 1;
         }
-        assert_eq!(n_pages, manuals().len() + 1);
+        assert_eq!(n_pages, manuals().len() + 2);
+    }
+
+    /// The page of the scene language has all headings, tables and examples of the documentation.
+    #[test]
+    fn the_scene_language_has_a_page() {
+        let page = man::language("1");
+        let markdown = include_str!("../../../docs/unigrafix.md");
+        let plain = |text: &str| text.replace('`', "").trim().replace('-', "\\-");
+        let mut n_found = 0;
+        for heading in markdown.lines().filter_map(|line| line.strip_prefix("## ")) {
+            assert!(page.contains(&format!(".SS {}\n", plain(heading))), "{heading}");
+            n_found += 1;
+        }
+        assert!(n_found > 15, "{n_found}");
+        for text in [
+            ".SH PART 3: WHAT IS NOT SUPPORTED\n",
+            "v nose 3.5 0 0.2 red 1 0 0 ;\n",
+            ".TP\n\\fB\\-ep x y z\\fR\neye point; default: the origin",
+        ] {
+            assert!(page.contains(text), "{text}: {page}");
+        }
     }
 
     #[test]
