@@ -179,7 +179,11 @@ mod tests {
             let [red, green, blue, _] = noise.to_be_bytes();
             *pixel = [red, green, blue, 255];
         }
-        let of = |comment: &str| Metadata { software: "ug".to_owned(), comment: comment.to_owned() };
+        let of = |comment: &str| Metadata {
+            software: "ug".to_owned(),
+            comment: comment.to_owned(),
+            ..Metadata::default()
+        };
         for comment in ["a | b", &"long ".repeat(20_000)] {
             for format in [Format::Png, Format::Ppm, Format::Pdf, Format::Exr] {
                 let file = format.encode(&frame, &of(comment));

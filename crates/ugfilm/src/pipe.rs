@@ -56,7 +56,8 @@ impl Pipe {
             remarks.record(Provenance { command: Some(line), ..filter.provenance() });
         }
         let command = Some(self.lines.last().map_or("", String::as_str));
-        ugpicture::metadata(&remarks, Provenance { command, ..last.provenance() })
+        let metadata = ugpicture::metadata(&remarks, Provenance { command, ..last.provenance() });
+        Metadata { panorama: last.panorama(&self.picture), ..metadata }
     }
 
     /// Draws the frame. Returns it with the notes of all programs.

@@ -1,6 +1,7 @@
 //! The programs that make a frame, with typed options.
 
 use thiserror::Error;
+use ugimage::PanoramaArea;
 use ugpicture::{PictureOptions, Rendering};
 use ugpipe::Progress;
 use ugscene::{MotionOptions, Provenance, Scene};
@@ -75,6 +76,15 @@ impl Program {
             Self::Photon(config) => Some(&mut config.picture),
             Self::Warp(config) => Some(&mut config.picture),
             Self::Lorentz(_) | Self::Doppler(_) => None,
+        }
+    }
+
+    /// The panorama that a picture with these options is, of a program that draws panoramas.
+    pub fn panorama(&self, picture: &PictureOptions) -> Option<PanoramaArea> {
+        match self {
+            Self::Photon(config) => config.lens.panorama(picture, config.stereo.is_some(), config.crop),
+            Self::Warp(config) => config.lens.panorama(picture, false, None),
+            Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => None,
         }
     }
 

@@ -83,7 +83,8 @@ mod tests {
 
     #[test]
     fn values_round_trip() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug é\nug γ".into() };
+        let metadata =
+            Metadata { software: "ug 1".into(), comment: "ug é\nug γ".into(), ..Metadata::default() };
         for mut frame in test_frames() {
             let n_pixels = frame.pixels().len() as u32;
             frame.push_plane(Plane {

@@ -88,7 +88,11 @@ mod tests {
 
     #[test]
     fn another_reader_reads_the_same_light() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\n\nug\u{7}".into() };
+        let metadata = Metadata {
+            software: "ug 1".into(),
+            comment: "ug -sz 3 2\n\nug\u{7}".into(),
+            ..Metadata::default()
+        };
         for frame in crate::linear::test_frames() {
             let file = encode(&frame, &metadata);
             let read =

@@ -152,7 +152,8 @@ mod tests {
     fn every_format_with_a_history_gives_it_back() {
         let long = format!("ug -cap 'a (b) \\ c = 1 & 2 < 3 \"d\"; a {}' # é", "long line ".repeat(60));
         for comment in [format!("ug 'a\tb' )(\n{long}"), format!("{long}\nγ\u{1d6fe}")] {
-            let metadata = Metadata { software: "ug 1".into(), comment: comment.clone() };
+            let metadata =
+                Metadata { software: "ug 1".into(), comment: comment.clone(), ..Metadata::default() };
             for (frame, format) in
                 test_frames().iter().flat_map(|frame| Format::ALL.map(|format| (frame, format)))
             {
@@ -173,7 +174,7 @@ mod tests {
 
     #[test]
     fn cut_and_foreign_files_have_none() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug γ".into() };
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug γ".into(), ..Metadata::default() };
         for format in Format::ALL {
             let file = format.encode(&test_frames()[0], &metadata);
             for length in 0..file.len() {

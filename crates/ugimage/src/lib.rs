@@ -33,7 +33,8 @@
 //!
 //! let mut frame = Frame::opaque(2, 1);
 //! frame.pixels_mut()[1] = [255, 128, 0, 255];
-//! let metadata = Metadata { software: "demo 1.0".into(), comment: "demo -sz 2 1".into() };
+//! let metadata =
+//!     Metadata { software: "demo 1.0".into(), comment: "demo -sz 2 1".into(), ..Metadata::default() };
 //! let png = Format::Png.encode(&frame, &metadata);
 //! assert!(png.starts_with(b"\x89PNG"));
 //!
@@ -54,6 +55,7 @@ mod history;
 pub mod label;
 mod linear;
 mod metadata;
+mod panorama;
 mod pdf;
 mod pfm;
 mod png;
@@ -75,6 +77,7 @@ pub use grey::grey_postscript;
 pub use history::read_history;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
+pub use panorama::PanoramaArea;
 pub use png::{Compression, draw_png};
 pub use quantizer::{Quantizer, ROUNDING_OFFSET};
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};

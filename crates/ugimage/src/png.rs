@@ -8,6 +8,9 @@ use ugphysics::srgb_encode;
 
 use crate::{Frame, LinearFrame, Metadata};
 
+/// Keyword of the chunk `iTXt` with XMP metadata.
+pub(crate) const XMP: &str = "XML:com.adobe.xmp";
+
 /// How hard PNG files are compressed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Compression {
@@ -23,7 +26,7 @@ pub enum Compression {
 const CHUNK: usize = 1 << 18;
 
 /// The frame as a PNG file: RGB if it is opaque, otherwise RGBA; tagged as sRGB. The metadata is in
-/// the text chunks `Software` and `Comment`; there is no date.
+/// the text chunks `Software` and `Comment`, and for a panorama in an XMP packet; there is no date.
 pub fn encode(frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
     let image = Image::of_8_bits([frame.width(), frame.height()], frame.is_opaque(), metadata);
     let rows = || frame.pixels().chunks_exact(frame.width() as usize);
@@ -161,6 +164,9 @@ impl<'a> Image<'a> {
         encoder.set_compression(compression);
         add_text(&mut encoder, "Software", &self.metadata.software)?;
         add_text(&mut encoder, "Comment", &self.metadata.comment)?;
+        if let Some(area) = self.metadata.panorama {
+            encoder.add_itxt_chunk(XMP.into(), area.xmp(self.size))?;
+        }
         let mut writer = encoder.write_header()?;
         let mut stream = writer.stream_writer_with_size(CHUNK)?;
         let mut bytes = vec![0; self.stride()];
@@ -199,6 +205,7 @@ fn add_text(encoder: &mut Encoder<'_, &mut Vec<u8>>, key: &str, text: &str) -> R
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::PanoramaArea;
     use crate::frame::test_frames;
 
     /// Decodes with the `png` crate: pixels, texts, and the colour type.
@@ -272,7 +279,7 @@ mod tests {
 
     #[test]
     fn a_frame_that_is_drawn_gives_the_same_file() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug".into() };
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug".into(), ..Metadata::default() };
         for frame in test_frames().iter().chain([&noise()]) {
             let size = [frame.width(), frame.height()];
             for (height, compression) in
@@ -313,21 +320,48 @@ mod tests {
     #[test]
     fn metadata_round_trips() {
         let frame = Frame::opaque(1, 1);
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug -vel .9 0 0\nug\u{e9}".into() };
+        let metadata = Metadata {
+            software: "ug 1".into(),
+            comment: "ug -vel .9 0 0\nug\u{e9}".into(),
+            ..Metadata::default()
+        };
         let (_, _, info) = decode(&encode(&frame, &metadata, Compression::Fast));
         let texts: Vec<_> =
             info.uncompressed_latin1_text.iter().map(|chunk| (&*chunk.keyword, &*chunk.text)).collect();
         assert_eq!(texts, [("Software", "ug 1"), ("Comment", "ug -vel .9 0 0\nug\u{e9}")]);
 
-        let metadata = Metadata { software: String::new(), comment: "γ = 2\0".into() };
+        let metadata =
+            Metadata { software: String::new(), comment: "γ = 2\0".into(), ..Metadata::default() };
         let (_, _, info) = decode(&encode(&frame, &metadata, Compression::Fast));
         assert!(info.uncompressed_latin1_text.is_empty());
         assert_eq!(info.utf8_text[0].get_text().unwrap(), "γ = 2");
     }
 
+    /// A panorama is stated in one chunk, and read again with the history; other pictures have none.
+    #[test]
+    fn panoramas_state_their_area() {
+        let area = PanoramaArea { whole: [8, 4], corner: [3, 1] };
+        let metadata = Metadata { software: "ug 1".into(), comment: "ug γ".into(), panorama: Some(area) };
+        let frame = Frame::opaque(3, 2);
+        let file = encode(&frame, &metadata, Compression::Fast);
+        let (_, pixels, info) = decode(&file);
+        assert_eq!(pixels, decode(&encode(&frame, &Metadata::default(), Compression::Fast)).1);
+        let xmp = info.utf8_text.iter().filter(|chunk| chunk.keyword == XMP).collect::<Vec<_>>();
+        assert_eq!(xmp.len(), 1);
+        assert!(!xmp[0].compressed);
+        assert_eq!(xmp[0].get_text().unwrap(), area.xmp([3, 2]));
+        assert_eq!(crate::read::metadata(&file), metadata);
+        assert_eq!(crate::read_history(&file).unwrap(), "ug γ");
+        let deep = encode_16(&LinearFrame::from(&frame), &metadata, Compression::Fast);
+        assert_eq!(crate::read::metadata(&deep), metadata);
+
+        let plain = encode(&frame, &Metadata { panorama: None, ..metadata }, Compression::Fast);
+        assert!(!plain.windows(XMP.len()).any(|bytes| bytes == XMP.as_bytes()));
+    }
+
     #[test]
     fn no_date_is_written() {
-        let metadata = Metadata { software: "a".into(), comment: "b".into() };
+        let metadata = Metadata { software: "a".into(), comment: "b".into(), ..Metadata::default() };
         let file = encode(&Frame::opaque(3, 2), &metadata, Compression::Fast);
         assert!(!file.windows(4).any(|kind| kind == b"tIME"));
         assert_eq!(file, encode(&Frame::opaque(3, 2), &metadata, Compression::Fast));

@@ -312,10 +312,11 @@ mod tests {
 
     #[test]
     fn metadata_is_in_comments() {
-        let metadata = Metadata { software: "ug\n1".into(), comment: "a -vel .9\nγ".into() };
+        let metadata =
+            Metadata { software: "ug\n1".into(), comment: "a -vel .9\nγ".into(), ..Metadata::default() };
         assert_eq!(creator_comment(&metadata), "%%Creator: ug?1\n");
         assert_eq!(history_comments(&metadata), "% a -vel .9\n% ?\n");
-        let long = Metadata { software: String::new(), comment: "x".repeat(1000) };
+        let long = Metadata { software: String::new(), comment: "x".repeat(1000), ..Metadata::default() };
         let lines = history_comments(&long);
         assert!(lines.lines().all(|line| line.len() <= 255 && line.starts_with("%")));
         assert_eq!(lines.matches('x').count(), 1000);

@@ -24,7 +24,8 @@ mod tests {
 
     #[test]
     fn another_reader_reads_the_same_pixels() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into() };
+        let metadata =
+            Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into(), ..Metadata::default() };
         for frame in crate::frame::test_frames() {
             let file = encode(&frame, &metadata);
             let read =

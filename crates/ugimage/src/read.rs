@@ -7,7 +7,8 @@ use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use png::{ColorType, Decoder, Transformations};
 use ugphysics::srgb_decode;
 
-use crate::{Frame, Metadata};
+use crate::png::XMP;
+use crate::{Frame, Metadata, PanoramaArea};
 
 /// Largest number of pixels that is accepted.
 pub const MAX_PIXELS: u64 = 1 << 28;
@@ -238,7 +239,8 @@ fn no_memory<T>(len: usize) -> ReadError {
     ReadError::new(&format!("there is not enough memory for its pixels, {n_bytes} bytes"))
 }
 
-/// The first texts with the keywords `Software` and `Comment`. Invalid chunks are omitted.
+/// The first texts with the keywords `Software` and `Comment`, and the first panorama that an XMP
+/// packet states. Invalid chunks are omitted.
 pub(crate) fn metadata(file: &[u8]) -> Metadata {
     let mut metadata = Metadata::default();
     let mut rest = file.get(8..).unwrap_or_default();
@@ -251,6 +253,11 @@ pub(crate) fn metadata(file: &[u8]) -> Metadata {
         let target = match keyword {
             b"Software" => &mut metadata.software,
             b"Comment" => &mut metadata.comment,
+            _ if keyword == XMP.as_bytes() => {
+                let area = text_of(kind, text).and_then(|text| PanoramaArea::from_xmp(&text));
+                metadata.panorama = metadata.panorama.or(area);
+                continue;
+            }
             _ => continue,
         };
         if target.is_empty() {
@@ -312,7 +319,8 @@ mod tests {
     #[test]
     fn png_round_trip() {
         for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
-            let metadata = Metadata { software: "ug 1".into(), comment: comment.into() };
+            let metadata =
+                Metadata { software: "ug 1".into(), comment: comment.into(), ..Metadata::default() };
             for frame in test_frames() {
                 assert_eq!(read(&Format::Png.encode(&frame, &metadata)).unwrap(), (frame, metadata.clone()));
             }

@@ -66,7 +66,11 @@ mod tests {
 
     #[test]
     fn metadata_is_text() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "a < b > c & \"d\"\nγ\u{1}".into() };
+        let metadata = Metadata {
+            software: "ug 1".into(),
+            comment: "a < b > c & \"d\"\nγ\u{1}".into(),
+            ..Metadata::default()
+        };
         let text = String::from_utf8(document([2, 1], &metadata, "")).unwrap();
         assert!(text.contains("<desc>ug 1\na &lt; b &gt; c &amp; \"d\"\nγ?</desc>"), "{text}");
     }

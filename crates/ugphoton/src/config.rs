@@ -1,5 +1,6 @@
 //! The options of the ray tracer.
 
+use ugimage::PanoramaArea;
 use uglight::{ColorShift, Interpolation};
 use ugpicture::{Canvas, Exposure, PictureOptions};
 use ugscene::{HueScale, MotionOptions};
@@ -67,6 +68,12 @@ impl Config {
             return Err(Error::ExposedPart);
         }
         Ok(Canvas::new(&PictureOptions { size: [width, height], ..self.picture.clone() })?)
+    }
+
+    /// The panorama that the picture is or belongs to, for viewers of 360° pictures.
+    #[must_use]
+    pub fn panorama(&self) -> Option<PanoramaArea> {
+        self.lens.panorama(&self.picture, self.stereo.is_some(), self.crop)
     }
 
     /// The same with the options of the part of the picture that shows the scene.

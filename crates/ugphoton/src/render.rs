@@ -106,7 +106,7 @@ impl PreparedScene {
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
         progress.step("preparing", 0);
-        let metadata = metadata(&scene.remarks, provenance);
+        let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
         let config = config.on(&canvas);
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
         Ok(Self { config, canvas, scenery, metadata })

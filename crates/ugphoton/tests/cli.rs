@@ -6,6 +6,7 @@ use std::io::{Cursor, Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output, Stdio};
 
+use ugimage::PanoramaArea;
 use ugtesting::run::{assert_refused, messages};
 
 const SCENE: &str = "\
@@ -46,6 +47,31 @@ fn a_picture_says_how_it_was_made() {
     assert_eq!(command, "ugphoton -sz 20 10 -vel .1 0 0");
     // The pipe in one line, with the hash of the scene.
     assert!(recipe.starts_with(&format!("{command} # SHA-256 ")), "{recipe}");
+}
+
+/// Viewers of 360° pictures are told of whole panoramas and their parts, and of no other picture.
+#[test]
+fn only_panoramas_are_stated_for_viewers() {
+    let area = |options: &str| {
+        let output = fed(&options.split(' ').collect::<Vec<_>>(), SCENE);
+        assert_eq!(output.status.code(), Some(0), "{options}: {}", messages(&output));
+        ugimage::read_png_header(&output.stdout).unwrap().1.panorama
+    };
+    let part = |corner| Some(PanoramaArea { whole: [40, 20], corner });
+    assert_eq!(area("-pan -sz 40 20"), part([0, 0]));
+    assert_eq!(area("-pan -sz 40 20 -dt png16"), part([0, 0]));
+    assert_eq!(area("-pan -sz 40 20 -crop 8 4 10 6"), part([8, 4]));
+    // Degrees that are not square, two eyes, rows with text, other lenses.
+    for options in ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 400 200 -lg", "-sz 40 20"] {
+        assert_eq!(area(options), None, "{options}");
+    }
+    for options in ["-fish 180 -sz 40 20", "-cube -sz 60 10", "-stereo .1 -sz 40 20"] {
+        assert_eq!(area(options), None, "{options}");
+    }
+    for format in ["ppm", "exr", "hdr", "svg"] {
+        let file = fed(&["-pan", "-sz", "40", "20", "-dt", format], SCENE).stdout;
+        assert!(file.len() > 100 && !file.windows(5).any(|bytes| bytes == b"GPano"), "{format}");
+    }
 }
 
 /// The option of the manual page of 1988.

@@ -33,7 +33,8 @@
 //!     notes: Vec::new(),
 //!     annotated: Annotated { is_shifted: false, subject: Subject::Pixels },
 //! };
-//! let metadata = Metadata { software: "demo 1.0".into(), comment: String::new() };
+//! let metadata =
+//!     Metadata { software: "demo 1.0".into(), comment: String::new(), ..Metadata::default() };
 //! let png = canvas.finish(drawn, metadata, &())?.into_file();
 //! assert!(png.starts_with(b"\x89PNG"));
 //! # Ok::<(), ugpicture::Error>(())

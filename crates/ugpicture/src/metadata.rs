@@ -11,5 +11,5 @@ pub fn metadata(remarks: &Remarks, drawn_by: Provenance<'_>) -> Metadata {
     lines.extend(drawn_by.command);
     lines.extend(recipe.as_deref());
     let software = format!("{} {}", drawn_by.program, drawn_by.version).trim().to_owned();
-    Metadata { software, comment: lines.join("\n") }
+    Metadata { software, comment: lines.join("\n"), ..Metadata::default() }
 }

@@ -116,7 +116,8 @@ mod tests {
 
     fn texts(labels: &Labels, comments: &[&str]) -> Vec<String> {
         let picture = |(idx, comment): (usize, &&str)| {
-            let history = Metadata { software: String::new(), comment: (*comment).to_owned() };
+            let history =
+                Metadata { software: String::new(), comment: (*comment).to_owned(), ..Metadata::default() };
             Picture { name: format!("n{idx}"), size: [1; 2], motion: Motion::recorded(&history), history }
         };
         labels.texts(&comments.iter().enumerate().map(picture).collect::<Vec<_>>())
@@ -154,7 +155,8 @@ mod tests {
             "uglorentz -vel a b c",
             "uglorentz '",
         ] {
-            let history = Metadata { software: String::new(), comment: line.to_owned() };
+            let history =
+                Metadata { software: String::new(), comment: line.to_owned(), ..Metadata::default() };
             assert_eq!(Motion::recorded(&history), Motion::default(), "{line}");
         }
     }

@@ -14,7 +14,8 @@
 //! use ugsheet::{Config, Labels, Motion, Picture};
 //!
 //! let picture = |line: &str| {
-//!     let history = Metadata { software: "ugrainbow".into(), comment: line.into() };
+//!     let history =
+//!         Metadata { software: "ugrainbow".into(), comment: line.into(), ..Metadata::default() };
 //!     Picture { name: "ship".into(), size: [80, 60], motion: Motion::recorded(&history), history }
 //! };
 //! let pictures = [picture("uglorentz -vel 0 0 0"), picture("uglorentz -vel .9 0 0")];
@@ -137,6 +138,7 @@ pub fn history(pictures: &[Picture], command: Option<&str>) -> Metadata {
     Metadata {
         software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(),
         comment: lines.join("\n"),
+        panorama: None,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Joins the parts of a picture that were drawn by commands of their own.
 
-use ugimage::{Frame, Metadata};
+use ugimage::{Frame, Metadata, PanoramaArea};
 
 use crate::error::Error;
 use crate::shell_words::split;
@@ -79,7 +79,8 @@ fn whole_history(tile: &Picture) -> Result<Metadata, Error> {
         found.map_or_else(|| line.to_owned(), |at| line[..at].to_owned() + &line[at + option.len()..])
     };
     let lines: Vec<String> = tile.history.comment.lines().map(without).collect();
-    Ok(Metadata { comment: lines.join("\n"), ..tile.history.clone() })
+    let panorama = tile.history.panorama.map(|area| PanoramaArea { corner: [0, 0], ..area });
+    Ok(Metadata { comment: lines.join("\n"), panorama, ..tile.history.clone() })
 }
 
 /// The part of the picture that a tile is: left column, upper row, width and height.
@@ -119,7 +120,7 @@ mod tests {
 
     fn tile(line: &str, size: [u32; 2]) -> Picture {
         let comment = format!("head\n{line} # SHA-256 00 a.ug");
-        let history = Metadata { software: "a".into(), comment };
+        let history = Metadata { software: "a".into(), comment, ..Metadata::default() };
         Picture { name: "t".into(), size, motion: Motion::default(), history }
     }
 
@@ -130,7 +131,10 @@ mod tests {
     #[test]
     fn tiles_are_placed_where_their_history_says() {
         let place = |x: u32, y: u32, w: u32, h: u32| {
-            tile(&format!("ug 'b --crop 0 0 2 1' -sz 3 2 --crop {x} {y} {w} {h} -va 5"), [w, h])
+            let line = format!("ug 'b --crop 0 0 2 1' -sz 3 2 --crop {x} {y} {w} {h} -va 5");
+            let mut tile = tile(&line, [w, h]);
+            tile.history.panorama = Some(PanoramaArea { whole: [3, 2], corner: [x, y] });
+            tile
         };
         let tiles = [place(2, 0, 1, 2), place(0, 0, 2, 1), place(0, 1, 2, 1)];
         let color = |idx: usize| [idx as u8, 1, 2, if idx == 1 { 0 } else { 255 }];
@@ -142,6 +146,7 @@ mod tests {
         assert_eq!(frame.pixels(), [1, 1, 0, 2, 2, 0].map(color));
         assert!(!frame.is_opaque());
         assert_eq!(history.comment, "head\nug 'b --crop 0 0 2 1' -sz 3 2 -va 5 # SHA-256 00 a.ug");
+        assert_eq!(history.panorama, Some(PanoramaArea { whole: [3, 2], corner: [0, 0] }));
     }
 
     #[test]

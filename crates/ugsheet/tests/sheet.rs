@@ -165,7 +165,7 @@ fn ugsheet(folder: &Path, args: &[&str]) -> Command {
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     for (name, line) in [("rest", "uglorentz"), ("fast", "uglorentz -vel .9 0 0")] {
-        let metadata = Metadata { software: "ugrainbow".into(), comment: line.into() };
+        let metadata = Metadata { software: "ugrainbow".into(), comment: line.into(), ..Metadata::default() };
         let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &metadata);
         fs::write(folder.path().join(format!("{name}.png")), file).unwrap();
     }

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use ugimage::PanoramaArea;
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::lens::Lens;
@@ -46,6 +47,12 @@ impl Default for Config {
 }
 
 impl Config {
+    /// The panorama that the picture is, for viewers of 360° pictures.
+    #[must_use]
+    pub fn panorama(&self) -> Option<PanoramaArea> {
+        self.lens.panorama(&self.picture, false, None)
+    }
+
     /// Refuses options that exclude each other, and pictures that do not fit in memory.
     ///
     /// # Errors

@@ -35,7 +35,8 @@ pub fn render_with<'s>(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     let sky = sky.into();
-    Prepared::new(sky, config, progress)?.render(sky, &metadata(None, PROVENANCE), progress)
+    let metadata = Metadata { panorama: config.panorama(), ..metadata(None, PROVENANCE) };
+    Prepared::new(sky, config, progress)?.render(sky, &metadata, progress)
 }
 
 /// The linear light of a picture with its channels, without exposure and gamut mapping: white is 1.
@@ -87,7 +88,7 @@ pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
     ugpicture::metadata(&remarks, provenance)
 }
 
-/// Makes a picture of a panorama and packs it into a file.
+/// Makes a picture of a panorama and packs it into a file, which says if it is a panorama itself.
 ///
 /// # Errors
 /// See [`Error`].
@@ -98,6 +99,7 @@ pub fn run(
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
     let sky = opened.into();
+    let metadata = &Metadata { panorama: config.panorama(), ..metadata.clone() };
     let prepared = Prepared::new(sky, config, progress)?;
     let warnings = Diagnostics::new(&Source::new("", ""), Vec::new());
     let mut file = match prepared.alone(sky) {

@@ -6,7 +6,7 @@ use std::io::{Cursor, Read, Write};
 use std::os::unix::process::ExitStatusExt;
 use std::process::{Command, Output, Stdio};
 
-use ugimage::{Format, Frame, LinearFrame, Metadata};
+use ugimage::{Format, Frame, LinearFrame, Metadata, PanoramaArea};
 use ugtesting::run::{assert_refused, messages};
 
 /// A small panorama as PNG.
@@ -46,6 +46,26 @@ fn a_picture_says_how_it_was_made() {
     let (command, recipe) = comment.split_once('\n').unwrap();
     assert_eq!(command, "ugwarp -sz 20 10 -cv 0 .1 0");
     assert!(recipe.starts_with(&format!("{command} # SHA-256 ")), "{recipe}");
+}
+
+/// Viewers of 360° pictures are told of panoramas, whether they are written while they are drawn or
+/// after it.
+#[test]
+fn only_panoramas_are_stated_for_viewers() {
+    let area = |options: &str| {
+        let output = fed(&options.split(' ').collect::<Vec<_>>(), &sky());
+        assert_eq!(output.status.code(), Some(0), "{options}: {}", messages(&output));
+        ugimage::read_png_header(&output.stdout).unwrap().1.panorama
+    };
+    let whole = Some(PanoramaArea { whole: [40, 20], corner: [0, 0] });
+    for options in ["-pan -sz 40 20", "-pan -sz 40 20 -ex auto", "-pan -sz 40 20 -dt png16"] {
+        assert_eq!(area(options), whole, "{options}");
+    }
+    for options in
+        ["-pan -sz 40 30", "-pan -sz 400 200 -cap text", "-sz 40 20", "-fish 180", "-cube -sz 60 10"]
+    {
+        assert_eq!(area(options), None, "{options}");
+    }
 }
 
 #[test]

@@ -357,7 +357,7 @@ fn files_are_those_of_whole_pictures() {
         stars: Vec::new(),
         notes: Vec::new(),
     };
-    let metadata = Metadata { software: "ugwarp".into(), comment: "ugwarp".into() };
+    let metadata = Metadata { software: "ugwarp".into(), comment: "ugwarp".into(), ..Metadata::default() };
     let fisheye = Lens::Fisheye { angle: PI };
     for (lens, samples, small) in [(Lens::Pinhole, 1, false), (fisheye, 2, false), (fisheye, 1, true)] {
         let mut config = geometry(ahead(0.6), [75, 101], lens);

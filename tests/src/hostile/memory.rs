@@ -204,7 +204,7 @@ pub fn history(bytes: &[u8]) -> Result<(), String> {
     let Some(history) = ugimage::read_history(bytes) else { return Ok(()) };
     // Text in PNG files ends at NUL.
     let comment = history.replace('\0', "");
-    let metadata = Metadata { software: String::new(), comment };
+    let metadata = Metadata { software: String::new(), comment, ..Metadata::default() };
     let frame = ugimage::Frame::new([1, 1], true, vec![[0, 0, 0, 255]]);
     let again = ugimage::read_history(&Format::Png.encode(&frame, &metadata));
     if again.as_ref().unwrap_or(&String::new()) == &metadata.comment {

@@ -36,7 +36,7 @@ pub fn png(random: &mut Random) -> Vec<u8> {
 /// A picture of any format, with its history.
 pub fn with_history(random: &mut Random) -> Vec<u8> {
     let comment = format!("ugrainbow -cap {}\n{}", words::name(random), words::number(random));
-    let history = Metadata { software: "ugrainbow".to_owned(), comment };
+    let history = Metadata { software: "ugrainbow".to_owned(), comment, ..Metadata::default() };
     random.pick(&Format::ALL).encode(&Frame::new([2, 1], false, vec![[9, 99, 199, 255]; 2]), &history)
 }
 

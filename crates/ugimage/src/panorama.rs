@@ -1,0 +1,96 @@
+//! What viewers of 360° pictures read of a panorama: Photo Sphere XMP metadata (`GPano`).
+
+/// The part of a whole equirectangular panorama, 360° wide and 180° high, that a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PanoramaArea {
+    /// Width and height of the whole panorama in pixels, twice as wide as high.
+    pub whole: [u32; 2],
+    /// Left column and upper row of the picture in it.
+    pub corner: [u32; 2],
+}
+
+impl PanoramaArea {
+    /// The XMP packet for a picture of this size.
+    pub(crate) fn xmp(self, size: [u32; 2]) -> String {
+        let numbers = [
+            (FULL[0], self.whole[0]),
+            (FULL[1], self.whole[1]),
+            ("CroppedAreaImageWidthPixels", size[0]),
+            ("CroppedAreaImageHeightPixels", size[1]),
+            (CORNER[0], self.corner[0]),
+            (CORNER[1], self.corner[1]),
+        ];
+        let numbers = numbers.map(|(name, number)| format!("\n    GPano:{name}=\"{number}\""));
+        format!(
+            "<?xpacket begin=\"\u{feff}\" id=\"W5M0MpCehiHzreSzNTczkc9d\"?>\n\
+             <x:xmpmeta xmlns:x=\"adobe:ns:meta/\">\n \
+             <rdf:RDF xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">\n  \
+             <rdf:Description rdf:about=\"\"\n    \
+             xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\"\n    \
+             GPano:UsePanoramaViewer=\"True\"\n    \
+             GPano:ProjectionType=\"equirectangular\"{}/>\n \
+             </rdf:RDF>\n\
+             </x:xmpmeta>\n\
+             <?xpacket end=\"r\"?>",
+            numbers.concat()
+        )
+    }
+
+    /// Reads it from an XMP packet that [`PanoramaArea::xmp`] has written.
+    pub(crate) fn from_xmp(text: &str) -> Option<Self> {
+        let number = |name: &str| {
+            let (_, rest) = text.split_once(&format!("GPano:{name}=\""))?;
+            rest.split_once('"')?.0.parse().ok()
+        };
+        let pair = |[across, down]: [&str; 2]| Some([number(across)?, number(down)?]);
+        Some(Self { whole: pair(FULL)?, corner: pair(CORNER)? })
+    }
+}
+
+/// Names of the width and height of the whole panorama.
+const FULL: [&str; 2] = ["FullPanoWidthPixels", "FullPanoHeightPixels"];
+
+/// Names of the place of the picture in it.
+const CORNER: [&str; 2] = ["CroppedAreaLeftPixels", "CroppedAreaTopPixels"];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The packet as viewers read it: one element with all attributes, which end where they should.
+    #[test]
+    fn the_packet_is_well_formed() {
+        let area = PanoramaArea { whole: [4096, 2048], corner: [1024, 512] };
+        let text = area.xmp([2048, 1024]);
+        let body = text.split_once("?>").unwrap().1.rsplit_once("<?xpacket").unwrap().0.trim();
+        let mut open = Vec::new();
+        for tag in body.split('<').skip(1).map(|part| part.split_once('>').unwrap().0) {
+            match tag.strip_prefix('/') {
+                Some(name) => assert_eq!(open.pop(), Some(name)),
+                None if tag.ends_with('/') => assert!(tag.starts_with("rdf:Description ")),
+                None => open.push(tag.split_whitespace().next().unwrap()),
+            }
+        }
+        assert!(open.is_empty());
+        let description = body.split_once("<rdf:Description ").unwrap().1.split_once("/>").unwrap().0;
+        let attributes: Vec<_> = description.split_whitespace().collect();
+        assert_eq!(
+            attributes,
+            [
+                "rdf:about=\"\"",
+                "xmlns:GPano=\"http://ns.google.com/photos/1.0/panorama/\"",
+                "GPano:UsePanoramaViewer=\"True\"",
+                "GPano:ProjectionType=\"equirectangular\"",
+                "GPano:FullPanoWidthPixels=\"4096\"",
+                "GPano:FullPanoHeightPixels=\"2048\"",
+                "GPano:CroppedAreaImageWidthPixels=\"2048\"",
+                "GPano:CroppedAreaImageHeightPixels=\"1024\"",
+                "GPano:CroppedAreaLeftPixels=\"1024\"",
+                "GPano:CroppedAreaTopPixels=\"512\"",
+            ]
+        );
+        assert_eq!(PanoramaArea::from_xmp(&text), Some(area));
+        assert_eq!(PanoramaArea::from_xmp(&text.replace("4096", "-1")), None);
+        assert_eq!(PanoramaArea::from_xmp("<x:xmpmeta/>"), None);
+    }
+}
