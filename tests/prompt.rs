@@ -117,6 +117,11 @@ fn mistakes_are_answered() {
 
     // Files.
     check("ugrainbow photo.jpg", "help: `ugwarp photo.jpg` shows it as the sky around an observer in motion");
+    let film = "`photo.jpg` is not a scene but a picture; with -warp, ugfilm shows it as the sky around an observer \
+                in motion, as `ugwarp photo.jpg` does in one picture";
+    check("ugfilm -ti 0..1 -fo a_%d.png photo.jpg", film);
+    let film = "a table; with -warp, ugfilm shows a list of stars, as `ugwarp stars.csv` does in one picture";
+    check("ugfilm -ti 0..1 -fo a_%d.png stars.csv", film);
     check("ugrainbow ship.fbx", "not a UniGrafix scene but a model in a format that is not read");
     check("ugphoton ship.dae", "help: export it as glTF, OBJ or PLY, which are read");
     check("ugmesh ship.fbx", "`ship.fbx` is not a mesh but a model in a format that is not read; export it");

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use clap::{ArgMatches, Parser};
 use ugimage::Format;
-use ugparse::pipe;
+use ugparse::{Foreign, Source, pipe};
 use ugpicture::cli::PictureArgs;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
@@ -297,7 +297,8 @@ impl Read {
         let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;
         let included = (hash(&source.text) != own).then(|| sha256(&source.text));
         let camera = script.fixed("cam");
-        let parsed = ugparse::read(&source, &reading, camera.as_deref()).map_err(pipe::refused)?;
+        let parsed = ugparse::read(&source, &reading, camera.as_deref())
+            .map_err(|findings| refused_sky(&source).unwrap_or_else(|| pipe::refused(findings)))?;
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
         }
@@ -325,6 +326,22 @@ impl Read {
             Self::Panorama(panorama, origin) => FilmSubject::Panorama(panorama, origin),
         }
     }
+}
+
+/// The failure for a file that is a picture or a list of stars.
+fn refused_sky(source: &Source) -> Option<Failure> {
+    if source.name.starts_with('<') {
+        return None;
+    }
+    let (is, what) = match ugparse::foreign_data(&source.name, &source.text)? {
+        Foreign::Picture => ("a picture", "it as the sky around an observer in motion"),
+        Foreign::Table => ("a table", "a list of stars"),
+        _ => return None,
+    };
+    let name = &source.name;
+    Some(Failure::failed(format!(
+        "`{name}` is not a scene but {is}; with -warp, ugfilm shows {what}, as `ugwarp {name}` does in one picture"
+    )))
 }
 
 /// A hash that tells texts apart in this run.

@@ -159,11 +159,24 @@ fn all_names(arg: &Arg) -> impl Iterator<Item = &str> {
     arg.get_long().into_iter().chain(arg.get_visible_aliases().unwrap_or_default())
 }
 
+/// The size of the frames. uglorentz has the option as well, but uses its aspect ratio alone, so
+/// the renderers describe it.
+const SIZE: &str = "sz";
+
+/// All about [`SIZE`].
+const SIZE_HELP: &str = "Size of every frame in pixels [default: 1024 768]\n\n\
+    All frames of a film have the same size. With -sheet it is the size of each frame on the sheet; with \
+    -vec it is in points. mp4 and webm get a black column or row where a side is odd.";
+
 /// The options of all programs; of those with one name the first.
 fn all_options() -> Vec<Arg> {
     let mut options: Vec<Arg> = Vec::new();
     for tool in TOOLS {
         for arg in tool.options() {
+            let is_size = arg.get_long() == Some(SIZE);
+            if is_size && tool.name() == LORENTZ.name() {
+                continue;
+            }
             if options.iter().any(|other| other.get_long() == arg.get_long()) {
                 continue;
             }
@@ -171,7 +184,10 @@ fn all_options() -> Vec<Arg> {
                 |alias: &str| options.iter().any(|other| all_names(other).any(|name| name == alias));
             // Options of two programs may have the same second name.
             let has_own_names = all_names(&arg).skip(1).all(|alias| !is_taken(alias));
-            let arg = of_film(arg, tool.heading);
+            let mut arg = of_film(arg, tool.heading);
+            if is_size {
+                arg = arg.help("Size of every frame in pixels [default: 1024 768]").long_help(SIZE_HELP);
+            }
             options.push(if has_own_names { arg } else { arg.visible_alias(Resettable::Reset) });
         }
     }
