@@ -293,8 +293,10 @@ shopt -s nullglob
 cd "$out"
 sheet nguyen 'H. P. Nguyen, Implementation of Two Relativistic Renderers, 1988' \
     nguyen-3.3.*.png nguyen-0{1,2,3,4}{[a-z]-,-}*.png
-sheet chang 'M.-C. Chang, F. Lai and W.-C. Chen 1996' chang-{01,09,10,11,12,13,14,15,16,17,18}{[a-z]-,-}*.png
-sheet howard 'A. Howard, S. Dance and L. Kitchen 1995' howard-0{2,3,4,5,6,7,8}{[a-z]-,-}*.png howard-shutter-*.png
+sheet chang 'M.-C. Chang, F. Lai and W.-C. Chen 1996' \
+    chang-{01,09,10,11,12,13,14,15,16,17,18}{[a-z]-,-}*.png
+sheet howard 'A. Howard, S. Dance and L. Kitchen 1995' \
+    howard-0{2,3,4,5,6,7,8}{[a-z]-,-}*.png howard-shutter-*.png
 sheet weiskopf 'D. Weiskopf 2000' weiskopf-0{1,3}{[a-z]-[0-9r],[a-z]-w,-}*.png
 sheet li 'J. Li, H. Shum and Q. Peng 2001' li-0{5,6}{[a-z]-,-}*.png
 sheet ours 'Other figures' {stars,lattice,halves,dice,traffic,lamp,glass,water}*.png

@@ -7,7 +7,7 @@
 //! | `share/bash-completion/completions` | completions for bash |
 //! | `share/zsh/site-functions` | completions for zsh |
 //! | `share/fish/vendor_completions.d` | completions for fish |
-//! | `share/doc/ugtools` | the pages of the documentation, and the record of all that was installed |
+//! | `share/doc/ugtools` | the pages of the documentation, and the record of what was installed |
 //!
 //! Pages and completions are made from the definitions of the options, as the help is. clap_mangen
 //! and clap_complete do not fit: both write options with two dashes, the pages lack second names
