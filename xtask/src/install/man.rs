@@ -1,16 +1,16 @@
-//! Man pages, in the macros of man(7).
+//! Man pages.
 
-use std::fmt::Write;
+use ugpipe::{DASHES, DOCUMENTATION, EXIT_STATUS, Entry, Manual};
 
 use super::markdown;
-use ugpipe::{DASHES, DOCUMENTATION, EXIT_STATUS, Entry, Manual};
+use super::roff::{Page, bold, escaped};
 
 /// Date of the last change to the words in this file; pages have to have one.
 const DATE: &str = "2026-11-24";
 
 /// The page of a program.
 pub fn page(manual: &Manual) -> String {
-    let mut page = Page::new(&manual.name, 1, &manual.version);
+    let mut page = Page::new(&manual.name, 1, DATE, &manual.version);
     page.section("NAME").paragraph(&format!("{} - {}", manual.name, lower(&manual.about)));
     page.section("SYNOPSIS").paragraph(&manual.usage);
     page.section("DESCRIPTION").paragraph(&format!("{}.", manual.about));
@@ -29,10 +29,10 @@ pub fn page(manual: &Manual) -> String {
     page.section("OPTIONS").paragraph(DASHES);
     for group in &manual.groups {
         page.subsection(&group.heading);
-        group.options.iter().for_each(|option| page.option(option));
+        group.options.iter().for_each(|option| add_option(&mut page, option));
     }
     page.section("EXAMPLES").examples(&manual.examples);
-    page.exit_status();
+    add_exit_status(&mut page);
     page.section("SEE ALSO").paragraph("ugtools(7), unigrafix(5)");
     page.paragraph(DOCUMENTATION);
     page.text
@@ -41,7 +41,7 @@ pub fn page(manual: &Manual) -> String {
 /// The page `ugtools(7)`: what the programs are, and how they work together.
 pub fn overview(manuals: &[Manual]) -> String {
     let version = manuals.first().map_or("", |manual| &manual.version);
-    let mut page = Page::new("ugtools", 7, version);
+    let mut page = Page::new("ugtools", 7, DATE, version);
     page.section("NAME").paragraph("ugtools - draw what things look like near the speed of light");
     page.section("DESCRIPTION").paragraph(
         "These programs are filters that pass scenes on as text, in the UniGrafix language. uglorentz \
@@ -71,7 +71,7 @@ pub fn overview(manuals: &[Manual]) -> String {
     page.examples(&[
         "ugmesh globe.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > globe.png".to_owned()
     ]);
-    page.exit_status();
+    add_exit_status(&mut page);
     page.section("SEE ALSO");
     let names: Vec<String> = manuals.iter().map(|manual| format!("{}(1)", manual.name)).collect();
     page.paragraph(&format!("{}, unigrafix(5)", names.join(", ")));
@@ -81,7 +81,7 @@ pub fn overview(manuals: &[Manual]) -> String {
 
 /// The page `unigrafix(5)`: the scene language, from its page in the documentation.
 pub fn language(version: &str) -> String {
-    let mut page = Page::new("unigrafix", 5, version);
+    let mut page = Page::new("unigrafix", 5, DATE, version);
     page.section("NAME").paragraph("unigrafix - the language of scenes that the ugtools read and write");
     page.section("DESCRIPTION");
     markdown::add(&mut page, include_str!("../../../docs/unigrafix.md"));
@@ -90,146 +90,31 @@ pub fn language(version: &str) -> String {
     page.text
 }
 
-/// A page that is being written.
-pub(super) struct Page {
-    pub text: String,
-}
-
-impl Page {
-    pub fn new(name: &str, section: u8, version: &str) -> Self {
-        let title = format!(".TH {} {section} {DATE} \"ugtools {version}\"\n", name.to_uppercase());
-        Self { text: title }
-    }
-
-    pub fn section(&mut self, heading: &str) -> &mut Self {
-        self.request(".SH", heading)
-    }
-
-    pub fn subsection(&mut self, heading: &str) -> &mut Self {
-        self.request(".SS", heading)
-    }
-
-    fn request(&mut self, request: &str, words: &str) -> &mut Self {
-        let _ = writeln!(self.text, "{request} {}", escaped(words));
-        self
-    }
-
-    /// A paragraph; the first of a section begins by itself.
-    pub fn paragraph(&mut self, text: &str) {
-        self.escaped_paragraph(&escaped(text));
-    }
-
-    /// A paragraph of escaped text.
-    pub fn escaped_paragraph(&mut self, text: &str) {
-        let is_first = self.text.lines().next_back().is_some_and(|line| line.starts_with(".S"));
-        if !is_first {
-            self.text += ".PP\n";
-        }
-        self.fill_escaped(text);
-    }
-
-    /// An item of a list, of escaped text.
-    pub fn item(&mut self, mark: &str, text: &str) {
-        let _ = writeln!(self.text, ".IP {mark} 4");
-        self.fill_escaped(text);
-    }
-
-    /// A line with its explanation. `tag` is escaped.
-    pub fn tagged(&mut self, tag: &str, text: &str) {
-        self.escaped_tagged(tag, &escaped(text));
-    }
-
-    /// A line with its explanation, both escaped.
-    pub fn escaped_tagged(&mut self, tag: &str, text: &str) {
-        let _ = writeln!(self.text, ".TP\n{tag}");
-        self.fill_escaped(text);
-    }
-
-    /// Another paragraph of an explanation.
-    pub fn continued(&mut self, text: &str) {
-        self.text += ".IP\n";
-        self.fill(text);
-    }
-
-    fn option(&mut self, option: &Entry) {
-        let names: Vec<String> = option.names.iter().map(|name| bold(name)).collect();
-        let values = option.syntax();
-        let values = if values.is_empty() { values } else { format!(" \\fI{}\\fR", escaped(&values)) };
-        let default = match option.default.as_str() {
-            "" => String::new(),
-            default => format!(" Default: {default}."),
-        };
-        let is_told = option.words.iter().all(|(word, _)| option.about.contains(word.as_str()));
-        let words: Vec<&str> = option.words.iter().map(|(word, _)| word.as_str()).collect();
-        let words = if is_told { String::new() } else { format!(": {}", words.join(", ")) };
-        self.tagged(&format!("{}{values}", names.join(", ")), &format!("{}{words}.{default}", option.about));
-        option.details.iter().for_each(|text| self.continued(text));
-        for (word, meaning) in option.words.iter().filter(|(_, meaning)| !meaning.is_empty()) {
-            self.continued(&format!("{word}: {meaning}."));
-        }
-    }
-
-    /// Command lines as they are.
-    pub fn examples(&mut self, lines: &[String]) {
-        self.text += ".RS 2\n.EX\n";
-        lines.iter().for_each(|line| self.line(&escaped(line)));
-        self.text += ".EE\n.RE\n";
-    }
-
-    fn exit_status(&mut self) {
-        self.section("EXIT STATUS");
-        EXIT_STATUS
-            .iter()
-            .for_each(|(status, meaning)| self.tagged(&bold(status), &format!("{}.", upper(meaning))));
-    }
-
-    /// Text that is filled, in lines of less than 80 columns.
-    fn fill(&mut self, text: &str) {
-        self.fill_escaped(&escaped(text));
-    }
-
-    /// The same of escaped text.
-    fn fill_escaped(&mut self, text: &str) {
-        const WIDTH: usize = 72;
-        let mut line = String::new();
-        for word in text.split_whitespace() {
-            if !line.is_empty() && line.len() + word.len() >= WIDTH {
-                self.line(&line);
-                line.clear();
-            }
-            line += if line.is_empty() { "" } else { " " };
-            line += word;
-        }
-        self.line(&line);
-    }
-
-    /// An escaped line, which is text even if it begins like a request.
-    fn line(&mut self, line: &str) {
-        let guard = if line.starts_with(['.', '\'']) { "\\&" } else { "" };
-        let _ = writeln!(self.text, "{guard}{line}");
+/// Adds an option with its explanation.
+fn add_option(page: &mut Page, option: &Entry) {
+    let names: Vec<String> = option.names.iter().map(|name| bold(name)).collect();
+    let values = option.syntax();
+    let values = if values.is_empty() { values } else { format!(" \\fI{}\\fR", escaped(&values)) };
+    let default = match option.default.as_str() {
+        "" => String::new(),
+        default => format!(" Default: {default}."),
+    };
+    let is_told = option.words.iter().all(|(word, _)| option.about.contains(word.as_str()));
+    let words: Vec<&str> = option.words.iter().map(|(word, _)| word.as_str()).collect();
+    let words = if is_told { String::new() } else { format!(": {}", words.join(", ")) };
+    page.tagged(&format!("{}{values}", names.join(", ")), &format!("{}{words}.{default}", option.about));
+    option.details.iter().for_each(|text| page.continued(text));
+    for (word, meaning) in option.words.iter().filter(|(_, meaning)| !meaning.is_empty()) {
+        page.continued(&format!("{word}: {meaning}."));
     }
 }
 
-pub(super) fn bold(text: &str) -> String {
-    format!("\\fB{}\\fR", escaped(text))
-}
-
-/// Text without anything that the formatter would obey or change.
-pub(super) fn escaped(text: &str) -> String {
-    let mut escaped = String::new();
-    for c in text.chars() {
-        match c {
-            '\\' => escaped += "\\e",
-            '-' => escaped += "\\-",
-            '\'' => escaped += "\\(aq",
-            '`' => escaped += "\\(ga",
-            '^' => escaped += "\\(ha",
-            '~' => escaped += "\\(ti",
-            c if c.is_ascii() => escaped.push(c),
-            c => escaped += &format!("\\[u{:04X}]", u32::from(c)),
-        }
-    }
-    escaped
+/// Adds the section on the exit status.
+fn add_exit_status(page: &mut Page) {
+    page.section("EXIT STATUS");
+    EXIT_STATUS
+        .iter()
+        .for_each(|(status, meaning)| page.tagged(&bold(status), &format!("{}.", upper(meaning))));
 }
 
 fn upper(text: &str) -> String {

@@ -2,7 +2,7 @@
 
 use pulldown_cmark::{Event, HeadingLevel, Options, Parser, Tag, TagEnd};
 
-use super::man::{Page, bold, escaped};
+use super::roff::{Page, bold, escaped};
 
 /// Adds a page of Markdown to a man page: parts are sections, headings below them subsections, and
 /// the rows of a table paragraphs with their first cell as tag. The title, links and HTML are left

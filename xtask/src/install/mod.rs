@@ -18,6 +18,7 @@ mod completions;
 mod man;
 mod markdown;
 mod record;
+mod roff;
 
 use std::ffi::OsStr;
 use std::fs;
@@ -86,7 +87,7 @@ pub fn write(out: &mut impl Write, args: &Args, path: Option<&OsStr>) -> io::Res
         .into();
     files.extend(documents().into_iter().map(|(name, text)| (format!("share/{name}"), Content::Text(text))));
     files.extend(
-        pages(&scenes::root())?
+        pages(scenes::root())?
             .into_iter()
             .map(|page| (format!("{PAGES}/{page}"), Content::Of(scenes::root().join(page)))),
     );
@@ -268,7 +269,7 @@ mod tests {
         // The second time, everything is replaced.
         for _ in 0..2 {
             let listed = installed(to.path());
-            let n_pages = pages(&scenes::root()).expect("pages").len();
+            let n_pages = pages(scenes::root()).expect("pages").len();
             assert!(n_pages > 60, "{n_pages}");
             assert_eq!(listed.lines().count(), 10 + 2 + 10 * 4 + n_pages + 1, "{listed}");
             assert!(listed.lines().all(|file| Path::new(file).is_file()), "{listed}");
@@ -281,7 +282,7 @@ mod tests {
     #[test]
     fn links_of_installed_pages_hold() {
         let root = scenes::root();
-        let pages = pages(&root).expect("pages");
+        let pages = pages(root).expect("pages");
         let mut n_links = 0;
         for page in pages.iter().filter(|page| page.ends_with(".md")) {
             let text = fs::read_to_string(root.join(page)).expect("a page");
@@ -289,7 +290,7 @@ mod tests {
             for link in links.filter(|link| !link.is_empty() && !link.contains(':')) {
                 let file = root.join(page).parent().expect("a folder").join(link);
                 let file = fs::canonicalize(&file).unwrap_or_else(|error| panic!("{page}: {link}: {error}"));
-                let root = fs::canonicalize(&root).expect("a folder");
+                let root = fs::canonicalize(root).expect("a folder");
                 let name = file.strip_prefix(&root).expect("a file of the repository").display().to_string();
                 assert!(pages.contains(&name) || file.is_dir(), "{page}: {link} is not installed");
                 n_links += 1;
