@@ -60,7 +60,7 @@ fn only_panoramas_are_stated_for_viewers() {
     let part = |corner| Some(PanoramaArea { whole: [40, 20], corner });
     assert_eq!(area("-pan -sz 40 20"), part([0, 0]));
     assert_eq!(area("-pan -sz 40 20 -dt png16"), part([0, 0]));
-    assert_eq!(area("-pan -sz 40 20 -crop 8 4 10 6"), part([8, 4]));
+    assert_eq!(area("-pan -sz 40 20 -ex 0 -crop 8 4 10 6"), part([8, 4]));
     // Degrees that are not square, two eyes, rows with text, other lenses.
     for options in ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 400 200 -lg", "-sz 40 20"] {
         assert_eq!(area(options), None, "{options}");
