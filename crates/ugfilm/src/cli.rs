@@ -222,6 +222,7 @@ fn exposure(
     is_printed: bool,
     context: &Context,
 ) -> Result<f64, Failure> {
+    film.size()?;
     let key = film.exposure_key()?;
     let Some((names, key)) = names.zip(key) else { return film.exposure(&context.steps()) };
     if let Some(stops) = kept_exposure(names, &key) {
