@@ -163,10 +163,12 @@ fn all_names(arg: &Arg) -> impl Iterator<Item = &str> {
 /// the renderers describe it.
 const SIZE: &str = "sz";
 
-/// All about [`SIZE`].
-const SIZE_HELP: &str = "Size of every frame in pixels [default: 1024 768]\n\n\
-    All frames of a film have the same size. With -sheet it is the size of each frame on the sheet; with \
-    -vec it is in points. mp4 and webm get a black column or row where a side is odd.";
+/// Its help in short, and what the long help adds.
+const SIZE_HELP: [&str; 2] = [
+    "Size of every frame in pixels [default: 1024 768]",
+    "All frames of a film have the same size. With -sheet it is the size of each frame on the sheet; with \
+    -vec it is in points. mp4 and webm get a black column or row where a side is odd.",
+];
 
 /// The options of all programs; of those with one name the first.
 fn all_options() -> Vec<Arg> {
@@ -186,7 +188,7 @@ fn all_options() -> Vec<Arg> {
             let has_own_names = all_names(&arg).skip(1).all(|alias| !is_taken(alias));
             let mut arg = of_film(arg, tool.heading);
             if is_size {
-                arg = arg.help("Size of every frame in pixels [default: 1024 768]").long_help(SIZE_HELP);
+                arg = arg.help(SIZE_HELP[0]).long_help(SIZE_HELP.join("\n\n"));
             }
             options.push(if has_own_names { arg } else { arg.visible_alias(Resettable::Reset) });
         }

@@ -33,8 +33,8 @@
 //!
 //! let mut frame = Frame::opaque(2, 1);
 //! frame.pixels_mut()[1] = [255, 128, 0, 255];
-//! let metadata =
-//!     Metadata { software: "demo 1.0".into(), comment: "demo -sz 2 1".into(), ..Metadata::default() };
+//! let (software, comment) = ("demo 1.0".into(), "demo -sz 2 1".into());
+//! let metadata = Metadata { software, comment, panorama: None };
 //! let png = Format::Png.encode(&frame, &metadata);
 //! assert!(png.starts_with(b"\x89PNG"));
 //!

@@ -148,8 +148,8 @@ pub struct LensArgs {
     /// Panorama of all directions
     ///
     /// Longitude across the picture, latitude down, the view direction in the middle
-    /// (equirectangular). -sz W H with W = 2 H has square degrees; then a PNG file says that it is a
-    /// panorama, as players of 360° pictures expect it.
+    /// (equirectangular). -sz W H with W = 2 H has square degrees; then a PNG file says that it is
+    /// a panorama, as players of 360° pictures expect it.
     #[arg(long, visible_alias = "panorama", conflicts_with = "fish")]
     pan: bool,
 

@@ -177,8 +177,8 @@ impl Picture {
     }
 
     /// For each piece of a face in the pipe, whether light at its corners does not tell the light
-    /// between them: a lamp sets in it, that is, lights some of its corners and not others; or their
-    /// hues are far apart, at the two ends of the spectrum or on the two sides of grey.
+    /// between them: a lamp sets in it, that is, lights some of its corners and not others; or
+    /// their hues are far apart, at the two ends of the spectrum or on the two sides of grey.
     ///
     /// # Errors
     /// The answer of a program instead.

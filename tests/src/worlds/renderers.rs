@@ -67,8 +67,8 @@ fn check_pipe(random: &mut Random, change: fn(&mut Random, World) -> World) -> O
     // Between different faces, and where a light sets, light changes from sample to sample. Light at
     // a point of a flat face is 0 behind the line where a moving lamp sets; the pipe, which has the
     // light of corners alone, interpolates between those in light and those in the dark. Hue turns
-    // by 180° where the sum of coloured lamps is grey, and leaps from one end of the spectrum to the
-    // other at magenta; the pipe interpolates between such corners, too.
+    // by 180° where the sum of coloured lamps is grey, and leaps from one end of the spectrum to
+    // the other at magenta; the pipe interpolates between such corners, too.
     let pieces = one.ids();
     let is_smooth = |at: usize| {
         let piece = (pieces[at] as usize).checked_sub(1);

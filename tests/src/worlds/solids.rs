@@ -102,8 +102,8 @@ pub fn nested(random: &mut Random) -> Outcome {
         more.bodies.push(scaled(0.3 + 0.6 * row as f64 / n_more as f64, clear(index, absorption)));
     }
     // Light that total reflection catches, or that grows faint, ends elsewhere where it meets more
-    // surfaces: only pixels are compared whose light all comes by few surfaces, each way between two
-    // of which crosses each added solid at most twice, and not nearly as faint as the cutoff.
+    // surfaces: only pixels are compared whose light all comes by few surfaces, each way between
+    // two of which crosses each added solid at most twice, and not nearly as faint as the cutoff.
     let (one, other) = (picture.draw()?, Picture { text: more.text(), ..picture.clone() }.draw()?);
     (picture.rays.depth, picture.rays.cutoff) = (DEPTH / (2 * n_more as u32 + 1), 5.0 * CUTOFF);
     let short = picture.draw()?;

@@ -119,7 +119,7 @@ impl Writer<'_> {
         let Some(table) = &mut self.table else { return };
         let row = std::mem::take(&mut table.row);
         let Some((tag, cells)) = row.split_first() else { return };
-        // The first cell after the tag explains it; others are called by the heads of their columns.
+        // The first cell after the tag explains it; others are named by the heads of their columns.
         let cells = table.head.iter().skip(1).zip(cells).enumerate();
         let told: Vec<String> = cells
             .filter(|(_, (_, cell))| !cell.is_empty())

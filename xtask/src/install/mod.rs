@@ -3,7 +3,7 @@
 //! | folder below the prefix | contents |
 //! | --- | --- |
 //! | `bin` | the programs |
-//! | `share/man/man1`, `man5`, `man7` | a page for each program, `unigrafix(5)`, the scene language, and `ugtools(7)`, the overview |
+//! | `share/man/man1`, `man5`, `man7` | a page for each program, `unigrafix(5)`, `ugtools(7)` |
 //! | `share/bash-completion/completions` | completions for bash |
 //! | `share/zsh/site-functions` | completions for zsh |
 //! | `share/fish/vendor_completions.d` | completions for fish |
