@@ -19,6 +19,22 @@ pub struct Event {
     pub x: DVec3,
 }
 
+impl core::ops::Add for Event {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self { t: self.t + other.t, x: self.x + other.x }
+    }
+}
+
+impl core::ops::Sub for Event {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        Self { t: self.t - other.t, x: self.x - other.x }
+    }
+}
+
 /// Where the body's point is in S at t = 0, regardless of light travel time: p₀ = p' − (1 −
 /// 1/γ)(p'·û)û.  Eq. (P1)
 ///

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use glam::DVec3;
-use ugphysics::{Event, Orbit, Piece, Velocity, WorldLine, doppler_at};
+use ugphysics::{Event, Lorentz, Orbit, Piece, Velocity, WorldLine, doppler_at};
 
 const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -263,7 +263,7 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
         let rate =
             difference(line.event(point, own_time + h).unwrap(), line.event(point, own_time - h).unwrap());
         let velocity = Velocity::from_beta(rate.x / rate.t).unwrap();
-        let to_element = ugphysics::Lorentz::boost(velocity).inverse();
+        let to_element = Lorentz::boost(velocity).inverse();
         for tangent in [along(first), along(second)] {
             let tangent = to_element.apply(tangent);
             // At rest with the element, tangents at one time lie in the surface.
@@ -292,4 +292,98 @@ fn impossible_motions_are_refused() {
     assert!(matches!(ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }), Err(Error::Horizon { .. })));
     assert!(matches!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::Z, 1.0), Err(Error::Velocity(_))));
     assert_eq!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.5), Err(Error::NoAxis));
+}
+
+/// Motions of every kind, and points of them before every horizon.
+fn motions() -> Vec<WorldLine> {
+    let push = [piece([0.3, 0.0, 0.1], [-2.0, 1.5]), piece([0.0, -0.2, 0.0], [2.0, 6.0])];
+    let spin = [piece([0.1, 0.2, 0.05], ALWAYS)];
+    let center = DVec3::new(-3.0, 1.0, 0.0);
+    let orbit = Orbit::new(0.2 * DVec3::X, center, DVec3::new(0.1, 0.2, 1.0), 0.2).unwrap();
+    let pushed = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &push, &[]);
+    let both = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &push, &spin);
+    let wheel = both.with_part(DVec3::new(0.5, 0.4, 0.0), &[piece([0.0, 0.3, 0.0], [0.0, 9.0])]).unwrap();
+    let moon = WorldLine::orbiting(orbit, &spin).unwrap();
+    vec![
+        pushed,
+        both,
+        wheel,
+        moon.clone(),
+        moon.with_part(DVec3::new(0.5, 0.0, 0.0), &[piece([0.2, 0.0, 0.0], ALWAYS)]).unwrap(),
+        moving([0.0; 3], [0.5, 0.0, 0.0], &[], &spin),
+        WorldLine::inertial(Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap()),
+    ]
+}
+
+fn points() -> impl Iterator<Item = DVec3> {
+    (0..20).map(|k| {
+        let k = f64::from(k);
+        DVec3::new(0.6 * libm::sin(k), 0.6 * libm::cos(2.0 * k), 0.6 * libm::sin(3.0 * k + 1.0))
+    })
+}
+
+/// An event on a body leads back to its point and own time.
+#[test]
+fn events_are_of_the_points_that_are_there() {
+    for motion in motions() {
+        points().for_each(|point| motion.check(point).unwrap());
+        for (point, own_time) in points().zip((-10..10).map(f64::from)) {
+            let event = motion.event(point, own_time).unwrap();
+            let found = motion.at_event(event).unwrap();
+            let scale = 1.0 + event.t.abs();
+            assert!((found.own_time - own_time).abs() < 1e-13 * scale, "{} {own_time}", found.own_time);
+            assert!((found.point - point).length() < 1e-13 * scale, "{} {point}", found.point);
+            let seen =
+                motion.emission(point, Event { t: event.t + 5.0, x: event.x + 5.0 * DVec3::Y }).unwrap();
+            assert!((seen.own_time - own_time).abs() < 1e-12 * scale);
+            // A spin begins and ends with a jerk.
+            if [-2.0, 0.0, 1.5, 2.0, 6.0, 9.0].contains(&own_time) {
+                continue;
+            }
+            assert!((seen.velocity.beta() - found.velocity.beta()).length() < 1e-12);
+            // The velocity is the derivative of the event.
+            let [early, late] = [-1e-5, 1e-5].map(|step| motion.event(point, own_time + step).unwrap());
+            let slope = (late.x - early.x) / (late.t - early.t);
+            assert!((found.velocity.beta() - slope).length() < 1e-8, "{slope}");
+        }
+    }
+}
+
+/// A change of frame changes coordinates, not what is seen.
+#[test]
+fn what_is_seen_does_not_depend_on_the_frame() {
+    let velocity = Velocity::from_beta(DVec3::new(-0.3, 0.5, 0.2)).unwrap();
+    let frame = Lorentz::boost(velocity).inverse();
+    let origin = Event { t: 2.0, x: DVec3::new(1.0, -3.0, 0.5) };
+    let there = |event: Event| frame.apply(event - origin);
+    for motion in motions() {
+        let moved = motion.in_frame(frame, origin);
+        let twice = moved.in_frame(frame.inverse(), there(Event { t: 0.0, x: DVec3::ZERO }));
+        for point in points() {
+            let observer = Event { t: 3.0, x: DVec3::new(0.0, -4.0, 1.0) };
+            let seen = motion.emission(point, observer).unwrap();
+            let again = moved.emission(point, there(observer)).unwrap();
+            assert!((again.own_time - seen.own_time).abs() < 1e-12 * (1.0 + seen.own_time.abs()));
+            let event = there(seen.event);
+            assert!((again.event.x - event.x).length() < 1e-12 * (1.0 + event.t.abs()));
+            let composed = ugphysics::compose(seen.velocity, -velocity);
+            assert!((again.velocity.beta() - composed.beta()).length() < 1e-13);
+            let back = twice.emission(point, observer).unwrap();
+            assert!((back.event.x - seen.event.x).length() < 1e-11 * (1.0 + seen.event.t.abs()));
+        }
+    }
+}
+
+/// A part that does not spin is the body; a wheel that turns with its car is part of it.
+#[test]
+fn parts_move_with_their_body() {
+    let car = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &[piece([0.3, 0.0, 0.1], [-2.0, 1.5])], &[]);
+    assert_eq!(car.with_part(DVec3::X, &[]).unwrap(), car);
+    let wheel = car.with_part(DVec3::X, &[piece([0.0, 0.0, 0.5], [0.0, 4.0])]).unwrap();
+    let hub = wheel.event(DVec3::X, 3.0).unwrap();
+    assert_eq!(hub, car.event(DVec3::X, 3.0).unwrap());
+    let rim = wheel.event(DVec3::X + DVec3::Y, 3.0).unwrap();
+    let turned = DVec3::X + DVec3::new(-libm::sin(1.5), libm::cos(1.5), 0.0);
+    let same = car.event(turned, 3.0).unwrap();
+    assert!((rim.x - same.x).length() < 1e-14 && (rim.t - same.t).abs() < 1e-14);
 }

@@ -4,6 +4,7 @@
 //! e₁, e₂, e₃ perpendicular to the four-velocity u = dz/dτ that are carried without turning
 //! (Fermi-Walker transport), in which it may spin.
 
+mod horizon;
 mod orbit;
 mod pieces;
 
@@ -50,6 +51,16 @@ struct Moving {
     /// The velocity at own time 0.
     initial: Velocity,
     path: Path,
+    /// Spins about points of the body, the innermost first: each turns what those before it have
+    /// turned.
+    turns: Vec<Turn>,
+}
+
+/// Spin about a point.
+#[derive(Clone, Debug, PartialEq)]
+struct Turn {
+    /// The point, in the coordinates of the body.
+    pivot: DVec3,
     spin: Spin,
 }
 
@@ -57,7 +68,7 @@ struct Moving {
 #[derive(Clone, Debug, PartialEq)]
 enum Path {
     Accelerated(Acceleration),
-    Orbit(Orbit),
+    Orbit(Box<Orbit>),
 }
 
 /// The event of A at some own time, and the body's axes there.
@@ -67,7 +78,7 @@ pub struct Pose {
     pub event: Event,
     /// The frame of the scene from the axes (u; e₁, e₂, e₃).
     pub scene_from_axes: Lorentz,
-    /// The turn R(τ) of the spin, in these axes.
+    /// The turn R(τ) of the body in these axes, of all its spins together.
     pub turn: DQuat,
 }
 
@@ -78,6 +89,17 @@ pub struct EmissionEvent {
     pub own_time: f64,
     /// The event, in the frame of the scene.
     pub event: Event,
+    /// The velocity of the point in the frame of the scene.
+    pub velocity: Velocity,
+}
+
+/// An event on a body, and how the body moves there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyEvent {
+    /// The point of the body, in its coordinates.
+    pub point: DVec3,
+    /// The own time τ of A, simultaneous in the frame of A.
+    pub own_time: f64,
     /// The velocity of the point in the frame of the scene.
     pub velocity: Velocity,
 }
@@ -167,12 +189,9 @@ impl WorldLine {
         if acceleration.is_none() && spin.is_none() {
             return Ok(Self::inertial(velocity));
         }
-        Ok(Self(Kind::Moving(Box::new(Moving {
-            at,
-            initial: velocity,
-            path: Path::Accelerated(acceleration),
-            spin,
-        }))))
+        let turns = Turn::new(at, spin).into_iter().collect();
+        let path = Path::Accelerated(acceleration);
+        Ok(Self(Kind::Moving(Box::new(Moving { at, initial: velocity, path, turns }))))
     }
 
     /// A motion whose reference point runs on a circle.
@@ -180,9 +199,53 @@ impl WorldLine {
     /// # Errors
     /// See [`WorldLineError`].
     pub fn orbiting(orbit: Orbit, spins: &[Piece]) -> Result<Self, WorldLineError> {
-        let spin = Spin::new(spins)?;
         let (at, initial) = (orbit.at(), orbit.velocity());
-        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path: Path::Orbit(orbit), spin }))))
+        let turns = Turn::new(at, Spin::new(spins)?).into_iter().collect();
+        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path: Path::Orbit(Box::new(orbit)), turns }))))
+    }
+
+    /// The motion of a part of a body with this motion, which spins about its point `at` of it: a
+    /// wheel on a car. Own times of the part are those of the body.
+    ///
+    /// `spins`: angular velocity about `at`, along the axes that the body has at own time 0 and
+    /// that turn with it.
+    ///
+    /// # Errors
+    /// See [`WorldLineError`].
+    pub fn with_part(&self, at: DVec3, spins: &[Piece]) -> Result<Self, WorldLineError> {
+        if !at.is_finite() {
+            return Err(WorldLineError::NotFinite);
+        }
+        let Some(turn) = Turn::new(at, Spin::new(spins)?) else { return Ok(self.clone()) };
+        let mut moving = self.as_moving();
+        moving.turns.insert(0, turn);
+        Ok(Self(Kind::Moving(Box::new(moving))))
+    }
+
+    /// The same motion in other coordinates of space-time: `target_from_source` after `origin` is
+    /// subtracted.
+    #[must_use]
+    pub fn in_frame(&self, target_from_source: Lorentz, origin: Event) -> Self {
+        let mut moving = self.as_moving();
+        match &mut moving.path {
+            Path::Accelerated(acceleration) => acceleration.change_frame(target_from_source, origin),
+            Path::Orbit(orbit) => orbit.change_frame(target_from_source, origin),
+        }
+        let frame = moving.pose(0.0).scene_from_axes;
+        moving.initial = frame.velocity_of_frame().unwrap_or(moving.initial);
+        Self(Kind::Moving(Box::new(moving)))
+    }
+
+    fn as_moving(&self) -> Moving {
+        match &self.0 {
+            Kind::Inertial(velocity) => Moving {
+                at: DVec3::ZERO,
+                initial: *velocity,
+                path: Path::Accelerated(Acceleration::none(*velocity)),
+                turns: Vec::new(),
+            },
+            Kind::Moving(moving) => (**moving).clone(),
+        }
     }
 
     /// The velocity of a body that neither accelerates nor turns; `None` for others.
@@ -247,6 +310,37 @@ impl WorldLine {
         }
     }
 
+    /// The point of the body that an event is at, the inverse of [`WorldLine::event`]: τ is the root
+    /// of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the acceleration.  Eq.
+    /// (P45)
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if no point of the body can be there.
+    pub fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(velocity) => {
+                let Event { t, x } = Lorentz::boost(*velocity).inverse().apply(event);
+                Ok(BodyEvent { point: x, own_time: t, velocity: *velocity })
+            }
+            Kind::Moving(moving) => moving.at_event(event),
+        }
+    }
+
+    /// Checks that a point of the body can move so at all times.
+    ///
+    /// The check is exact where at most one of acceleration and spin acts on the point at a time;
+    /// elsewhere it samples the time unless a bound shows that nothing is near the horizon.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] with an own time at which the point would reach the speed of
+    /// light.
+    pub fn check(&self, point: DVec3) -> Result<(), WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(_) => Ok(()),
+            Kind::Moving(moving) => moving.check(point),
+        }
+    }
+
     /// The unit normal of a surface of the body in the rest frame of the surface element, with the
     /// axes of a single boost from the frame of the scene. It differs from the normal of the body's
     /// shape where the body spins.  Eq. (P43)
@@ -266,6 +360,23 @@ impl WorldLine {
 struct Moment {
     event: Event,
     rate: Event,
+    /// |∂X/∂τ|: the pace of the point's own clock.
+    clock: f64,
+}
+
+/// A point of a body relative to A, in the carried axes.
+#[derive(Clone, Copy, Debug)]
+struct Offset {
+    xi: DVec3,
+    /// dξ/dτ
+    swing: DVec3,
+}
+
+impl Turn {
+    /// `None` without a spin.
+    fn new(pivot: DVec3, spin: Spin) -> Option<Self> {
+        (!spin.is_none()).then_some(Self { pivot, spin })
+    }
 }
 
 impl Moving {
@@ -274,7 +385,24 @@ impl Moving {
             Path::Accelerated(acceleration) => acceleration.pose(own_time),
             Path::Orbit(orbit) => orbit.pose(own_time),
         };
-        Pose { turn: self.spin.turn(own_time), ..pose }
+        let turn = |turn: DQuat, next: &Turn| next.spin.turn(own_time) * turn;
+        Pose { turn: self.turns.iter().fold(DQuat::IDENTITY, turn), ..pose }
+    }
+
+    /// ξ of a point and its derivative by τ, in the carried axes.
+    fn offset(&self, point: DVec3, own_time: f64) -> Offset {
+        let mut offset = Offset { xi: point, swing: DVec3::ZERO };
+        for Turn { pivot, spin } in &self.turns {
+            let (turn, rate) = (spin.turn(own_time), spin.rate(own_time));
+            let arm = turn * (offset.xi - *pivot);
+            offset = Offset { xi: *pivot + arm, swing: rate.cross(arm) + turn * offset.swing };
+        }
+        Offset { xi: offset.xi - self.at, ..offset }
+    }
+
+    /// 1 + a·ξ.
+    fn pace(&self, xi: DVec3, own_time: f64) -> f64 {
+        1.0 + self.acceleration(own_time).dot(xi)
     }
 
     /// The proper acceleration in the carried axes.
@@ -285,30 +413,71 @@ impl Moving {
         }
     }
 
-    /// X(τ) = z(τ) + Σ ξⁱ e_i with ξ = R (p' − A), and ∂X/∂τ = (1 + a·ξ) u + (ω×ξ)ⁱ e_i.  Eq. (P41)
+    /// X(τ) = z(τ) + Σ ξⁱ e_i and ∂X/∂τ = (1 + a·ξ) u + (dξ/dτ)ⁱ e_i.  Eq. (P41)
     fn moment(&self, point: DVec3, own_time: f64) -> Result<Moment, WorldLineError> {
         let pose = self.pose(own_time);
-        let xi = pose.turn * (point - self.at);
+        let Offset { xi, swing } = self.offset(point, own_time);
         let offset = pose.scene_from_axes.apply(Event { t: 0.0, x: xi });
-        let pace = 1.0 + self.acceleration(own_time).dot(xi);
-        let swing = self.spin.rate(own_time).cross(xi);
+        let pace = self.pace(xi, own_time);
         if pace.partial_cmp(&swing.length()) != Some(core::cmp::Ordering::Greater) {
             return Err(WorldLineError::Horizon { own_time });
         }
         let rate = pose.scene_from_axes.apply(Event { t: pace, x: swing });
-        let event = Event { t: pose.event.t + offset.t, x: pose.event.x + offset.x };
-        Ok(Moment { event, rate })
+        let event = pose.event + offset;
+        Ok(Moment { event, rate, clock: ((pace - swing.length()) * (pace + swing.length())).sqrt() })
+    }
+
+    fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
+        let mut own_time = self.own_time_at(event)?;
+        let pose = self.pose(own_time);
+        let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);
+        // What rounding left.
+        own_time += t;
+        let mut point = xi + self.at;
+        for Turn { pivot, spin } in self.turns.iter().rev() {
+            point = *pivot + spin.turn(own_time).inverse() * (point - *pivot);
+        }
+        let Moment { rate, clock, .. } = self.moment(point, own_time)?;
+        Ok(BodyEvent { point, own_time, velocity: Velocity::from_proper(rate.x / clock)? })
+    }
+
+    /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ, by Newton's method.
+    fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
+        const MOST_STEPS: usize = 200;
+        let Pose { event: start, scene_from_axes, .. } = self.pose(0.0);
+        let mut own_time = scene_from_axes.inverse().apply(event - start).t;
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for _ in 0..MOST_STEPS {
+            let pose = self.pose(own_time);
+            let Event { t, x } = pose.scene_from_axes.inverse().apply(event - pose.event);
+            if t > 0.0 {
+                low = own_time;
+            } else {
+                high = own_time;
+            }
+            let pace = self.pace(x, own_time);
+            let newton = own_time + t / pace;
+            let next = if pace > 0.0 && newton > low && newton < high {
+                newton
+            } else if low.is_finite() && high.is_finite() {
+                low.midpoint(high)
+            } else {
+                own_time + t
+            };
+            if (next - own_time).abs() <= 1e-15 * next.abs().max(1.0) {
+                return Ok(next);
+            }
+            if !next.is_finite() {
+                break;
+            }
+            own_time = next;
+        }
+        Ok(own_time)
     }
 
     fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
         let own_time = self.emission_time(point, observer)?;
-        let Moment { event, rate } = self.moment(point, own_time)?;
-        // |∂X/∂τ|² = t'² − x'² is (1 + a·ξ)² − |ω×ξ|².
-        let pose = self.pose(own_time);
-        let xi = pose.turn * (point - self.at);
-        let pace = 1.0 + self.acceleration(own_time).dot(xi);
-        let swing = self.spin.rate(own_time).cross(xi).length();
-        let clock = ((pace - swing) * (pace + swing)).sqrt();
+        let Moment { event, rate, clock } = self.moment(point, own_time)?;
         Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
     }
 
@@ -319,8 +488,13 @@ impl Moving {
         const TOLERANCE: f64 = 1e-15;
         /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
         const MOST_STEPS: usize = 2200;
+        if let Path::Accelerated(acceleration) = &self.path
+            && acceleration.is_none()
+        {
+            return Ok(self.emission_time_of_turn(point, observer));
+        }
         let value = |own_time: f64| -> Result<(f64, f64), WorldLineError> {
-            let Moment { event, rate } = self.moment(point, own_time)?;
+            let Moment { event, rate, .. } = self.moment(point, own_time)?;
             let way = observer.x - event.x;
             let toward = unit_or_zero(way);
             Ok((observer.t - event.t - way.length(), toward.dot(rate.x) - rate.t))
@@ -356,22 +530,51 @@ impl Moving {
         Ok(guess)
     }
 
+    /// The same without acceleration, in the rest frame of A: the fixed point of τ = t_o − |x_o −
+    /// ξ(τ)|.
+    fn emission_time_of_turn(&self, point: DVec3, observer: Event) -> f64 {
+        const TOLERANCE: f64 = 4e-16;
+        const MOST_STEPS: usize = 200;
+        let Pose { event, scene_from_axes, .. } = self.pose(0.0);
+        let Event { t, x } = scene_from_axes.inverse().apply(observer - event);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut own_time = t - (x - self.offset(point, 0.0).xi).length();
+        for _ in 0..MOST_STEPS {
+            let Offset { xi, swing } = self.offset(point, own_time);
+            let way = x - xi;
+            let distance = way.length();
+            let f = t - own_time - distance;
+            if f > 0.0 {
+                low = own_time;
+            } else {
+                high = own_time;
+            }
+            let slope = if distance > 0.0 { way.dot(swing) / distance - 1.0 } else { -1.0 };
+            let newton = own_time - f / slope;
+            // The fixed point always gets nearer, since |dξ/dτ| < 1.
+            let next = if newton > low && newton < high { newton } else { own_time + f };
+            if (next - own_time).abs() <= TOLERANCE * next.abs().max(1.0) || !next.is_finite() {
+                return next;
+            }
+            own_time = next;
+        }
+        own_time
+    }
+
     /// The root for a body that moves on as it does at own time 0.
     fn guess(&self, observer: Event, point: DVec3) -> f64 {
-        let Pose { event, scene_from_axes, turn } = self.pose(0.0);
-        let from = Event { t: observer.t - event.t, x: observer.x - event.x };
-        let Event { t, x } = scene_from_axes.inverse().apply(from);
-        let guess = t - (x - turn * (point - self.at)).length();
+        let Pose { event, scene_from_axes, .. } = self.pose(0.0);
+        let Event { t, x } = scene_from_axes.inverse().apply(observer - event);
+        let guess = t - (x - self.offset(point, 0.0).xi).length();
         if guess.is_finite() { guess } else { 0.0 }
     }
 
-    /// N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), with w = ω×ξ/(1 + a·ξ): perpendicular to
+    /// N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), with w = (dξ/dτ)/(1 + a·ξ): perpendicular to
     /// ∂X/∂τ and to both tangents of the surface.  Eq. (P43)
     fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
         let pose = self.pose(own_time);
-        let (xi, n) = (pose.turn * (point - self.at), pose.turn * normal);
-        let pace = 1.0 + self.acceleration(own_time).dot(xi);
-        let w = self.spin.rate(own_time).cross(xi) / pace;
+        let (Offset { xi, swing }, n) = (self.offset(point, own_time), pose.turn * normal);
+        let w = swing / self.pace(xi, own_time);
         let lean = n.dot(w);
         let scale = 1.0 / ((1.0 - lean) * (1.0 + lean)).sqrt();
         let in_scene = pose.scene_from_axes.apply(Event { t: lean * scale, x: n * scale });

@@ -19,6 +19,9 @@ pub struct Orbit {
     /// From the centre to the point at own time 0.
     start: DVec3,
     velocity: Velocity,
+    /// The frame of the world line from that in which it is a circle, after `origin` is subtracted.
+    frame: Lorentz,
+    origin: Event,
 }
 
 impl Orbit {
@@ -38,7 +41,8 @@ impl Orbit {
         }
         let start = at - center;
         let velocity = Velocity::from_beta(rate * axis.cross(start))?;
-        Ok(Self { center, axis, rate, start, velocity })
+        let (frame, origin) = (Lorentz::IDENTITY, Event { t: 0.0, x: DVec3::ZERO });
+        Ok(Self { center, axis, rate, start, velocity, frame, origin })
     }
 
     pub(super) fn at(&self) -> DVec3 {
@@ -50,12 +54,29 @@ impl Orbit {
         self.velocity
     }
 
+    /// Radians per unit of own time.
+    pub(super) fn own_rate(&self) -> f64 {
+        (self.rate * self.velocity.gamma()).abs()
+    }
+
     /// The turn of the point's place about the axis.
     fn progress(&self, own_time: f64) -> DQuat {
         rotation(self.axis, self.rate * self.velocity.gamma() * own_time)
     }
 
+    pub(super) fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
+        self.origin = self.origin + self.frame.inverse().apply(origin);
+        self.frame = target_from_source * self.frame;
+    }
+
     pub(super) fn pose(&self, own_time: f64) -> Pose {
+        let Pose { event, scene_from_axes, turn } = self.pose_of_circle(own_time);
+        let event = self.frame.apply(event - self.origin);
+        Pose { event, scene_from_axes: self.frame * scene_from_axes, turn }
+    }
+
+    /// In the frame in which it is a circle.
+    fn pose_of_circle(&self, own_time: f64) -> Pose {
         let gamma = self.velocity.gamma();
         let progress = self.progress(own_time);
         let event = Event { t: gamma * own_time, x: self.center + progress * self.start };
@@ -72,7 +93,7 @@ impl Orbit {
 
     /// Centripetal: γ²ω²ρ towards the axis.
     pub(super) fn acceleration(&self, own_time: f64) -> DVec3 {
-        let pose = self.pose(own_time);
+        let pose = self.pose_of_circle(own_time);
         let from_axis = self.progress(own_time) * self.start;
         let from_axis = from_axis - from_axis.dot(self.axis) * self.axis;
         let own_rate = self.velocity.gamma() * self.rate;

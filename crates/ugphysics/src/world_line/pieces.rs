@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{Pose, WorldLineError};
-use crate::{Event, HyperbolicMotion, Lorentz, VelocityError};
+use crate::{Event, HyperbolicMotion, Lorentz, Velocity, VelocityError};
 
 /// The greatest rapidity that one piece adds; a piece without an end ends there. At 1 g it is
 /// reached after 48 years, at a distance of 10²¹ light years.
@@ -141,8 +141,27 @@ impl Acceleration {
         Ok(Self(timeline))
     }
 
+    /// Without acceleration, with a velocity, through the origin.
+    pub(super) fn none(velocity: Velocity) -> Self {
+        let event = Event { t: 0.0, x: DVec3::ZERO };
+        let start = Pose { event, scene_from_axes: Lorentz::boost(velocity), turn: DQuat::IDENTITY };
+        Self(Timeline::new(&[], start, accelerated))
+    }
+
     pub(super) fn is_none(&self) -> bool {
         self.0.is_constant()
+    }
+
+    pub(super) fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
+        for Stretch { state, .. } in &mut self.0.0 {
+            state.event = target_from_source.apply(state.event - origin);
+            state.scene_from_axes = target_from_source * state.scene_from_axes;
+        }
+    }
+
+    /// Own times at which the acceleration changes.
+    pub(super) fn changes(&self) -> impl Iterator<Item = f64> + '_ {
+        self.0.0.iter().skip(1).map(|stretch| stretch.from)
     }
 
     pub(super) fn pose(&self, own_time: f64) -> Pose {
@@ -171,9 +190,13 @@ fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
 }
 
 fn accelerated(acceleration: DVec3, pose: Pose, passed: f64) -> Pose {
+    if acceleration == DVec3::ZERO {
+        let shift = pose.scene_from_axes.apply(Event { t: passed, x: DVec3::ZERO });
+        return Pose { event: pose.event + shift, ..pose };
+    }
     let motion = HyperbolicMotion { acceleration };
     let shift = pose.scene_from_axes.apply(motion.event(passed));
-    let event = Event { t: pose.event.t + shift.t, x: pose.event.x + shift.x };
+    let event = pose.event + shift;
     // `limit_rapidity` keeps the rapidity below the limit of `Velocity`.
     let boost = motion.velocity(passed).map_or(Lorentz::IDENTITY, Lorentz::boost);
     Pose { event, scene_from_axes: pose.scene_from_axes * boost, turn: pose.turn }
@@ -194,6 +217,11 @@ impl Spin {
 
     pub(super) fn turn(&self, own_time: f64) -> DQuat {
         self.0.state(own_time, turned)
+    }
+
+    /// Own times at which the rate changes.
+    pub(super) fn changes(&self) -> impl Iterator<Item = f64> + '_ {
+        self.0.0.iter().skip(1).map(|stretch| stretch.from)
     }
 
     pub(super) fn rate(&self, own_time: f64) -> DVec3 {
