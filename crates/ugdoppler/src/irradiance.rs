@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Irradiance, Lamps, SurfaceElement};
+use uglight::{Irradiance, Lamps, ScatteringTime, SurfaceElement};
 use ugpipe::Progress;
 use ugscene::{
-    Face, Light, LightKind, LightMotion, RestFrames, Scene, VertexId, seen_normal, shading_normal,
+    Face, Light, LightKind, LightMotion, RestFrames, Scene, VertexId, WorldLinePoint, seen_normal,
+    shading_normal,
 };
 
 /// Normals that differ by less than this in every component count as equal, so that the pieces of a
@@ -24,9 +25,14 @@ pub(crate) struct VertexIrradiance {
 /// vertices of their own there, unless the vertex carries a normal, and so do faces with a light
 /// level of their own.
 ///
-/// `rest`: position of each vertex, (P4). Returns the originals of the new vertices, and the normal
+/// `rest`: position of each vertex, (P4). `points`: of bodies on world lines, see
+/// [`ugscene::world_line_points`]. Returns the originals of the new vertices, and the normal
 /// to light each vertex with; `None` where it is not lit.
-pub(crate) fn split(scene: &mut Scene, rest: &[DVec3]) -> (Vec<VertexId>, Vec<Option<DVec3>>) {
+pub(crate) fn split(
+    scene: &mut Scene,
+    rest: &[DVec3],
+    points: &[Option<WorldLinePoint>],
+) -> (Vec<VertexId>, Vec<Option<DVec3>>) {
     /// How a vertex is lit.
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
     enum Kind {
@@ -35,7 +41,7 @@ pub(crate) fn split(scene: &mut Scene, rest: &[DVec3]) -> (Vec<VertexId>, Vec<Op
         Flat([i64; 3]),
     }
     let normals: Vec<Option<DVec3>> =
-        scene.faces.par_iter().map(|face| face_normal(scene, face, rest)).collect();
+        scene.faces.par_iter().map(|face| face_normal(scene, face, rest, points)).collect();
     let faces = scene.faces.iter().map(|face| face.contours.clone());
     let users: Vec<_> = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone())).collect();
     let originals = ugscene::split_corners(scene, users.into_iter(), |user, _, vertex| {
@@ -57,13 +63,21 @@ pub(crate) fn split(scene: &mut Scene, rest: &[DVec3]) -> (Vec<VertexId>, Vec<Op
 }
 
 /// The rest normal of the side that is seen; `None` for a face that is not lit.
-fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3]) -> Option<DVec3> {
+fn face_normal(
+    scene: &Scene,
+    face: &Face,
+    rest: &[DVec3],
+    points: &[Option<WorldLinePoint>],
+) -> Option<DVec3> {
     if scene.light_level(face).is_some() {
         return None;
     }
     let outline = scene.face_contours(face).next()?;
     let corners = outline.iter().map(|corner| rest[corner.index()]);
-    Some(seen_normal(corners, -rest[outline.first()?.index()]))
+    let first = outline.first()?.index();
+    let toward_eye =
+        points.get(first).and_then(Option::as_ref).map_or(-rest[first], |point| point.toward_eye);
+    Some(seen_normal(corners, toward_eye))
 }
 
 impl VertexIrradiance {
@@ -82,10 +96,15 @@ impl VertexIrradiance {
     ) -> Self {
         let lamps = Lamps::new(scene, eye, is_spectral);
         let bodies = ugscene::vertex_bodies(scene);
-        let of_vertex = (rest.par_iter().zip(normals).zip(&bodies))
-            .map(|((&point, normal), &body)| {
+        let own_time = |row: usize, body| {
+            let seen = scene.vertices[row].position - eye;
+            Some(WorldLinePoint::new(frames.world_line(body)?, seen)?.own_time)
+        };
+        let of_vertex = (rest.par_iter().zip(normals).zip(&bodies).enumerate())
+            .map(|(row, ((&point, normal), &body))| {
                 progress.check().ok()?;
-                let surface = SurfaceElement { point, delay: 0.0, normal: (*normal)?, body };
+                let time = own_time(row, body).map_or(ScatteringTime::Delay(0.0), ScatteringTime::Own);
+                let surface = SurfaceElement { point, time, normal: (*normal)?, body };
                 Some(surface.irradiances(&lamps, frames))
             })
             .collect();

@@ -204,7 +204,8 @@ fn light_vertices<T: Clone>(
     if !config.light || scene.lights.is_empty() {
         return Ok(None);
     }
-    let (originals, normals) = irradiance::split(scene, &rest);
+    let (originals, normals) =
+        irradiance::split(scene, &rest, &ugscene::world_line_points(scene, eye, frames));
     for original in originals {
         rest.push(rest[original.index()]);
         of_vertex.push(of_vertex[original.index()].clone());

@@ -16,10 +16,13 @@ pub(crate) fn used(scene: &Scene) -> Vec<bool> {
     used
 }
 
-/// The Doppler factor of every vertex, by the velocity of its body.  Eq. (P10)
+/// The Doppler factor of every vertex, by its velocity at emission.  Eq. (P10)
 pub(crate) fn doppler_factors(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<f64> {
     let bodies = ugscene::vertex_bodies(scene);
     (scene.vertices.par_iter().zip(bodies.par_iter()))
-        .map(|(vertex, &body)| doppler_at(vertex.position - eye, frames.velocity(body)))
+        .map(|(vertex, &body)| {
+            let seen = vertex.position - eye;
+            doppler_at(seen, frames.velocity_at(body, seen))
+        })
         .collect()
 }

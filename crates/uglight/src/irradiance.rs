@@ -1,24 +1,37 @@
 //! Contributions of lamps, at rest and in motion, to the light on a point of a surface.  Eq. (P14)
 
-use glam::DVec3;
-use ugphysics::{SkyRing, ambient_illumination, compose, illumination, illumination_from_afar};
+use glam::{DQuat, DVec3};
+use ugphysics::{
+    Event, SkyRing, Velocity, ambient_illumination, compose, illumination, illumination_along,
+    illumination_at, illumination_from_afar,
+};
 use ugscene::{BodyId, RestFrames};
 
 use crate::{Lamp, LampPlace};
 
-/// A point of a surface in its rest frame, in the axes of the scene.
+/// A point of a surface in its rest frame, in the axes of the scene; of a body on a world line, in
+/// the coordinates of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceElement {
-    /// Relative to the eye, (P4).
+    /// Relative to the eye, (P4), (P45).
     pub point: DVec3,
-    /// The time, in the rest frame, by which the point scatters the light later than where the eye
-    /// sees it directly: 0 unless light reaches the eye by a mirror, through glass, or at another
-    /// event than the origin.
-    pub delay: f64,
+    /// When it scatters the light.
+    pub time: ScatteringTime,
     /// Unit vector on the side that is seen, or zero for a surface without one.
     pub normal: DVec3,
     /// The body it is part of.
     pub body: BodyId,
+}
+
+/// When a point of a surface scatters light toward the eye.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ScatteringTime {
+    /// The time, in the rest frame of an inertial body, by which the point scatters the light later
+    /// than where the eye sees it directly: 0 unless light reaches the eye by a mirror, through
+    /// glass, or at another event than the origin.
+    Delay(f64),
+    /// The own time of a body on a world line.
+    Own(f64),
 }
 
 /// The irradiance that one lamp, or a ring of a moving ambient lamp, causes in the rest frame of a
@@ -68,7 +81,7 @@ impl SurfaceElement {
         place: impl Fn(usize, &Lamp) -> LampPlace,
         mut visit: impl FnMut(IncidentLamp),
     ) {
-        let shift = frames.lamp_shift(self.body);
+        let (shift, standing) = (frames.lamp_shift(self.body), self.standing(frames));
         for (row, lamp) in lamps.iter().enumerate() {
             let place = lamp.shifted(place(row, lamp), shift);
             let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
@@ -82,13 +95,28 @@ impl SurfaceElement {
             };
             match self.moving_body(lamp, frames) {
                 None => {
-                    let level = lamp.level_from(place, self.point, self.normal);
-                    let toward = self.direction_at_rest(place);
+                    let level = lamp.level_from(place, standing.point, standing.normal);
+                    let toward = standing.direction_at_rest(place);
                     let part = toward.map_or(1.0, |(_, distance)| lamp.part_at(distance));
                     add(level, 1.0, toward, part);
                 }
-                Some(body) => self.of_moving(lamp, (place, body), frames, &mut add),
+                Some(body) => {
+                    self.of_moving(lamp, (place, body), frames, &mut add);
+                }
             }
+        }
+    }
+
+    /// For lamps that rest with whatever they light: a body on a world line is lit as it stands in
+    /// the scene if it only turned.
+    fn standing(&self, frames: &RestFrames) -> Self {
+        match (frames.world_line(self.body), self.time) {
+            (Some(line), ScatteringTime::Own(own_time)) => Self {
+                point: line.turned_point(self.point, own_time),
+                normal: line.pose(own_time).turn * self.normal,
+                ..*self
+            },
+            _ => *self,
         }
     }
 
@@ -106,7 +134,11 @@ impl SurfaceElement {
     /// The body of a lamp that moves relative to the surface.
     fn moving_body(&self, lamp: &Lamp, frames: &RestFrames) -> Option<BodyId> {
         let body = lamp.motion.body()?;
-        (frames.velocity(body) != frames.velocity(self.body)).then_some(body)
+        let is_inertial = |body: BodyId| frames.world_line(body).is_none();
+        let rests = is_inertial(body)
+            && is_inertial(self.body)
+            && frames.velocity(body) == frames.velocity(self.body);
+        (!rests).then_some(body)
     }
 
     fn of_moving(
@@ -115,28 +147,93 @@ impl SurfaceElement {
         (place, body): (LampPlace, BodyId),
         frames: &RestFrames,
         add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
-    ) {
-        // Velocities of two frames can be composed only in common axes: those of the camera, which
-        // boosts do not turn.  Eq. (P25)
-        let axes_of = |body: BodyId| frames.of(body).scene_from_boosted().inverse();
-        let (of_surface, of_lamp) = (axes_of(self.body), axes_of(body));
-        let (point, normal) = (of_surface * self.point, of_surface * self.normal);
-        let (velocity, motion) = (frames.velocity(self.body), frames.velocity(body));
+    ) -> Option<()> {
+        let surface = MovingElement::new(self, frames)?;
+        let velocity = surface.velocity;
+        let (motion, axes) = surface.motion_of(body, frames)?;
         let light = match place {
             LampPlace::Everywhere => {
-                for SkyRing { level, doppler } in ambient_illumination(normal, compose(motion, -velocity)) {
+                let relative = compose(motion, -velocity);
+                for SkyRing { level, doppler } in ambient_illumination(surface.normal, relative) {
                     add(level, doppler, None, 1.0);
                 }
-                return;
+                return None;
             }
-            LampPlace::Afar(toward) => illumination_from_afar(velocity, of_lamp * toward, motion),
-            LampPlace::At(place) => illumination(point, self.delay, velocity, of_lamp * place, motion),
-        };
-        if let Some(light) = light {
-            let toward = of_surface.inverse() * light.toward;
-            let part = lamp.part_at(light.rest_distance);
-            let level = part * normal.dot(light.toward);
-            add(level, light.doppler, Some((toward, light.distance)), part);
+            LampPlace::Afar(toward) => illumination_from_afar(velocity, axes * toward, motion),
+            LampPlace::At(place) => match (frames.world_line(body), surface.event) {
+                (None, None) => {
+                    let ScatteringTime::Delay(delay) = self.time else { return None };
+                    illumination(surface.axes * self.point, delay, velocity, axes * place, motion)
+                }
+                (None, Some(event)) => {
+                    let at = frames.of(body).rest_from_camera(event).x;
+                    illumination_at(axes * at, velocity, axes * place, motion)
+                }
+                (Some(line), _) => {
+                    let event = surface.event_at(self, frames)?;
+                    let emission = line.emission(place, event).ok()?;
+                    illumination_along(emission.event.x - event.x, velocity, emission.velocity)
+                }
+            },
+        }?;
+        let toward = surface.axes.inverse() * light.toward;
+        let part = lamp.part_at(light.rest_distance);
+        let level = part * surface.normal.dot(light.toward);
+        add(level, light.doppler, Some((toward, light.distance)), part);
+        Some(())
+    }
+}
+
+/// A surface element that moves, in common axes with lamps: velocities of two frames can be
+/// composed only in those of the camera, which boosts do not turn.  Eq. (P25)
+struct MovingElement {
+    velocity: Velocity,
+    /// These axes from those of the element.
+    axes: DQuat,
+    /// In these axes.
+    normal: DVec3,
+    /// For a body on a world line, where and when it scatters the light, in the frame of the camera.
+    event: Option<Event>,
+}
+
+impl MovingElement {
+    fn new(element: &SurfaceElement, frames: &RestFrames) -> Option<Self> {
+        let SurfaceElement { point, time, normal, body } = *element;
+        match (frames.world_line(body), time) {
+            (Some(line), ScatteringTime::Own(own_time)) => {
+                let event = line.event(point, own_time).ok()?;
+                Some(Self {
+                    velocity: line.frame(point, own_time).velocity_of_frame().ok()?,
+                    axes: DQuat::IDENTITY,
+                    normal: line.element_normal(point, normal, own_time),
+                    event: Some(event),
+                })
+            }
+            _ => {
+                let axes = frames.of(body).boosted_from_scene();
+                Some(Self { velocity: frames.velocity(body), axes, normal: axes * normal, event: None })
+            }
         }
+    }
+
+    /// Where and when it scatters the light, in the frame of the camera.
+    fn event_at(&self, element: &SurfaceElement, frames: &RestFrames) -> Option<Event> {
+        let ScatteringTime::Delay(delay) = element.time else { return self.event };
+        let x = element.point;
+        let event = Event { t: delay - ugphysics::length(x), x };
+        Some(self.event.unwrap_or_else(|| frames.of(element.body).camera_from_rest(event)))
+    }
+
+    /// The velocity of a lamp's body and the turn of its directions: of one on a world line when it
+    /// is, for the body, the time at which the light is scattered.
+    fn motion_of(&self, body: BodyId, frames: &RestFrames) -> Option<(Velocity, DQuat)> {
+        let Some(line) = frames.world_line(body) else {
+            return Some((frames.velocity(body), frames.of(body).boosted_from_scene()));
+        };
+        let event = self.event.unwrap_or(Event { t: 0.0, x: DVec3::ZERO });
+        let pose = line.pose(line.at_event(event).ok()?.own_time);
+        let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
+        let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
+        Some((velocity, carried.turn() * pose.turn))
     }
 }

@@ -57,7 +57,7 @@ pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor, Surfac
 pub use color::{RestColor, hsv, hsv_and_factor, is_light, light, spectra_note, spectrum};
 pub use face_colors::Common;
 pub use hue::{HueColor, HueShift};
-pub use irradiance::{IncidentLamp, Irradiance, SurfaceElement};
+pub use irradiance::{IncidentLamp, Irradiance, ScatteringTime, SurfaceElement};
 pub use lamp::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, FallOff, Lamp, LampPlace, Lamps, has_colored_lamps};
 pub use light_names::light_names;
 pub use lighting::Lighting;

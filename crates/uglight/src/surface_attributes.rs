@@ -6,7 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
-    BodyId, ColorId, ColorValue, RestFrames, Scene, Shares, VertexId, Wire, rest_positions, vertex_shares,
+    BodyId, ColorId, ColorValue, RestFrames, Scene, Shares, VertexId, Wire, WorldLinePoint, rest_positions,
+    vertex_shares, world_line_points,
 };
 
 use crate::{ColorShift, HueShift, Palette, RestColor, Swatch, VertexColor, vertex_colors};
@@ -21,6 +22,8 @@ pub struct SurfaceAttributes {
     /// Row of white, the default colour; it follows the scene's colours.
     white: u32,
     rest: Vec<DVec3>,
+    /// Of bodies on world lines, see [`world_line_points`].
+    points: Vec<Option<WorldLinePoint>>,
     frames: RestFrames,
 }
 
@@ -29,6 +32,7 @@ impl SurfaceAttributes {
     pub fn new(scene: &Scene, eye: DVec3, palette: &Palette) -> Self {
         let frames = RestFrames::new(scene);
         let rest = rest_positions(scene, eye, &frames);
+        let points = world_line_points(scene, eye, &frames);
         let mut swatches = palette.all().to_vec();
         // Scenes have fewer than 2^32 colours.
         let white = swatches.len() as u32;
@@ -38,7 +42,7 @@ impl SurfaceAttributes {
             Some(rows) => rows,
             None => mixed_rows(scene, &rest, palette, &mut swatches),
         };
-        Self { swatches, rows, white, rest, frames }
+        Self { swatches, rows, white, rest, points, frames }
     }
 
     /// The colours that meet in each row.
@@ -64,7 +68,8 @@ impl SurfaceAttributes {
         let moves = |body: BodyId, contours: &Range<u32>, color: Option<ColorId>| {
             let corners = scene.contours.corners(contours.clone());
             let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(color);
-            !self.velocity(body).is_zero() && corners.iter().filter_map(color_of).any(is_spectrum)
+            let moves = !self.velocity(body).is_zero() || self.frames.world_line(body).is_some();
+            moves && corners.iter().filter_map(color_of).any(is_spectrum)
         };
         let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
         let mut wires = wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
@@ -93,6 +98,12 @@ impl SurfaceAttributes {
     /// scene.  Eq. (P4)
     pub fn rest(&self, vertex: VertexId) -> DVec3 {
         self.rest[vertex.index()]
+    }
+
+    /// The vertex as it is seen on the world line of its body; `None` if its body is inertial.
+    #[inline]
+    pub fn on_world_line(&self, vertex: VertexId) -> Option<&WorldLinePoint> {
+        self.points.get(vertex.index())?.as_ref()
     }
 
     /// The rest positions of all vertices, see [`SurfaceAttributes::rest`].

@@ -16,7 +16,7 @@ use crate::near_lamps::NearLamps;
 use crate::pieces::{Cut, Polyline, Shape, as_contours, shape};
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::{early_accept, edge_on, interior};
+use crate::{early_accept, edge_on, interior, world_line};
 
 /// The limit of halvings. Each divides the sagitta by 4, so 12 reduce the largest arc to the
 /// default bound; the others are for edges that pass the eye at a millionth of their length.
@@ -52,6 +52,9 @@ impl Bounds {
 
     /// The visible parts of a flat piece and its edges; `None` if it is outside the view.
     pub(crate) fn shown(&self, motion: &RelativeMotion, corners: &[&Point]) -> Option<Shown> {
+        if motion.world_line().is_some() {
+            return Some(Shown::All);
+        }
         if self.view_volume.is_outside(motion, corners) {
             return None;
         }
@@ -149,7 +152,8 @@ impl Criterion<'_, '_> {
             return None;
         }
         let rest = |vertex: VertexId| -> DVec3 { self.mesh.point(vertex.0).rest };
-        let cut = if edge_on::is_edge_on(scene, face, motion, rest) {
+        let is_edge_on = motion.world_line().is_none() && edge_on::is_edge_on(scene, face, motion, rest);
+        let cut = if is_edge_on {
             Cut::EdgeOn(as_contours(scene, face))
         } else {
             shape(scene, face, evenness.is_even(scene, face), rest)?
@@ -171,8 +175,9 @@ impl Criterion<'_, '_> {
         let tolerance = &tolerances[body];
         let is_shape_right = || {
             motion.is_at_rest()
-                || early_accept::is_close(points.clone(), spreads[body])
-                || early_accept::is_right(motion, points.clone(), tolerance)
+                || motion.world_line().is_none()
+                    && (early_accept::is_close(points.clone(), spreads[body])
+                        || early_accept::is_right(motion, points.clone(), tolerance))
         };
         is_shape_right() && near_lamps.is_surely_linear(motion, points.clone())
     }
@@ -238,8 +243,10 @@ impl Criterion<'_, '_> {
         let motion = self.mesh.motion(corners[0]);
         let points: [&Point; 3] = corners.map(|corner| self.mesh.point(corner));
         let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
-        motion.has_flight_time()
-            && !is_deep
-            && interior::offset(motion, points) > self.bounds.tolerance(points[0]).offset
+        let offset = || match motion.world_line() {
+            Some(line) => world_line::offset_inside(points, line),
+            None => interior::offset(motion, points),
+        };
+        motion.has_flight_time() && !is_deep && offset() > self.bounds.tolerance(points[0]).offset
     }
 }

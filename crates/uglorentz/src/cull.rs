@@ -29,7 +29,8 @@ impl ViewVolume {
     /// True only if no point between these corners of a body is in the picture, neither as seen nor
     /// as drawn.
     pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
-        self.spaces.iter().any(|space| is_outside(space, motion, corners))
+        // Curves of bodies on world lines have no bound in closed form.
+        motion.world_line().is_none() && self.spaces.iter().any(|space| is_outside(space, motion, corners))
     }
 }
 

@@ -29,6 +29,7 @@ use ugphysics::elongated;
 
 use crate::color;
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::world_line;
 
 /// The smallest bound of rule 2, a ten-thousandth of the distance; smaller for bodies far away
 /// ([`crate::distant_bodies`]).
@@ -79,10 +80,22 @@ pub(crate) struct Errors {
     pub color: f64,
 }
 
+impl Errors {
+    /// True if one of them is above its bound.
+    fn exceed(&self, tolerance: &Tolerance) -> bool {
+        libm::tan(self.angle / 2.0) > tolerance.tan_half
+            || self.offset > tolerance.offset
+            || self.color > tolerance.color
+    }
+}
+
 /// Is the error of an edge above the bound? Its ends must always be given in the same order.
 pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> bool {
     if motion.is_at_rest() {
         return false;
+    }
+    if let Some(line) = motion.world_line() {
+        return world_line::errors(a, b, line).exceed(tolerance);
     }
     (motion.has_flight_time() && leaves_chord(a, b, motion, tolerance))
         || color::is_off(a, b, motion, tolerance.color)
@@ -110,6 +123,9 @@ pub(crate) fn shows(
     if motion.is_at_rest() {
         return false;
     }
+    if let Some(line) = motion.world_line() {
+        return world_line::errors(a, b, line).exceed(tolerance);
+    }
     let leaves_chord = || {
         let edge = Edge::new(a, b, motion);
         edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(shown) > tolerance.offset
@@ -134,6 +150,9 @@ pub(crate) fn slant(corners: &[&Point], motion: &RelativeMotion) -> f64 {
 pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown) -> Errors {
     if motion.is_at_rest() {
         return Errors::default();
+    }
+    if let Some(line) = motion.world_line() {
+        return world_line::errors(a, b, line);
     }
     let color = if matches!(shown, Shown::Outline) { 0.0 } else { color::error(a, b, motion) };
     if !motion.has_flight_time() {

@@ -87,6 +87,7 @@ mod report;
 mod split;
 mod uniform;
 mod viewpoint;
+mod world_line;
 
 pub use apply::{apply, apply_with};
 #[cfg(feature = "cli")]

@@ -79,6 +79,9 @@ impl NearLamps {
     /// Is the error of linear interpolation along this edge above the bound? The ends of an edge
     /// must always be given in the same order.
     pub(crate) fn is_nonlinear(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
+        if motion.world_line().is_some() {
+            return false;
+        }
         !self.is_empty()
             && a.generation.max(b.generation) < MAX_GENERATION
             && self.error(a, b, motion) > self.bound

@@ -5,6 +5,8 @@ use ugphysics::doppler_at;
 pub(crate) use ugscene::RelativeMotion;
 use ugscene::{BodyId, RestPosition};
 
+use crate::world_line;
+
 /// A point of a body. Both positions are relative to the eye.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
@@ -27,6 +29,9 @@ pub(crate) struct Point {
 impl Point {
     /// The point at `rest`, relative to the eye.
     pub(crate) fn new(motion: &RelativeMotion, body: BodyId, rest: DVec3) -> Point {
+        if let Some(line) = motion.world_line() {
+            return world_line::point(line, body, rest);
+        }
         let seen = match motion.is_at_rest() {
             true => rest,
             false => motion.seen(RestPosition(rest)).0,

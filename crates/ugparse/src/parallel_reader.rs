@@ -153,8 +153,10 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
         |part| &mut part.cameras,
         |camera, offset| {
             camera.name = camera.name.map(|name| offset.name(name));
+            camera.carrier = camera.carrier.map(|body| offset.body(body));
         },
     );
+    file.motions = join_tables(&mut parts, &offsets, |part| &mut part.motions, |_, _| {});
     file.colors.table = join_tables(
         &mut parts,
         &offsets,

@@ -404,7 +404,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                 // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
                 Some(Ok((rest, _))) => {
                     let in_contour = matches!(skip_blank(rest), [b'(' | b')', ..]);
-                    semicolon(rest) || (keyword != b"cam" && !in_contour)
+                    semicolon(rest) || (!matches!(keyword, b"cam" | b"motion") && !in_contour)
                 }
                 _ => false,
             },

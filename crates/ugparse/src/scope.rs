@@ -20,7 +20,7 @@ use crate::rows::Rows;
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, References, Statement, SurfaceStatement, VertexStatement,
+    MixStatement, MotionReference, MotionStatement, References, Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -42,7 +42,8 @@ pub(crate) struct Scope<'t> {
     pub parent: Option<usize>,
     /// Names of everything except colours and surfaces.
     pub names: Names,
-    pub bodies: BodyTable,
+    pub bodies: BodyTable<'t>,
+    pub motions: Rows<MotionStatement>,
 
     /// The spans are those of the names; see [`Scope::vertex_statement`].
     pub vertices: Rows<Vertex>,
@@ -159,6 +160,7 @@ impl<'t> Scope<'t> {
             Statement::Surface(surface) => self.add_surface(text, span, &surface),
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
+            Statement::Motion(motion) => self.add_motion(text, span, *motion),
             Statement::Call(_) => {}
         }
     }
@@ -215,7 +217,7 @@ impl<'t> Scope<'t> {
             contours,
             color: self.color(text, face.color),
             illum: face.illum.map(|illum| self.add_illum(text, illum)),
-            body: self.bodies.of_stated(face.velocity),
+            body: self.bodies.of_stated(text, face.motion),
         };
         self.faces.push(face, span);
     }
@@ -244,7 +246,7 @@ impl<'t> Scope<'t> {
             name: self.name(text, wire.name),
             contours,
             color: self.color(text, wire.color),
-            body: self.bodies.of_stated(wire.velocity),
+            body: self.bodies.of_stated(text, wire.motion),
         };
         self.wires.push(wire, span);
     }
@@ -309,16 +311,25 @@ impl<'t> Scope<'t> {
             intensity: light.intensity,
             kind,
             color: self.color(text, light.color),
-            motion: light.velocity.map_or(LightMotion::WithWhatItLights, |velocity| {
-                LightMotion::Body(self.bodies.moving_with(velocity))
+            motion: light.motion.map_or(LightMotion::WithWhatItLights, |motion| {
+                LightMotion::Body(self.bodies.of_reference(text, motion))
             }),
         };
         self.lights.push(light, span);
     }
 
-    fn add_camera(&mut self, text: &[u8], span: Span, statement: CameraStatement) {
+    fn add_camera(&mut self, text: &'t [u8], span: Span, statement: CameraStatement) {
         let name = self.name(text, statement.name);
-        self.cameras.push(Camera { name, ..statement.camera }, span);
+        let carrier = statement.carrier.map(|name| self.bodies.named(text, name));
+        self.cameras.push(Camera { name, carrier, ..statement.camera }, span);
+    }
+
+    fn add_motion(&mut self, text: &'t [u8], span: Span, motion: MotionStatement) {
+        // Also those that nothing moves with are in the scene.
+        for name in std::iter::once(motion.name).chain(motion.on) {
+            self.bodies.named(text, name);
+        }
+        self.motions.push(motion, span);
     }
 
     fn add_call(&mut self, text: &'t [u8], span: Span, statement: CallStatement) {
@@ -412,6 +423,7 @@ impl<'t> Scope<'t> {
             &self.wires.spans,
             &self.lights.spans,
             &self.cameras.spans,
+            &self.motions.spans,
             &self.colors.table.spans,
             &self.mixes.spans,
             &self.surfaces.table.spans,
@@ -444,20 +456,48 @@ fn lossy(text: &[u8], span: Span) -> String {
     String::from_utf8_lossy(span.of(text)).into_owned()
 }
 
-/// Bodies indexed by velocity, each velocity once.
+/// Bodies indexed by velocity or name, each once.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct BodyTable {
+pub(crate) struct BodyTable<'t> {
     pub bodies: Bodies,
     /// Keys are the bits of β.
     rows: FxHashMap<[u64; 3], BodyId>,
     /// The last result, because consecutive faces mostly share a body.
     last: Option<([u64; 3], BodyId)>,
+    /// Bodies with a name, whose motion is not known before all statements are read, and where the
+    /// name is used first.
+    named: FxHashMap<&'t [u8], (BodyId, Span)>,
 }
 
-impl BodyTable {
-    /// The body of a face or wire with this velocity, if it has one.
-    pub fn of_stated(&mut self, velocity: Option<Velocity>) -> BodyId {
-        velocity.map_or(self.bodies.unstated(), |velocity| self.moving_with(velocity))
+impl<'t> BodyTable<'t> {
+    /// The body of a face or wire with this motion, if it has one.
+    pub fn of_stated(&mut self, text: &'t [u8], motion: Option<MotionReference>) -> BodyId {
+        motion.map_or(self.bodies.unstated(), |motion| self.of_reference(text, motion))
+    }
+
+    /// The body with this motion; adds it if it is new.
+    pub fn of_reference(&mut self, text: &'t [u8], motion: MotionReference) -> BodyId {
+        match motion {
+            MotionReference::Velocity(velocity) => self.moving_with(velocity),
+            MotionReference::Named(name) => self.named(text, name),
+        }
+    }
+
+    /// The body with this name; adds it if it is new.
+    pub fn named(&mut self, text: &'t [u8], name: Span) -> BodyId {
+        self.enter_name(name.of(text), name)
+    }
+
+    fn enter_name(&mut self, name: &'t [u8], span: Span) -> BodyId {
+        let Self { named, bodies, .. } = self;
+        named.entry(name).or_insert_with(|| (bodies.push(None, WorldLine::REST), span)).0
+    }
+
+    /// The bodies with a name, in the order of their ids, with the name where it is used first.
+    pub fn names(&self) -> Vec<(BodyId, Span)> {
+        let mut names: Vec<_> = self.named.values().copied().collect();
+        names.sort();
+        names
     }
 
     /// The body with this velocity; adds it if it is new.
@@ -497,7 +537,14 @@ impl BodyTable {
     /// Adds the bodies of another table where they are new, and returns the rows of all of them in
     /// this one.
     pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
-        other.bodies.ids().map(|body| self.of_stated(other.bodies.stated_velocity(body))).collect()
+        let mut names = vec![None; other.bodies.len()];
+        other.named.iter().for_each(|(&name, &(body, span))| names[body.index()] = Some((name, span)));
+        let enter = |body: BodyId| match (names[body.index()], other.bodies.stated_velocity(body)) {
+            (Some((name, span)), _) => self.enter_name(name, span),
+            (None, Some(velocity)) => self.moving_with(velocity),
+            (None, None) => self.bodies.unstated(),
+        };
+        other.bodies.ids().map(enter).collect()
     }
 }
 

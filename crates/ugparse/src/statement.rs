@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugphysics::Velocity;
+use ugphysics::{Event, Piece, Velocity};
 use ugscene::{Camera, SurfaceProperties};
 
 use crate::source::Span;
@@ -40,7 +40,30 @@ pub(crate) enum Statement {
     Surface(SurfaceStatement),
     Light(LightStatement),
     Camera(CameraStatement),
+    Motion(Box<MotionStatement>),
     Call(CallStatement),
+}
+
+/// `<x y z>`, a velocity, or `<NAME>`, a motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum MotionReference {
+    Velocity(Velocity),
+    Named(Span),
+}
+
+/// A motion; of the options that may not be combined, the last.
+#[derive(Debug)]
+pub(crate) struct MotionStatement {
+    pub name: Span,
+    pub at: DVec3,
+    pub velocity: Option<Velocity>,
+    pub accelerations: Vec<Piece>,
+    pub spins: Vec<Piece>,
+    /// Centre, axis and rate.
+    pub orbit: Option<(DVec3, DVec3, f64)>,
+    /// The motion that it is part of.
+    pub on: Option<Span>,
+    pub shift: Event,
 }
 
 #[derive(Debug)]
@@ -57,7 +80,7 @@ pub(crate) struct FaceStatement {
     pub name: Option<Span>,
     pub color: Option<Span>,
     pub illum: Option<IllumStatement>,
-    pub velocity: Option<Velocity>,
+    pub motion: Option<MotionReference>,
 }
 
 /// The light level or surface of a face.
@@ -98,14 +121,16 @@ pub(crate) struct LightStatement {
     pub radius: Option<f64>,
     pub reference: Option<f64>,
     pub color: Option<Span>,
-    pub velocity: Option<Velocity>,
+    pub motion: Option<MotionReference>,
 }
 
-/// A camera; the name in `camera` is not set.
+/// A camera; name and carrier in `camera` are not set.
 #[derive(Debug, Default)]
 pub(crate) struct CameraStatement {
     pub name: Option<Span>,
     pub camera: Camera,
+    /// The motion it moves with.
+    pub carrier: Option<Span>,
 }
 
 /// An instance, or an array of them.
@@ -116,7 +141,7 @@ pub(crate) struct CallStatement {
     pub color: Option<Span>,
     pub inner: Transform,
     pub repeat: Repeat,
-    pub velocity: Option<Velocity>,
+    pub motion: Option<MotionReference>,
 }
 
 /// The number of copies of a definition.

@@ -82,6 +82,9 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"surf" => "surf ID kd ks kt [n [exponent [absorption]]] ;",
         b"l" => "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",
+        b"motion" => {
+            "motion ID [-at x y z] [-vel x y z] [-acc x y z [begin end]] [-spin x y z [begin end]] … ;"
+        }
         b"def" => "def ID ; … end ;",
         b"end" => "end ;",
         b"include" => "include FILE ;",

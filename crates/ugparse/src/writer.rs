@@ -4,9 +4,10 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
+use ugphysics::Piece;
 use ugscene::{
-    BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, NameId,
-    Projection, Scene, SurfaceProperties,
+    BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, Motion,
+    MotionPath, NameId, Projection, Scene, SurfaceProperties,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -20,7 +21,7 @@ const BLOCK_ROWS: usize = 1 << 11;
 const BLOCKS_PER_THREAD: usize = 4;
 
 /// The text of a scene: head comments, the stage, then escapes and unknown statements,
-/// colours, surfaces, vertices, faces, wires, lights, cameras, each with its comments.
+/// colours, surfaces, motions, vertices, faces, wires, lights, cameras, each with its comments.
 pub fn write(scene: &Scene) -> Vec<u8> {
     let mut text = Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024);
     write_to(scene, &mut text).expect("memory takes all that is written to it");
@@ -68,6 +69,7 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
+        self.motions();
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
             w.text("v");
             w.name(vertex.name);
@@ -112,6 +114,26 @@ impl<'s> Tables<'s, '_> {
                     w.comments_at(Item::Stage, false);
                     stage_statement::write(stage, &self.scene.lamp_shifts, &mut w.out, &mut w.numbers);
                     w.comments_at(Item::Stage, true);
+                    w.out.push(b'\n');
+                }
+                w.comments.iter().for_each(|comment| w.comment_line(&comment.text));
+            });
+        });
+    }
+
+    /// The motions with a statement, with their comments.
+    fn motions(&mut self) {
+        let behind = self.comments.partition_point(|comment| comment.at < Item::Vertex(0));
+        let (comments, rest) = self.comments.split_at(behind);
+        self.comments = rest;
+        self.chunked_writer.append(|out| {
+            Writer::on(out, self.scene, comments, |w| {
+                for (row, body) in w.scene.bodies.stated_by_name().enumerate() {
+                    // Bodies have 32-bit ids.
+                    let item = Item::Motion(row as u32);
+                    w.comments_at(item, false);
+                    w.motion(body);
+                    w.comments_at(item, true);
                     w.out.push(b'\n');
                 }
                 w.comments.iter().for_each(|comment| w.comment_line(&comment.text));
@@ -270,7 +292,10 @@ impl<'s> Writer<'s> {
         if self.body != Some(body) {
             self.body = Some(body);
             self.motion_text.clear();
-            if let Some(velocity) = self.scene.bodies.stated_velocity(body) {
+            let bodies = &self.scene.bodies;
+            if bodies.statement(body).is_some() {
+                push_motion_name(&mut self.motion_text, self.scene, body);
+            } else if let Some(velocity) = bodies.stated_velocity(body) {
                 push_velocity(&mut self.motion_text, &mut self.numbers, velocity);
             }
         }
@@ -347,6 +372,53 @@ impl<'s> Writer<'s> {
         }
     }
 
+    fn motion(&mut self, body: BodyId) {
+        let bodies = &self.scene.bodies;
+        let Some(motion) = bodies.statement(body) else { return };
+        self.text("motion");
+        bodies[body].name.into_iter().for_each(|name| self.name(name));
+        let Motion { at, path, spins, shift } = motion;
+        if *at != DVec3::ZERO {
+            self.text(" -at");
+            self.point(*at);
+        }
+        match path {
+            MotionPath::Free { velocity, accelerations } => {
+                if !velocity.is_zero() {
+                    self.text(" -vel");
+                    self.point(velocity.beta());
+                }
+                accelerations.iter().for_each(|piece| self.piece(" -acc", piece, 0.0));
+            }
+            MotionPath::Orbit { center, axis, rate } => {
+                self.text(" -orbit");
+                self.point(*center);
+                self.point(*axis);
+                self.number(*rate);
+            }
+            MotionPath::On(carrier) => {
+                self.text(" -on");
+                bodies[*carrier].name.into_iter().for_each(|name| self.name(name));
+            }
+        }
+        spins.iter().for_each(|piece| self.piece(" -spin", piece, f64::NEG_INFINITY));
+        if *shift != Motion::NO_SHIFT {
+            self.text(" -shift");
+            self.number(shift.t);
+            self.point(shift.x);
+        }
+        self.text(";");
+    }
+
+    /// A piece of a motion. `default_begin`: without times, it acts from then on.
+    fn piece(&mut self, option: &str, piece: &Piece, default_begin: f64) {
+        self.text(option);
+        self.point(piece.of);
+        if (piece.from, piece.to) != (default_begin, f64::INFINITY) {
+            self.numbers(&[piece.from, piece.to]);
+        }
+    }
+
     fn light(&mut self, light: &Light) {
         self.text("l");
         light.name.into_iter().for_each(|name| self.name(name));
@@ -391,9 +463,19 @@ impl<'s> Writer<'s> {
             Some(Projection::Perspective) => self.text(" -ps"),
             None => {}
         }
-        if let Some(velocity) = camera.velocity {
+        if let Some(body) = camera.carrier {
+            push_motion_name(&mut self.out, self.scene, body);
+        } else if let Some(velocity) = camera.velocity {
             push_velocity(&mut self.out, &mut self.numbers, velocity);
         }
         self.text(";");
     }
+}
+
+/// Writes ` <NAME>`.
+fn push_motion_name(out: &mut Vec<u8>, scene: &Scene, body: BodyId) {
+    let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
+    out.extend_from_slice(b" <");
+    out.extend_from_slice(name.as_bytes());
+    out.push(b'>');
 }

@@ -4,7 +4,8 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use uglight::{
-    ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor, SurfaceElement,
+    ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, ScatteringTime, SurfaceColor,
+    SurfaceElement,
 };
 use ugphysics::{Event, WaveVector, srgb_encode};
 
@@ -95,7 +96,12 @@ impl<'a> Shader<'a> {
         self.highlights.clear();
         let scenery = self.scenery;
         let body = scenery.scene.faces[point.face as usize].body;
-        let element = SurfaceElement { point: point.place, delay: point.delay, normal: point.normal, body };
+        let element = SurfaceElement {
+            point: point.place,
+            time: ScatteringTime::Delay(point.delay),
+            normal: point.normal,
+            body,
+        };
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();

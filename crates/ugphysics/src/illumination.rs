@@ -49,8 +49,11 @@ pub fn illumination(
     light: DVec3,
     v_light: Velocity,
 ) -> Option<IncidentLight> {
-    let to_light = light - place_in_frame(p_rest, delay, v, v_light);
-    let at_surface = change_view(to_light, v_light, v);
+    illumination_at(place_in_frame(p_rest, delay, v, v_light), v, light, v_light)
+}
+
+/// From the vectors to the light in the frames of the surface and of the light.
+fn illumination_by(at_surface: DVec3, to_light: DVec3) -> Option<IncidentLight> {
     let [distance, rest_distance] = [at_surface, to_light].map(length);
     let illumination = IncidentLight {
         toward: at_surface / distance,
@@ -60,6 +63,24 @@ pub fn illumination(
     };
     (rest_distance > 0.0 && illumination.toward.is_finite() && illumination.doppler > 0.0)
         .then_some(illumination)
+}
+
+/// The light of a source on any world line, which the past null vector `way` in S leads to from the
+/// event at which the surface scatters it. `v`: velocity of the surface there, `v_light`: of the
+/// source at emission. `None` as for [`illumination`].  Eq. (P14)
+///
+/// The vector is transformed to both frames by (P4); its lengths there are r' and r'', and their
+/// quotient is D_l.
+#[must_use]
+pub fn illumination_along(way: DVec3, v: Velocity, v_light: Velocity) -> Option<IncidentLight> {
+    illumination_by(rest_position(way, v), rest_position(way, v_light))
+}
+
+/// The light of a source at rest at `light` in S'', at the event of S'' at which a surface that
+/// moves with `v` in S scatters it, at `place`. `None` as for [`illumination`].  Eq. (P14)
+#[must_use]
+pub fn illumination_at(place: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
+    illumination_by(change_view(light - place, v_light, v), light - place)
 }
 
 /// The light of a directional source, infinitely far away towards `toward_light` in its own frame

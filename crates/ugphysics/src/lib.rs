@@ -84,7 +84,9 @@ pub use hue::{
     wavelength_to_hue,
 };
 pub use hyperbolic::HyperbolicMotion;
-pub use illumination::{IncidentLight, illumination, illumination_from_afar};
+pub use illumination::{
+    IncidentLight, illumination, illumination_along, illumination_at, illumination_from_afar,
+};
 pub use lorentz::{Lorentz, compose, wigner_rotation};
 pub use medium::{Medium, WaveVector};
 pub use rest_frame::RestFrame;

@@ -2,7 +2,7 @@
 
 use core::ops::Mul;
 
-use glam::{DMat4, DQuat, DVec3, DVec4, Vec4Swizzles};
+use glam::{DMat3, DMat4, DQuat, DVec3, DVec4, Vec4Swizzles};
 
 use crate::{Event, Velocity, VelocityError};
 
@@ -80,6 +80,14 @@ impl Lorentz {
     /// overflowed.
     pub fn velocity_of_frame(self) -> Result<Velocity, VelocityError> {
         Velocity::from_proper(self.0.x_axis.yzw())
+    }
+
+    /// The turn of a transformation that is a rotation.
+    #[must_use]
+    pub fn turn(self) -> DQuat {
+        let [_, x, y, z] =
+            [self.0.x_axis, self.0.y_axis, self.0.z_axis, self.0.w_axis].map(Vec4Swizzles::yzw);
+        DQuat::from_mat3(&DMat3::from_cols(x, y, z)).normalize()
     }
 
     /// The matrix, on columns (t, x, y, z).

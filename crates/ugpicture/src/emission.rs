@@ -76,10 +76,10 @@ impl<'a> Emissions<'a> {
         };
         // Everything drawn is a face or a wire.
         let body = body.unwrap_or(self.scene.bodies.unstated());
-        let (velocity, scene_from_axes) =
-            (self.frames.velocity(body), self.frames.of(body).scene_from_boosted());
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
+        let velocity = self.frames.velocity_at(body, place);
+        let scene_from_axes = self.frames.of(body).scene_from_boosted();
         Emission { place, depth, time, velocity, scene_from_axes, in_medium: None }
     }
 

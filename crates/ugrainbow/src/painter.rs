@@ -110,6 +110,9 @@ impl Painter<'_> {
 
     /// The direction from a corner to the eye in the rest frame of the face.
     fn toward_eye(&self, face: &Face, corner: VertexId) -> DVec3 {
+        if let Some(point) = self.appearance.surface.on_world_line(corner) {
+            return point.toward_eye;
+        }
         if self.view.is_perspective {
             -self.appearance.surface.rest(corner)
         } else {
@@ -127,16 +130,30 @@ impl Painter<'_> {
         if !self.lighting.needs_geometry() {
             return self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, is_light);
         }
+        let [point, normal, shift] = self.lit_point(face, vertex, seen_normal);
+        self.lighting.level(point, normal, shift, is_light)
+    }
+
+    /// Position, normal and shift of lamps with which a corner is lit, see [`Lighting::level`].
+    #[inline]
+    pub fn lit_point(&self, face: &Face, vertex: VertexId, seen_normal: DVec3) -> [DVec3; 3] {
         let normal = self.normal_at(vertex, seen_normal);
-        let shift = self.appearance.surface.frames().lamp_shift(face.body);
-        self.lighting.level(self.appearance.surface.rest(vertex), normal, shift, is_light)
+        match self.appearance.surface.on_world_line(vertex) {
+            // It is lit as it stands in the scene if it only turned.
+            Some(point) => [point.standing, point.standing_normal(normal), DVec3::ZERO],
+            None => {
+                let shift = self.appearance.surface.frames().lamp_shift(face.body);
+                [self.appearance.surface.rest(vertex), normal, shift]
+            }
+        }
     }
 
     /// True if the light level of a face is the same at all these corners of it.
     #[inline]
     pub fn is_flat(&self, corners: &[VertexId]) -> bool {
         let has_normal = |corner: &VertexId| self.scene.vertices[corner.index()].normal.is_some();
-        !self.lighting.needs_places() && !corners.iter().any(has_normal)
+        let turns = |&corner: &VertexId| self.appearance.surface.on_world_line(corner).is_some();
+        !self.lighting.needs_places() && !corners.iter().any(|corner| has_normal(corner) || turns(corner))
     }
 
     /// True if colour and light level are the same at all corners of a face.

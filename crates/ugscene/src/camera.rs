@@ -192,8 +192,8 @@ impl View {
     }
 }
 
-/// The centre of the bounding box of all vertices.
-fn middle(scene: &Scene) -> DVec3 {
+/// The middle of the bounding box of all vertices, the default view centre.
+pub(crate) fn middle(scene: &Scene) -> DVec3 {
     // Halved first: the sum of two large coordinates may overflow.
     scene.bounds().map_or(DVec3::ZERO, |(low, high)| low * 0.5 + high * 0.5)
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
-use crate::{RestFrames, RestPosition, Scene, SeenPosition, vertex_bodies};
+use crate::{RestFrames, RestPosition, Scene, SeenPosition, WorldLinePoint, vertex_bodies};
 
 /// Which of the two effects are included in the seen positions of a scene: both, unless its stage
 /// says otherwise.
@@ -83,7 +83,8 @@ impl Geometry {
 }
 
 /// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of
-/// its body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25).
+/// its body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25), or (P45)
+/// for bodies on world lines; NaN where such a body cannot be seen.
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
     if !scene.rest.is_empty() {
         return scene.rest.clone();
@@ -95,6 +96,10 @@ pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVe
     let bodies = vertex_bodies(scene);
     (scene.vertices.par_iter().zip(bodies.par_iter()))
         .map(|(vertex, &body)| {
+            if let Some(line) = frames.world_line(body) {
+                let point = WorldLinePoint::new(line, vertex.position - eye);
+                return point.map_or(DVec3::NAN, |point| point.point);
+            }
             let seen = SeenPosition(vertex.position - eye);
             frames.of(body).scene_from_boosted() * geometry.rest(seen, frames.velocity(body)).0
         })

@@ -56,6 +56,7 @@ mod shares;
 mod split;
 mod vtk_polygons;
 mod words;
+mod world_lines;
 
 pub use area::{newell_normal, unit_normal};
 pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
@@ -84,3 +85,5 @@ pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use vtk_polygons::VtkPolygons;
+use world_lines::world_lines;
+pub use world_lines::{WorldLinePoint, seen_event, world_line_points};

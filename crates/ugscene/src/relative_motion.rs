@@ -1,23 +1,26 @@
 //! The motion of a body relative to the camera.
 
+use std::sync::Arc;
+
 use glam::DVec3;
-use ugphysics::{RestFrame, Velocity, elongated};
+use ugphysics::{RestFrame, Velocity, WorldLine, elongated};
 
 use crate::{Geometry, RestPosition, SeenPosition};
 
 /// How one body moves relative to the camera, and which effects are shown.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct RelativeMotion {
     frame: RestFrame,
     in_scene: Velocity,
     geometry: Geometry,
+    line: Option<Arc<WorldLine>>,
 }
 
 impl RelativeMotion {
     /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the
     /// scene.
     pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
-        RelativeMotion { frame: RestFrame::new(velocity), in_scene: velocity, geometry }
+        RelativeMotion { frame: RestFrame::new(velocity), in_scene: velocity, geometry, line: None }
     }
 
     /// The motion of a body with `velocity` in the frame of the camera; `in_scene`, `camera`:
@@ -28,7 +31,21 @@ impl RelativeMotion {
         camera: Velocity,
         geometry: Geometry,
     ) -> RelativeMotion {
-        RelativeMotion { frame: crate::rest_frames::frame(velocity, camera), in_scene, geometry }
+        RelativeMotion { frame: crate::rest_frames::frame(velocity, camera), in_scene, geometry, line: None }
+    }
+
+    /// The motion of a body on a world line, in the frame of the camera with the event of the eye
+    /// as its origin.
+    pub(crate) fn on_world_line(line: WorldLine) -> RelativeMotion {
+        let motion = Self::new(line.initial_velocity(), Geometry::default());
+        RelativeMotion { line: Some(Arc::new(line)), ..motion }
+    }
+
+    /// The world line of a body that is not inertial, in the frame of the camera with the event of
+    /// the eye as its origin. Coordinates of the body are relative to the eye. The velocity and the
+    /// rest frame below are those at its own time 0.
+    pub fn world_line(&self) -> Option<&Arc<WorldLine>> {
+        self.line.as_ref()
     }
 
     /// In the frame of the camera.
@@ -54,7 +71,7 @@ impl RelativeMotion {
 
     /// True if the body rests in the frame of the camera.
     pub fn is_at_rest(&self) -> bool {
-        self.frame.is_at_rest()
+        self.line.is_none() && self.frame.is_at_rest()
     }
 
     /// True if the time of flight of light is included, so that straight edges are seen as curves.

@@ -1,9 +1,11 @@
 //! The rest frames of a scene's bodies, and which body a vertex is part of.
 
-use glam::DVec3;
-use ugphysics::{RestFrame, Velocity};
+use std::sync::Arc;
 
-use crate::{BodyId, Scene, axes_from_scene, camera_velocity, split_vertices};
+use glam::DVec3;
+use ugphysics::{RestFrame, Velocity, WorldLine};
+
+use crate::{BodyId, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
 
 /// The rest frame of each body, relative to the frame of the camera.
 #[derive(Clone, Debug)]
@@ -12,6 +14,8 @@ pub struct RestFrames {
     frames: Vec<RestFrame>,
     /// For each body, see [`RestFrames::lamp_shift`]; empty if all are 0.
     lamp_shifts: Vec<DVec3>,
+    /// For each body, see [`RestFrames::world_line`]; empty if all are `None`.
+    world_lines: Vec<Option<Arc<WorldLine>>>,
 }
 
 impl RestFrames {
@@ -29,9 +33,36 @@ impl RestFrames {
             let own = scene.lamp_shifts.iter().find(|shift| shift.velocity == frame.velocity());
             own.map_or(DVec3::ZERO, |own| own.shift)
         };
+        let of_body = |(body, frame)| {
+            if scene.bodies.is_on_world_line(body) { DVec3::ZERO } else { shift(frame) }
+        };
         let are_shifted = !scene.lamp_shifts.is_empty();
-        let lamp_shifts = frames.iter().filter(|_| are_shifted).map(shift).collect();
-        Self { frames, lamp_shifts }
+        let lamp_shifts = scene.bodies.ids().zip(&frames).filter(|_| are_shifted).map(of_body).collect();
+        Self { frames, lamp_shifts, world_lines: world_lines(scene) }
+    }
+
+    /// The world line of a body that is not inertial in a scene as seen, in the frame of the
+    /// camera with the event of the eye as its origin; coordinates of the body are relative to the
+    /// eye. The rest frame and velocity of such a body are those at its own time 0.
+    #[inline]
+    pub fn world_line(&self, body: BodyId) -> Option<&Arc<WorldLine>> {
+        self.world_lines.get(body.index())?.as_ref()
+    }
+
+    /// True if a body has a world line.
+    pub fn have_world_lines(&self) -> bool {
+        !self.world_lines.is_empty()
+    }
+
+    /// The velocity, in the frame of the camera, of the point of a body that is seen at `seen`
+    /// relative to the eye. On a world line it is that at emission; where no point of the body can
+    /// be seen, that at own time 0.
+    pub fn velocity_at(&self, body: BodyId, seen: DVec3) -> Velocity {
+        let at_event = |line: &Arc<WorldLine>| line.at_event(crate::seen_event(seen)).ok();
+        match self.world_line(body).and_then(at_event) {
+            Some(event) => event.velocity,
+            None => self.velocity(body),
+        }
     }
 
     /// The rest frame of a body.
@@ -58,7 +89,7 @@ impl RestFrames {
 
     /// True if nothing moves.
     pub fn are_at_rest(&self) -> bool {
-        self.frames.iter().all(RestFrame::is_at_rest)
+        !self.have_world_lines() && self.frames.iter().all(RestFrame::is_at_rest)
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod cameras;
 mod comments;
+mod motions;
 mod names;
 mod paths;
 mod placement;
@@ -44,9 +45,9 @@ const SHORT_CHAIN: usize = 200;
 const STACK_PER_LEVEL: usize = 1 << 15;
 
 /// Builds the flat scene; it already contains colours, surfaces, and the names of the file.
-pub(crate) fn expand(
-    text: &[u8],
-    document: &mut Document<'_>,
+pub(crate) fn expand<'t>(
+    text: &'t [u8],
+    document: &mut Document<'t>,
     links: &Links,
     scene: Scene,
     findings: &mut Vec<Diagnostic>,
@@ -69,9 +70,9 @@ pub(crate) fn expand(
     })
 }
 
-fn expand_here(
-    text: &[u8],
-    document: &mut Document<'_>,
+fn expand_here<'t>(
+    text: &'t [u8],
+    document: &mut Document<'t>,
     links: &Links,
     scene: Scene,
     findings: &mut Vec<Diagnostic>,
@@ -79,7 +80,7 @@ fn expand_here(
     // Only comments after the head require the spans of statements.
     let first_statement = document.first_statement.unwrap_or(u32::MAX);
     let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
-    let file = std::mem::take(&mut document.scopes[0]);
+    let mut file = std::mem::take(&mut document.scopes[0]);
     let mut expander = Expander {
         text,
         scopes: &document.scopes,
@@ -99,16 +100,17 @@ fn expand_here(
         nested_cameras: Vec::new(),
     };
     expander.note_definitions(&file);
+    let motions = std::mem::take(&mut file.motions);
     let stage = document.stage.map(|(_, span)| span);
     expander.note(stage.as_slice(), 0, |_| Item::Stage);
     expander.file(file);
+    findings.extend(expander.set_motions(&motions));
     findings.extend(std::mem::take(&mut expander.undefined).into_values());
     expander.make_names_unique();
     expander.place_comments(&document.comments, first_statement);
     findings.extend(expander.prefer_outer_camera());
     findings.extend(expander.error);
     findings.extend(expander.degenerate.into_values());
-    expander.scene.bodies = expander.bodies.bodies;
     (expander.scene, expander.origins)
 }
 
@@ -133,7 +135,7 @@ struct Expander<'d, 't> {
     undefined: BTreeMap<u32, Diagnostic>,
     /// For each expanded scope, the row of its first illum.
     first_illums: Vec<Option<usize>>,
-    bodies: BodyTable,
+    bodies: BodyTable<'t>,
     /// The first error of expansion.
     error: Option<Diagnostic>,
     /// Warnings for faces without area after transformation, one per statement, by position.
@@ -142,9 +144,9 @@ struct Expander<'d, 't> {
     nested_cameras: Vec<NestedCamera>,
 }
 
-impl Expander<'_, '_> {
+impl<'t> Expander<'_, 't> {
     /// Moves the file's tables into the scene, and expands its calls between their rows.
-    fn file(&mut self, mut file: Scope<'_>) {
+    fn file(&mut self, mut file: Scope<'t>) {
         self.bodies = std::mem::take(&mut file.bodies);
         if self.emitted.is_some() {
             let names = file.vertices.spans.iter();
@@ -252,7 +254,7 @@ impl Expander<'_, '_> {
     ) {
         let (Some(target), label) = (link.target, &link.label) else { return };
         let Call { statement: call, color, .. } = call;
-        let own_body = call.velocity.map(|velocity| self.bodies.moving_with(velocity));
+        let own_body = call.motion.map(|motion| self.bodies.of_reference(self.text, motion));
         let colon = if inherited.prefix.is_empty() || label.is_empty() { "" } else { ":" };
         let mut inner = Inherited {
             transform: call.inner.then(&inherited.transform),

@@ -154,6 +154,7 @@ impl Expander<'_, '_> {
             center: camera.center.map(|point| inherited.transform.point(point)),
             eye: camera.eye.map(|point| inherited.transform.point(point)),
             up: camera.up.map(|up| inherited.transform.direction(up)),
+            carrier: camera.carrier.map(|body| placement.bodies[body.index()]),
             ..camera.clone()
         };
         for point in [placed.center, placed.eye].into_iter().flatten() {

@@ -4,6 +4,7 @@
 //! token of look-ahead.
 
 mod cameras;
+mod motions;
 mod transforms;
 
 use cameras::camera_option;
@@ -17,7 +18,7 @@ use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, References, Repeat, Statement, SurfaceStatement, VertexStatement,
+    MixStatement, MotionReference, References, Repeat, Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
@@ -26,7 +27,7 @@ use crate::token::{
 
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str =
-    "v w f c c_rgb c_xyz c_bb c_spd c_mix surf l cam def end i a include execute";
+    "v w f c c_rgb c_xyz c_bb c_spd c_mix surf l cam motion def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -75,10 +76,25 @@ impl<'t> Grammar<'t> {
             b"surf" => self.surface(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),
+            b"motion" => self.motion(input),
             b"i" => self.call(input, false),
             b"a" => self.call(input, true),
             _ => return None,
         })
+    }
+
+    /// `< x y z >` or `< NAME >`
+    fn motion_reference<'a>(&self, input: Input<'a>) -> Parsed<'a, MotionReference> {
+        let (input, ()) = mark(b'<', "`<` and a velocity or the name of a motion")(input)?;
+        let (input, motion) = match self.name(input) {
+            Ok((rest, name)) => (rest, MotionReference::Named(name)),
+            Err(_) => {
+                let (rest, velocity) = velocity(input)?;
+                (rest, MotionReference::Velocity(velocity))
+            }
+        };
+        let (input, ()) = require(mark(b'>', "`>`")(input))?;
+        Ok((input, motion))
     }
 
     /// `v ID x y z [color] [nx ny nz]`
@@ -99,8 +115,8 @@ impl<'t> Grammar<'t> {
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, illum) = self.illum(input)?;
-        let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Face(FaceStatement { name, color, illum, velocity })))
+        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        Ok((input, Statement::Face(FaceStatement { name, color, illum, motion })))
     }
 
     /// `number` or `surface`
@@ -117,8 +133,8 @@ impl<'t> Grammar<'t> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
-        let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Wire(FaceStatement { name, color, illum: None, velocity })))
+        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        Ok((input, Statement::Wire(FaceStatement { name, color, illum: None, motion })))
     }
 
     /// One or more `( vertex … )`.
@@ -276,8 +292,8 @@ impl<'t> Grammar<'t> {
             return fail(at, zero_vector(3));
         }
         let (input, color) = self.optional_name(input)?;
-        let (input, velocity) = opt(velocity).parse(input)?;
-        let light = LightStatement { name, intensity, vector, radius, reference, color, velocity };
+        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        let light = LightStatement { name, intensity, vector, radius, reference, color, motion };
         Ok((input, Statement::Light(light)))
     }
 
@@ -288,8 +304,14 @@ impl<'t> Grammar<'t> {
         while let (rest, Some(name)) = opt(option_word).parse(input)? {
             input = camera_option(&mut camera, name, input, rest)?.0;
         }
-        let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Camera(CameraStatement { name, camera: Camera { velocity, ..camera } })))
+        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        let (velocity, carrier) = match motion {
+            Some(MotionReference::Velocity(velocity)) => (Some(velocity), None),
+            Some(MotionReference::Named(name)) => (None, Some(name)),
+            None => (None, None),
+        };
+        let camera = Camera { velocity, ..camera };
+        Ok((input, Statement::Camera(CameraStatement { name, camera, carrier })))
     }
 
     /// `i [ID] ( def [color] tforms ) [< x y z >]`,
@@ -308,8 +330,8 @@ impl<'t> Grammar<'t> {
         } else {
             (input, Repeat::Once)
         };
-        let (input, velocity) = opt(velocity).parse(input)?;
-        Ok((input, Statement::Call(CallStatement { name, definition, color, inner, repeat, velocity })))
+        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        Ok((input, Statement::Call(CallStatement { name, definition, color, inner, repeat, motion })))
     }
 }
 
@@ -338,12 +360,10 @@ fn number_from<'a>(
     }
 }
 
-/// `< x y z >`, fractions of c.
+/// A velocity, in fractions of c.
 fn velocity(input: Input<'_>) -> Parsed<'_, Velocity> {
-    let (input, ()) = mark(b'<', "`<` and a velocity")(input)?;
     let at = blank(input)?.0;
     let (input, beta) = require(point(input))?;
-    let (input, ()) = require(mark(b'>', "`>`")(input))?;
     match Velocity::from_beta(beta) {
         Ok(velocity) => Ok((input, velocity)),
         Err(_) => fail(

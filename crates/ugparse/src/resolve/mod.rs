@@ -15,7 +15,7 @@ use crate::options::Limits;
 use crate::scope::Scope;
 
 pub(crate) use degenerate::{degeneracy, face_name, has_three, is_short, omitted, short_wire};
-pub(crate) use undefined::undefined;
+pub(crate) use undefined::{undefined, undefined_like};
 
 use calls::link_calls;
 use corners::{link_corners, path_corners};

@@ -112,7 +112,7 @@ pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Di
 
 /// Like [`undefined`], with the most similar name as a suggestion. With `n_before` findings
 /// already, the error may not be shown, and no suggestion is computed.
-pub(super) fn undefined_like<'n>(
+pub(crate) fn undefined_like<'n>(
     text: &[u8],
     kind: &str,
     name: Span,

@@ -121,6 +121,11 @@ pub enum WorldLineError {
     },
     /// A velocity is invalid, or its rapidity too large.
     Velocity(VelocityError),
+    /// A piece of acceleration adds more rapidity than [`WorldLine::MOST_RAPIDITY`].
+    TooLong {
+        /// |a| times the own time of the piece.
+        rapidity: f64,
+    },
     /// The axis of an orbit is the zero vector.
     NoAxis,
     /// A point would move at the speed of light or faster: it is too far from the axis of the spin,
@@ -138,6 +143,11 @@ impl core::fmt::Display for WorldLineError {
             Self::EmptyPiece { piece: [from, to] } => write!(f, "a piece from {from} to {to} is empty"),
             Self::Overlap { from } => write!(f, "the piece that begins at {from} overlaps the one before"),
             Self::Velocity(error) => error.fmt(f),
+            Self::TooLong { rapidity } => write!(
+                f,
+                "an acceleration adds the rapidity {rapidity}: it may be {} at most",
+                WorldLine::MOST_RAPIDITY
+            ),
             Self::NoAxis => write!(f, "the axis is the zero vector"),
             Self::Horizon { own_time } => {
                 write!(f, "at own time {own_time} the point would move at the speed of light or faster")
@@ -155,6 +165,10 @@ impl From<VelocityError> for WorldLineError {
 }
 
 impl WorldLine {
+    /// The greatest rapidity that one piece of acceleration adds; a piece without an end ends
+    /// there. At 1 g it is reached after 48 years, at a distance of 10²¹ light years.
+    pub const MOST_RAPIDITY: f64 = 50.0;
+
     /// At rest in the scene.
     pub const REST: Self = Self(Kind::Inertial(Velocity::ZERO));
 
@@ -233,6 +247,76 @@ impl WorldLine {
         }
         let frame = moving.pose(0.0).scene_from_axes;
         moving.initial = frame.velocity_of_frame().unwrap_or(moving.initial);
+        Self(Kind::Moving(Box::new(moving)))
+    }
+
+    /// The same motion with `anchor` as the fixed point of the contraction at own time 0, instead
+    /// of the origin.
+    #[must_use]
+    pub fn anchored(&self, anchor: DVec3) -> Self {
+        let shift = self.anchor_shift(anchor);
+        self.in_frame(Lorentz::IDENTITY, Event { t: -shift.t, x: -shift.x })
+    }
+
+    /// The displacement in space and time of [`WorldLine::anchored`].
+    #[must_use]
+    pub fn anchor_shift(&self, anchor: DVec3) -> Event {
+        let there = Event { t: 0.0, x: anchor };
+        there - Lorentz::boost(self.initial_velocity()).apply(there)
+    }
+
+    /// The displacement, simultaneous in the rest frame of A at own time 0, after which `point` is
+    /// at `event`.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn displacement_to(&self, point: DVec3, event: Event) -> Result<Event, WorldLineError> {
+        let from_scene = Lorentz::boost(self.initial_velocity()).inverse();
+        let wanted = from_scene.apply(event).t;
+        let time = |own_time: f64| -> Result<f64, WorldLineError> {
+            Ok(from_scene.apply(self.event(point, own_time)?).t - wanted)
+        };
+        // Time passes everywhere, so there is one root: bracketed, then halved.
+        let mut reach = 1.0;
+        while time(-reach)? > 0.0 || time(reach)? < 0.0 {
+            reach *= 2.0;
+            if reach > 1e300 {
+                return Err(WorldLineError::NotFinite);
+            }
+        }
+        let (mut low, mut high) = (-reach, reach);
+        loop {
+            let middle = 0.5 * low + 0.5 * high;
+            if middle <= low || middle >= high {
+                return Ok(event - self.event(point, middle)?);
+            }
+            if time(middle)? < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+    }
+
+    /// The frame of a point of the body at an own time: the frame of the scene from it, with axes
+    /// that turn with the body.
+    #[must_use]
+    pub fn frame(&self, point: DVec3, own_time: f64) -> Lorentz {
+        let pose = self.pose(own_time);
+        let lean = match &self.0 {
+            Kind::Inertial(_) => DVec3::ZERO,
+            Kind::Moving(moving) => moving.lean(point, own_time),
+        };
+        let lean = Velocity::from_beta(lean).unwrap_or_default();
+        pose.scene_from_axes * Lorentz::boost(lean) * Lorentz::rotation(pose.turn)
+    }
+
+    /// The same motion with coordinates of the body that are relative to `origin`.
+    #[must_use]
+    pub fn with_body_origin(&self, origin: DVec3) -> Self {
+        let mut moving = self.as_moving();
+        moving.at -= origin;
+        moving.turns.iter_mut().for_each(|turn| turn.pivot -= origin);
         Self(Kind::Moving(Box::new(moving)))
     }
 
@@ -324,6 +408,32 @@ impl WorldLine {
             }
             Kind::Moving(moving) => moving.at_event(event),
         }
+    }
+
+    /// Where a point of the body would be in its coordinates at an own time if it only turned: A +
+    /// ξ.
+    #[must_use]
+    pub fn turned_point(&self, point: DVec3, own_time: f64) -> DVec3 {
+        match &self.0 {
+            Kind::Inertial(_) => point,
+            Kind::Moving(moving) => moving.at + moving.offset(point, own_time).xi,
+        }
+    }
+
+    /// A vector d in the coordinates of the body such that n·d is, up to a positive factor, the
+    /// component of the light ray `ray` along the outward normal of a surface with the normal n
+    /// there, in the rest frame of the surface element.  Eq. (P43)
+    ///
+    /// `ray`: a null vector in the frame of the scene.
+    #[must_use]
+    pub fn toward(&self, point: DVec3, own_time: f64, ray: Event) -> DVec3 {
+        let pose = self.pose(own_time);
+        let Event { t, x } = pose.scene_from_axes.inverse().apply(ray);
+        let lean = match &self.0 {
+            Kind::Inertial(_) => DVec3::ZERO,
+            Kind::Moving(moving) => moving.lean(point, own_time),
+        };
+        pose.turn.inverse() * (x - lean * t)
     }
 
     /// Checks that a point of the body can move so at all times.
@@ -569,12 +679,17 @@ impl Moving {
         if guess.is_finite() { guess } else { 0.0 }
     }
 
+    /// w = (dξ/dτ)/(1 + a·ξ): the velocity of a point in the rest frame of A.
+    fn lean(&self, point: DVec3, own_time: f64) -> DVec3 {
+        let Offset { xi, swing } = self.offset(point, own_time);
+        swing / self.pace(xi, own_time)
+    }
+
     /// N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), with w = (dξ/dτ)/(1 + a·ξ): perpendicular to
     /// ∂X/∂τ and to both tangents of the surface.  Eq. (P43)
     fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
         let pose = self.pose(own_time);
-        let (Offset { xi, swing }, n) = (self.offset(point, own_time), pose.turn * normal);
-        let w = swing / self.pace(xi, own_time);
+        let (w, n) = (self.lean(point, own_time), pose.turn * normal);
         let lean = n.dot(w);
         let scale = 1.0 / ((1.0 - lean) * (1.0 + lean)).sqrt();
         let in_scene = pose.scene_from_axes.apply(Event { t: lean * scale, x: n * scale });

@@ -2,12 +2,8 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Pose, WorldLineError};
-use crate::{Event, HyperbolicMotion, Lorentz, Velocity, VelocityError};
-
-/// The greatest rapidity that one piece adds; a piece without an end ends there. At 1 g it is
-/// reached after 48 years, at a distance of 10²¹ light years.
-const MOST_RAPIDITY: f64 = 50.0;
+use super::{Pose, WorldLine, WorldLineError};
+use crate::{Event, HyperbolicMotion, Lorentz, Velocity};
 
 /// A vector that is constant for a stretch of own time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,6 +134,10 @@ impl Acceleration {
         if !timeline.0.iter().all(is_finite) {
             return Err(WorldLineError::NotFinite);
         }
+        // Several pieces together may exceed the limit of velocities.
+        for stretch in &timeline.0 {
+            stretch.state.scene_from_axes.velocity_of_frame()?;
+        }
         Ok(Self(timeline))
     }
 
@@ -173,16 +173,16 @@ impl Acceleration {
     }
 }
 
-/// Ends a piece without an end where it has added [`MOST_RAPIDITY`], and refuses others that add
+/// Ends a piece without an end where it has added [`WorldLine::MOST_RAPIDITY`], and refuses others that add
 /// more.
 fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
-    let most = MOST_RAPIDITY / piece.of.length();
+    let most = WorldLine::MOST_RAPIDITY / piece.of.length();
     let Piece { from, to, .. } = *piece;
     if to - from <= most {
         return Ok(());
     }
     if from.is_finite() && to.is_finite() {
-        return Err(VelocityError::RapidityTooLarge { rapidity: (to - from) * piece.of.length() }.into());
+        return Err(WorldLineError::TooLong { rapidity: (to - from) * piece.of.length() });
     }
     piece.to = to.min(from.max(0.0) + most);
     piece.from = from.max(to.min(0.0) - most);

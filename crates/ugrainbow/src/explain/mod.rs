@@ -309,9 +309,7 @@ impl Teller<'_> {
                 let lights = if scene.light_level(face).is_some() {
                     Vec::new()
                 } else {
-                    let normal = painter.normal_at(vertex, normal);
-                    let point = painter.appearance.surface.rest(vertex);
-                    let shift = painter.appearance.surface.frames().lamp_shift(face.body);
+                    let [point, normal, shift] = painter.lit_point(face, vertex, normal);
                     painter.lighting.parts(scene, point, normal, shift, common.is_light)
                 };
                 self.corner(vertex, &swatch, level, lights)

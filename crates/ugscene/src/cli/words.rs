@@ -57,6 +57,9 @@ impl Words for MotionError {
             Self::CameraVelocity(error) => format!("-cv: {error}"),
             Self::TooFast { .. } => format!("{self} (-cv): make one of them slower"),
             Self::Camera(error) => error.words(),
+            Self::Eye { .. } => format!("{self}: move it nearer to the point -at of that motion"),
+            Self::WorldLine { .. } => self.to_string(),
+            Self::PartialGeometry => format!("{self}: leave out -nc and --no-flight-time"),
         }
     }
 

@@ -5,6 +5,7 @@ use std::ops::Index;
 use ugphysics::{Velocity, WorldLine};
 
 use super::ids::NameId;
+use super::motion::Motion;
 
 /// Row of [`Bodies`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -48,14 +49,21 @@ pub struct Body {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies {
     rows: Vec<Body>,
-    motions: Vec<WorldLine>,
+    motions: Vec<BodyMotion>,
+}
+
+/// A world line, and the statement that gives it, if it has one.
+#[derive(Clone, Debug, PartialEq)]
+struct BodyMotion {
+    line: WorldLine,
+    statement: Option<Motion>,
 }
 
 impl Default for Bodies {
     /// One body, of all faces and wires whose motion is not stated.
     fn default() -> Self {
         let body = Body { name: None, motion: MotionId(0), is_stated: false };
-        Self { rows: vec![body], motions: vec![WorldLine::REST] }
+        Self { rows: vec![body], motions: vec![BodyMotion { line: WorldLine::REST, statement: None }] }
     }
 }
 
@@ -63,7 +71,7 @@ impl Bodies {
     /// Adds a body whose motion is stated.
     pub fn push(&mut self, name: Option<NameId>, motion: WorldLine) -> BodyId {
         let row = u32::try_from(self.motions.len()).expect("tables have fewer than 2^32 rows");
-        self.motions.push(motion);
+        self.motions.push(BodyMotion { line: motion, statement: None });
         self.rows.push(Body { name, motion: MotionId(row), is_stated: true });
         BodyId::from_index(self.rows.len() - 1)
     }
@@ -88,7 +96,37 @@ impl Bodies {
 
     /// The motion of a body in the frame of the scene.
     pub fn motion(&self, id: BodyId) -> &WorldLine {
-        &self.motions[self[id].motion.0 as usize]
+        &self.motions[self[id].motion.0 as usize].line
+    }
+
+    /// The statement that gives the motion of a body with a name; `None` if the text gives its
+    /// faces a velocity instead.
+    pub fn statement(&self, id: BodyId) -> Option<&Motion> {
+        self.motions[self[id].motion.0 as usize].statement.as_ref()
+    }
+
+    /// Gives a body a name and a motion with a statement, whose world line is `line`.
+    pub fn set_statement(&mut self, id: BodyId, name: NameId, statement: Motion, line: WorldLine) {
+        let body = &mut self.rows[id.index()];
+        body.name = Some(name);
+        body.is_stated = true;
+        self.motions[body.motion.0 as usize] = BodyMotion { line, statement: Some(statement) };
+    }
+
+    /// The bodies whose motions have statements, in the order in which they are written.
+    pub fn stated_by_name(&self) -> impl Iterator<Item = BodyId> + '_ {
+        self.ids().filter(|&id| self.statement(id).is_some())
+    }
+
+    /// True if a body accelerates, turns or runs on a circle, so that its points have velocities of
+    /// their own.
+    pub fn is_on_world_line(&self, id: BodyId) -> bool {
+        self.motion(id).uniform_velocity().is_none()
+    }
+
+    /// True if [`Bodies::is_on_world_line`] holds for any body.
+    pub fn has_world_lines(&self) -> bool {
+        self.ids().any(|id| self.is_on_world_line(id))
     }
 
     /// The velocity of a body in the frame of the scene, at its own time 0; at all times if it
@@ -106,7 +144,9 @@ impl Bodies {
     pub fn set_velocity(&mut self, id: BodyId, velocity: Velocity) {
         let body = &mut self.rows[id.index()];
         body.is_stated = true;
-        self.motions[body.motion.0 as usize] = WorldLine::inertial(velocity);
+        let motion = &mut self.motions[body.motion.0 as usize];
+        motion.line = WorldLine::inertial(velocity);
+        motion.statement = motion.statement.take().map(|_| Motion::inertial(velocity));
     }
 
     /// True if any body moves in the frame of the scene.

@@ -4,6 +4,7 @@ mod body;
 mod contours;
 mod history;
 mod ids;
+mod motion;
 mod names;
 mod remarks;
 mod scene;
@@ -14,6 +15,7 @@ pub use body::{Bodies, Body, BodyId};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
 pub use ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
+pub use motion::{Motion, MotionPath};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{

@@ -46,6 +46,8 @@ pub enum Item {
     Mix(u32),
     /// Row of [`Scene::surfaces`].
     Surface(u32),
+    /// Row of [`Scene::bodies`], of a body whose motion has a statement.
+    Motion(u32),
     /// Row of [`Scene::vertices`].
     Vertex(u32),
     /// Row of [`Scene::faces`].

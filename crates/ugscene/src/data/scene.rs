@@ -292,6 +292,8 @@ pub struct Camera {
     pub focal_length: Option<f64>,
     /// Its velocity in the scene's frame.
     pub velocity: Option<Velocity>,
+    /// The body that it moves with, if it has a name in the text instead of a velocity.
+    pub carrier: Option<BodyId>,
 }
 
 /// Kind of projection.

@@ -20,12 +20,14 @@ pub(super) fn take_camera_velocity(
     }
 }
 
-/// Makes all faces and wires parts of one body. If that is at rest, those whose motion is not
-/// stated stay what they are.
+/// Makes all faces and wires parts of one body, except those of bodies with a name, whose motion is
+/// more than a velocity. If that body is at rest, those whose motion is not stated stay what they
+/// are.
 pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     let (body, unstated) = (scene.bodies.moving_with(velocity), scene.bodies.unstated());
+    let keeps: Vec<bool> = scene.bodies.ids().map(|id| scene.bodies.statement(id).is_some()).collect();
     let set = |slot: &mut BodyId| {
-        if !velocity.is_zero() || *slot != unstated {
+        if !keeps[slot.index()] && (!velocity.is_zero() || *slot != unstated) {
             *slot = body;
         }
     };
@@ -65,6 +67,9 @@ pub(super) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
 pub(super) fn transform_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), MotionError> {
     if !camera.is_zero() {
         for body in scene.bodies.ids() {
+            if scene.bodies.is_on_world_line(body) {
+                continue;
+            }
             if let Some(velocity) = scene.bodies.stated_velocity(body) {
                 scene.bodies.set_velocity(body, in_camera_frame(velocity, camera)?);
             }

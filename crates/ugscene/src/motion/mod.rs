@@ -2,12 +2,16 @@
 //! rest frames: what a filter for seen positions and a ray tracer have in common.
 
 mod camera_frame;
+mod observer;
 mod placement;
+mod world_lines;
 
 use glam::DVec3;
 use rayon::prelude::*;
 use thiserror::Error;
-use ugphysics::{Velocity, VelocityError};
+use ugphysics::{Velocity, VelocityError, WorldLineError};
+
+use observer::Observer;
 
 use crate::camera_options::half_side;
 use crate::{
@@ -71,6 +75,23 @@ pub enum MotionError {
     /// The camera is invalid.
     #[error(transparent)]
     Camera(CameraError),
+    /// The eye cannot move with the camera's body.
+    #[error("the eye cannot move with the motion of the camera: {error}")]
+    Eye {
+        /// Why.
+        error: WorldLineError,
+    },
+    /// A body cannot move so.
+    #[error("motion `{name}`: {error}")]
+    WorldLine {
+        /// The name of the motion.
+        name: String,
+        /// Why.
+        error: WorldLineError,
+    },
+    /// A single effect is asked for, and a body accelerates or turns.
+    #[error("bodies that accelerate or turn are seen with contraction and flight time together")]
+    PartialGeometry,
 }
 
 /// Where the bodies of a scene are relative to the camera.
@@ -116,26 +137,34 @@ impl PlacedBodies {
         if options.velocity.is_some() {
             camera_frame::set_velocity(scene, velocity);
         }
-        let of_camera = camera_frame::take_camera_velocity(scene, options.camera_velocity)?;
+        let observer = Observer::take(scene, options, camera.eye)?;
+        let of_camera = observer.velocity;
         if !of_camera.is_zero() {
             camera_frame::state_motions(scene, velocity);
         }
         crate::separate_bodies(scene);
         let bodies = crate::vertex_bodies(scene);
-        let motions = motions(scene, velocity, of_camera, options.geometry)?;
-        let default_camera = DefaultCamera::new(scene, camera, size, |body| vec![motions[body.index()]]);
+        let mut motions = motions(scene, velocity, of_camera, options.geometry)?;
+        // Bodies on world lines are fitted at rest.
+        let fitted = |body: BodyId| {
+            let motion = (!scene.bodies.is_on_world_line(body)).then(|| motions[body.index()].clone());
+            motion.into_iter().collect()
+        };
+        let default_camera = DefaultCamera::new(scene, camera, size, fitted);
         let default_camera = default_camera.map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
         camera_frame::transform_velocities(scene, of_camera)?;
+        world_lines::place(scene, &bodies, &mut motions, (eye, &observer), options)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
             || crate::has_moving_bodies(scene)
             || crate::has_moving_lights(scene);
-        let shifts = placement::shifts(scene, &bodies, &motions, eye, options);
+        let shifts = placement::shifts(scene, &bodies, &motions, (eye, &observer), options);
         placement::shift_lights(scene, &motions, &shifts);
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;
+        turn_camera(scene, eye, &observer);
         Ok(Self { eye, default_camera, motions, bodies, shifts, has_motion, camera: of_camera })
     }
 
@@ -169,8 +198,14 @@ fn motions(
     camera: Velocity,
     geometry: Geometry,
 ) -> Result<Vec<RelativeMotion>, MotionError> {
-    let velocity = |body: BodyId| scene.bodies.stated_velocity(body).unwrap_or(default);
-    scene.bodies.ids().map(|body| seen_by(camera, velocity(body), geometry)).collect()
+    let motion = |body: BodyId| {
+        if scene.bodies.is_on_world_line(body) {
+            // Replaced when the place of the eye is known.
+            return Ok(RelativeMotion::new(Velocity::ZERO, geometry));
+        }
+        seen_by(camera, scene.bodies.stated_velocity(body).unwrap_or(default), geometry)
+    };
+    scene.bodies.ids().map(motion).collect()
 }
 
 /// The motion of a body and a camera with velocities `in_scene` and `camera` in the frame of the
@@ -202,6 +237,19 @@ pub fn common_camera(
     };
     let motions = |body| pictures.iter().filter_map(|picture| motion(picture, body)).collect();
     DefaultCamera::new(scene, options, size, motions)
+}
+
+/// Turns the view with a camera that spins, or whose axes a path has turned.
+fn turn_camera(scene: &mut Scene, eye: DVec3, observer: &Observer) {
+    if observer.turn == glam::DQuat::IDENTITY {
+        return;
+    }
+    let middle = crate::camera::middle(scene);
+    let row = scene.camera_row().unwrap_or(0);
+    let camera = &mut scene.cameras[row];
+    let center = camera.center.unwrap_or(middle);
+    camera.center = Some(eye + observer.turned(center - eye));
+    camera.up = Some(observer.turned(camera.up.unwrap_or(DVec3::Z)));
 }
 
 /// Writes the eye and the options into the scene's camera, so that programs downstream use them.

@@ -4,8 +4,9 @@
 //! coordinates alone, and the rest geometry recovered from the output has the same shape.
 
 use glam::DVec3;
-use ugphysics::observer_shift;
+use ugphysics::{Lorentz, observer_shift};
 
+use super::observer::Observer;
 use super::{Anchor, MotionOptions, RelativeMotion};
 use crate::{BodyId, LampShift, LightKind, Scene, SeenPosition};
 
@@ -16,7 +17,7 @@ pub(super) fn shifts(
     scene: &Scene,
     bodies: &[BodyId],
     motions: &[RelativeMotion],
-    eye: DVec3,
+    (eye, observer): (DVec3, &Observer),
     options: &MotionOptions,
 ) -> Vec<DVec3> {
     let is_center_asked = match options.anchor {
@@ -26,6 +27,9 @@ pub(super) fn shifts(
     // This reads every vertex.
     let centers = if is_center_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
     let shift = |(motion, &center): (&RelativeMotion, &DVec3)| {
+        if motion.world_line().is_some() {
+            return DVec3::ZERO;
+        }
         let point = match options.anchor {
             Some(Anchor::Eye) => DVec3::ZERO,
             Some(Anchor::Origin) => -eye,
@@ -34,7 +38,7 @@ pub(super) fn shifts(
             None if options.in_place => center - eye,
             None => DVec3::ZERO,
         };
-        anchor_shift(motion, point, options.in_place) + time_shift(motion, options.time)
+        anchor_shift(motion, point, options.in_place) + eye_shift(motion, observer, options.time)
     };
     let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
     // Unused vertices are part of the first body. They get the offset of a body of the same motion.
@@ -65,7 +69,12 @@ fn anchor_shift(motion: &RelativeMotion, anchor: DVec3, in_place: bool) -> DVec3
     }
 }
 
-fn time_shift(motion: &RelativeMotion, time: f64) -> DVec3 {
+/// By time and place of the eye.
+fn eye_shift(motion: &RelativeMotion, observer: &Observer, time: f64) -> DVec3 {
+    if let Some(event) = observer.event {
+        let in_rest_frame = Lorentz::boost(motion.in_scene()).inverse().apply(event);
+        return -motion.turned(in_rest_frame.x);
+    }
     if motion.has_contraction() {
         observer_shift(motion.velocity(), time) // (P5)
     } else {
@@ -75,7 +84,7 @@ fn time_shift(motion: &RelativeMotion, time: f64) -> DVec3 {
 
 /// The centre of the bounding box of each body, in scene coordinates: of its vertices, or of its
 /// lamps if it has no vertices.
-fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
+pub(super) fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): &mut (DVec3, DVec3), position: DVec3| {
         *low = low.min(position);
@@ -119,9 +128,11 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
     let users = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
     users.for_each(|body| is_used[body.index()] = true);
     let used = scene.bodies.ids().filter(|body| is_used[body.index()]);
-    let shifts: Vec<(BodyId, DVec3)> = used.map(|body| (body, shift_of(body))).collect();
+    // Those of bodies on world lines stay where they are.
+    let (on_lines, used): (Vec<_>, Vec<_>) = used.partition(|&body| scene.bodies.is_on_world_line(body));
+    let shifts: Vec<(BodyId, DVec3)> = used.into_iter().map(|body| (body, shift_of(body))).collect();
     let Some(&(_, first)) = shifts.first() else { return };
-    if shifts.iter().all(|&(_, shift)| shift == first) {
+    if on_lines.is_empty() && shifts.iter().all(|&(_, shift)| shift == first) {
         lights_everything.into_iter().for_each(|position| *position += first);
         return;
     }

@@ -1,0 +1,159 @@
+//! Gives the bodies with a name their motions, after all statements are read.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+use ugphysics::{WorldLine, WorldLineError};
+use ugscene::{BodyId, Item, Motion, MotionPath};
+
+use super::Expander;
+use crate::diagnostic::Diagnostic;
+use crate::resolve::undefined_like;
+use crate::rows::Rows;
+use crate::source::Span;
+use crate::statement::MotionStatement;
+
+/// The longest chain of motions of which each is part of the next.
+const MAX_CARRIERS: usize = 64;
+
+/// The motions of a file by the bodies that have them.
+struct Motions<'m> {
+    statements: &'m Rows<MotionStatement>,
+    rows: FxHashMap<BodyId, usize>,
+}
+
+impl Expander<'_, '_> {
+    /// Sets the motions of all bodies with a name. Returns what is wrong with them.
+    pub(super) fn set_motions(&mut self, statements: &Rows<MotionStatement>) -> Vec<Diagnostic> {
+        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
+        let names = self.bodies.names();
+        let mut findings = self.inner_motions();
+        let mut motions = Motions { statements, rows: FxHashMap::default() };
+        for (row, motion) in statements.rows.iter().enumerate() {
+            let body = self.bodies.named(self.text, motion.name);
+            if let Some(first) = motions.rows.insert(body, row) {
+                let shown = String::from_utf8_lossy(motion.name.of(self.text)).into_owned();
+                let error = Diagnostic::error(motion.name, format!("motion `{shown}` is defined twice"));
+                let first = statements.rows[first].name;
+                let error = error.label("again here").other(first, "first here");
+                findings.push(error.help("give one of them another name: each is a body of its own"));
+            }
+        }
+        let defined = || statements.rows.iter().map(|motion| motion.name.of(self.text));
+        for &(body, name) in &names {
+            if !motions.rows.contains_key(&body) && findings.is_empty() {
+                let remedy = "define it with a `motion` statement";
+                findings.push(undefined_like(self.text, "motion", name, remedy, defined(), findings.len()));
+            }
+        }
+        if findings.is_empty() {
+            let lines = names.iter().try_for_each(|&(body, name)| self.set_motion(&motions, body, name));
+            findings.extend(lines.and_then(|()| self.check_vertices(&motions)).err());
+        }
+        self.note_motions(&motions);
+        findings
+    }
+
+    /// A motion is a body of the whole scene.
+    fn inner_motions(&self) -> Vec<Diagnostic> {
+        let inner = self.scopes.iter().flat_map(|scope| scope.motions.spans.first()).next();
+        let error = |&span: &Span| {
+            Diagnostic::error(span, "a motion is inside a definition")
+                .label("here")
+                .help("state it outside: it is one body of the scene, however often the definition is placed")
+        };
+        inner.map(error).into_iter().collect()
+    }
+
+    fn note_motions(&mut self, motions: &Motions<'_>) {
+        let rows: Vec<BodyId> = self.scene.bodies.stated_by_name().collect();
+        for (row, body) in rows.into_iter().enumerate() {
+            if let Some(&statement) = motions.rows.get(&body) {
+                self.note(&[motions.statements.spans[statement]], row, Item::Motion);
+            }
+        }
+    }
+
+    fn set_motion(&mut self, motions: &Motions<'_>, body: BodyId, name: Span) -> Result<(), Diagnostic> {
+        let (motion, line) = self.motion(motions, body, 0)?;
+        let name = String::from_utf8_lossy(name.of(self.text)).into_owned();
+        let name = self.scene.names.add(&name);
+        self.scene.bodies.set_statement(body, name, motion, line);
+        Ok(())
+    }
+
+    /// The motion of a body and its world line. `depth`: of carriers before it.
+    fn motion(
+        &mut self,
+        motions: &Motions<'_>,
+        body: BodyId,
+        depth: usize,
+    ) -> Result<(Motion, WorldLine), Diagnostic> {
+        let row = motions.rows[&body];
+        let (statement, span) = (&motions.statements.rows[row], motions.statements.spans[row]);
+        if depth > MAX_CARRIERS {
+            let error = Diagnostic::error(span, "motions are part of each other in a circle, or too many");
+            let help = format!("a motion may be part of {MAX_CARRIERS} others at most, and not of itself");
+            return Err(error.label("this one").help(help));
+        }
+        let MotionStatement { at, velocity, accelerations, spins, orbit, on, shift, .. } = statement;
+        let (path, carrier) = match (on, orbit) {
+            (Some(name), _) => {
+                let carrier = self.bodies.named(self.text, *name);
+                (MotionPath::On(carrier), self.motion(motions, carrier, depth + 1)?.1)
+            }
+            (None, &Some((center, axis, rate))) => {
+                (MotionPath::Orbit { center, axis, rate }, WorldLine::REST)
+            }
+            (None, None) => {
+                let velocity = velocity.unwrap_or_default();
+                (MotionPath::Free { velocity, accelerations: accelerations.clone() }, WorldLine::REST)
+            }
+        };
+        let motion = Motion { at: *at, path, spins: spins.clone(), shift: *shift };
+        let line = motion.world_line(&carrier).map_err(|error| impossible(span, &error))?;
+        Ok((motion, line))
+    }
+
+    /// Checks that every vertex can move as its body does, in a scene at rest.
+    fn check_vertices(&self, motions: &Motions<'_>) -> Result<(), Diagnostic> {
+        let scene = &self.scene;
+        if scene.stage.seen_geometry().is_some() || !scene.bodies.has_world_lines() {
+            return Ok(());
+        }
+        let faces = scene.faces.iter().map(|face| (face.body, face.contours.clone()));
+        let users = faces.chain(scene.wires.iter().map(|wire| (wire.body, wire.contours.clone())));
+        let mut checked = FxHashSet::default();
+        for (body, contours) in users.filter(|(body, _)| scene.bodies.is_on_world_line(*body)) {
+            for &corner in scene.contours.corners(contours) {
+                if !checked.insert((body, corner)) {
+                    continue;
+                }
+                let vertex = &scene.vertices[corner.index()];
+                if let Err(error) = scene.bodies.motion(body).check(vertex.position) {
+                    let motion = motions.rows.get(&body).map(|&row| motions.statements.spans[row]);
+                    let name = scene.names.get(vertex.name);
+                    return Err(too_far(self.origins.vertices[corner.index()], name, &error, motion));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn impossible(span: Span, error: &WorldLineError) -> Diagnostic {
+    let help = match error {
+        WorldLineError::Overlap { .. } => "let each piece end before the next begins",
+        WorldLineError::Velocity(_) => "speeds stay below 1: use a smaller rate, or a shorter time",
+        _ => "use smaller numbers",
+    };
+    Diagnostic::error(span, format!("no body can move so: {error}")).label("this motion").help(help)
+}
+
+fn too_far(vertex: Span, name: &str, error: &WorldLineError, motion: Option<Span>) -> Diagnostic {
+    let error = Diagnostic::error(vertex, format!("vertex `{name}` cannot move with its body: {error}"))
+        .label("this vertex");
+    let error = match motion {
+        Some(motion) => error.other(motion, "moves so"),
+        None => error,
+    };
+    error.help("bring it nearer to the point `-at`, or let the body spin or accelerate less")
+}

@@ -1,0 +1,114 @@
+//! Which points of a body can move as it does at all times.
+
+use glam::DVec3;
+
+use super::{Moving, Path, Turn, WorldLineError};
+
+/// Samples of a stretch of time in which acceleration and spin, or several spins, act together.
+const N_SAMPLES: u32 = 512;
+
+/// Turns of the slowest spin that are sampled in a stretch without an end.
+const MOST_TURNS: f64 = 4.0;
+
+impl Moving {
+    /// See [`super::WorldLine::check`].
+    pub(super) fn check(&self, point: DVec3) -> Result<(), WorldLineError> {
+        let mut changes = self.changes();
+        changes.sort_by(f64::total_cmp);
+        let begins = std::iter::once(f64::NEG_INFINITY).chain(changes.iter().copied());
+        let ends = changes.iter().copied().chain(std::iter::once(f64::INFINITY));
+        begins.zip(ends).filter(|(begin, end)| begin < end).try_for_each(|stretch| {
+            // A time inside, for the values that are constant in it.
+            let inside = match stretch {
+                (f64::NEG_INFINITY, f64::INFINITY) => 0.0,
+                (f64::NEG_INFINITY, end) => end - 1.0,
+                (begin, f64::INFINITY) => begin + 1.0,
+                (begin, end) => begin.midpoint(end),
+            };
+            if self.is_safe(point, inside) { Ok(()) } else { self.check_stretch(point, stretch, inside) }
+        })
+    }
+
+    /// Own times at which acceleration or a spin changes.
+    fn changes(&self) -> Vec<f64> {
+        let of_path: Vec<f64> = match &self.path {
+            Path::Accelerated(acceleration) => acceleration.changes().collect(),
+            Path::Orbit(_) => Vec::new(),
+        };
+        of_path.into_iter().chain(self.turns.iter().flat_map(|turn| turn.spin.changes())).collect()
+    }
+
+    /// True only if |a||ξ| + |dξ/dτ| stays below 1 whatever the directions, while acceleration and
+    /// spins are those at `inside`.
+    fn is_safe(&self, point: DVec3, inside: f64) -> bool {
+        let (mut reach, mut from, mut swing) = (0.0, point, 0.0);
+        for Turn { pivot, spin } in &self.turns {
+            reach += (from - *pivot).length();
+            swing += spin.rate(inside).length() * reach;
+            from = *pivot;
+        }
+        reach += (from - self.at).length();
+        self.acceleration(inside).length() * reach + swing < 1.0
+    }
+
+    fn check_stretch(
+        &self,
+        point: DVec3,
+        (begin, end): (f64, f64),
+        inside: f64,
+    ) -> Result<(), WorldLineError> {
+        let is_at = |own_time: f64| self.moment(point, own_time).map(drop);
+        let rates = self.turns.iter().map(|turn| turn.spin.rate(inside).length()).filter(|&rate| rate > 0.0);
+        let (n_spins, slowest) = rates.fold((0, f64::INFINITY), |(n, least), rate| (n + 1, rate.min(least)));
+        let turns_alone = n_spins == 1 && self.acceleration(inside) == DVec3::ZERO && !self.is_orbit();
+        if turns_alone || n_spins == 0 && !self.is_orbit() {
+            return is_at(inside);
+        }
+        let slowest = match &self.path {
+            Path::Orbit(orbit) => slowest.min(orbit.own_rate()),
+            Path::Accelerated(_) => slowest,
+        };
+        let span = MOST_TURNS * std::f64::consts::TAU / slowest;
+        let begin = if begin.is_finite() { begin } else { end.min(0.0) - span };
+        let end = if end.is_finite() { end } else { begin.max(0.0) + span };
+        let step = (end - begin) / f64::from(N_SAMPLES);
+        (0..N_SAMPLES).try_for_each(|k| is_at(begin + (f64::from(k) + 0.5) * step))
+    }
+
+    fn is_orbit(&self) -> bool {
+        matches!(self.path, Path::Orbit(_))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Piece, Velocity, WorldLine};
+
+    #[test]
+    fn the_rim_of_a_spin_and_the_horizon_of_an_acceleration_are_limits() {
+        let always = |of: DVec3| Piece { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
+        let spin = WorldLine::accelerated(DVec3::X, Velocity::ZERO, &[], &[always(DVec3::Z * 0.5)]).unwrap();
+        assert_eq!(spin.check(DVec3::new(2.999, 0.0, 7.0)), Ok(()));
+        assert!(spin.check(DVec3::new(3.0, 0.0, 0.0)).is_err());
+        let push = Piece { of: DVec3::X * 0.25, from: 1.0, to: 2.0 };
+        let pushed = WorldLine::accelerated(DVec3::ZERO, Velocity::ZERO, &[push], &[]).unwrap();
+        assert_eq!(pushed.check(DVec3::new(-3.999, 9.0, 9.0)), Ok(()));
+        let error = pushed.check(DVec3::new(-4.0, 0.0, 0.0)).unwrap_err();
+        assert_eq!(error, WorldLineError::Horizon { own_time: 1.5 });
+        // Together: 1 + a·ξ of a point that turns into the horizon.
+        let both = WorldLine::accelerated(
+            DVec3::ZERO,
+            Velocity::ZERO,
+            &[always(DVec3::X * 0.25)],
+            &[always(DVec3::Z * 0.1)],
+        );
+        assert!(both.unwrap().check(DVec3::new(0.0, 3.0, 0.0)).is_err());
+        // A wheel on the disc that turns against it keeps its directions; one that turns with it
+        // reaches 0.5 + |arm|.
+        let wheel = |rate: f64| spin.with_part(DVec3::X * 2.0, &[always(DVec3::Z * rate)]).unwrap();
+        assert_eq!(wheel(-0.5).check(DVec3::X * 9.0), Ok(()));
+        assert_eq!(wheel(0.5).check(DVec3::X * 2.4), Ok(()));
+        assert!(wheel(0.5).check(DVec3::X * 2.6).is_err());
+    }
+}
