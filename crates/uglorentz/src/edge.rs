@@ -28,6 +28,7 @@ use glam::DVec3;
 use ugphysics::elongated;
 
 use crate::color;
+use crate::edge_errors::Errors;
 use crate::relative_motion::{Point, RelativeMotion};
 use crate::world_line;
 
@@ -69,24 +70,11 @@ impl Tolerance {
     }
 }
 
-/// The largest errors of a drawn edge.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Errors {
-    /// Rule 1, radians.
-    pub angle: f64,
-    /// Rule 2.
-    pub offset: f64,
-    /// Rule 3; an upper bound.
-    pub color: f64,
-}
-
-impl Errors {
-    /// True if one of them is above its bound.
-    fn exceed(&self, tolerance: &Tolerance) -> bool {
-        libm::tan(self.angle / 2.0) > tolerance.tan_half
-            || self.offset > tolerance.offset
-            || self.color > tolerance.color
-    }
+/// True if one of the errors is above its bound.
+fn exceed(errors: &Errors, tolerance: &Tolerance) -> bool {
+    libm::tan(errors.angle / 2.0) > tolerance.tan_half
+        || errors.offset > tolerance.offset
+        || errors.color > tolerance.color
 }
 
 /// Is the error of an edge above the bound? Its ends must always be given in the same order.
@@ -95,7 +83,7 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &T
         return false;
     }
     if let Some(line) = motion.world_line() {
-        return world_line::errors(a, b, line).exceed(tolerance);
+        return exceed(&world_line::errors(a, b, line), tolerance);
     }
     (motion.has_flight_time() && leaves_chord(a, b, motion, tolerance))
         || color::is_off(a, b, motion, tolerance.color)
@@ -124,7 +112,7 @@ pub(crate) fn shows(
         return false;
     }
     if let Some(line) = motion.world_line() {
-        return world_line::errors(a, b, line).exceed(tolerance);
+        return exceed(&world_line::errors(a, b, line), tolerance);
     }
     let leaves_chord = || {
         let edge = Edge::new(a, b, motion);

@@ -73,6 +73,7 @@ mod cull;
 mod distant_bodies;
 mod early_accept;
 mod edge;
+mod edge_errors;
 mod edge_on;
 mod error;
 mod evenness;

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 use ugscene::{CameraOptions, Scene, View};
 
+use crate::Error;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::{Error, world_line};
 
 /// The view of the scene's camera, for a picture of `size` pixels.
 pub(crate) fn view(scene: &Scene, options: &CameraOptions, size: [u32; 2]) -> Result<View, Error> {
@@ -21,7 +21,7 @@ pub(crate) fn refuse_vertices_at_eye(
     points: &[Point],
     motions: &[RelativeMotion],
 ) -> Result<(), Error> {
-    let is_at_eye = |point: &Point| world_line::is_at_eye(point, &motions[point.body.index()]);
+    let is_at_eye = |point: &Point| point.is_at_eye(&motions[point.body.index()]);
     if !points.par_iter().any(is_at_eye) {
         return Ok(());
     }

@@ -7,11 +7,10 @@
 //! are sampled anew, so what the samples of a long edge miss, those of its halves find.
 
 use glam::DVec3;
-use ugphysics::{Event, WorldLine, doppler_at};
-use ugscene::BodyId;
+use ugphysics::WorldLine;
 
-use crate::edge::Errors;
-use crate::relative_motion::{Point, RelativeMotion};
+use crate::edge_errors::Errors;
+use crate::relative_motion::Point;
 
 /// The factor on sampled errors.
 const MARGIN: f64 = 1.5;
@@ -19,23 +18,10 @@ const MARGIN: f64 = 1.5;
 /// Where an edge is sampled.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
-/// The light that is seen meets the eye there.
-const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
-
-/// A point of a body; not a number where it cannot move so.
-pub(crate) fn point(line: &WorldLine, body: BodyId, rest: DVec3) -> Point {
-    let (seen, inverse_doppler) = match line.emission(rest, EYE) {
-        Ok(emission) => (emission.event.x, 1.0 / doppler_at(emission.event.x, emission.velocity)),
-        Err(_) => (DVec3::NAN, f64::NAN),
-    };
-    let seen_distance = seen.length();
-    let rest_distance = seen_distance * inverse_doppler;
-    Point { rest, seen, rest_distance, seen_distance, inverse_doppler, body, generation: 0 }
-}
-
 /// The largest errors of an edge, sampled.
 pub(crate) fn errors(a: &Point, b: &Point, line: &WorldLine) -> Errors {
-    let sampled = SAMPLES.map(|s| error_at(a, b, &point(line, a.body, a.rest.lerp(b.rest, s))));
+    let sampled =
+        SAMPLES.map(|s| error_at(a, b, &Point::on_world_line(line, a.body, a.rest.lerp(b.rest, s))));
     let largest = |error: fn(&Errors) -> f64| MARGIN * sampled.iter().map(error).fold(0.0, f64::max);
     Errors {
         angle: largest(|errors| errors.angle).min(std::f64::consts::PI),
@@ -75,15 +61,7 @@ fn nearest_in_sight(start: DVec3, chord: DVec3, place: DVec3) -> Option<f64> {
 /// eye.
 pub(crate) fn offset_inside(corners: [&Point; 3], line: &WorldLine) -> f64 {
     let [a, b, c] = corners;
-    let middle = point(line, a.body, (a.rest + b.rest + c.rest) / 3.0);
+    let middle = Point::on_world_line(line, a.body, (a.rest + b.rest + c.rest) / 3.0);
     let normal = (b.seen - a.seen).cross(c.seen - a.seen).normalize_or_zero();
     MARGIN * normal.dot(middle.seen - a.seen).abs() / middle.seen_distance
-}
-
-/// True for a point at the eye, whose direction is undefined.
-pub(crate) fn is_at_eye(point: &Point, motion: &RelativeMotion) -> bool {
-    match motion.world_line() {
-        Some(_) => point.seen == DVec3::ZERO,
-        None => point.rest == DVec3::ZERO && !motion.is_at_rest(),
-    }
 }

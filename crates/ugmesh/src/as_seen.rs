@@ -17,6 +17,11 @@ pub(crate) fn see_normals(scene: &mut Scene) {
     let bodies = ugscene::vertex_bodies(scene);
     for (vertex, body) in scene.vertices.iter_mut().zip(bodies) {
         let Some(rest) = vertex.normal else { continue };
+        if frames.world_line(body).is_some() {
+            // Its faces as seen have normals of their own.
+            vertex.normal = None;
+            continue;
+        }
         // Lengths do not matter, and their squares may overflow.
         let rest = frames.of(body).scene_from_boosted().inverse() * (rest / rest.abs().max_element());
         let seen = SeenPosition(vertex.position - eye);

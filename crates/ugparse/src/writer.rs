@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use glam::DVec3;
 use ugphysics::Piece;
 use ugscene::{
-    BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, Motion,
-    MotionPath, NameId, Projection, Scene, SurfaceProperties,
+    BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, MotionPath,
+    NameId, Projection, Scene, StatedMotion, SurfaceProperties,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -377,7 +377,7 @@ impl<'s> Writer<'s> {
         let Some(motion) = bodies.statement(body) else { return };
         self.text("motion");
         bodies[body].name.into_iter().for_each(|name| self.name(name));
-        let Motion { at, path, spins, shift } = motion;
+        let StatedMotion { at, path, spins, shift } = motion;
         if *at != DVec3::ZERO {
             self.text(" -at");
             self.point(*at);
@@ -402,7 +402,7 @@ impl<'s> Writer<'s> {
             }
         }
         spins.iter().for_each(|piece| self.piece(" -spin", piece, f64::NEG_INFINITY));
-        if *shift != Motion::NO_SHIFT {
+        if *shift != StatedMotion::NO_SHIFT {
             self.text(" -shift");
             self.number(shift.t);
             self.point(shift.x);

@@ -4,7 +4,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
-use crate::{RestFrames, RestPosition, Scene, SeenPosition, WorldLinePoint, vertex_bodies};
+use crate::{BodyId, RestFrames, RestPosition, Scene, SeenPosition, Vertex, WorldLinePoint, vertex_bodies};
 
 /// Which of the two effects are included in the seen positions of a scene: both, unless its stage
 /// says otherwise.
@@ -104,4 +104,16 @@ pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVe
             frames.of(body).scene_from_boosted() * geometry.rest(seen, frames.velocity(body)).0
         })
         .collect()
+}
+
+/// For each vertex of a body on a world line, what is seen there; empty without such bodies.
+pub fn world_line_points(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<Option<WorldLinePoint>> {
+    if !frames.have_world_lines() {
+        return Vec::new();
+    }
+    let vertices = scene.vertices.par_iter().zip(vertex_bodies(scene));
+    let point = |(vertex, body): (&Vertex, BodyId)| {
+        WorldLinePoint::new(frames.world_line(body)?, vertex.position - eye)
+    };
+    vertices.map(point).collect()
 }

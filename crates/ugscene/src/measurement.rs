@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugphysics::{Velocity, aberrate, doppler_at};
 
-use crate::{Geometry, RestFrames, Scene, vertex_bodies};
+use crate::{BodyId, Geometry, RestFrames, Scene, Vertex, vertex_bodies};
 
 /// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,7 +45,11 @@ pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
         }
     };
     let vertices = scene.vertices.iter().zip(bodies);
-    vertices.map(|(vertex, body)| one(vertex.position - eye, frames.velocity(body))).collect()
+    let of_vertex = |(vertex, body): (&Vertex, BodyId)| {
+        let seen = vertex.position - eye;
+        one(seen, frames.velocity_at(body, seen))
+    };
+    vertices.map(of_vertex).collect()
 }
 
 impl Measurement {

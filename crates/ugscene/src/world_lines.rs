@@ -7,10 +7,9 @@
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
-use rayon::prelude::*;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
-use crate::{BodyId, RestFrames, Scene, vertex_bodies};
+use crate::{BodyId, Scene};
 
 /// The event at which light left what is seen at `seen`, relative to the event of the eye.
 pub fn seen_event(seen: DVec3) -> Event {
@@ -78,16 +77,4 @@ impl WorldLinePoint {
     pub fn standing_normal(&self, normal: DVec3) -> DVec3 {
         self.turn * normal
     }
-}
-
-/// For each vertex of a body on a world line, what is seen there; empty without such bodies.
-pub fn world_line_points(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<Option<WorldLinePoint>> {
-    if !frames.have_world_lines() {
-        return Vec::new();
-    }
-    let vertices = scene.vertices.par_iter().zip(vertex_bodies(scene));
-    let point = |(vertex, body): (&crate::Vertex, BodyId)| {
-        WorldLinePoint::new(frames.world_line(body)?, vertex.position - eye)
-    };
-    vertices.map(point).collect()
 }

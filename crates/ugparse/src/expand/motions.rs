@@ -2,7 +2,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugphysics::{WorldLine, WorldLineError};
-use ugscene::{BodyId, Item, Motion, MotionPath};
+use ugscene::{BodyId, Item, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
@@ -86,7 +86,7 @@ impl Expander<'_, '_> {
         motions: &Motions<'_>,
         body: BodyId,
         depth: usize,
-    ) -> Result<(Motion, WorldLine), Diagnostic> {
+    ) -> Result<(StatedMotion, WorldLine), Diagnostic> {
         let row = motions.rows[&body];
         let (statement, span) = (&motions.statements.rows[row], motions.statements.spans[row]);
         if depth > MAX_CARRIERS {
@@ -108,7 +108,7 @@ impl Expander<'_, '_> {
                 (MotionPath::Free { velocity, accelerations: accelerations.clone() }, WorldLine::REST)
             }
         };
-        let motion = Motion { at: *at, path, spins: spins.clone(), shift: *shift };
+        let motion = StatedMotion { at: *at, path, spins: spins.clone(), shift: *shift };
         let line = motion.world_line(&carrier).map_err(|error| impossible(span, &error))?;
         Ok((motion, line))
     }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 use ugphysics::{Event, Piece};
-use ugscene::Motion;
+use ugscene::StatedMotion;
 
 use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
 use crate::statement::{MotionStatement, Statement};
@@ -22,7 +22,7 @@ impl Grammar<'_> {
             spins: Vec::new(),
             orbit: None,
             on: None,
-            shift: Motion::NO_SHIFT,
+            shift: StatedMotion::NO_SHIFT,
         };
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
             input = self.motion_option(&mut motion, word, input, rest)?.0;

@@ -6,6 +6,9 @@ use ugscene::View;
 
 use crate::emission::SeenItem;
 
+/// Of more velocities only the range is shown.
+const MOST_DISTINCT: usize = 64;
+
 /// Velocities and Doppler factors of the bodies in a picture.
 pub struct MotionSummary {
     /// Velocities of the visible bodies, or of all if none is visible; slowest first.
@@ -29,13 +32,24 @@ impl MotionSummary {
         is_shifted: bool,
     ) -> Self {
         let mut velocities: Vec<Velocity> = Vec::new();
+        // The slowest and the fastest of a body whose points all differ.
+        let mut ends: Option<[Velocity; 2]> = None;
         let mut doppler: Option<[f64; 2]> = None;
         for (_, emission) in items.flatten() {
-            if !velocities.contains(&emission.velocity) {
-                velocities.push(emission.velocity);
+            let velocity = emission.velocity;
+            if velocities.len() < MOST_DISTINCT && !velocities.contains(&velocity) {
+                velocities.push(velocity);
             }
+            let [slowest, fastest] = ends.unwrap_or([velocity; 2]);
+            ends = Some([
+                if velocity.rapidity() < slowest.rapidity() { velocity } else { slowest },
+                if velocity.rapidity() > fastest.rapidity() { velocity } else { fastest },
+            ]);
             let factor = emission.doppler();
             doppler = Some(doppler.map_or([factor; 2], |[low, high]| [low.min(factor), high.max(factor)]));
+        }
+        if velocities.len() == MOST_DISTINCT {
+            velocities.extend(ends.into_iter().flatten());
         }
         if velocities.is_empty() {
             velocities = all();

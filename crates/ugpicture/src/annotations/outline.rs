@@ -3,14 +3,15 @@
 //! Each body gets its rest shape (P4), placed so that its centre (of its bounding box in its rest
 //! frame) is at the apparent position of that centre (P3). The outline is thus what the eye would
 //! see if the body rested there; for a body placed by `uglorentz -in` it is the body in the scene
-//! at rest. Only edges that the eye sees are drawn: edges between front and back faces, borders,
+//! at rest. A spinning body is turned as its centre is seen. Only edges that the eye sees are drawn: edges between front and back faces, borders,
 //! and creases. Other faces of the scene at rest occlude them, those of the picture do not.
 
 use std::collections::HashMap;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use ugimage::figure::Point;
 use ugimage::label::Drawing;
+use ugphysics::{Event, WorldLine};
 use ugscene::{
     BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
     vertex_bodies,
@@ -45,7 +46,7 @@ pub struct IdealScene {
 impl IdealScene {
     /// `None` if nothing moves.
     pub fn new(seen: &SeenScene<'_>) -> Option<Self> {
-        let is_moving = |body: BodyId| !seen.frames.velocity(body).is_zero();
+        let is_moving = |body: BodyId| seen.is_moving(body);
         if !seen.scene.faces.iter().any(|face| is_moving(face.body)) {
             return None;
         }
@@ -63,7 +64,7 @@ pub fn draw(
     drawing: &mut Drawing,
 ) {
     let IdealScene { places, .. } = ideal;
-    let is_moving = |body: BodyId| !seen.frames.velocity(body).is_zero();
+    let is_moving = |body: BodyId| seen.is_moving(body);
     let visible = VisibleLines { view: &seen.view, depths };
     let mut lines = Vec::new();
     let faces = Faces { scene: seen.scene, places, view: &seen.view };
@@ -76,6 +77,31 @@ pub fn draw(
     let width = style.hairline;
     drawing.lines(lines.clone(), 3.0 * width, style.background);
     drawing.lines(lines, width, style.ink);
+}
+
+/// How the rest shape of a body is placed.
+#[derive(Clone, Copy)]
+struct Standing {
+    /// A turn about a centre, of a body on a world line.
+    turn: Option<(DQuat, DVec3)>,
+    shift: DVec3,
+}
+
+impl Standing {
+    fn shifted(shift: DVec3) -> Self {
+        Self { turn: None, shift }
+    }
+}
+
+/// A body on a world line, turned as its centre is seen.
+fn standing(line: &WorldLine, center: DVec3) -> Standing {
+    match line.emission(center, Event { t: 0.0, x: DVec3::ZERO }) {
+        Ok(emission) => Standing {
+            turn: Some((line.pose(emission.own_time).turn, center)),
+            shift: emission.event.x - center,
+        },
+        Err(_) => Standing::shifted(DVec3::ZERO),
+    }
 }
 
 /// The position of each vertex at rest, relative to the eye.
@@ -91,15 +117,21 @@ fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
             Some(bounds.map_or([place; 2], |[low, high]| [low.min(place), high.max(place)]))
         });
         let velocity = seen.frames.velocity(body);
-        bounds.filter(|_| !velocity.is_zero()).map(|[low, high]| {
+        bounds.filter(|_| seen.is_moving(body)).map(|[low, high]| {
             let center = 0.5 * low + 0.5 * high;
+            if let Some(line) = seen.frames.world_line(body) {
+                return standing(line, center);
+            }
             let rest = RestPosition(seen.frames.of(body).scene_from_boosted().inverse() * center);
-            geometry.seen(rest, velocity).0 - center
+            Standing::shifted(geometry.seen(rest, velocity).0 - center)
         })
     };
-    let shifts: Vec<Option<DVec3>> = scene.bodies.ids().map(shift).collect();
+    let shifts: Vec<Option<Standing>> = scene.bodies.ids().map(shift).collect();
     let place = |(vertex, body): (usize, &BodyId)| match shifts[body.index()] {
-        Some(shift) => at_rest[vertex] + shift,
+        Some(Standing { turn: None, shift }) => at_rest[vertex] + shift,
+        Some(Standing { turn: Some((turn, center)), shift }) => {
+            center + turn * (at_rest[vertex] - center) + shift
+        }
         None => scene.vertices[vertex].position - seen.view.eye,
     };
     bodies.iter().enumerate().map(place).collect()

@@ -1,7 +1,7 @@
 //! The scene and camera of annotations.
 
 use ugphysics::Velocity;
-use ugscene::{CameraOptions, RestFrames, Scene, View};
+use ugscene::{BodyId, CameraOptions, RestFrames, Scene, View};
 
 use crate::error::Error;
 
@@ -26,6 +26,11 @@ impl<'a> SeenScene<'a> {
     /// The velocities of the bodies of its faces.
     pub fn velocities(&self) -> Vec<Velocity> {
         velocities(self.scene, &self.frames)
+    }
+
+    /// True if a body moves relative to the camera.
+    pub fn is_moving(&self, body: BodyId) -> bool {
+        self.frames.world_line(body).is_some() || !self.frames.velocity(body).is_zero()
     }
 
     /// Columns and rows of the picture.

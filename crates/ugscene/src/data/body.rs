@@ -4,27 +4,8 @@ use std::ops::Index;
 
 use ugphysics::{Velocity, WorldLine};
 
-use super::ids::NameId;
-use super::motion::Motion;
-
-/// Row of [`Bodies`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct BodyId(u32);
-
-impl BodyId {
-    /// The id of the body at position `idx` of its table.
-    ///
-    /// # Panics
-    /// If `idx` does not fit 32 bits; the reader refuses such scenes.
-    pub fn from_index(idx: usize) -> Self {
-        Self(u32::try_from(idx).expect("tables have fewer than 2^32 rows"))
-    }
-
-    /// Position in its table.
-    pub fn index(self) -> usize {
-        self.0 as usize
-    }
-}
+use super::ids::{BodyId, NameId};
+use super::motion::StatedMotion;
 
 /// Row of the motions in [`Bodies`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -56,7 +37,7 @@ pub struct Bodies {
 #[derive(Clone, Debug, PartialEq)]
 struct BodyMotion {
     line: WorldLine,
-    statement: Option<Motion>,
+    statement: Option<StatedMotion>,
 }
 
 impl Default for Bodies {
@@ -101,12 +82,12 @@ impl Bodies {
 
     /// The statement that gives the motion of a body with a name; `None` if the text gives its
     /// faces a velocity instead.
-    pub fn statement(&self, id: BodyId) -> Option<&Motion> {
+    pub fn statement(&self, id: BodyId) -> Option<&StatedMotion> {
         self.motions[self[id].motion.0 as usize].statement.as_ref()
     }
 
     /// Gives a body a name and a motion with a statement, whose world line is `line`.
-    pub fn set_statement(&mut self, id: BodyId, name: NameId, statement: Motion, line: WorldLine) {
+    pub fn set_statement(&mut self, id: BodyId, name: NameId, statement: StatedMotion, line: WorldLine) {
         let body = &mut self.rows[id.index()];
         body.name = Some(name);
         body.is_stated = true;
@@ -146,7 +127,7 @@ impl Bodies {
         body.is_stated = true;
         let motion = &mut self.motions[body.motion.0 as usize];
         motion.line = WorldLine::inertial(velocity);
-        motion.statement = motion.statement.take().map(|_| Motion::inertial(velocity));
+        motion.statement = motion.statement.take().map(|_| StatedMotion::inertial(velocity));
     }
 
     /// True if any body moves in the frame of the scene.

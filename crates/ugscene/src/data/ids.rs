@@ -32,6 +32,8 @@ macro_rules! index {
 index! {
     /// Row of [`Scene::vertices`].
     VertexId
+    /// Row of [`Scene::bodies`].
+    BodyId
 }
 
 macro_rules! optional_index {

@@ -11,11 +11,11 @@ mod scene;
 mod stage;
 mod surface;
 
-pub use body::{Bodies, Body, BodyId};
+pub use body::{Bodies, Body};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
-pub use ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
-pub use motion::{Motion, MotionPath};
+pub use ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
+pub use motion::{MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{

@@ -3,11 +3,11 @@
 use glam::DVec3;
 use ugphysics::{Event, Orbit, Piece, Velocity, WorldLine, WorldLineError};
 
-use super::body::BodyId;
+use super::ids::BodyId;
 
 /// The motion of a body with a name: `motion`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Motion {
+pub struct StatedMotion {
     /// `-at`: the reference point A, in the coordinates of the body.
     pub at: DVec3,
     /// The world line of A.
@@ -42,7 +42,7 @@ pub enum MotionPath {
     On(BodyId),
 }
 
-impl Motion {
+impl StatedMotion {
     /// No displacement.
     pub const NO_SHIFT: Event = Event { t: 0.0, x: DVec3::ZERO };
 

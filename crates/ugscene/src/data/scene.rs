@@ -14,9 +14,9 @@ use std::ops::Range;
 use glam::DVec3;
 use ugphysics::Velocity;
 
-use super::body::{Bodies, BodyId};
+use super::body::Bodies;
 use super::contours::Contours;
-use super::ids::{ColorId, IllumId, NameId, SurfaceId, VertexId};
+use super::ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
 use super::names::Names;
 use super::remarks::Remarks;
 use super::stage::{HueScale, LampShift, Stage};

@@ -8,7 +8,7 @@ use super::observer::Observer;
 use super::placement::centers;
 use super::{Anchor, MotionError, MotionOptions};
 use crate::world_lines::eye_event;
-use crate::{BodyId, Motion, RelativeMotion, Scene};
+use crate::{BodyId, RelativeMotion, Scene, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
 ///
@@ -50,7 +50,7 @@ pub(super) fn place(
         };
         let shift = shift + eye_shift;
         if let Some(motion) = scene.bodies.statement(body) {
-            let motion = Motion { shift: motion.shift + shift, ..motion.clone() };
+            let motion = StatedMotion { shift: motion.shift + shift, ..motion.clone() };
             restate(scene, body, motion, &WorldLine::REST)?;
         }
     }
@@ -80,11 +80,16 @@ fn is_root(scene: &Scene, body: BodyId) -> bool {
 
 /// The number of bodies that it is part of, one in the other.
 fn depth(scene: &Scene, body: BodyId) -> usize {
-    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(Motion::on);
+    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::on);
     std::iter::successors(Some(body), carrier).count() - 1
 }
 
-fn restate(scene: &mut Scene, body: BodyId, motion: Motion, carrier: &WorldLine) -> Result<(), MotionError> {
+fn restate(
+    scene: &mut Scene,
+    body: BodyId,
+    motion: StatedMotion,
+    carrier: &WorldLine,
+) -> Result<(), MotionError> {
     let line = motion.world_line(carrier).map_err(|error| impossible(scene, body, error))?;
     if let Some(name) = scene.bodies[body].name {
         scene.bodies.set_statement(body, name, motion, line);
