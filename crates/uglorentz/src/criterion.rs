@@ -173,11 +173,13 @@ impl Criterion<'_, '_> {
         let points = corners.map(|corner| self.mesh.point(corner));
         let body = points.clone().next().map_or(0, |point| point.body.index());
         let tolerance = &tolerances[body];
-        let is_shape_right = || {
-            motion.is_at_rest()
-                || motion.world_line().is_none()
-                    && (early_accept::is_close(points.clone(), spreads[body])
-                        || early_accept::is_right(motion, points.clone(), tolerance))
+        let is_shape_right = || match motion.world_line() {
+            Some(line) => world_line::is_surely_right(points.clone(), line, tolerance.on_world_line()),
+            None => {
+                motion.is_at_rest()
+                    || early_accept::is_close(points.clone(), spreads[body])
+                    || early_accept::is_right(motion, points.clone(), tolerance)
+            }
         };
         is_shape_right() && near_lamps.is_surely_linear(motion, points.clone())
     }

@@ -30,7 +30,7 @@ use ugphysics::elongated;
 use crate::color;
 use crate::edge_errors::Errors;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::world_line;
+use crate::world_line::{self, Deviation};
 
 /// The smallest bound of rule 2, a ten-thousandth of the distance; smaller for bodies far away
 /// ([`crate::distant_bodies`]).
@@ -63,18 +63,16 @@ impl Tolerance {
         Tolerance { tan_half: libm::tan(error / 2.0), offset, safe, color: color * color::EDGE_SHARE }
     }
 
+    /// The bounds for bodies on world lines.
+    pub(crate) fn on_world_line(&self) -> Deviation {
+        Deviation { tan_half: self.tan_half, offset: self.offset, color: self.color }
+    }
+
     /// With the bound of rule 2 multiplied by `factor`, at most 1.
     pub(crate) fn with_depth(self, factor: f64) -> Tolerance {
         let offset = self.offset * factor;
         Tolerance { offset, safe: self.safe.min(offset), ..self }
     }
-}
-
-/// True if one of the errors is above its bound.
-fn exceed(errors: &Errors, tolerance: &Tolerance) -> bool {
-    libm::tan(errors.angle / 2.0) > tolerance.tan_half
-        || errors.offset > tolerance.offset
-        || errors.color > tolerance.color
 }
 
 /// Is the error of an edge above the bound? Its ends must always be given in the same order.
@@ -83,7 +81,7 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &T
         return false;
     }
     if let Some(line) = motion.world_line() {
-        return exceed(&world_line::errors(a, b, line), tolerance);
+        return world_line::exceeds(a, b, line, tolerance.on_world_line());
     }
     (motion.has_flight_time() && leaves_chord(a, b, motion, tolerance))
         || color::is_off(a, b, motion, tolerance.color)
@@ -112,7 +110,7 @@ pub(crate) fn shows(
         return false;
     }
     if let Some(line) = motion.world_line() {
-        return exceed(&world_line::errors(a, b, line), tolerance);
+        return world_line::exceeds(a, b, line, tolerance.on_world_line());
     }
     let leaves_chord = || {
         let edge = Edge::new(a, b, motion);

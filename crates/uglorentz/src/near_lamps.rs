@@ -76,7 +76,8 @@ impl NearLamps {
         self.lamps.is_empty()
     }
 
-    /// Is the error of linear interpolation along this edge above the bound? The ends of an edge
+    /// Is the error of linear interpolation along this edge above the bound? Not looked at for
+    /// bodies on world lines. The ends of an edge
     /// must always be given in the same order.
     pub(crate) fn is_nonlinear(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
         if motion.world_line().is_some() {
@@ -103,7 +104,7 @@ impl NearLamps {
         motion: &RelativeMotion,
         corners: impl Iterator<Item = &'a Point> + Clone,
     ) -> bool {
-        if self.is_empty() {
+        if self.is_empty() || motion.world_line().is_some() {
             return true;
         }
         let shift = corners.clone().next().map_or(DVec3::ZERO, |corner| self.shift(corner.body));

@@ -1,7 +1,7 @@
 //! Points of bodies, at rest and as seen.
 
 use glam::DVec3;
-use ugphysics::{Event, WorldLine, doppler_at};
+use ugphysics::{Event, SeenLight, WorldLine, doppler_at};
 pub(crate) use ugscene::RelativeMotion;
 use ugscene::{BodyId, RestPosition};
 
@@ -18,6 +18,8 @@ pub(crate) struct Point {
     pub seen_distance: f64,
     /// 1/D, (P10).
     pub inverse_doppler: f64,
+    /// The own time of a body on a world line at emission; 0 for inertial bodies.
+    pub own_time: f64,
     /// The body it is part of.
     pub body: BodyId,
     /// Number of halvings that led to it: 0 for a vertex of the scene.
@@ -28,7 +30,7 @@ impl Point {
     /// The point at `rest`, relative to the eye.
     pub(crate) fn new(motion: &RelativeMotion, body: BodyId, rest: DVec3) -> Point {
         if let Some(line) = motion.world_line() {
-            return Self::on_world_line(line, body, rest);
+            return Self::on_world_line(line, body, rest, None);
         }
         let seen = match motion.is_at_rest() {
             true => rest,
@@ -43,19 +45,25 @@ impl Point {
         } else {
             1.0 / doppler_at(seen, motion.velocity())
         };
-        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, body, generation: 0 }
+        let (own_time, generation) = (0.0, 0);
+        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation }
     }
 
-    /// The point of a body on a world line; not a number where it cannot move so.
-    pub(crate) fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3) -> Point {
+    /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own time
+    /// at emission.
+    pub(crate) fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3, guess: Option<f64>) -> Point {
         const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
-        let (seen, inverse_doppler) = match line.emission(rest, EYE) {
-            Ok(emission) => (emission.event.x, 1.0 / doppler_at(emission.event.x, emission.velocity)),
-            Err(_) => (DVec3::NAN, f64::NAN),
+        let light = match guess {
+            Some(guess) => line.light_near(rest, EYE, guess),
+            None => line.light(rest, EYE),
+        };
+        let (seen, inverse_doppler, own_time) = match light {
+            Ok(SeenLight { event, inverse_doppler, own_time }) => (event.x, inverse_doppler, own_time),
+            Err(_) => (DVec3::NAN, f64::NAN, f64::NAN),
         };
         let seen_distance = seen.length();
         let rest_distance = seen_distance * inverse_doppler;
-        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, body, generation: 0 }
+        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation: 0 }
     }
 
     /// True for a point at the eye, whose direction is undefined if it moves.

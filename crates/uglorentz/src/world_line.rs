@@ -15,23 +15,74 @@ use crate::relative_motion::Point;
 /// The factor on sampled errors.
 const MARGIN: f64 = 1.5;
 
+/// The factor on the errors at the middles of edges, for [`is_surely_right`].
+const SURE_MARGIN: f64 = 4.0;
+
+/// Of larger pieces, [`is_surely_right`] says nothing: they have many diagonals.
+const MOST_CORNERS: usize = 4;
+
 /// Where an edge is sampled.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
+/// A point of the edge from a to b.
+fn between(a: &Point, b: &Point, line: &WorldLine, s: f64) -> Point {
+    let guess = (1.0 - s) * a.own_time + s * b.own_time;
+    Point::on_world_line(line, a.body, a.rest.lerp(b.rest, s), Some(guess))
+}
+
+/// True only if the errors of all edges between these corners, and inside, are below the bounds by
+/// so much that the middles of the edges say so.
+///
+/// The errors of small pieces are quadratic: largest at the middle of an edge, and inside a
+/// triangle 4/3 of the largest of those at most.
+pub(crate) fn is_surely_right<'a>(
+    corners: impl Iterator<Item = &'a Point> + Clone,
+    line: &WorldLine,
+    bounds: Deviation,
+) -> bool {
+    let is_right =
+        |a: &Point, b: &Point| !deviation(a, b, &between(a, b, line, 0.5)).exceeds(bounds, SURE_MARGIN);
+    corners.clone().count() <= MOST_CORNERS
+        && corners.clone().enumerate().all(|(row, a)| corners.clone().skip(row + 1).all(|b| is_right(a, b)))
+}
+
+/// Is an error of an edge above its bound?
+pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation) -> bool {
+    SAMPLES.into_iter().any(|s| deviation(a, b, &between(a, b, line, s)).exceeds(bounds, MARGIN))
+}
+
 /// The largest errors of an edge, sampled.
 pub(crate) fn errors(a: &Point, b: &Point, line: &WorldLine) -> Errors {
-    let sampled =
-        SAMPLES.map(|s| error_at(a, b, &Point::on_world_line(line, a.body, a.rest.lerp(b.rest, s))));
-    let largest = |error: fn(&Errors) -> f64| MARGIN * sampled.iter().map(error).fold(0.0, f64::max);
+    let sampled = SAMPLES.map(|s| deviation(a, b, &between(a, b, line, s)));
+    let largest = |error: fn(&Deviation) -> f64| MARGIN * sampled.iter().map(error).fold(0.0, f64::max);
     Errors {
-        angle: largest(|errors| errors.angle).min(std::f64::consts::PI),
-        offset: largest(|errors| errors.offset),
-        color: largest(|errors| errors.color),
+        angle: 2.0 * libm::atan(largest(|sample| sample.tan_half)),
+        offset: largest(|sample| sample.offset),
+        color: largest(|sample| sample.color),
     }
 }
 
-/// How far a point of the true edge is from the chord that is drawn.
-fn error_at(a: &Point, b: &Point, true_point: &Point) -> Errors {
+/// How far a point of the true edge is from the chord that is drawn, or bounds of that.
+#[derive(Clone, Copy)]
+pub(crate) struct Deviation {
+    /// Tangent of half the angle at the eye.
+    pub tan_half: f64,
+    /// Distance over that from the eye.
+    pub offset: f64,
+    /// Relative error of D or of 1/D.
+    pub color: f64,
+}
+
+impl Deviation {
+    /// True if one of them times `margin` is above its bound; NaN is not.
+    fn exceeds(self, bounds: Self, margin: f64) -> bool {
+        margin * self.tan_half > bounds.tan_half
+            || margin * self.offset > bounds.offset
+            || margin * self.color > bounds.color
+    }
+}
+
+fn deviation(a: &Point, b: &Point, true_point: &Point) -> Deviation {
     let chord = b.seen - a.seen;
     let place = true_point.seen;
     let along = (place - a.seen).dot(chord) / chord.length_squared();
@@ -40,13 +91,15 @@ fn error_at(a: &Point, b: &Point, true_point: &Point) -> Errors {
     // Where the line of sight to the true point passes the chord.
     let beside = nearest_in_sight(a.seen, chord, place).unwrap_or(along);
     let drawn = a.seen + beside * chord;
-    let angle = libm::atan2(drawn.cross(place).length(), drawn.dot(place));
+    // tan(x/2) = sin x/(1 + cos x)
+    let product = drawn.length() * true_point.seen_distance;
+    let tan_half = drawn.cross(place).length() / (product + drawn.dot(place));
     let mix = |of: fn(&Point) -> f64| (1.0 - beside) * of(a) + beside * of(b);
     let inverse = mix(|point| point.inverse_doppler);
     let doppler = mix(|point| 1.0 / point.inverse_doppler);
     let of_inverse = (inverse / true_point.inverse_doppler - 1.0).abs();
     let of_doppler = (doppler * true_point.inverse_doppler - 1.0).abs();
-    Errors { angle, offset: off.length() / true_point.seen_distance, color: of_inverse.max(of_doppler) }
+    Deviation { tan_half, offset: off.length() / true_point.seen_distance, color: of_inverse.max(of_doppler) }
 }
 
 /// The part of the way along a chord at which it is nearest, in angle, to the direction of `place`.
@@ -61,7 +114,8 @@ fn nearest_in_sight(start: DVec3, chord: DVec3, place: DVec3) -> Option<f64> {
 /// eye.
 pub(crate) fn offset_inside(corners: [&Point; 3], line: &WorldLine) -> f64 {
     let [a, b, c] = corners;
-    let middle = Point::on_world_line(line, a.body, (a.rest + b.rest + c.rest) / 3.0);
+    let (rest, own_time) = ((a.rest + b.rest + c.rest) / 3.0, (a.own_time + b.own_time + c.own_time) / 3.0);
+    let middle = Point::on_world_line(line, a.body, rest, Some(own_time));
     let normal = (b.seen - a.seen).cross(c.seen - a.seen).normalize_or_zero();
     MARGIN * normal.dot(middle.seen - a.seen).abs() / middle.seen_distance
 }

@@ -45,14 +45,15 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
         scope.contours.truncate(first);
         return None;
     };
-    let body = match tail.beta.map(|beta| scope.bodies.moving_with_beta(beta)) {
-        None => scope.bodies.bodies.unstated(),
-        Some(Some(body)) => body,
+    let body = match tail.motion {
+        None => Some(scope.bodies.bodies.unstated()),
+        Some(TailMotion::Velocity(beta)) => scope.bodies.moving_with_beta(beta),
+        Some(TailMotion::Named(name, span)) => Some(scope.bodies.enter_name(name, span)),
+    };
+    let Some(body) = body else {
         // Faster than light: the grammar reports the error.
-        Some(None) => {
-            scope.contours.truncate(first);
-            return None;
-        }
+        scope.contours.truncate(first);
+        return None;
     };
     let face = Face {
         name: name.map(|name| scope.add_name(name)),
@@ -94,7 +95,14 @@ fn contours<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<()> {
 /// The part of a face statement after the contours.
 struct Tail<'t> {
     color: Option<&'t [u8]>,
-    beta: Option<DVec3>,
+    motion: Option<TailMotion<'t>>,
+}
+
+/// What is between `<` and `>`.
+enum TailMotion<'t> {
+    /// Of any magnitude.
+    Velocity(DVec3),
+    Named(&'t [u8], Span),
 }
 
 impl<'t> Tail<'t> {
@@ -102,9 +110,9 @@ impl<'t> Tail<'t> {
     fn read(cursor: &mut Cursor<'t>) -> Option<Self> {
         let color = cursor.identifier();
         cursor.skip_blank();
-        let beta = if cursor.next_is(b'<') { Some(cursor.beta()?) } else { None };
+        let motion = if cursor.next_is(b'<') { Some(cursor.motion()?) } else { None };
         cursor.mark(b';')?;
-        Some(Self { color, beta })
+        Some(Self { color, motion })
     }
 }
 
@@ -190,11 +198,16 @@ impl<'t> Cursor<'t> {
         Some(DVec3::new(self.number()?, self.number()?, self.number()?))
     }
 
-    /// `< x y z >` of any magnitude.
-    fn beta(&mut self) -> Option<DVec3> {
+    /// `< x y z >` or `< NAME >`
+    fn motion(&mut self) -> Option<TailMotion<'t>> {
         self.at += 1;
-        let beta = self.point()?;
+        self.skip_blank();
+        let start = self.at as u32;
+        let motion = match self.identifier() {
+            Some(name) => TailMotion::Named(name, Span { start, end: start + name.len() as u32 }),
+            None => TailMotion::Velocity(self.point()?),
+        };
         self.mark(b'>')?;
-        Some(beta)
+        Some(motion)
     }
 }

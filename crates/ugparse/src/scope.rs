@@ -488,7 +488,8 @@ impl<'t> BodyTable<'t> {
         self.enter_name(name.of(text), name)
     }
 
-    fn enter_name(&mut self, name: &'t [u8], span: Span) -> BodyId {
+    /// The body with this name, which is used at `span`; adds it if it is new.
+    pub fn enter_name(&mut self, name: &'t [u8], span: Span) -> BodyId {
         let Self { named, bodies, .. } = self;
         named.entry(name).or_insert_with(|| (bodies.push(None, WorldLine::REST), span)).0
     }

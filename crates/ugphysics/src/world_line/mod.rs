@@ -93,6 +93,17 @@ pub struct EmissionEvent {
     pub velocity: Velocity,
 }
 
+/// The light that an observer receives from a point of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenLight {
+    /// The own time τ of A at which it left, simultaneous in the frame of A.
+    pub own_time: f64,
+    /// The event at which it left.
+    pub event: Event,
+    /// 1/D for an observer at rest.  Eq. (P10)
+    pub inverse_doppler: f64,
+}
+
 /// An event on a body, and how the body moves there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyEvent {
@@ -394,6 +405,44 @@ impl WorldLine {
         }
     }
 
+    /// The light that a point of the body sends to `observer`, who is at rest in the scene.  Eq.
+    /// (P42), (P10)
+    ///
+    /// # Errors
+    /// As [`WorldLine::emission`].
+    pub fn light(&self, point: DVec3, observer: Event) -> Result<SeenLight, WorldLineError> {
+        self.light_from(point, observer, None)
+    }
+
+    /// The same, for light that left near the own time `guess`. The closer the guess, the sooner it
+    /// is found.
+    ///
+    /// # Errors
+    /// As [`WorldLine::emission`].
+    pub fn light_near(&self, point: DVec3, observer: Event, guess: f64) -> Result<SeenLight, WorldLineError> {
+        self.light_from(point, observer, Some(guess))
+    }
+
+    fn light_from(
+        &self,
+        point: DVec3,
+        observer: Event,
+        guess: Option<f64>,
+    ) -> Result<SeenLight, WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(_) => {
+                let EmissionEvent { own_time, event, velocity } = self.emission(point, observer)?;
+                let doppler = crate::doppler_at(event.x - observer.x, velocity);
+                Ok(SeenLight { own_time, event, inverse_doppler: 1.0 / doppler })
+            }
+            Kind::Moving(moving) => {
+                let (own_time, Moment { event, rate, clock }) = moving.root(point, observer, guess)?;
+                let away = unit_or_zero(event.x - observer.x);
+                Ok(SeenLight { own_time, event, inverse_doppler: (rate.t + away.dot(rate.x)) / clock })
+            }
+        }
+    }
+
     /// The point of the body that an event is at, the inverse of [`WorldLine::event`]: τ is the root
     /// of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the acceleration.  Eq.
     /// (P45)
@@ -482,6 +531,19 @@ struct Offset {
     swing: DVec3,
 }
 
+/// The pace of the clock of a point, ((1 + a·ξ)² − |dξ/dτ|²)^½.
+fn clock(pace: f64, swing: DVec3) -> f64 {
+    let swing = swing.length();
+    ((pace - swing) * (pace + swing)).sqrt()
+}
+
+/// True if a root is known to rounding after the step from `from` to `to`: the error after a step
+/// of Newton's method is about its square.
+fn is_last_step(is_newton: bool, from: f64, to: f64) -> bool {
+    let tolerance = if is_newton { 1e-9 } else { 1e-15 };
+    (to - from).abs() <= tolerance * to.abs().max(1.0)
+}
+
 impl Turn {
     /// `None` without a spin.
     fn new(pivot: DVec3, spin: Spin) -> Option<Self> {
@@ -491,12 +553,16 @@ impl Turn {
 
 impl Moving {
     fn pose(&self, own_time: f64) -> Pose {
-        let pose = match &self.path {
+        let turn = |turn: DQuat, next: &Turn| next.spin.turn(own_time) * turn;
+        Pose { turn: self.turns.iter().fold(DQuat::IDENTITY, turn), ..self.carried(own_time) }
+    }
+
+    /// The pose without spin.
+    fn carried(&self, own_time: f64) -> Pose {
+        match &self.path {
             Path::Accelerated(acceleration) => acceleration.pose(own_time),
             Path::Orbit(orbit) => orbit.pose(own_time),
-        };
-        let turn = |turn: DQuat, next: &Turn| next.spin.turn(own_time) * turn;
-        Pose { turn: self.turns.iter().fold(DQuat::IDENTITY, turn), ..pose }
+        }
     }
 
     /// ξ of a point and its derivative by τ, in the carried axes.
@@ -525,21 +591,26 @@ impl Moving {
 
     /// X(τ) = z(τ) + Σ ξⁱ e_i and ∂X/∂τ = (1 + a·ξ) u + (dξ/dτ)ⁱ e_i.  Eq. (P41)
     fn moment(&self, point: DVec3, own_time: f64) -> Result<Moment, WorldLineError> {
-        let pose = self.pose(own_time);
-        let Offset { xi, swing } = self.offset(point, own_time);
-        let offset = pose.scene_from_axes.apply(Event { t: 0.0, x: xi });
+        let offset = self.offset(point, own_time);
+        let Offset { xi, swing } = offset;
         let pace = self.pace(xi, own_time);
         if pace.partial_cmp(&swing.length()) != Some(core::cmp::Ordering::Greater) {
             return Err(WorldLineError::Horizon { own_time });
         }
-        let rate = pose.scene_from_axes.apply(Event { t: pace, x: swing });
-        let event = pose.event + offset;
-        Ok(Moment { event, rate, clock: ((pace - swing.length()) * (pace + swing.length())).sqrt() })
+        let (event, rate) = match &self.path {
+            Path::Accelerated(acceleration) => acceleration.moment(offset, own_time),
+            Path::Orbit(orbit) => {
+                let Pose { event, scene_from_axes: axes, .. } = orbit.pose(own_time);
+                let at = event + axes.apply(Event { t: 0.0, x: xi });
+                (at, axes.apply(Event { t: pace, x: swing }))
+            }
+        };
+        Ok(Moment { event, rate, clock: clock(pace, swing) })
     }
 
     fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
         let mut own_time = self.own_time_at(event)?;
-        let pose = self.pose(own_time);
+        let pose = self.carried(own_time);
         let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);
         // What rounding left.
         own_time += t;
@@ -554,11 +625,14 @@ impl Moving {
     /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ, by Newton's method.
     fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
         const MOST_STEPS: usize = 200;
-        let Pose { event: start, scene_from_axes, .. } = self.pose(0.0);
+        let Pose { event: start, scene_from_axes, .. } = self.carried(0.0);
         let mut own_time = scene_from_axes.inverse().apply(event - start).t;
+        if matches!(&self.path, Path::Accelerated(acceleration) if acceleration.is_none()) {
+            return Ok(own_time);
+        }
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..MOST_STEPS {
-            let pose = self.pose(own_time);
+            let pose = self.carried(own_time);
             let Event { t, x } = pose.scene_from_axes.inverse().apply(event - pose.event);
             if t > 0.0 {
                 low = own_time;
@@ -586,30 +660,39 @@ impl Moving {
     }
 
     fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
-        let own_time = self.emission_time(point, observer)?;
-        let Moment { event, rate, clock } = self.moment(point, own_time)?;
+        let (own_time, Moment { event, rate, clock }) = self.root(point, observer, None)?;
         Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
+    }
+
+    /// The own time at which light leaves a point for `observer`, and the moment there.
+    fn root(
+        &self,
+        point: DVec3,
+        observer: Event,
+        guess: Option<f64>,
+    ) -> Result<(f64, Moment), WorldLineError> {
+        if let Path::Accelerated(acceleration) = &self.path
+            && acceleration.is_none()
+        {
+            return self.root_of_turn(acceleration, point, observer, guess);
+        }
+        let guess = guess.unwrap_or_else(|| self.guess(observer, point));
+        let own_time = self.emission_time(point, observer, guess)?;
+        Ok((own_time, self.moment(point, own_time)?))
     }
 
     /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly, by Newton's method
     /// within a bracket, which is halved where a step leaves it.
-    fn emission_time(&self, point: DVec3, observer: Event) -> Result<f64, WorldLineError> {
-        /// Relative to the larger of 1 and |τ|.
-        const TOLERANCE: f64 = 1e-15;
+    fn emission_time(&self, point: DVec3, observer: Event, guess: f64) -> Result<f64, WorldLineError> {
         /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
         const MOST_STEPS: usize = 2200;
-        if let Path::Accelerated(acceleration) = &self.path
-            && acceleration.is_none()
-        {
-            return Ok(self.emission_time_of_turn(point, observer));
-        }
         let value = |own_time: f64| -> Result<(f64, f64), WorldLineError> {
             let Moment { event, rate, .. } = self.moment(point, own_time)?;
             let way = observer.x - event.x;
             let toward = unit_or_zero(way);
             Ok((observer.t - event.t - way.length(), toward.dot(rate.x) - rate.t))
         };
-        let mut guess = self.guess(observer, point);
+        let mut guess = guess;
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut reach = 1.0_f64.max(0.125 * guess.abs());
         for _ in 0..MOST_STEPS {
@@ -632,7 +715,7 @@ impl Moving {
                 if f > 0.0 { guess + reach } else { guess - reach }
             };
             reach *= 2.0;
-            if (next - guess).abs() <= TOLERANCE * next.abs().max(1.0) || next == low || next == high {
+            if is_last_step(next == newton, guess, next) || next == low || next == high {
                 return Ok(next);
             }
             guess = next;
@@ -640,15 +723,19 @@ impl Moving {
         Ok(guess)
     }
 
-    /// The same without acceleration, in the rest frame of A: the fixed point of τ = t_o − |x_o −
-    /// ξ(τ)|.
-    fn emission_time_of_turn(&self, point: DVec3, observer: Event) -> f64 {
-        const TOLERANCE: f64 = 4e-16;
+    /// Without acceleration, in the rest frame of A: the fixed point of τ = t_o − |x_o − ξ(τ)|.
+    fn root_of_turn(
+        &self,
+        path: &Acceleration,
+        point: DVec3,
+        observer: Event,
+        guess: Option<f64>,
+    ) -> Result<(f64, Moment), WorldLineError> {
         const MOST_STEPS: usize = 200;
-        let Pose { event, scene_from_axes, .. } = self.pose(0.0);
-        let Event { t, x } = scene_from_axes.inverse().apply(observer - event);
+        let Pose { event: start, scene_from_axes: axes, .. } = path.start();
+        let Event { t, x } = axes.inverse().apply(observer - start);
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut own_time = t - (x - self.offset(point, 0.0).xi).length();
+        let mut own_time = guess.unwrap_or_else(|| t - (x - self.offset(point, 0.0).xi).length());
         for _ in 0..MOST_STEPS {
             let Offset { xi, swing } = self.offset(point, own_time);
             let way = x - xi;
@@ -663,12 +750,19 @@ impl Moving {
             let newton = own_time - f / slope;
             // The fixed point always gets nearer, since |dξ/dτ| < 1.
             let next = if newton > low && newton < high { newton } else { own_time + f };
-            if (next - own_time).abs() <= TOLERANCE * next.abs().max(1.0) || !next.is_finite() {
-                return next;
-            }
+            let is_last = is_last_step(next == newton, own_time, next) || !next.is_finite();
             own_time = next;
+            if is_last {
+                break;
+            }
         }
-        own_time
+        let Offset { xi, swing } = self.offset(point, own_time);
+        if swing.length().partial_cmp(&1.0) != Some(core::cmp::Ordering::Less) {
+            return Err(WorldLineError::Horizon { own_time });
+        }
+        let event = start + axes.apply(Event { t: own_time, x: xi });
+        let rate = axes.apply(Event { t: 1.0, x: swing });
+        Ok((own_time, Moment { event, rate, clock: clock(1.0, swing) }))
     }
 
     /// The root for a body that moves on as it does at own time 0.

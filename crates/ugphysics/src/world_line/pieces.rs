@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Pose, WorldLine, WorldLineError};
+use super::{Offset, Pose, WorldLine, WorldLineError};
 use crate::{Event, HyperbolicMotion, Lorentz, Velocity};
 
 /// A vector that is constant for a stretch of own time.
@@ -171,6 +171,39 @@ impl Acceleration {
     pub(super) fn at(&self, own_time: f64) -> DVec3 {
         self.0.at(own_time).of
     }
+
+    /// At own time 0.
+    pub(super) fn start(&self) -> Pose {
+        self.pose(0.0)
+    }
+
+    /// The event of a point and ∂X/∂τ.  Eq. (P41)
+    ///
+    /// In the axes at the begin of a piece with acceleration a, at own time d after it, A is at
+    /// (sinh(ad)/a, (cosh(ad) − 1)/a â), and u and the axis along â are (cosh, sinh â) and (sinh,
+    /// cosh â).
+    pub(super) fn moment(&self, Offset { xi, swing }: Offset, own_time: f64) -> (Event, Event) {
+        let Stretch { of, known_at, state, .. } = *self.0.at(own_time);
+        let passed = own_time - known_at;
+        let a = of.length();
+        let (event, rate) = if a == 0.0 {
+            (Event { t: passed, x: xi }, Event { t: 1.0, x: swing })
+        } else {
+            let axis = of / a;
+            let half = libm::sinh(0.5 * a * passed);
+            let (sinh, cosh_minus_one) = (libm::sinh(a * passed), 2.0 * half * half);
+            let (along, swing_along) = (xi.dot(axis), swing.dot(axis));
+            let (radius, pace) = (1.0 / a + along, 1.0 + a * along);
+            let event = Event { t: sinh * radius, x: xi + axis * (cosh_minus_one * radius) };
+            let rate = Event {
+                t: (1.0 + cosh_minus_one) * pace + sinh * swing_along,
+                x: swing + axis * (sinh * pace + cosh_minus_one * swing_along),
+            };
+            (event, rate)
+        };
+        let axes = state.scene_from_axes;
+        (state.event + axes.apply(event), axes.apply(rate))
+    }
 }
 
 /// Ends a piece without an end where it has added [`WorldLine::MOST_RAPIDITY`], and refuses others that add
@@ -235,8 +268,8 @@ fn turned(rate: DVec3, turn: DQuat, passed: f64) -> DQuat {
 
 /// The rotation about `axis` by |axis| times `factor`.
 pub(super) fn rotation(axis: DVec3, factor: f64) -> DQuat {
-    let half = 0.5 * axis.length() * factor;
-    let (sin, cos) = (libm::sin(half), libm::cos(half));
-    let v = axis.normalize_or_zero() * sin;
+    let length = axis.length();
+    let (sin, cos) = libm::sincos(0.5 * length * factor);
+    let v = if length > 0.0 { axis * (sin / length) } else { DVec3::ZERO };
     DQuat::from_xyzw(v.x, v.y, v.z, cos)
 }
