@@ -8,7 +8,8 @@ use ugtests::documents::{Page, prepare, resized, with_options};
 use ugtests::{programs, scenes};
 
 /// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 2] = [("docs/gallery.md", [640, 480]), ("docs/start.md", [1280, 960])];
+const PAGES: [(&str, [u32; 2]); 3] =
+    [("docs/gallery.md", [640, 480]), ("docs/start.md", [1280, 960]), ("docs/motion.md", [640, 480])];
 
 /// Folder of the small pictures, beside the large ones.
 const SMALL: &str = "small";

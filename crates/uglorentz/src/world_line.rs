@@ -47,7 +47,12 @@ pub(crate) fn is_surely_right<'a>(
 }
 
 /// Is an error of an edge above its bound?
+///
+/// Colours are not looked at on edges shorter than the bound of the outline. Where a spin begins or
+/// the acceleration of a spinning body changes, velocities jump, and no subdivision is enough.
 pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation) -> bool {
+    let is_short = tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= bounds.tan_half;
+    let bounds = if is_short { Deviation { color: f64::INFINITY, ..bounds } } else { bounds };
     SAMPLES.into_iter().any(|s| deviation(a, b, &between(a, b, line, s)).exceeds(bounds, MARGIN))
 }
 
@@ -91,15 +96,19 @@ fn deviation(a: &Point, b: &Point, true_point: &Point) -> Deviation {
     // Where the line of sight to the true point passes the chord.
     let beside = nearest_in_sight(a.seen, chord, place).unwrap_or(along);
     let drawn = a.seen + beside * chord;
-    // tan(x/2) = sin x/(1 + cos x)
-    let product = drawn.length() * true_point.seen_distance;
-    let tan_half = drawn.cross(place).length() / (product + drawn.dot(place));
+    let tan_half = tan_half_angle(drawn, place, drawn.length() * true_point.seen_distance);
     let mix = |of: fn(&Point) -> f64| (1.0 - beside) * of(a) + beside * of(b);
     let inverse = mix(|point| point.inverse_doppler);
     let doppler = mix(|point| 1.0 / point.inverse_doppler);
     let of_inverse = (inverse / true_point.inverse_doppler - 1.0).abs();
     let of_doppler = (doppler * true_point.inverse_doppler - 1.0).abs();
     Deviation { tan_half, offset: off.length() / true_point.seen_distance, color: of_inverse.max(of_doppler) }
+}
+
+/// The tangent of half the angle between two vectors, given the product of their lengths: sin x/(1 +
+/// cos x).
+fn tan_half_angle(p: DVec3, q: DVec3, product: f64) -> f64 {
+    p.cross(q).length() / (product + p.dot(q))
 }
 
 /// The part of the way along a chord at which it is nearest, in angle, to the direction of `place`.

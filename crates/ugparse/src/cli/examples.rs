@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ugpipe::{Context, Failure, one_of};
 
 /// Names of files and texts.
-const FILES: [(&str, &str); 27] = [
+const FILES: [(&str, &str); 30] = [
     ("house.ug", include_str!("../../../../scenes/house.ug")),
     ("houses.ug", include_str!("../../../../scenes/houses.ug")),
     ("ship.ug", include_str!("../../../../scenes/ship.ug")),
@@ -21,6 +21,9 @@ const FILES: [(&str, &str); 27] = [
     ("poles.ug", include_str!("../../../../scenes/poles.ug")),
     ("lamps.ug", include_str!("../../../../scenes/lamps.ug")),
     ("clocks.ug", include_str!("../../../../scenes/clocks.ug")),
+    ("wheels.ug", include_str!("../../../../scenes/wheels.ug")),
+    ("twins.ug", include_str!("../../../../scenes/twins.ug")),
+    ("orbit.ug", include_str!("../../../../scenes/orbit.ug")),
     ("dice.ug", include_str!("../../../../scenes/dice.ug")),
     ("traffic.ug", include_str!("../../../../scenes/traffic.ug")),
     ("lamp.ug", include_str!("../../../../scenes/lamp.ug")),

@@ -540,8 +540,8 @@ fn clock(pace: f64, swing: DVec3) -> f64 {
 /// True if a root is known to rounding after the step from `from` to `to`: the error after a step
 /// of Newton's method is about its square.
 fn is_last_step(is_newton: bool, from: f64, to: f64) -> bool {
-    let tolerance = if is_newton { 1e-9 } else { 1e-15 };
-    (to - from).abs() <= tolerance * to.abs().max(1.0)
+    let rounding = 1e-15 * to.abs().max(1.0);
+    (to - from).abs() <= if is_newton { rounding.max(1e-9) } else { rounding }
 }
 
 impl Turn {
