@@ -88,7 +88,17 @@ impl BoxRay {
     /// `direction`: that of the ray. Returns `None` if the ray misses the cube.
     #[inline(always)]
     pub fn new(shear: &Shear, direction: [f64; 3]) -> Option<Self> {
+        Self::with_depths(shear, direction, Depths::new(shear))
+    }
+
+    /// A ray with boxes and triangles that are greater by `margin`, in box coordinates.
+    pub fn with_margin(shear: &Shear, direction: [f64; 3], margin: f64) -> Option<Self> {
         let depths = Depths::new(shear);
+        Self::with_depths(shear, direction, Depths { padding: depths.padding + margin, ..depths })
+    }
+
+    #[inline(always)]
+    fn with_depths(shear: &Shear, direction: [f64; 3], depths: Depths) -> Option<Self> {
         let Depths { z, sign, .. } = depths;
         let [slope_x, slope_y] = shear.slopes;
         let [mut x, mut y] = [shear.start[0] + z * slope_x, shear.start[1] + z * slope_y];
@@ -144,6 +154,11 @@ impl BoxRay {
         let start = if start > 0.0 && start <= f64::MAX { start as f32 } else { 0.0 };
         let end = if range.end < f64::INFINITY { self.depths.end(shear, range.end) } else { f32::INFINITY };
         start..end
+    }
+
+    /// τ at z, which may be beyond the cube.
+    pub fn depth(&self, z: f64) -> f64 {
+        (z - self.depths.z) * self.depths.sign
     }
 
     /// Greatest τ of hits up to z.

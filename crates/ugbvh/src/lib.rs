@@ -32,6 +32,13 @@
 //! crosses exactly one of two triangles on both sides of a common edge, exactly one of a fan around
 //! a corner, and a closed mesh an even number of times.
 //!
+//! # Curves
+//!
+//! A ray that is straight in its own frame is a curve in the coordinates of a body that turns or
+//! accelerates. [`Curve`] states how much it may bend; [`Bvh::visit_on_curve`] halves it where a
+//! box could hide between the curve and its chord. A hit is that of a tangent that touches the curve
+//! so close to it that the difference is below 10⁻¹² sizes of the mesh.
+//!
 //! # Range of numbers
 //!
 //! Corners and origins up to 2¹⁰⁰⁰ (10³⁰¹) are valid; a triangle with a corner beyond, or with a
@@ -41,6 +48,7 @@
 mod box_ray;
 mod build;
 mod closest;
+mod curve;
 mod frame;
 mod nodes;
 mod packet;
@@ -55,6 +63,7 @@ use fearless_simd::Level;
 use glam::DVec3;
 
 use closest::Prepared;
+pub use curve::Curve;
 use frame::Frame;
 use nodes::{Block, Node};
 
@@ -154,6 +163,17 @@ impl Bvh {
         hits: &mut [Option<Hit>],
     ) {
         packet::closest(self, origin, directions, &range, hits);
+    }
+
+    /// Calls `visit` for the hits on a curve with `range.start` < t < `range.end`, both finite,
+    /// roughly the first ones first. `visit` returns the end of the range from then on; −∞ ends the
+    /// search.
+    ///
+    /// The last digits of hits depend on the range, but not on the ends that `visit` returns.
+    pub fn visit_on_curve(&self, curve: &impl Curve, range: Range<f64>, mut visit: impl FnMut(Hit) -> f64) {
+        curve::visit(self, curve, range, |crossing, triangle| {
+            visit(Hit { t: crossing.t, triangle, u: crossing.u, v: crossing.v })
+        });
     }
 
     #[inline(always)]

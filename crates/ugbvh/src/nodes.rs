@@ -68,6 +68,12 @@ impl Node {
         f32::from_bits(self.rows[idx & 7][child])
     }
 
+    /// The greatest extent of a child in any axis.
+    pub fn extent(&self, child: usize) -> f32 {
+        let extent = |axis: usize| self.plane(2 * axis + 1, child) - self.plane(2 * axis, child);
+        extent(0).max(extent(1)).max(extent(2))
+    }
+
     /// Where the ray enters each box, and a mask of those it hits at τ in `start`…`end`.
     #[inline(always)]
     pub fn intersect<S: Simd>(&self, simd: S, ray: &SimdRay<S>, start: f32, end: f32) -> ([f32; WIDTH], u32) {
@@ -78,6 +84,18 @@ impl Node {
         let near = near_x.max(near_y).max(near_z.max(f32x8::splat(simd, start)));
         let far = far_x.min(far_y).min(far_z.min(f32x8::splat(simd, end)));
         (near.into(), near.simd_le(far).to_bitmask() as u32)
+    }
+
+    /// Where the ray enters the box of a child, if it hits it at τ in `start`…`end`; as of
+    /// [`Node::intersect`], up to rounding.
+    pub fn intersect_child(&self, ray: &Slabs, child: usize, [start, end]: [f32; 2]) -> Option<f32> {
+        let (mut near, mut far) = (start, end);
+        for axis in 0..3 {
+            let planes = [ray.entries[axis], ray.entries[axis] ^ 1].map(|idx| self.plane(idx, child));
+            near = near.max(planes[0] * ray.reciprocals[axis] + ray.entry_offsets[axis]);
+            far = far.min(planes[1] * ray.reciprocals[axis] + ray.exit_offsets[axis]);
+        }
+        (near <= far).then_some(near)
     }
 
     /// Where the ray crosses the planes of boxes in an axis.

@@ -12,6 +12,7 @@ use crate::nodes::{IS_BLOCK, Node, WIDTH};
 use crate::shear::Shear;
 use crate::{Bvh, Hit, Ray};
 
+mod curves;
 mod several;
 
 const ALL: Range<f64> = 0.0..f64::INFINITY;
