@@ -7,11 +7,13 @@
 mod horizon;
 mod orbit;
 mod pieces;
+mod ray;
 
 use glam::{DQuat, DVec3};
 
 pub use orbit::Orbit;
 pub use pieces::Piece;
+pub use ray::{RayPoint, RayStretch, WorldTube};
 
 use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};
 use pieces::{Acceleration, Spin};

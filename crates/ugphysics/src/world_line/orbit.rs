@@ -59,6 +59,11 @@ impl Orbit {
         (self.rate * self.velocity.gamma()).abs()
     }
 
+    /// Radians per unit of own time by which the acceleration turns in the carried axes: γ²ω.
+    pub(super) fn turn_rate(&self) -> f64 {
+        self.velocity.gamma() * self.own_rate()
+    }
+
     /// The turn of the point's place about the axis.
     fn progress(&self, own_time: f64) -> DQuat {
         rotation(self.axis, self.rate * self.velocity.gamma() * own_time)

@@ -109,6 +109,12 @@ impl<T: Copy> Timeline<T> {
         &self.0[row.max(1) - 1]
     }
 
+    /// The last own time before this one at which a stretch begins.
+    fn begin_before(&self, own_time: f64) -> f64 {
+        let row = self.0.partition_point(|stretch| stretch.from < own_time);
+        self.0[row.max(1) - 1].from
+    }
+
     fn state(&self, own_time: f64, advance: impl Fn(DVec3, T, f64) -> T) -> T {
         let Stretch { of, known_at, state, .. } = *self.at(own_time);
         advance(of, state, own_time - known_at)
@@ -204,6 +210,16 @@ impl Acceleration {
         let axes = state.scene_from_axes;
         (state.event + axes.apply(event), axes.apply(rate))
     }
+
+    /// Its values in all stretches.
+    pub(super) fn values(&self) -> impl Iterator<Item = DVec3> + '_ {
+        self.0.0.iter().map(|stretch| stretch.of)
+    }
+
+    /// The last own time before this one at which it changes, or −∞.
+    pub(super) fn change_before(&self, own_time: f64) -> f64 {
+        self.0.begin_before(own_time)
+    }
 }
 
 /// Ends a piece without an end where it has added [`WorldLine::MOST_RAPIDITY`], and refuses others that add
@@ -255,6 +271,11 @@ impl Spin {
     /// Own times at which the rate changes.
     pub(super) fn changes(&self) -> impl Iterator<Item = f64> + '_ {
         self.0.0.iter().skip(1).map(|stretch| stretch.from)
+    }
+
+    /// The last own time before this one at which the rate changes, or −∞.
+    pub(super) fn change_before(&self, own_time: f64) -> f64 {
+        self.0.begin_before(own_time)
     }
 
     pub(super) fn rate(&self, own_time: f64) -> DVec3 {

@@ -1,0 +1,428 @@
+//! Rays in the coordinates of a body that is not inertial.
+//!
+//! A ray is straight in the frame of the scene: X(s) = O + s K. At the own time τ of the reference
+//! point it crosses the plane of simultaneity of that point where (X(s) − z(τ))·u(τ) = 0, which is
+//! linear in s. So the ray is a curve with the parameter τ in the coordinates of the body, in closed
+//! form.  Eq. (P46)
+//!
+//! In the carried axes let K = (k⁰; k), N = 1 + a·ξ and k̂ = k/k⁰. Then ds/dτ = N/k⁰ and dξ/dτ =
+//! N k̂. Since |k̂| ≤ 1, the curve is never faster than N. Differentiated once more, with dk̂/dτ =
+//! (a·k̂)k̂ − a, this is d²ξ/dτ² = N (2(a·k̂)k̂ − a) + (a'·ξ)k̂, of length N|a| + |a'||ξ| or less. The
+//! turn of the spin adds the terms of Coriolis and of the centrifugal force.
+
+use core::ops::{ControlFlow, Range};
+
+use glam::{DMat3, DVec3};
+
+use super::{Kind, Moving, Path, Turn, WorldLine, WorldLineError};
+use crate::Event;
+
+/// A tube around all points of a body in motion, for [`WorldLine::visit_ray`].
+#[derive(Clone, Debug)]
+pub struct WorldTube {
+    /// The motion without spin, in which the centre is a point of the body.
+    carried: Moving,
+    /// The centre relative to A, in the carried axes.
+    offset: DVec3,
+    /// The greatest distance of a point from the centre.
+    radius: f64,
+    /// A positive lower bound of 1 + a·ξ for all points at all own times.
+    least_pace: f64,
+}
+
+/// A stretch of a ray in the coordinates of a body, during which the acceleration and the spin of the
+/// body do not jump.
+#[derive(Clone, Debug)]
+pub struct RayStretch<'a> {
+    path: StretchPath<'a>,
+    known_at: f64,
+    /// To the axes in which ξ is computed: turned as the spin has turned at `known_at`.
+    back: DMat3,
+    /// The point of the body about which it spins, or A.
+    pivot: DVec3,
+    /// This point relative to A, in the axes of ξ.
+    offset: DVec3,
+    /// Angular velocity: unit axis and rate.
+    axis: DVec3,
+    rate: f64,
+    /// Several spins, applied in place of a single one.
+    turns: &'a [Turn],
+    at: DVec3,
+    /// |a| and |da/dτ| in the carried axes.
+    acceleration: f64,
+    jerk: f64,
+}
+
+#[derive(Clone, Debug)]
+enum StretchPath<'a> {
+    /// The ray relative to the event of A at `known_at`, and the proper acceleration.
+    Accelerated { origin: Event, step: Event, acceleration: DVec3 },
+    /// The ray in the frame of the scene.
+    Any { moving: &'a Moving, origin: Event, step: Event },
+}
+
+/// A point of a ray in the coordinates of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RayPoint {
+    /// The parameter of the ray.
+    pub s: f64,
+    /// The point of the body.
+    pub point: DVec3,
+    /// Its derivative by the own time.
+    pub derivative: DVec3,
+}
+
+impl WorldLine {
+    /// The tube around a body with these points; `None` for a motion that is inertial.
+    #[must_use]
+    pub fn tube(&self, points: impl Iterator<Item = DVec3> + Clone) -> Option<WorldTube> {
+        let Kind::Moving(moving) = &self.0 else { return None };
+        Some(moving.tube(points))
+    }
+
+    /// Calls `visit` with the stretches of a ray in which it may meet the body, and ranges of own
+    /// times, from the latest to the earliest, until it breaks.
+    ///
+    /// `origin`, `step`: the ray, where `step` is one into the past. `end`: an event of the ray
+    /// beyond which nothing is looked for; required if the ray is slower than light.
+    ///
+    /// # Why no hit is lost
+    ///
+    /// A signal from the centre of the tube to a point of it takes an own time of less than radius
+    /// / least (1 + a·ξ), since it is no longer than the radius and its speed is 1 + a·ξ; so does a
+    /// signal back. Let τ_o be the own time at which the centre is seen at the origin of the ray,
+    /// τ_e that at which it is seen at the end, and τ that of a point X of the tube on the ray. The
+    /// signal that reaches X left the centre when this could be seen at the origin, so τ − radius/N ≤
+    /// τ_o. The signal from X reaches the centre when this cannot be seen at the end yet, or at the
+    /// origin if the ray is as fast as light. So τ + radius/N ≥ τ_e.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the centre of the body cannot move so.
+    pub fn visit_ray<'a>(
+        &'a self,
+        tube: &WorldTube,
+        origin: Event,
+        step: Event,
+        end: Option<Event>,
+        mut visit: impl FnMut(&RayStretch<'a>, Range<f64>) -> ControlFlow<()>,
+    ) -> Result<(), WorldLineError> {
+        let Kind::Moving(moving) = &self.0 else { return Ok(()) };
+        let margin = tube.radius / tube.least_pace;
+        let center = tube.carried.at + tube.offset;
+        let latest = tube.carried.emission_time(center, origin)?;
+        let earliest = match end {
+            Some(end) => tube.carried.emission_time(center, end)?,
+            None => latest,
+        };
+        // Rounding errors are far below it.
+        let margin = margin * (1.0 + 1e-9) + 1e-12 * latest.abs().max(earliest.abs());
+        let (mut to, first) = (latest + margin, earliest - margin);
+        while to > first {
+            let from = moving.smooth_before(to).max(first);
+            let stretch = moving.stretch(from, to, origin, step);
+            let range = stretch.within(tube, from..to);
+            if range.start < range.end && visit(&stretch, range).is_break() {
+                break;
+            }
+            to = from;
+        }
+        Ok(())
+    }
+}
+
+impl Moving {
+    fn tube(&self, points: impl Iterator<Item = DVec3> + Clone) -> WorldTube {
+        /// In place of the pace of points beyond the horizon, which have no motion.
+        const LEAST: f64 = 1e-3;
+        let (center, reaches) = match self.turns.last() {
+            Some(turn) => (turn.pivot, self.turns.as_slice()),
+            None => {
+                let ends = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                let (low, high) =
+                    points.clone().fold(ends, |(low, high), point| (low.min(point), high.max(point)));
+                let middle = low.midpoint(high);
+                (if middle.is_finite() { middle } else { self.at }, [].as_slice())
+            }
+        };
+        let radius = |point: DVec3| match reaches {
+            [] => (point - center).length(),
+            turns => reach(turns, point),
+        };
+        let radius = points.clone().map(radius).fold(0.0, f64::max) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
+        let offset = center - self.at;
+        let pace = |acceleration: DVec3| match &self.path {
+            Path::Accelerated(_) if self.turns.is_empty() => points
+                .clone()
+                .chain([center])
+                .map(|point| 1.0 + acceleration.dot(point - self.at))
+                .fold(1.0, f64::min),
+            // Whatever the directions.
+            Path::Accelerated(_) => 1.0 + acceleration.dot(offset) - acceleration.length() * radius,
+            Path::Orbit(_) => 1.0 - acceleration.length() * (offset.length() + radius),
+        };
+        let least_pace = match &self.path {
+            Path::Accelerated(path) => path.values().map(pace).fold(1.0, f64::min),
+            Path::Orbit(orbit) => pace(orbit.acceleration(0.0)),
+        };
+        let carried = Moving { turns: Vec::new(), ..self.clone() };
+        WorldTube { carried, offset, radius, least_pace: least_pace.max(LEAST) }
+    }
+
+    /// The last own time before this one at which acceleration or spin jumps.
+    fn smooth_before(&self, own_time: f64) -> f64 {
+        let of_path = match &self.path {
+            Path::Accelerated(acceleration) => acceleration.change_before(own_time),
+            Path::Orbit(_) => f64::NEG_INFINITY,
+        };
+        self.turns.iter().map(|turn| turn.spin.change_before(own_time)).fold(of_path, f64::max)
+    }
+
+    /// A ray in a stretch from own time `from` to `to`, both finite.
+    fn stretch(&self, from: f64, to: f64, origin: Event, step: Event) -> RayStretch<'_> {
+        let known_at = from.midpoint(to);
+        let (pivot, spin, back, turns) = match self.turns.as_slice() {
+            [] => (self.at, DVec3::ZERO, DMat3::IDENTITY, [].as_slice()),
+            [Turn { pivot, spin }] => (
+                *pivot,
+                spin.rate(known_at),
+                DMat3::from_quat(spin.turn(known_at).conjugate()),
+                [].as_slice(),
+            ),
+            turns => (self.at, DVec3::ZERO, DMat3::IDENTITY, turns),
+        };
+        let (path, acceleration, jerk) = match &self.path {
+            Path::Accelerated(path) => {
+                let pose = path.pose(known_at);
+                let axes = pose.scene_from_axes.inverse();
+                let turned = |event: Event| {
+                    let Event { t, x } = axes.apply(event);
+                    Event { t, x: back * x }
+                };
+                let acceleration = path.at(known_at);
+                let origin = turned(origin - pose.event);
+                let path = StretchPath::Accelerated {
+                    origin,
+                    step: turned(step),
+                    acceleration: back * acceleration,
+                };
+                (path, acceleration.length(), 0.0)
+            }
+            Path::Orbit(orbit) => {
+                let acceleration = orbit.acceleration(known_at).length();
+                (
+                    StretchPath::Any { moving: self, origin, step },
+                    acceleration,
+                    orbit.turn_rate() * acceleration,
+                )
+            }
+        };
+        let spin = back * spin;
+        let rate = spin.length();
+        RayStretch {
+            path,
+            known_at,
+            back,
+            pivot,
+            offset: back * (pivot - self.at),
+            axis: if rate > 0.0 { spin / rate } else { DVec3::ZERO },
+            rate,
+            turns,
+            at: self.at,
+            acceleration,
+            jerk,
+        }
+    }
+
+    /// s, ξ and dξ/dτ where a ray crosses the plane of simultaneity of an own time.
+    fn crossing(&self, origin: Event, step: Event, own_time: f64) -> (f64, DVec3, DVec3) {
+        let pose = self.pose(own_time);
+        let axes = pose.scene_from_axes.inverse();
+        let (Event { t, x }, k) = (axes.apply(origin - pose.event), axes.apply(step));
+        let s = -t / k.t;
+        let xi = x + s * k.x;
+        (s, xi, self.pace(xi, own_time) / k.t * k.x)
+    }
+}
+
+/// How far a point of a body can be from the last pivot, however the body has turned.
+fn reach(turns: &[Turn], point: DVec3) -> f64 {
+    let step = |(reach, from): (f64, DVec3), turn: &Turn| (reach + (turn.pivot - from).length(), turn.pivot);
+    turns.iter().fold((0.0, point), step).0
+}
+
+impl RayStretch<'_> {
+    /// The point of the ray on the plane of simultaneity of an own time.  Eq. (P46)
+    #[must_use]
+    pub fn at(&self, own_time: f64) -> RayPoint {
+        let (s, xi, velocity) = self.carried(own_time);
+        if !self.turns.is_empty() {
+            return self.turned_back(s, xi, velocity, own_time);
+        }
+        let arm = xi - self.offset;
+        if self.rate == 0.0 {
+            return RayPoint { s, point: self.pivot + arm, derivative: velocity };
+        }
+        let (sin, cos) = libm::sincos(0.5 * self.rate * (own_time - self.known_at));
+        // The turn by the opposite angle.
+        let (across, behind) = (2.0 * sin * cos, 2.0 * sin * sin);
+        let turned = |v: DVec3| {
+            let side = self.axis.cross(v);
+            v - across * side + behind * self.axis.cross(side)
+        };
+        let derivative = turned(velocity - self.rate * self.axis.cross(arm));
+        RayPoint { s, point: self.pivot + turned(arm), derivative }
+    }
+
+    /// s, ξ and dξ/dτ.
+    fn carried(&self, own_time: f64) -> (f64, DVec3, DVec3) {
+        match &self.path {
+            StretchPath::Accelerated { origin, step, acceleration } => {
+                let passed = own_time - self.known_at;
+                accelerated(*origin, *step, *acceleration, self.acceleration, passed)
+            }
+            StretchPath::Any { moving, origin, step } => {
+                let (s, xi, velocity) = moving.crossing(*origin, *step, own_time);
+                (s, self.back * xi, self.back * velocity)
+            }
+        }
+    }
+
+    /// Undoes several spins, the outermost first.
+    fn turned_back(&self, s: f64, xi: DVec3, velocity: DVec3, own_time: f64) -> RayPoint {
+        let (mut point, mut derivative) = (self.at + xi, velocity);
+        for Turn { pivot, spin } in self.turns.iter().rev() {
+            let (back, arm) = (spin.turn(own_time).conjugate(), point - *pivot);
+            derivative = back * (derivative - spin.rate(own_time).cross(arm));
+            point = *pivot + back * arm;
+        }
+        RayPoint { s, point, derivative }
+    }
+
+    /// An upper bound of the length of the second derivative of the point between two own times,
+    /// whose points are passed as well; infinite if they are too far apart.
+    ///
+    /// Each turn adds the terms of Coriolis and of the centrifugal force: with the arm r and the
+    /// bounds v and b before it, v + ωr and b + 2ωv + ω²r.
+    #[must_use]
+    pub fn bend(&self, [(from, start), (to, end)]: [(f64, DVec3); 2]) -> f64 {
+        let a = self.acceleration;
+        let arm = (start - self.pivot).length_squared().max((end - self.pivot).length_squared()).sqrt();
+        let xi = match self.turns.last() {
+            None => arm + self.offset.length(),
+            Some(last) => {
+                let reach = reach(self.turns, start).max(reach(self.turns, end));
+                reach + (last.pivot - self.at).length()
+            }
+        };
+        // From the nearer end ξ moves by (1 + a ξ) (exp(a t) − 1)/a at most.
+        let time = 0.5 * (to - from).abs();
+        let growth = a * time;
+        // NaN fails the comparison.
+        if !matches!(growth.partial_cmp(&1.0), Some(core::cmp::Ordering::Less)) {
+            return f64::INFINITY;
+        }
+        let moved = (1.0 + a * xi) * time * (1.0 + growth);
+        let (arm, xi) = (arm + moved, xi + moved);
+        let pace = 1.0 + a * xi;
+        let carried = pace * a + self.jerk * xi;
+        if self.turns.is_empty() {
+            return carried + self.rate * (2.0 * pace + self.rate * arm);
+        }
+        let (mut speed, mut bend, mut arm, mut from) = (pace, carried, xi, self.at);
+        for Turn { pivot, spin } in self.turns.iter().rev() {
+            let rate = spin.rate(self.known_at).length();
+            arm += (from - *pivot).length();
+            bend += rate * (2.0 * speed + rate * arm);
+            speed += rate * arm;
+            from = *pivot;
+        }
+        bend
+    }
+
+    /// The part of a range of own times in which the ray may be in a tube.
+    fn within(&self, tube: &WorldTube, range: Range<f64>) -> Range<f64> {
+        let center = self.back * tube.offset;
+        match &self.path {
+            StretchPath::Accelerated { origin, step, .. } if self.acceleration == 0.0 => {
+                let radius = tube.radius * (1.0 + 1e-6) + 1e-12 * origin.x.length();
+                let Some([first, last]) = straight_within(origin.x - center, *step, radius) else {
+                    return range.end..range.end;
+                };
+                let [first, last] = [first, last].map(|passed| self.known_at + origin.t + passed);
+                range.start.max(first)..range.end.min(last)
+            }
+            _ => self.shrunk(center, tube.radius, range),
+        }
+    }
+
+    /// Moves the ends of a range of own times towards a ball, as fast as the ray can at most: with v
+    /// = 1 + a |centre| + a r at the ball, the distance d from it changes by v + a d.
+    fn shrunk(&self, center: DVec3, radius: f64, mut range: Range<f64>) -> Range<f64> {
+        /// Further steps take longer than they save.
+        const STEPS: usize = 3;
+        let a = self.acceleration;
+        let speed = 1.0 + a * (center.length() + radius);
+        let time = |own_time: f64| {
+            let distance = (self.carried(own_time).1 - center).length() - radius;
+            // No longer than ln(1 + a d/v)/a.
+            let time = distance / (speed + a * distance);
+            if distance > 0.0 && time.is_finite() { time } else { 0.0 }
+        };
+        for _ in 0..STEPS {
+            range.end -= time(range.end);
+            if range.start >= range.end {
+                break;
+            }
+            range.start += time(range.start);
+        }
+        range
+    }
+}
+
+/// The own times, after that of the origin, at which a straight ray enters a ball around 0 and leaves
+/// it.
+fn straight_within(origin: DVec3, step: Event, radius: f64) -> Option<[f64; 2]> {
+    let square = step.x.length_squared();
+    let nearest = -origin.dot(step.x) / square;
+    let left = radius * radius - (origin + nearest * step.x).length_squared();
+    let half = (left / square).sqrt();
+    // NaN is not negative: nothing is known then.
+    match left < 0.0 {
+        true => None,
+        false if half.is_finite() => Some([nearest + half, nearest - half].map(|s| s * step.t)),
+        false => Some([f64::NEG_INFINITY, f64::INFINITY]),
+    }
+}
+
+/// s, ξ and dξ/dτ after an own time in a stretch of constant proper acceleration. The ray is relative
+/// to the event of A at its begin, in the axes there.
+///
+/// With c = cosh aτ and h = sinh aτ the axes (u; e) are (c, h; h, c) along â, and z is (h, c − 1)/a.
+fn accelerated(
+    origin: Event,
+    step: Event,
+    acceleration: DVec3,
+    size: f64,
+    passed: f64,
+) -> (f64, DVec3, DVec3) {
+    let (t, x, k_t, k) = if size == 0.0 {
+        (origin.t - passed, origin.x, step.t, step.x)
+    } else {
+        let axis = acceleration / size;
+        let grown = libm::expm1(size * passed);
+        let less = grown / (1.0 + grown);
+        // cosh − 1 and sinh.
+        let (rise, sinh) = (0.5 * grown * less, 0.5 * (grown + less));
+        let cosh = 1.0 + rise;
+        let (along, k_along) = (origin.x.dot(axis), step.x.dot(axis));
+        (
+            cosh * origin.t - sinh * (along + 1.0 / size),
+            origin.x + (rise * (along + 1.0 / size) - sinh * origin.t) * axis,
+            cosh * step.t - sinh * k_along,
+            step.x + (rise * k_along - sinh * step.t) * axis,
+        )
+    };
+    let s = -t / k_t;
+    let xi = x + s * k;
+    (s, xi, (1.0 + acceleration.dot(xi)) / k_t * k)
+}

@@ -1,0 +1,139 @@
+//! Rays in the coordinates of bodies on world lines: laws, with random motions.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use ugphysics::{Event, Lorentz, Orbit, Piece, Velocity, WorldLine};
+
+/// SplitMix64.
+struct Random(u64);
+
+impl Random {
+    fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+
+    fn in_ball(&mut self, radius: f64) -> DVec3 {
+        loop {
+            let p = DVec3::new(self.between(-1.0, 1.0), self.between(-1.0, 1.0), self.between(-1.0, 1.0));
+            if p.length_squared() <= 1.0 {
+                return p * radius;
+            }
+        }
+    }
+}
+
+/// Random motions of all kinds, of bodies within 1 of their point A at `at`.
+fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
+    let velocity = Velocity::from_beta(random.in_ball(0.9)).unwrap();
+    let at = random.in_ball(3.0);
+    let begins = [random.between(-6.0, -2.0), random.between(-2.0, 0.0), random.between(0.0, 3.0)];
+    let pieces = |random: &mut Random, most: f64| {
+        let [a, b, c] = begins;
+        [[a, b], [b, c]].map(|[from, to]| Piece { of: random.in_ball(most), from, to })
+    };
+    let always =
+        |random: &mut Random| [Piece { of: random.in_ball(0.6), from: f64::NEG_INFINITY, to: f64::INFINITY }];
+    let world_line = match kind % 6 {
+        0 => WorldLine::accelerated(at, velocity, &pieces(random, 0.5), &[]),
+        1 => WorldLine::accelerated(at, velocity, &[], &always(random)),
+        2 => {
+            let (push, spin) = (pieces(random, 0.2), pieces(random, 0.5));
+            WorldLine::accelerated(at, velocity, &push, &spin)
+        }
+        3 => {
+            let orbit = Orbit::new(at, at + random.in_ball(1.0), random.in_ball(1.0), 0.3).unwrap();
+            WorldLine::orbiting(orbit, &pieces(random, 0.3))
+        }
+        4 => {
+            let car = WorldLine::accelerated(at, velocity, &pieces(random, 0.15), &[]).unwrap();
+            car.with_part(
+                at + random.in_ball(1.0),
+                &always(random).map(|spin| Piece { of: 0.5 * spin.of, ..spin }),
+            )
+        }
+        _ => {
+            let disc = WorldLine::accelerated(at, velocity, &pieces(random, 0.1), &always(random)).unwrap();
+            disc.with_part(at + random.in_ball(0.3), &pieces(random, 0.3))
+        }
+    };
+    let frame = Lorentz::boost(Velocity::from_beta(random.in_ball(0.7)).unwrap());
+    let shift = Event { t: random.between(-3.0, 3.0), x: random.in_ball(5.0) };
+    (world_line.unwrap().in_frame(frame, shift), at)
+}
+
+#[test]
+fn a_ray_meets_what_is_seen_along_it() {
+    let mut random = Random(33);
+    for kind in 0..600 {
+        let (world_line, at) = motion(&mut random, kind);
+        let points: Vec<DVec3> = (0..20).map(|_| at + random.in_ball(0.8)).collect();
+        let tube = world_line.tube(points.iter().copied()).unwrap();
+        for &point in &points {
+            let observer = Event { t: random.between(-9.0, 9.0), x: random.in_ball(9.0) };
+            let seen = world_line.emission(point, observer).unwrap();
+            let way = seen.event.x - observer.x;
+            // Light, and a ray through a medium.
+            let slow = Event { t: -1.3 * way.length(), x: way };
+            let rays = [
+                (observer, Event { t: -way.length(), x: way }, None),
+                (seen.event - slow, slow, Some(seen.event + slow)),
+            ];
+            for (origin, step, end) in rays {
+                let mut found = None;
+                world_line
+                    .visit_ray(&tube, origin, step, end, |stretch, range| {
+                        assert!(range.start < range.end);
+                        if range.contains(&seen.own_time) {
+                            let met = stretch.at(seen.own_time);
+                            found = Some(met);
+                            // Rounding of events, carried to the frame of the body.
+                            let gamma = seen.velocity.gamma();
+                            let tolerance = 1e-13 * gamma * gamma * (9.0 + way.length() + observer.t.abs());
+                            assert!((met.point - point).length() < tolerance, "{kind}: {met:?} {point}");
+                            assert!((met.s - 1.0).abs() * way.length() < tolerance, "{kind}: {met:?}");
+                        }
+                        check_curve(stretch, range);
+                        ControlFlow::Continue(())
+                    })
+                    .unwrap();
+                assert!(found.is_some(), "{kind} {point} {observer:?}: {seen:?}");
+            }
+        }
+    }
+}
+
+/// Derivatives and the bound of the second one, against differences.
+fn check_curve(stretch: &ugphysics::RayStretch<'_>, range: std::ops::Range<f64>) {
+    let at = |part: f64| range.start + part * (range.end - range.start);
+    let step = 1e-3;
+    if range.end - range.start < 20.0 * step {
+        return;
+    }
+    for part in [0.1, 0.5, 0.8] {
+        let [before, here, behind] = [-step, 0.0, step].map(|change| stretch.at(at(part) + change));
+        let slope = (behind.point - before.point) / (2.0 * step);
+        let bend = (behind.point + before.point - 2.0 * here.point).length() / (step * step);
+        assert!((slope - here.derivative).length() < 1e-4 * (1.0 + slope.length()), "{slope} {here:?}");
+        let bound = stretch.bend([(at(part) - step, before.point), (at(part) + step, behind.point)]);
+        assert!(bend <= bound * 1.001 + 1e-3, "{bend} {bound}");
+    }
+    let half = range.start.midpoint(range.end);
+    let ends = [range.start, half].map(|own_time| (own_time, stretch.at(own_time).point));
+    let bound = stretch.bend(ends) * (half - range.start) * (half - range.start) / 8.0;
+    for part in [0.1, 0.3, 0.5, 0.7] {
+        let point = stretch.at(range.start + part * (half - range.start)).point;
+        let chord = ends[0].1.lerp(ends[1].1, part);
+        assert!((point - chord).length() <= bound * 1.001 + 1e-9, "{point} {chord} {bound}");
+    }
+}
