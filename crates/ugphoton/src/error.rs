@@ -2,6 +2,7 @@
 
 use thiserror::Error;
 use ugparse::Diagnostics;
+use ugphysics::WorldLineError;
 use ugscene::{CameraError, MotionError, StageError};
 
 /// The most lights times samples of a picture. A shadow ray takes about a microsecond, so this many
@@ -85,6 +86,22 @@ pub enum Error {
     /// Hues are shifted, of moving bodies with spectra.
     #[error("hues are shifted, and a black body or spectrum of this scene moves")]
     MovingSpectrum,
+    /// A face of a body on a world line is of glass.
+    #[error(
+        "motion `{name}`: a body that accelerates or turns cannot be of glass, whose index holds at rest"
+    )]
+    MovingMedium {
+        /// The name of the motion.
+        name: String,
+    },
+    /// A vertex of a body on a world line is never seen.
+    #[error("vertex `{vertex}`: {error}")]
+    WorldLine {
+        /// Its name.
+        vertex: String,
+        /// Why.
+        error: WorldLineError,
+    },
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),

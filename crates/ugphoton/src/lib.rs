@@ -21,7 +21,7 @@
 //! error  config                             errors; options
 //! sampling  frame  path                      rest frames; rays and their media
 //! outline  moving_boxes  corridor            which bodies rays may meet
-//! world                                     the faces, by rest frame
+//! world_line_part  world                    bodies on world lines; the faces, by rest frame
 //! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
@@ -72,6 +72,7 @@ mod surface_point;
 mod tests;
 mod tracer;
 mod world;
+mod world_line_part;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};

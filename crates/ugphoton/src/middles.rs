@@ -1,11 +1,13 @@
 //! Surfaces at the middles of pixels: for channels, legends and outlines.
 
 use rayon::prelude::*;
+use ugphysics::{BodyEvent, RestFrame};
 use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
 use ugscene::BodyId;
 
 use crate::path::Ray;
 use crate::scenery::Scenery;
+use crate::world::along;
 
 /// The surface at the middle of each pixel.
 pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
@@ -76,21 +78,26 @@ impl<'a> Middles<'a> {
         let ((s, item), ray) = (self.surfaces[idx]?, self.ray(idx)?);
         let frames = self.scenery.appearance.surface.frames();
         let body = self.scenery.scene.faces[item as usize].body;
+        let event = along(ray.origin, ray.step, s);
+        let on_line = frames.world_line(body).and_then(|line| line.at_event(event).ok());
         let emission = Emission {
             place: s * ray.step.x,
             depth: s,
             time: ray.origin.t + s * ray.step.t,
-            velocity: frames.velocity(body),
+            velocity: on_line.map_or(frames.velocity(body), |at| at.velocity),
             scene_from_axes: frames.of(body).scene_from_boosted(),
-            in_medium: self.in_medium(&ray, body),
+            in_medium: self.in_medium(&ray, body, on_line),
         };
         Some((item, emission))
     }
 
     /// Light of a body along a ray, if the eye is in a transparent solid.
-    fn in_medium(&self, ray: &Ray, body: BodyId) -> Option<MediumLight> {
+    fn in_medium(&self, ray: &Ray, body: BodyId, on_line: Option<BodyEvent>) -> Option<MediumLight> {
         self.scenery.media_at(ray.origin).innermost()?;
-        let frame = *self.scenery.appearance.surface.frames().of(body);
+        let frame = match on_line {
+            Some(at) => RestFrame::new(at.velocity),
+            None => *self.scenery.appearance.surface.frames().of(body),
+        };
         Some(MediumLight {
             doppler: (ray.wave.frequency / frame.wave_to_rest(ray.wave).frequency).abs(),
             rest_direction: frame.rest_from_camera(ray.step).x.normalize_or_zero(),

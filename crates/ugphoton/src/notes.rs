@@ -9,7 +9,7 @@ use ugscene::{Face, SurfaceProperties};
 use crate::config::Config;
 use crate::immersion::is_enclosed;
 use crate::pixels::Statistics;
-use crate::scenery::Scenery;
+use crate::scenery::{LampMotion, Scenery};
 use crate::shade::transmittance;
 
 /// One in so many samples is not visible.
@@ -70,11 +70,11 @@ fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
     let is_enclosed = |event| is_enclosed(&scenery.world, scenery.faces(), event, is_opaque);
     let is_dark = |row: usize| {
         let LampPlace::At(place) = scenery.lamps[row].place else { return false };
-        let frame = match (&scenery.lamp_frames[row], &scenery.world.parts[..]) {
-            (Some(frame), _) => frame,
-            (None, [only]) => &only.frame,
-            // It rests with each of several bodies.
-            (None, _) => return false,
+        let frame = match (&scenery.lamp_motions[row], &scenery.world.parts[..]) {
+            (Some(LampMotion::Inertial(frame)), _) => frame,
+            (None, [only]) if only.motion.is_none() => &only.frame,
+            // It rests with each of several bodies, or is enclosed for a time.
+            _ => return false,
         };
         is_enclosed(frame.camera_from_rest(Event { t: -place.length(), x: place }))
     };

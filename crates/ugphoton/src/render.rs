@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use ugimage::{LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
+use ugphysics::Event;
 use ugpicture::{
     Annotated, Canvas, DepthBuffer, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata,
 };
@@ -16,6 +17,9 @@ use crate::lens::Lens;
 use crate::notes::notes;
 use crate::scenery::Scenery;
 use crate::{middles, pixels};
+
+/// The event of the eye.
+const ORIGIN: Event = Event { t: 0.0, x: glam::DVec3::ZERO };
 
 /// This program, without a command line, for the history of what it makes.
 pub const PROVENANCE: Provenance<'static> =
@@ -184,6 +188,15 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     scene.rest.reserve_exact(rest.len());
     for ((vertex, rest), body) in scene.vertices.iter_mut().zip(rest).zip(&placed.bodies) {
         let motion = &placed.motions[body.index()];
+        if let Some(line) = motion.world_line() {
+            let seen = line.emission(rest, ORIGIN).map_err(|error| {
+                let vertex = scene.names.get(vertex.name).to_string();
+                Error::WorldLine { vertex, error }
+            })?;
+            vertex.position = seen.event.x + placed.eye;
+            scene.rest.push(rest);
+            continue;
+        }
         let is_unmoved = motion.is_at_rest() && placed.shifts[body.index()] == glam::DVec3::ZERO;
         if is_unmoved {
             scene.rest.push(vertex.position - placed.eye);

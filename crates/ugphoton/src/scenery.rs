@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
+use std::sync::Arc;
 
 use glam::DVec3;
 use uglight::{Appearance, ColorShift, Interpolation, Lamp, Lamps};
-use ugphysics::{Event, Medium, RestFrame};
+use ugphysics::{Event, Medium, RestFrame, WorldLine};
 use ugpicture::PictureOptions;
-use ugscene::{Geometry, HueScale, Scene, SurfaceProperties, View};
+use ugscene::{BodyId, Face, Geometry, HueScale, RestFrames, Scene, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -22,6 +23,14 @@ const REACH: f64 = 5.0;
 
 /// The event at which the light of a picture arrives at a single eye.
 const ORIGIN: Event = Event { t: 0.0, x: DVec3::ZERO };
+
+/// How a lamp moves whose motion is stated.
+pub enum LampMotion {
+    /// With constant velocity: its rest frame.
+    Inertial(RestFrame),
+    /// On a world line, in the frame of the camera.
+    OnLine(Arc<WorldLine>),
+}
 
 /// A scene prepared for rays, for one camera.
 pub struct Scenery<'a> {
@@ -43,8 +52,8 @@ pub struct Scenery<'a> {
     pub rays: RayOptions,
     /// The lights, or the default ones.
     pub lamps: Lamps,
-    /// The rest frame of each, if its motion is stated.
-    pub lamp_frames: Vec<Option<RestFrame>>,
+    /// The motion of each, if it is stated.
+    pub lamp_motions: Vec<Option<LampMotion>>,
     /// How motion changes colours.
     pub shift: ColorShift,
     /// True if a transparent solid absorbs light.
@@ -52,6 +61,16 @@ pub struct Scenery<'a> {
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
     pub is_uncut: bool,
+}
+
+/// A body on a world line with a surface that transmits light. A medium in which light has one speed
+/// has to rest in some frame.
+fn moving_medium(scene: &Scene, frames: &RestFrames) -> Option<BodyId> {
+    let is_medium = |face: &&Face| {
+        let transmits = scene.surface(face).is_some_and(|surface| surface.transmitted > 0.0);
+        transmits && frames.world_line(face.body).is_some()
+    };
+    scene.faces.iter().filter(|_| frames.have_world_lines()).find(is_medium).map(|face| face.body)
 }
 
 impl<'a> Scenery<'a> {
@@ -98,11 +117,21 @@ impl<'a> Scenery<'a> {
         }
         let faces = Faces { scene: &scene, rest: surface.all_rest() };
         let world = World::new(faces, surface.frames());
+        if let Some(body) = moving_medium(&scene, surface.frames()) {
+            let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
+            return Err(Error::MovingMedium { name: name.to_string() });
+        }
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
-        let lamp_frame = |lamp: &Lamp| Some(*surface.frames().of(lamp.motion.body()?));
-        let lamp_frames = lamps.iter().map(lamp_frame).collect();
+        let lamp_motion = |lamp: &Lamp| {
+            let body = lamp.motion.body()?;
+            Some(match surface.frames().world_line(body) {
+                Some(line) => LampMotion::OnLine(line.clone()),
+                None => LampMotion::Inertial(*surface.frames().of(body)),
+            })
+        };
+        let lamp_motions = lamps.iter().map(lamp_motion).collect();
         let is_uncut = appearance.palette.has_light() || config.picture.keeps_light();
         let appearance = if is_uncut { appearance } else { appearance.clipped() };
         let rays = config.rays;
@@ -118,7 +147,7 @@ impl<'a> Scenery<'a> {
             appearance,
             rays,
             lamps,
-            lamp_frames,
+            lamp_motions,
             shift,
             is_uncut,
         })

@@ -3,17 +3,14 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use uglight::{
-    ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, ScatteringTime, SurfaceColor,
-    SurfaceElement,
-};
+use uglight::{ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor};
 use ugphysics::{Event, WaveVector, srgb_encode};
 
 use crate::corridor::Corridor;
 use crate::immersion::transparent_solid;
 use crate::path::{Ray, Solid, Start};
 use crate::sampling::disk_point;
-use crate::scenery::Scenery;
+use crate::scenery::{LampMotion, Scenery};
 use crate::surface_point::SurfacePoint;
 use crate::world::Intersection;
 
@@ -95,21 +92,16 @@ impl<'a> Shader<'a> {
         self.diffuse.clear();
         self.highlights.clear();
         let scenery = self.scenery;
-        let body = scenery.scene.faces[point.face as usize].body;
-        let element = SurfaceElement {
-            point: point.place,
-            time: ScatteringTime::Delay(point.delay),
-            normal: point.normal,
-            body,
-        };
+        let element = point.lit(scenery);
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
         let add = |incident: IncidentLamp| {
             let Irradiance { level, lamp, .. } = incident.irradiance;
+            let way = incident.toward.map(|toward| LampWay::new(scenery, point, lamp, toward));
             let part = if scenery.has_lights() && scenery.rays.shadows {
                 let corridor = (17 * lamp as usize + point.part) % corridors.len();
-                unshadowed(scenery, point, &incident, &mut corridors[corridor])
+                way.as_ref().map_or(1.0, |way| unshadowed(scenery, point, way, &mut corridors[corridor]))
             } else {
                 1.0
             };
@@ -121,7 +113,7 @@ impl<'a> Shader<'a> {
                 return;
             }
             diffuse.push(Irradiance { level: level * part, ..incident.irradiance });
-            if let (Some(exponent), Some((toward, _))) = (exponent, incident.toward) {
+            if let (Some(exponent), Some(LampWay { toward, .. })) = (exponent, way) {
                 let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
                 let cos = mirrored.dot(toward_eye).max(0.0);
                 let shine = part * incident.part * libm::pow(cos, exponent);
@@ -130,19 +122,54 @@ impl<'a> Shader<'a> {
                 }
             }
         };
-        let lamp_shift = scenery.appearance.surface.frames().lamp_shift(body);
+        let lamp_shift = scenery.appearance.surface.frames().lamp_shift(element.body);
         let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
             (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
-                let from = match &scenery.lamp_frames[row] {
-                    Some(frame) => frame.rest_from_camera(point.event).x,
-                    None => point.place,
-                };
-                let toward = ugphysics::unit_or_zero(shifted - from);
+                let toward = ugphysics::unit_or_zero(shifted - seen_from(scenery, point, row));
                 LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64))
             }
             (place, _) => place,
         };
         element.for_each_incident(&scenery.lamps, scenery.appearance.surface.frames(), place, add);
+    }
+}
+
+/// The place of a point in the frame of a lamp, or as it stands before a lamp that rests with what it
+/// lights.
+fn seen_from(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: usize) -> DVec3 {
+    match (&scenery.lamp_motions[lamp], &scenery.world.parts[point.part].motion, &point.element) {
+        (Some(LampMotion::Inertial(frame)), ..) => frame.rest_from_camera(point.event).x,
+        // Where its light came from decides only how its disk is turned.
+        (Some(LampMotion::OnLine(line)), ..) => line.at_event(point.event).map_or(point.place, |at| at.point),
+        (None, Some(motion), Some(element)) => motion.line.turned_point(point.place, element.own_time),
+        _ => point.place,
+    }
+}
+
+/// The way back from a point to a lamp.
+struct LampWay {
+    /// Towards the lamp, a unit vector in the rest frame of the surface.
+    toward: DVec3,
+    /// A step into the past, in the frame of the camera.
+    step: Event,
+    /// Number of these steps.
+    distance: f64,
+}
+
+impl LampWay {
+    /// `toward`: see [`IncidentLamp::toward`].
+    fn new(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: u32, (toward, distance): (DVec3, f64)) -> Self {
+        let frame = point.frame(scenery);
+        match (&scenery.lamp_motions[lamp as usize], &scenery.world.parts[point.part].motion, &point.element)
+        {
+            // Such a lamp is in the frame of the body's reference point.
+            (None, Some(motion), Some(element)) => {
+                let axes = motion.line.pose(element.own_time).scene_from_axes;
+                let step = axes.apply(Event { t: -1.0, x: toward });
+                Self { toward: ugphysics::unit_or_zero(frame.rest_from_camera(step).x), step, distance }
+            }
+            _ => Self { toward, step: frame.camera_from_rest(Event { t: -1.0, x: toward }), distance },
+        }
     }
 }
 
@@ -152,18 +179,17 @@ impl<'a> Shader<'a> {
 fn unshadowed(
     scenery: &Scenery<'_>,
     point: &SurfacePoint,
-    incident: &IncidentLamp,
+    &LampWay { step, distance, .. }: &LampWay,
     corridor: &mut Corridor,
 ) -> f64 {
-    let Some((toward, distance)) = incident.toward else { return 1.0 };
-    let frame = &scenery.world.parts[point.part].frame;
+    let frame = point.frame(scenery);
     // Beneath a smooth surface, faces in its light may be turned away from the lamp. The shadow
     // ray starts above them, so the limit of the light is as smooth as the normals.
     let lift = frame.camera_from_rest(Event { t: 0.0, x: point.lift });
     let origin = Event { t: point.event.t + lift.t, x: point.event.x + lift.x };
     let ray = Ray {
         origin,
-        step: frame.camera_from_rest(Event { t: -1.0, x: toward }),
+        step,
         // Nothing depends on the frequency of a shadow ray.
         wave: WaveVector { frequency: 1.0, k: DVec3::ZERO },
         start: Start::Surface { part: point.part, place: point.place + point.lift },

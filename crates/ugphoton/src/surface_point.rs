@@ -1,15 +1,16 @@
 //! The point of a face that a ray meets: place, normals, colour, Doppler factor.
 
 use glam::DVec3;
-use uglight::SurfaceColor;
-use ugphysics::{Event, WaveVector};
+use uglight::{ScatteringTime, SurfaceColor, SurfaceElement};
+use ugphysics::{Event, RestFrame, WaveVector, WorldLine, unit_or_zero};
 use ugscene::SurfaceId;
 
 use crate::path::{Ray, Start};
 use crate::scenery::Scenery;
 use crate::world::{Intersection, along};
 
-/// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene.
+/// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
+/// world line, in the rest frame of the surface element and the axes of a single boost.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfacePoint {
     /// Row of the part of the world.
@@ -18,8 +19,10 @@ pub struct SurfacePoint {
     pub face: u32,
     /// The event in the frame of the camera.
     pub event: Event,
-    /// Place, relative to the eye.
+    /// Place, relative to the eye; on a world line, in the coordinates of the body.
     pub place: DVec3,
+    /// The surface element of a body on a world line.
+    pub element: Option<Element>,
     /// How much later the light leaves than where the eye sees the place directly; see
     /// [`SurfaceElement::delay`](uglight::SurfaceElement::delay).
     pub delay: f64,
@@ -37,10 +40,24 @@ pub struct SurfacePoint {
     pub color: SurfaceColor,
 }
 
+/// A surface element of a body on a world line.
+#[derive(Clone, Copy, Debug)]
+pub struct Element {
+    /// The rest frame of the element, with the axes of a single boost.
+    pub frame: RestFrame,
+    /// The own time of the body.
+    pub own_time: f64,
+    /// [`SurfacePoint::normal`], of the shape that the body has in its own coordinates.
+    pub body_normal: DVec3,
+}
+
 impl SurfacePoint {
     /// Where a ray meets a face.
     pub fn new(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) -> Self {
         let part = &scenery.world.parts[found.part];
+        if let Some(motion) = &part.motion {
+            return Self::on_line(scenery, ray, found, &motion.line);
+        }
         let face = &scenery.scene.faces[found.triangle.face as usize];
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights);
@@ -63,6 +80,7 @@ impl SurfacePoint {
             face: found.triangle.face,
             event,
             place,
+            element: None,
             delay,
             lift,
             plane_normal,
@@ -71,6 +89,57 @@ impl SurfacePoint {
             wave,
             color,
         }
+    }
+
+    /// Where a ray meets a face of a body on a world line.
+    fn on_line(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection, line: &WorldLine) -> Self {
+        let face = &scenery.scene.faces[found.triangle.face as usize];
+        let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
+        let place = mean(places, found.weights);
+        let own_time = found.own_time;
+        // Its speed is below that of light, or no ray would meet it.
+        let velocity = line.frame(place, own_time).velocity_of_frame().unwrap_or_default();
+        let frame = RestFrame::new(velocity);
+        let in_frame = |normal: DVec3| line.element_normal(place, normal, own_time);
+        let outside = scenery.faces().outside(found.triangle.face);
+        let step = frame.rest_from_camera(ray.step).x;
+        let is_outside = in_frame(outside).dot(step) <= 0.0;
+        let plane = if is_outside { outside } else { -outside };
+        let (body_normal, body_lift) = smooth(scenery, found, (places, place), plane);
+        let lift = ugphysics::length(body_lift) * in_frame(unit_or_zero(body_lift));
+        let common = scenery.appearance.common_in_motion(&scenery.scene, face, true);
+        Self {
+            part: found.part,
+            face: found.triangle.face,
+            event: along(ray.origin, ray.step, found.s),
+            place,
+            element: Some(Element { frame, own_time, body_normal }),
+            delay: 0.0,
+            lift: if lift.is_finite() { lift } else { DVec3::ZERO },
+            plane_normal: in_frame(plane),
+            normal: in_frame(body_normal),
+            is_outside,
+            wave: frame.wave_to_rest(ray.wave),
+            color: scenery.appearance.color_at(&common, found.triangle.corners, found.weights),
+        }
+    }
+
+    /// The rest frame of the surface.
+    pub fn frame<'s>(&'s self, scenery: &'s Scenery<'_>) -> &'s RestFrame {
+        match &self.element {
+            Some(element) => &element.frame,
+            None => &scenery.world.parts[self.part].frame,
+        }
+    }
+
+    /// The surface as lamps light it.
+    pub fn lit(&self, scenery: &Scenery<'_>) -> SurfaceElement {
+        let (time, normal) = match &self.element {
+            Some(element) => (ScatteringTime::Own(element.own_time), element.body_normal),
+            None => (ScatteringTime::Delay(self.delay), self.normal),
+        };
+        let body = scenery.scene.faces[self.face as usize].body;
+        SurfaceElement { point: self.place, time, normal, body }
     }
 
     /// D, from here to the eye: the product over all changes of frame along the path. Light of a

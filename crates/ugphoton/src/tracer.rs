@@ -291,8 +291,8 @@ impl<'a> Tracer<'a> {
             self.is_cut_short = true;
             return Arriving::NOTHING;
         }
-        let frame = &self.scenery.world.parts[point.part].frame;
-        let forward = medium(self.scenery, media.innermost(), point.part).step(wave);
+        let frame = point.frame(self.scenery);
+        let forward = medium(self.scenery, media.innermost(), point).step(wave);
         let step = frame.camera_from_rest(Event { t: -forward.t, x: -forward.x });
         let ray = Ray {
             origin: point.event,
@@ -309,7 +309,7 @@ impl<'a> Tracer<'a> {
 
     /// The light that a mirror reflects along the path, before reflection.  Eq. (P23), (P37)
     fn reflected(&self, path: &Path<'_>, point: &SurfacePoint) -> Option<WaveVector> {
-        let before = medium(self.scenery, path.media.innermost(), point.part);
+        let before = medium(self.scenery, path.media.innermost(), point);
         let of = |normal: DVec3| before.wave_beside(point.wave, -normal);
         // With an interpolated normal the light may come from behind the face.
         let is_before = |wave: &WaveVector| wave.k.dot(point.plane_normal) < 0.0;
@@ -335,8 +335,8 @@ impl<'a> Tracer<'a> {
             self.leaves_open_solid = true;
             return Some(Refracted { wave: point.wave, media, reflectance: 0.0 });
         }
-        let behind = medium(self.scenery, media.innermost(), point.part);
-        let before = medium(self.scenery, path.media.innermost(), point.part);
+        let behind = medium(self.scenery, media.innermost(), point);
+        let before = medium(self.scenery, path.media.innermost(), point);
         let of = |normal: DVec3| behind.wave_beside(point.wave, normal);
         let is_behind = |wave: &WaveVector| wave.k.dot(point.plane_normal) > 0.0;
         let wave = of(point.normal).filter(is_behind).or_else(|| of(point.plane_normal))?;
@@ -355,14 +355,14 @@ struct Refracted {
     reflectance: f64,
 }
 
-/// A medium in the rest frame of a part, in the axes of the scene.
-fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, part: usize) -> Medium {
+/// A medium in the rest frame of a surface, in the same axes.
+fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, point: &SurfacePoint) -> Medium {
     let Some(solid) = solid else { return Medium::VACUUM };
     let index = scenery.properties(solid.surface).refraction;
-    if solid.part == part {
+    if solid.part == point.part {
         return Medium { index, velocity: ugphysics::Velocity::ZERO };
     }
-    let [of_solid, here] = [solid.part, part].map(|part| &scenery.world.parts[part].frame);
+    let (of_solid, here) = (&scenery.world.parts[solid.part].frame, point.frame(scenery));
     let velocity = here.turned_velocity(compose(of_solid.velocity(), -here.velocity()));
     Medium { index, velocity }
 }

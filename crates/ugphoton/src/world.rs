@@ -1,17 +1,19 @@
 //! The bodies of a scene, ready for rays: a hierarchy of triangles in each rest frame.
 
 use std::ops::{ControlFlow, Range};
+use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
-use ugphysics::{Event, RestFrame};
+use ugphysics::{Event, RestFrame, WorldLine};
 use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, unit_normal};
 
 use crate::corridor::Corridor;
 use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
 use crate::outline::Outline;
-use crate::path::Ray;
+use crate::path::{Ray, Start};
+use crate::world_line_part::{CurveHit, Next, WorldLineMotion};
 
 /// How far a ray leaves a surface before it can meet another one, relative to the largest
 /// coordinate. Rounding errors are below a hundredth of it.
@@ -23,19 +25,23 @@ pub const SAME_PLACE: f64 = 1e-9;
 
 /// The faces of a scene, by rest frame.
 pub struct World {
-    /// Bodies of the same velocity share a frame.
+    /// Bodies of the same velocity share a frame. Those on world lines come last, each by itself.
     pub parts: Vec<Part>,
-    /// The parts by their moving boxes; `None` if they are few. Hits do not depend on it.
+    /// The number of parts that have a rest frame.
+    n_inertial: usize,
+    /// These parts by their moving boxes; `None` if they are few. Hits do not depend on it.
     pub boxes: Option<MovingBoxes>,
 }
 
 /// The greatest number of parts that are tested one by one.
 const FEW_PARTS: usize = 4;
 
-/// The faces of all bodies with one velocity.
+/// The faces of all bodies with one velocity, or of one body on a world line.
 pub struct Part {
-    /// Their rest frame.
+    /// Their rest frame; of a body on a world line, that at its own time 0.
     pub frame: RestFrame,
+    /// The motion of a body on a world line.
+    pub motion: Option<WorldLineMotion>,
     bvh: Bvh,
     triangles: Vec<FaceTriangle>,
     clearance: f64,
@@ -87,6 +93,8 @@ pub struct Intersection {
     pub part: usize,
     /// The parameter of the ray: the hit is at its origin plus this times its step, in every frame.
     pub s: f64,
+    /// The own time of a body on a world line; 0 for others.
+    pub own_time: f64,
     /// The triangle of the face.
     pub triangle: FaceTriangle,
     /// Its row in the part.
@@ -105,7 +113,11 @@ impl World {
             .bodies
             .ids()
             .map(|body| {
-                let same = |&first: &BodyId| frames.velocity(first) == frames.velocity(body);
+                let is_inertial = |body: BodyId| frames.world_line(body).is_none();
+                let same = |&first: &BodyId| {
+                    let is_alike = frames.velocity(first) == frames.velocity(body);
+                    is_alike && is_inertial(first) && is_inertial(body)
+                };
                 first_bodies.iter().position(same).unwrap_or_else(|| {
                     first_bodies.push(body);
                     first_bodies.len() - 1
@@ -118,9 +130,16 @@ impl World {
             rows[part_of_body[face.body.index()]].push(row as u32);
         }
         let parts = first_bodies.into_iter().zip(rows).filter(|(_, rows)| !rows.is_empty());
-        let parts: Vec<Part> = parts.map(|(body, rows)| Part::new(faces, *frames.of(body), &rows)).collect();
+        let part = |(body, rows): (BodyId, Vec<u32>)| {
+            Part::new(faces, *frames.of(body), frames.world_line(body), &rows)
+        };
+        let (mut parts, on_world_lines): (Vec<Part>, Vec<Part>) =
+            parts.map(part).partition(|part| part.motion.is_none());
+        let n_inertial = parts.len();
         let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
-        Self { boxes: (parts.len() > FEW_PARTS).then(boxes), parts }
+        let boxes = (n_inertial > FEW_PARTS).then(boxes);
+        parts.extend(on_world_lines);
+        Self { parts, n_inertial, boxes }
     }
 
     /// All triangles, with the rows of their parts.
@@ -146,11 +165,15 @@ impl World {
             *best = found.or(*best);
         };
         match self.boxes_for(ray, &range) {
-            None => (0..self.parts.len()).for_each(|row| visit(row, &mut best)),
+            None => (0..self.n_inertial).for_each(|row| visit(row, &mut best)),
             Some((boxes, rays)) => boxes.visit_nearest(&rays, ray.times(&range), |row| {
                 visit(row, &mut best);
                 -ray.step.t * best.map_or(range.end, |best| best.s)
             }),
+        }
+        for row in self.n_inertial..self.parts.len() {
+            let end = best.map_or(range.end, |best| best.s);
+            best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
         }
         best
     }
@@ -199,9 +222,15 @@ impl World {
                 rays.iter().zip(&*first).map(time).fold(0.0, f64::max)
             }),
             None => {
-                for row in 0..self.parts.len() {
+                for row in 0..self.n_inertial {
                     self.first_of_part(faces, row, rays, range.clone(), memory, first);
                 }
+            }
+        }
+        for row in self.n_inertial..self.parts.len() {
+            for (ray, best) in rays.iter().zip(&mut *first) {
+                let end = best.map_or(range.end, |best| best.s);
+                *best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(*best);
             }
         }
     }
@@ -277,6 +306,7 @@ impl World {
         corridor: Option<&mut Corridor>,
         mut visit: impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
+        let visit_any = &mut visit;
         let mut visit = |row: usize| {
             let part = &self.parts[row];
             let (origin, step) = ray.in_part(row, &part.frame);
@@ -289,27 +319,36 @@ impl World {
                 if found.triangle.is_loose && !part.is_inside(faces, &found) {
                     return ControlFlow::Continue(());
                 }
-                visit(found)
+                visit_any(found)
             })
         };
-        match self.boxes_for(ray, &range) {
-            None => (0..self.parts.len()).try_for_each(visit),
+        let inertial = match self.boxes_for(ray, &range) {
+            None => (0..self.n_inertial).try_for_each(&mut visit),
             Some((boxes, rays)) => {
                 // In the order of rows, so that products of transmittances are the same.
                 let times = ray.times(&range);
                 if let Some(parts) = corridor.and_then(|corridor| corridor.parts(boxes, &rays, times.end)) {
-                    return parts.iter().copied().try_for_each(&mut visit);
+                    parts.iter().copied().try_for_each(&mut visit)
+                } else {
+                    let mut parts = Vec::new();
+                    boxes.find(&rays, times, &mut parts);
+                    parts.into_iter().try_for_each(&mut visit)
                 }
-                let mut parts = Vec::new();
-                boxes.find(&rays, times, &mut parts);
-                parts.into_iter().try_for_each(&mut visit)
             }
-        }
+        };
+        inertial?;
+        (self.n_inertial..self.parts.len())
+            .try_for_each(|row| self.parts[row].visit_on_line(faces, row, ray, range.clone(), visit_any))
     }
 }
 
 impl Part {
-    fn new(Faces { scene, rest }: Faces<'_>, frame: RestFrame, rows: &[u32]) -> Self {
+    fn new(
+        Faces { scene, rest }: Faces<'_>,
+        frame: RestFrame,
+        line: Option<&Arc<WorldLine>>,
+        rows: &[u32],
+    ) -> Self {
         let triangle = |&row: &u32| whole_triangle(scene, row);
         let cut = |&row: &u32| face_triangles(scene, rest, row);
         let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
@@ -318,7 +357,67 @@ impl Part {
         let bvh = Bvh::new(&places, &corners);
         let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
-        Self { frame, bvh, triangles, clearance: CLEARANCE * reach, outline }
+        let motion = line.and_then(|line| WorldLineMotion::new(line, &places));
+        Self { frame, motion, bvh, triangles, clearance: CLEARANCE * reach, outline }
+    }
+
+    /// The nearest hit on a body on a world line.
+    fn closest_on_line(
+        &self,
+        faces: Faces<'_>,
+        row: usize,
+        ray: &Ray,
+        range: Range<f64>,
+    ) -> Option<Intersection> {
+        let mut best: Option<Intersection> = None;
+        self.motion.as_ref()?.visit(&self.bvh, ray, range, self.clearance_on_line(ray), |hit| {
+            let found = self.intersection_on_line(row, hit);
+            if found.triangle.is_loose && !self.is_inside(faces, &found) {
+                return Next::Everything;
+            }
+            if best.is_none_or(|best| (found.s, found.row) < (best.s, best.row)) {
+                best = Some(found);
+            }
+            Next::Nearer
+        });
+        best
+    }
+
+    /// Visits the faces of a body on a world line that a ray crosses, in any order, until `visit`
+    /// breaks.
+    fn visit_on_line(
+        &self,
+        faces: Faces<'_>,
+        row: usize,
+        ray: &Ray,
+        range: Range<f64>,
+        visit: &mut impl FnMut(Intersection) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let Some(motion) = &self.motion else { return ControlFlow::Continue(()) };
+        let mut flow = ControlFlow::Continue(());
+        motion.visit(&self.bvh, ray, range, self.clearance_on_line(ray), |hit| {
+            let found = self.intersection_on_line(row, hit);
+            if flow.is_continue() && (!found.triangle.is_loose || self.is_inside(faces, &found)) {
+                flow = visit(found);
+            }
+            if flow.is_continue() { Next::Everything } else { Next::Nothing }
+        });
+        flow
+    }
+
+    /// The own time in which a ray leaves the surface at its origin.
+    fn clearance_on_line(&self, ray: &Ray) -> f64 {
+        match ray.start {
+            Start::Surface { .. } => {
+                let reach = ray.origin.x.length() - ray.origin.t;
+                self.clearance + CLEARANCE * self.frame.velocity().gamma() * reach
+            }
+            _ => self.clearance,
+        }
+    }
+
+    fn intersection_on_line(&self, part: usize, CurveHit { s, own_time, hit }: CurveHit) -> Intersection {
+        Intersection { s, own_time, ..self.intersection(part, hit) }
     }
 
     /// The box around the part, in the frame of the camera.
@@ -363,6 +462,7 @@ impl Part {
         Intersection {
             part,
             s: hit.t,
+            own_time: 0.0,
             triangle,
             row: hit.triangle,
             weights: [1.0 - hit.u - hit.v, hit.u, hit.v],

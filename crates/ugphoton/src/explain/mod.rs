@@ -210,7 +210,7 @@ impl Teller<'_> {
 
     fn surface(&self, sample: &ExplainedRay, visit: &Visit) -> ExplainedSurface {
         let point = &visit.point;
-        let frame = &self.scenery.world.parts[point.part].frame;
+        let frame = point.frame(self.scenery);
         let velocity: Velocity = frame.velocity();
         let rest_time = frame.rest_from_camera(point.event).t;
         let is_direct = visit.depth == 0 && !velocity.is_zero();

@@ -61,14 +61,38 @@ enum StretchPath<'a> {
     Any { moving: &'a Moving, origin: Event, step: Event },
 }
 
+/// A ray at an own time, in the carried axes.
+#[derive(Clone, Copy, Debug)]
+struct Carried {
+    s: f64,
+    /// ds/dτ
+    rate: f64,
+    xi: DVec3,
+    /// dξ/dτ
+    velocity: DVec3,
+}
+
+impl Carried {
+    /// From the ray relative to A and the acceleration, in the axes of A: it crosses the plane of
+    /// simultaneity where its time is 0.
+    fn new(origin: Event, step: Event, acceleration: DVec3) -> Self {
+        let s = -origin.t / step.t;
+        let xi = origin.x + s * step.x;
+        let rate = (1.0 + acceleration.dot(xi)) / step.t;
+        Self { s, rate, xi, velocity: rate * step.x }
+    }
+}
+
 /// A point of a ray in the coordinates of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RayPoint {
     /// The parameter of the ray.
     pub s: f64,
+    /// Its derivative by the own time.
+    pub rate: f64,
     /// The point of the body.
     pub point: DVec3,
-    /// Its derivative by the own time.
+    /// The derivative of the point by the own time.
     pub derivative: DVec3,
 }
 
@@ -233,14 +257,11 @@ impl Moving {
         }
     }
 
-    /// s, ξ and dξ/dτ where a ray crosses the plane of simultaneity of an own time.
-    fn crossing(&self, origin: Event, step: Event, own_time: f64) -> (f64, DVec3, DVec3) {
+    /// A ray at an own time.
+    fn crossing(&self, origin: Event, step: Event, own_time: f64) -> Carried {
         let pose = self.pose(own_time);
         let axes = pose.scene_from_axes.inverse();
-        let (Event { t, x }, k) = (axes.apply(origin - pose.event), axes.apply(step));
-        let s = -t / k.t;
-        let xi = x + s * k.x;
-        (s, xi, self.pace(xi, own_time) / k.t * k.x)
+        Carried::new(axes.apply(origin - pose.event), axes.apply(step), self.acceleration(own_time))
     }
 }
 
@@ -254,13 +275,14 @@ impl RayStretch<'_> {
     /// The point of the ray on the plane of simultaneity of an own time.  Eq. (P46)
     #[must_use]
     pub fn at(&self, own_time: f64) -> RayPoint {
-        let (s, xi, velocity) = self.carried(own_time);
+        let carried = self.carried(own_time);
         if !self.turns.is_empty() {
-            return self.turned_back(s, xi, velocity, own_time);
+            return self.turned_back(carried, own_time);
         }
+        let Carried { s, rate, xi, velocity } = carried;
         let arm = xi - self.offset;
         if self.rate == 0.0 {
-            return RayPoint { s, point: self.pivot + arm, derivative: velocity };
+            return RayPoint { s, rate, point: self.pivot + arm, derivative: velocity };
         }
         let (sin, cos) = libm::sincos(0.5 * self.rate * (own_time - self.known_at));
         // The turn by the opposite angle.
@@ -270,32 +292,33 @@ impl RayStretch<'_> {
             v - across * side + behind * self.axis.cross(side)
         };
         let derivative = turned(velocity - self.rate * self.axis.cross(arm));
-        RayPoint { s, point: self.pivot + turned(arm), derivative }
+        RayPoint { s, rate, point: self.pivot + turned(arm), derivative }
     }
 
-    /// s, ξ and dξ/dτ.
-    fn carried(&self, own_time: f64) -> (f64, DVec3, DVec3) {
+    /// In the axes of ξ.
+    fn carried(&self, own_time: f64) -> Carried {
         match &self.path {
             StretchPath::Accelerated { origin, step, acceleration } => {
                 let passed = own_time - self.known_at;
                 accelerated(*origin, *step, *acceleration, self.acceleration, passed)
             }
             StretchPath::Any { moving, origin, step } => {
-                let (s, xi, velocity) = moving.crossing(*origin, *step, own_time);
-                (s, self.back * xi, self.back * velocity)
+                let carried = moving.crossing(*origin, *step, own_time);
+                let [xi, velocity] = [carried.xi, carried.velocity].map(|v| self.back * v);
+                Carried { xi, velocity, ..carried }
             }
         }
     }
 
     /// Undoes several spins, the outermost first.
-    fn turned_back(&self, s: f64, xi: DVec3, velocity: DVec3, own_time: f64) -> RayPoint {
+    fn turned_back(&self, Carried { s, rate, xi, velocity }: Carried, own_time: f64) -> RayPoint {
         let (mut point, mut derivative) = (self.at + xi, velocity);
         for Turn { pivot, spin } in self.turns.iter().rev() {
             let (back, arm) = (spin.turn(own_time).conjugate(), point - *pivot);
             derivative = back * (derivative - spin.rate(own_time).cross(arm));
             point = *pivot + back * arm;
         }
-        RayPoint { s, point, derivative }
+        RayPoint { s, rate, point, derivative }
     }
 
     /// An upper bound of the length of the second derivative of the point between two own times,
@@ -363,7 +386,7 @@ impl RayStretch<'_> {
         let a = self.acceleration;
         let speed = 1.0 + a * (center.length() + radius);
         let time = |own_time: f64| {
-            let distance = (self.carried(own_time).1 - center).length() - radius;
+            let distance = (self.carried(own_time).xi - center).length() - radius;
             // No longer than ln(1 + a d/v)/a.
             let time = distance / (speed + a * distance);
             if distance > 0.0 && time.is_finite() { time } else { 0.0 }
@@ -394,35 +417,24 @@ fn straight_within(origin: DVec3, step: Event, radius: f64) -> Option<[f64; 2]> 
     }
 }
 
-/// s, ξ and dξ/dτ after an own time in a stretch of constant proper acceleration. The ray is relative
-/// to the event of A at its begin, in the axes there.
+/// A ray after an own time in a stretch of constant proper acceleration, whose length is `size`. The
+/// ray is relative to the event of A at its begin, in the axes there.
 ///
 /// With c = cosh aτ and h = sinh aτ the axes (u; e) are (c, h; h, c) along â, and z is (h, c − 1)/a.
-fn accelerated(
-    origin: Event,
-    step: Event,
-    acceleration: DVec3,
-    size: f64,
-    passed: f64,
-) -> (f64, DVec3, DVec3) {
-    let (t, x, k_t, k) = if size == 0.0 {
-        (origin.t - passed, origin.x, step.t, step.x)
-    } else {
-        let axis = acceleration / size;
-        let grown = libm::expm1(size * passed);
-        let less = grown / (1.0 + grown);
-        // cosh − 1 and sinh.
-        let (rise, sinh) = (0.5 * grown * less, 0.5 * (grown + less));
-        let cosh = 1.0 + rise;
-        let (along, k_along) = (origin.x.dot(axis), step.x.dot(axis));
-        (
-            cosh * origin.t - sinh * (along + 1.0 / size),
-            origin.x + (rise * (along + 1.0 / size) - sinh * origin.t) * axis,
-            cosh * step.t - sinh * k_along,
-            step.x + (rise * k_along - sinh * step.t) * axis,
-        )
+fn accelerated(origin: Event, step: Event, acceleration: DVec3, size: f64, passed: f64) -> Carried {
+    if size == 0.0 {
+        return Carried::new(Event { t: origin.t - passed, ..origin }, step, acceleration);
+    }
+    let axis = acceleration / size;
+    let grown = libm::expm1(size * passed);
+    let less = grown / (1.0 + grown);
+    // cosh − 1 and sinh.
+    let (rise, sinh) = (0.5 * grown * less, 0.5 * (grown + less));
+    let boosted = |t: f64, x: DVec3, along: f64| Event {
+        t: t + rise * t - sinh * along,
+        x: x + (rise * along - sinh * t) * axis,
     };
-    let s = -t / k_t;
-    let xi = x + s * k;
-    (s, xi, (1.0 + acceleration.dot(xi)) / k_t * k)
+    // Relative to the horizon, 1/a behind A, the origin is boosted alone.
+    let origin = boosted(origin.t, origin.x, origin.x.dot(axis) + 1.0 / size);
+    Carried::new(origin, boosted(step.t, step.x, step.x.dot(axis)), acceleration)
 }
