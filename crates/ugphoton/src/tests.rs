@@ -1,5 +1,7 @@
 //! The hierarchy of moving boxes against testing every part.
 
+mod world_lines;
+
 use std::borrow::Cow;
 use std::fmt::Write;
 use std::ops::{ControlFlow, Range};

@@ -1,0 +1,221 @@
+//! Bodies that accelerate, spin and orbit: published numbers, a slow oracle, laws.
+
+use std::borrow::Cow;
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use ugphysics::{Event, Velocity, WorldLine};
+use ugscene::Anchor;
+use ugtesting::Random;
+
+use super::ray;
+use crate::Config;
+use crate::path::{Ray, Start};
+use crate::render::as_seen;
+use crate::scenery::Scenery;
+use crate::surface_point::SurfacePoint;
+use crate::world::{Intersection, along};
+
+fn scenery_at(text: &str, time: f64) -> Scenery<'static> {
+    let source = ugparse::Source::new("test.ug", text);
+    let mut config = Config::default();
+    (config.motion.anchor, config.motion.time) = (Some(Anchor::Origin), time);
+    let parsed = ugparse::parse(&source, &ugparse::Options::default());
+    let scene = parsed.unwrap_or_else(|error| panic!("{error:?}\n{text}")).scene;
+    let seen = as_seen(scene, &config).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    Scenery::new(Cow::Owned(seen), &config).unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// A triangle.
+fn face(name: &str, corners: [DVec3; 3], motion: &str) -> String {
+    let [a, b, c] = corners.map(|DVec3 { x, y, z }| format!("{x} {y} {z}"));
+    format!("v {name}a {a}; v {name}b {b}; v {name}c {c}; f ({name}a {name}b {name}c) {motion};\n")
+}
+
+/// W1 to W9: the point of a small triangle is seen where, when and with which velocity and Doppler
+/// factor it has to be.
+#[test]
+fn numbers_are_those_of_40_digits() {
+    #[rustfmt::skip]
+    let rows: [(&str, [f64; 3], [f64; 4], f64, [f64; 3], [f64; 3], f64); 9] = [
+        ("-acc .5 0 0 0 4", [0., 1., 0.], [3., 0., 0., 0.], 1.60943791243, [0.683281573, 1., 0.], [0.66666666667, 0., 0.], 0.5416407865),
+        ("-acc .5 0 0 0 4", [0., 1., 0.], [8., 0., 0., 0.], 3.18741054194, [3.1251237606, 1., 0.], [0.92071551061, 0., 0.], 0.207912717125),
+        ("-acc .5 0 0 0 4", [1., 1., 0.5], [40., 0., 0., 0.], 6.67963515099, [19.00524971, 1., 0.5], [0.96402758008, 0., 0.], 0.135450026816),
+        ("-at 1 0 0 -vel 0 .6 0 -acc .5 0 0 -2 3", [1.5, 0.25, 0.], [6., 0., -3., 1.], 0.797775924943, [1.7015406705, 4.0804069747, -1.], [0.30319764641, 0.6, 0.], 0.447605168564),
+        ("-vel .8 0 0 -spin 0 1.3333333333333333 0", [0., 0., 0.54], [0., 0., -4., 0.5], -4.02643098573, [-4.655482048, 4., -0.17054648282], [0.9170161973, 0., -0.2532781712], 0.988288108042),
+        ("-vel .8 0 0 -spin 0 1.3333333333333333 0", [0.5, 0., -0.3], [2., 0., -4., 0.5], -1.50761240289, [-1.9120985359, 4., 0.08011976081], [0.97201534871, 0., -0.029073883795], 0.40168721013),
+        ("-at 3 0 0 -orbit 0 0 0 0 0 1 .2", [3.5, 0., 0.1], [7., 0., -8., 1.], -0.999132766545, [3.4154152082, 7.3268269037, -0.9], [0.14831633107, 0.58137962291, 0.], 0.504418784358),
+        ("-at 3 0 0 -orbit 0 0 0 0 0 1 .3", [3., 0.4, 0.], [-25., 10., 0., 2.], -16.1136769843, [-10.598130244, 2.947707225, -2.], [-0.8959742816, 0.085029916619, 0.], 0.232884164834),
+        ("-spin 0 0 .25", [3., 0., 0.], [10., 0., -8., 1.], 0.836657596078, [2.9346142877, 8.6229277507, -1.], [-0.15573193768, 0.73365357192, 0.], 0.403189933584),
+    ];
+    for (motion, point, [time, x, y, z], own_time, place, beta, doppler) in rows {
+        for normal in [DVec3::X, DVec3::Y, DVec3::new(1.0, -0.4, 0.7)] {
+            let (point, place) = (DVec3::from(point), DVec3::from(place));
+            let (u, v) = normal.normalize().any_orthonormal_pair();
+            let corners = [u, -0.5 * u + v, -0.5 * u - v].map(|way| point + 1e-3 * way);
+            let text = format!(
+                "motion m {motion};\n{}l 1; cam -ep {x} {y} {z} -vc {} {} {};",
+                face("t", corners, "<m>"),
+                x + place.x,
+                y + place.y,
+                z + place.z
+            );
+            let scenery = scenery_at(&text, time);
+            let ray = Ray::from_eye(place);
+            let found = scenery.closest(&ray, 0.0..f64::INFINITY).unwrap_or_else(|| panic!("{text}"));
+            // The numbers have 10 decimals; the direction of the ray, too.
+            assert!((found.own_time - own_time).abs() < 3e-9, "{motion} {}", found.own_time);
+            assert!((found.s - 1.0).abs() < 1e-9, "{motion}: {found:?}");
+            let seen = SurfacePoint::new(&scenery, &ray, &found);
+            let body = seen.place + DVec3::new(x, y, z);
+            assert!((body - point).length() < 1e-8, "{motion}: {body} {point}");
+            let found_beta = seen.frame(&scenery).velocity().beta();
+            assert!((found_beta - DVec3::from(beta)).length() < 3e-9, "{motion}: {found_beta}");
+            assert!((seen.doppler() - doppler).abs() < 3e-9, "{motion}: {}", seen.doppler());
+        }
+    }
+}
+
+/// A random motion for bodies within 2 of the origin.
+fn motion(random: &mut Random, kind: usize) -> String {
+    let vector = |random: &mut Random, most: f64| {
+        let DVec3 { x, y, z } = random.in_ball(most);
+        format!("{x} {y} {z}")
+    };
+    let velocity = vector(random, 0.8);
+    let times = [-9.0, -4.0, -1.0].map(|time| time + random.between(-1.0, 1.0));
+    let push = |random: &mut Random, most: f64| {
+        let [a, b] = [0, 1].map(|_| vector(random, most));
+        format!("-acc {a} {} {} -acc {b} {} {}", times[0], times[1], times[1], times[2])
+    };
+    match kind % 4 {
+        0 => format!("-vel {velocity} {}", push(random, 0.4)),
+        1 => format!("-vel {velocity} -spin {}", vector(random, 0.45)),
+        2 => format!("-vel {velocity} {} -spin {}", push(random, 0.1), vector(random, 0.35)),
+        _ => {
+            let (center, axis) = (vector(random, 1.0), vector(random, 1.0));
+            format!("-at 0.3 0 0 -orbit {center} {axis} 0.2 -spin {}", vector(random, 0.2))
+        }
+    }
+}
+
+struct World {
+    text: String,
+    /// Corners in the coordinates of the body, relative to the eye.
+    triangles: Vec<[DVec3; 3]>,
+    eye: DVec3,
+}
+
+fn world(random: &mut Random, kind: usize, n: usize) -> World {
+    let mut text = format!("l 1; motion m {};\n", motion(random, kind));
+    let eye = 7.0 * random.direction();
+    let mut triangles = Vec::new();
+    for row in 0..n {
+        let center = random.in_ball(1.2);
+        let corners = [0, 1, 2].map(|_| center + random.in_ball(0.6));
+        text += &face(&format!("t{row}"), corners, "<m>");
+        triangles.push(corners.map(|corner| corner - eye));
+    }
+    let DVec3 { x, y, z } = eye;
+    text += &format!("cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;");
+    World { text, triangles, eye }
+}
+
+/// Hits of a ray of light on a triangle, from the emission events of its points alone: where the
+/// direction in which a point is seen is that of the ray, by Newton's method from many points. Each is
+/// its parameter and least barycentric weight.
+fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVec3) -> Vec<(f64, f64)> {
+    const N: i32 = 3;
+    let (e, f) = direction.normalize().any_orthonormal_pair();
+    let seen = |u: f64, v: f64| {
+        let point = a + u * (b - a) + v * (c - a);
+        let way = line.emission(point, origin).ok()?.event.x - origin.x;
+        let along = way.dot(direction) / direction.length();
+        (along > 0.0).then(|| ([way.dot(e), way.dot(f)], along / direction.length()))
+    };
+    let mut found: Vec<(f64, f64)> = Vec::new();
+    for start in 0..N * N {
+        let (mut u, mut v) = (f64::from(start / N) / 2.0, f64::from(start % N) / 2.0);
+        for _ in 0..30 {
+            const STEP: f64 = 1e-5;
+            let Some(([x, y], s)) = seen(u, v) else { break };
+            let (Some(([ux, uy], _)), Some(([vx, vy], _))) = (seen(u + STEP, v), seen(u, v + STEP)) else {
+                break;
+            };
+            let [ux, uy, vx, vy] = [ux - x, uy - y, vx - x, vy - y].map(|change| change / STEP);
+            let determinant = ux * vy - uy * vx;
+            let (du, dv) = ((x * vy - y * vx) / determinant, (y * ux - x * uy) / determinant);
+            (u, v) = (u - du, v - dv);
+            let is_outside = !(u.abs() < 5.0 && v.abs() < 5.0);
+            if is_outside {
+                break;
+            }
+            if du.abs() + dv.abs() < 1e-12 {
+                let least = u.min(v).min(1.0 - u - v);
+                if found.iter().all(|&(other, _)| (other - s).abs() > 1e-7) {
+                    found.push((s, least));
+                }
+                break;
+            }
+        }
+    }
+    found
+}
+
+fn all_hits(scenery: &Scenery<'_>, ray: &Ray) -> Vec<Intersection> {
+    let mut all = Vec::new();
+    let flow = scenery.world.visit(scenery.faces(), ray, 0.0..f64::INFINITY, |found| {
+        all.push(found);
+        ControlFlow::Continue(())
+    });
+    assert!(flow.is_continue());
+    all.sort_by(|a, b| a.s.total_cmp(&b.s));
+    all
+}
+
+#[test]
+fn hits_are_those_of_emission_events() {
+    let mut random = Random(41);
+    let (mut n_hits, mut n_rays) = (0, 0);
+    for kind in 0..40 {
+        let World { text, triangles, .. } = world(&mut random, kind, 4);
+        let scenery = scenery_at(&text, random.between(-3.0, 3.0));
+        let body = scenery.scene.faces[0].body;
+        let line = scenery.appearance.surface.frames().world_line(body).unwrap().clone();
+        for idx in 0..60 {
+            // Towards a point of the body, from the eye or another event.
+            let origin = match idx % 2 {
+                0 => Event { t: 0.0, x: DVec3::ZERO },
+                _ => Event { t: random.between(-5.0, 5.0), x: random.in_ball(5.0) },
+            };
+            let [a, b, c] = *random.pick(&triangles);
+            let target = a + random.between(-0.2, 0.8) * (b - a) + random.between(-0.2, 0.8) * (c - a);
+            let Ok(seen) = line.emission(target, origin) else { continue };
+            let direction = seen.event.x - origin.x;
+            let step = Event { t: -direction.length(), x: direction };
+            let ray = ray(origin, step, if idx % 2 == 0 { Start::Eye } else { Start::Event });
+            let found = all_hits(&scenery, &ray);
+            for (row, &corners) in triangles.iter().enumerate() {
+                let expected = oracle(&line, corners, origin, direction);
+                let own: Vec<&Intersection> =
+                    found.iter().filter(|found| found.triangle.face as usize == row).collect();
+                for &(s, _) in expected.iter().filter(|(_, least)| *least > 1e-6) {
+                    assert!(
+                        own.iter().any(|found| (found.s - s).abs() < 1e-8),
+                        "{text}\n{ray:?} {s} {own:?}"
+                    );
+                    n_hits += 1;
+                }
+                for found in own {
+                    let is_known =
+                        expected.iter().any(|&(s, least)| (found.s - s).abs() < 1e-7 && least > -1e-6);
+                    assert!(is_known, "{text}\n{ray:?} {found:?} {expected:?}");
+                }
+            }
+            let first = scenery.closest(&ray, 0.0..f64::INFINITY);
+            assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
+            n_rays += 1;
+        }
+    }
+    assert!(n_hits > 1000 && n_rays > 2000, "{n_hits} {n_rays}");
+}
