@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use ugphysics::{Event, Velocity, WorldLine};
+use ugphysics::{Event, WorldLine};
 use ugscene::Anchor;
 use ugtesting::Random;
 
@@ -14,7 +14,7 @@ use crate::path::{Ray, Start};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
-use crate::world::{Intersection, along};
+use crate::world::Intersection;
 
 fn scenery_at(text: &str, time: f64) -> Scenery<'static> {
     let source = ugparse::Source::new("test.ug", text);
@@ -103,7 +103,6 @@ struct World {
     text: String,
     /// Corners in the coordinates of the body, relative to the eye.
     triangles: Vec<[DVec3; 3]>,
-    eye: DVec3,
 }
 
 fn world(random: &mut Random, kind: usize, n: usize) -> World {
@@ -118,7 +117,7 @@ fn world(random: &mut Random, kind: usize, n: usize) -> World {
     }
     let DVec3 { x, y, z } = eye;
     text += &format!("cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;");
-    World { text, triangles, eye }
+    World { text, triangles }
 }
 
 /// Hits of a ray of light on a triangle, from the emission events of its points alone: where the
@@ -178,7 +177,7 @@ fn hits_are_those_of_emission_events() {
     let mut random = Random(41);
     let (mut n_hits, mut n_rays) = (0, 0);
     for kind in 0..40 {
-        let World { text, triangles, .. } = world(&mut random, kind, 4);
+        let World { text, triangles } = world(&mut random, kind, 4);
         let scenery = scenery_at(&text, random.between(-3.0, 3.0));
         let body = scenery.scene.faces[0].body;
         let line = scenery.appearance.surface.frames().world_line(body).unwrap().clone();
@@ -218,4 +217,85 @@ fn hits_are_those_of_emission_events() {
         }
     }
     assert!(n_hits > 1000 && n_rays > 2000, "{n_hits} {n_rays}");
+}
+
+/// A closed ball of triangles around the origin.
+fn ball(motion: &str, n: u32) -> String {
+    use std::f64::consts::PI;
+    let mut text = String::new();
+    let name = |band: u32, sector: u32| match band {
+        0 => "n".to_string(),
+        band if band == n => "s".to_string(),
+        band => format!("p{band}_{}", sector % (2 * n)),
+    };
+    let mut place = |name: String, polar: f64, azimuth: f64| {
+        let (x, y) = (libm::sin(polar) * libm::cos(azimuth), libm::sin(polar) * libm::sin(azimuth));
+        text += &format!("v {name} {x} {y} {};\n", libm::cos(polar));
+    };
+    place("n".to_string(), 0.0, 0.0);
+    place("s".to_string(), PI, 0.0);
+    for band in 1..n {
+        for sector in 0..2 * n {
+            let [polar, azimuth] = [f64::from(band), f64::from(sector)].map(|at| PI * at / f64::from(n));
+            place(name(band, sector), polar, azimuth);
+        }
+    }
+    for band in 0..n {
+        for sector in 0..2 * n {
+            let [a, b] = [name(band, sector), name(band, sector + 1)];
+            let [c, d] = [name(band + 1, sector), name(band + 1, sector + 1)];
+            if a != b {
+                text += &format!("f ({a} {c} {b}) {motion};\n");
+            }
+            if c != d {
+                text += &format!("f ({b} {c} {d}) {motion};\n");
+            }
+        }
+    }
+    text
+}
+
+/// Rays cross the surface of a closed body an even number of times, from inside an odd number, and
+/// none gets through without a hit.
+#[test]
+fn closed_bodies_do_not_leak() {
+    let mut random = Random(42);
+    let (mut n_met, mut n_inside) = (0, 0);
+    for kind in 0..12 {
+        let text = format!(
+            "l 1; motion m {};\n{}cam -ep 0 0 0.01 -vc 1 0 0;",
+            motion(&mut random, kind),
+            ball("<m>", 8)
+        );
+        let scenery = scenery_at(&text, 0.0);
+        let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
+        let is_inside = |event: Event| {
+            // Where no point of a turning body can be, there is none of the ball.
+            let Ok(at) = line.at_event(event) else { return Some(false) };
+            let point = at.point + scenery.view.eye;
+            // The faces of the ball are inside the sphere.
+            if point.length() < 0.95 { Some(true) } else { (point.length() > 1.0).then_some(false) }
+        };
+        for idx in 0..if cfg!(debug_assertions) { 2500 } else { 50_000 } {
+            let origin = Event { t: random.between(-9.0, 9.0), x: random.in_ball(6.0) };
+            let Some(starts_inside) = is_inside(origin) else { continue };
+            let direction = match idx % 3 {
+                0 => random.direction(),
+                // Through a corner or the middle of an edge.
+                at => {
+                    let face = random.pick(&scenery.scene.faces);
+                    let corners = scenery.scene.contours.corners(face.contours.clone());
+                    let [a, b] = [0, 1].map(|at| scenery.scene.rest[corners[at].index()]);
+                    let target = if at == 1 { a } else { 0.5 * (a + b) };
+                    line.emission(target, origin).unwrap().event.x - origin.x
+                }
+            };
+            let step = Event { t: -direction.length(), x: direction };
+            let hits = all_hits(&scenery, &ray(origin, step, Start::Event));
+            assert_eq!(hits.len() % 2 == 1, starts_inside, "{kind} {origin:?} {direction} {hits:?}");
+            n_inside += usize::from(starts_inside);
+            n_met += usize::from(!hits.is_empty());
+        }
+    }
+    assert!(n_met > 8000 && n_inside > 20, "{n_met} {n_inside}");
 }
