@@ -26,7 +26,7 @@ use std::ops::Range;
 use fearless_simd::{Simd, dispatch};
 use glam::DVec3;
 
-use crate::box_ray::BoxRay;
+use crate::box_ray::{BoxRay, Line};
 use crate::closest::lowest;
 use crate::frame::{exponent, power_of_two};
 use crate::nodes::{IS_BLOCK, SimdRay};
@@ -45,10 +45,14 @@ pub trait Curve {
 
 /// A section is halved for boxes whose extent times this is below its deviation. Found by trial on a
 /// spinning sphere of 100 000 triangles; the time changes little between a half and twice of it.
-const NODE_SLACK: f32 = 0.25;
+const NODE_SLACK: f32 = 0.07;
 
 /// The same for blocks of triangles.
 const BLOCK_SLACK: f32 = 0.05;
+
+/// Deviation of the sections that a search begins with, in box coordinates, and the most of them.
+const FIRST_DEVIATION: f64 = 0.04;
+const MOST_FIRST: f64 = 64.0;
 
 /// Greatest deviation of a section whose chord is tested, in box coordinates.
 const MAX_DEVIATION: f64 = 64.0;
@@ -74,20 +78,9 @@ pub fn visit<C: Curve>(bvh: &Bvh, curve: &C, range: Range<f64>, visit: impl FnMu
         return;
     }
     let end = range.end;
-    let mut search = Search {
-        bvh,
-        curve,
-        range,
-        end,
-        sections: Vec::with_capacity(32),
-        stack: Vec::with_capacity(64),
-        visit,
-    };
-    let ends = [search.range.start, end].map(|parameter| (parameter, curve.at(parameter).0));
-    if let Some(section) = search.section(ends, 0) {
-        search.stack.push(Entry { key: search.range.start, child: 0, parent: None, section, extent: 2.0 });
-        dispatch!(bvh.level, simd => search.walk(simd));
-    }
+    let (sections, stack) = (Vec::with_capacity(32), Vec::with_capacity(64));
+    let mut search = Search { bvh, curve, range, end, sections, stack, visit };
+    dispatch!(bvh.level, simd => search.run(simd));
 }
 
 struct Search<'a, C, V> {
@@ -202,6 +195,35 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         halves
     }
 
+    /// Searches the sections of the curve one after the other: so long that their chords tell the
+    /// parts of the mesh apart.
+    #[inline(always)]
+    fn run<S: Simd>(&mut self, simd: S) {
+        let Range { start, end } = self.range;
+        let whole = [start, end].map(|parameter| (parameter, self.curve.at(parameter).0));
+        let deviation = self.curve.bend(whole) * (end - start) * (end - start) * 0.125 * self.bvh.frame.scale;
+        // NaN becomes 0.
+        let n = ((deviation / FIRST_DEVIATION).sqrt().ceil().min(MOST_FIRST) as u32).max(1);
+        let mut from = whole[0];
+        for at in 1..=n {
+            let to = if at == n {
+                whole[1]
+            } else {
+                let parameter = start + (end - start) * (f64::from(at) / f64::from(n));
+                (parameter, self.curve.at(parameter).0)
+            };
+            if from.0 >= self.end {
+                return;
+            }
+            if let Some(section) = self.section([from, to], 0) {
+                self.stack.push(Entry { key: from.0, child: 0, parent: None, section, extent: 2.0 });
+                self.walk(simd);
+            }
+            from = to;
+        }
+    }
+
+    #[inline(always)]
     fn walk<S: Simd>(&mut self, simd: S) {
         while let Some(entry) = self.stack.pop() {
             if entry.key > self.end {
@@ -213,7 +235,10 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
             let is_last = section.halvings == MOST_HALVINGS || self.sections.len() >= MOST_SECTIONS;
             let is_fine = section.deviation <= (slack * entry.extent).max(LEAST_DEVIATION) || is_last;
             match &section.chord {
-                Some(chord) if is_fine && is_block => self.enter_block(simd, entry, &{ chord.ray }),
+                Some(chord) if is_fine && is_block => {
+                    let (line, margin) = (chord.ray.line, chord.margin as f32);
+                    self.enter_block(simd, entry, &line, margin);
+                }
                 Some(_) if is_fine => self.enter_node(simd, entry),
                 _ => self.enter_halves(entry),
             }
@@ -270,30 +295,33 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     }
 
     #[inline(always)]
-    fn enter_block<S: Simd>(&mut self, simd: S, entry: Entry, ray: &BoxRay) {
+    fn enter_block<S: Simd>(&mut self, simd: S, entry: Entry, line: &Line, margin: f32) {
         let block = &self.bvh.blocks[(entry.child & !IS_BLOCK) as usize];
-        let mut mask = block.candidates(simd, &ray.line);
+        let mut mask = block.candidates_near(simd, line, margin);
         while mask != 0 {
             let triangle = self.bvh.triangles[block.first as usize + lowest(mask)];
             mask &= mask - 1;
-            let section = self.sections[entry.section as usize];
-            self.cross(&section, &triangle);
+            let Section { ends, bend, halvings, .. } = self.sections[entry.section as usize];
+            self.cross(&Arc { ends, bend, halvings }, &triangle);
         }
     }
 
     /// Visits the crossings of a section and a triangle.
     #[inline(never)]
-    fn cross(&mut self, section: &Section, triangle: &Triangle) {
+    fn cross(&mut self, section: &Arc, triangle: &Triangle) {
         let [a, b, c] = self.bvh.corners(triangle).map(|corner| DVec3::from_array(*corner));
         let normal = (b - a).cross(c - a);
         let plane = Plane { point: a, normal, bend: section.bend * normal.length() };
         let ends = section.ends.map(|(parameter, point)| (parameter, plane.height(point)));
+        if plane.misses([a, b, c], section, ends.map(|(_, height)| height)) {
+            return;
+        }
         self.cross_plane(section, &plane, triangle, ends, section.halvings);
     }
 
     fn cross_plane(
         &mut self,
-        section: &Section,
+        section: &Arc,
         plane: &Plane,
         triangle: &Triangle,
         ends: [(f64, f64); 2],
@@ -329,7 +357,7 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     /// in the triangle.
     fn crossing(
         &self,
-        section: &Section,
+        section: &Arc,
         plane: &Plane,
         triangle: &Triangle,
         [(mut from, low), (mut to, high)]: [(f64, f64); 2],
@@ -364,13 +392,20 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     }
 
     /// The step between parameters of tangents: a power of two.
-    fn step(&self, section: &Section) -> f64 {
+    fn step(&self, section: &Arc) -> f64 {
         let [(from, _), (to, _)] = section.ends;
         // At half a step from where it touches, a tangent is M step²/8 from the curve.
         let longest = (8.0 * TANGENT_ERROR / (section.bend * self.bvh.frame.scale)).sqrt();
         let least = from.abs().max(to.abs()) * power_of_two(-50);
         power_of_two(exponent(longest.min(0.25 * (to - from)).max(least)).clamp(-1000, 1000))
     }
+}
+
+/// What a crossing needs of a section.
+struct Arc {
+    ends: [(f64, DVec3); 2],
+    bend: f64,
+    halvings: u32,
 }
 
 /// The chord of a section has no length.
@@ -386,6 +421,35 @@ struct Plane {
 }
 
 impl Plane {
+    /// True only if a section with these heights at its ends misses the triangle: its crossing with
+    /// the plane is close to that of its chord.
+    fn misses(&self, corners: [DVec3; 3], section: &Arc, [low, high]: [f64; 2]) -> bool {
+        let [(from, start), (to, end)] = section.ends;
+        let eighth = 0.125 * (to - from) * (to - from);
+        let (deviation, rise) = (section.bend * eighth, high - low);
+        // The part of the chord by which the crossings may differ.
+        let spread = self.bend * eighth / rise.abs();
+        let fraction = -low / rise;
+        let is_unclear = !(spread < 0.5);
+        if is_unclear {
+            return false;
+        }
+        if fraction < -spread || fraction > 1.0 + spread {
+            return true;
+        }
+        let chord = end - start;
+        let place = start + fraction * chord;
+        // With a margin for rounding.
+        let reach = 1.001 * deviation + spread * 1.001 * chord.length();
+        let limit = reach * reach * self.normal.length_squared();
+        let [a, b, c] = corners;
+        [(a, b), (b, c), (c, a)].into_iter().any(|(from, to)| {
+            let edge = to - from;
+            let side = self.normal.dot(edge.cross(place - from));
+            side < 0.0 && side * side > limit * edge.length_squared()
+        })
+    }
+
     fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.point)
     }

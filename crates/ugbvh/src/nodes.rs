@@ -175,6 +175,30 @@ impl Block {
         is_hit.to_bitmask() as u32 & ((1 << self.n) - 1)
     }
 
+    /// [`Block::candidates`] for a curve that is within `margin` of the ray in x and y of the
+    /// projection. The ray is one of [`crate::box_ray::BoxRay::with_margin`].
+    ///
+    /// A point that the curve and a triangle have in common is projected to a point of the
+    /// triangle with coordinates up to the margin. Moved there, a ray changes the weight of an edge
+    /// e by |eₓ| margin + |e_y| margin at most. Rounding adds no more than without a margin, of
+    /// coordinates that may be greater by it.
+    #[inline(always)]
+    pub fn candidates_near<S: Simd>(&self, simd: S, ray: &Line, margin: f32) -> u32 {
+        let a = self.project(simd, 0, ray);
+        let b = self.project(simd, 1, ray);
+        let c = self.project(simd, 2, ray);
+        let rounding = (ray.padding - margin) * (16.0 * self.extent + 32.0 * ray.padding);
+        let (mut low, mut high) = (u32::MAX, u32::MAX);
+        for [from, to] in [[b, c], [c, a], [a, b]] {
+            let weight = cross(from, to);
+            let length = (to[0] - from[0]).abs() + (to[1] - from[1]).abs();
+            let limit = length * margin + rounding;
+            low &= (weight + limit).simd_ge(f32x8::splat(simd, 0.0)).to_bitmask() as u32;
+            high &= (weight - limit).simd_le(f32x8::splat(simd, 0.0)).to_bitmask() as u32;
+        }
+        (low | high) & ((1 << self.n) - 1)
+    }
+
     /// Projects a corner of each triangle; the result is −x, −y, as products of two are used.
     #[inline(always)]
     fn project<S: Simd>(&self, simd: S, corner: usize, ray: &Line) -> [f32x8<S>; 2] {
