@@ -132,10 +132,9 @@ impl WorldLine {
     ) -> Result<(), WorldLineError> {
         let Kind::Moving(moving) = &self.0 else { return Ok(()) };
         let margin = tube.radius / tube.least_pace;
-        let center = tube.carried.at + tube.offset;
-        let latest = tube.carried.emission_time(center, origin)?;
+        let latest = tube.seen_at(origin)?;
         let earliest = match end {
-            Some(end) => tube.carried.emission_time(center, end)?,
+            Some(end) => tube.seen_at(end)?,
             None => latest,
         };
         // Rounding errors are far below it.
@@ -151,6 +150,21 @@ impl WorldLine {
             to = from;
         }
         Ok(())
+    }
+}
+
+impl WorldTube {
+    /// The own time at which the centre is seen from an event.
+    fn seen_at(&self, observer: Event) -> Result<f64, WorldLineError> {
+        if let Path::Accelerated(acceleration) = &self.carried.path
+            && acceleration.is_none()
+        {
+            let pose = acceleration.start();
+            let Event { t, x } = pose.scene_from_axes.inverse().apply(observer - pose.event);
+            return Ok(t - (x - self.offset).length());
+        }
+        let center = self.carried.at + self.offset;
+        self.carried.emission_time(center, observer, self.carried.guess(observer, center))
     }
 }
 
