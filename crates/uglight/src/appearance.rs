@@ -89,7 +89,7 @@ impl Appearance {
         let surface = SurfaceAttributes::new(scene, eye, &palette);
         let spectra = match shift {
             ColorShift::Spectra(shift) => {
-                let reach = reach * surface.frames().greatest_rapidity();
+                let reach = reach * surface.greatest_rapidity();
                 Some(Spectra::new(scene, shift, surface.mixtures(scene), reach))
             }
             ColorShift::Hues(_) => None,

@@ -111,6 +111,12 @@ impl SurfaceAttributes {
         &self.rest
     }
 
+    /// The greatest rapidity with which a body, or a vertex of a body on a world line, is seen.
+    pub fn greatest_rapidity(&self) -> f64 {
+        let on_lines = self.points.iter().flatten().map(|point| point.velocity.rapidity());
+        on_lines.fold(self.frames.greatest_rapidity(), f64::max)
+    }
+
     /// The rest frames of the bodies.
     pub fn frames(&self) -> &RestFrames {
         &self.frames
