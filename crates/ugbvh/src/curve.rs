@@ -313,9 +313,6 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let normal = (b - a).cross(c - a);
         let plane = Plane { point: a, normal, bend: section.bend * normal.length() };
         let ends = section.ends.map(|(parameter, point)| (parameter, plane.height(point)));
-        if plane.misses([a, b, c], section, ends.map(|(_, height)| height)) {
-            return;
-        }
         self.cross_plane(section, &plane, triangle, ends, section.halvings);
     }
 
@@ -421,35 +418,6 @@ struct Plane {
 }
 
 impl Plane {
-    /// True only if a section with these heights at its ends misses the triangle: its crossing with
-    /// the plane is close to that of its chord.
-    fn misses(&self, corners: [DVec3; 3], section: &Arc, [low, high]: [f64; 2]) -> bool {
-        let [(from, start), (to, end)] = section.ends;
-        let eighth = 0.125 * (to - from) * (to - from);
-        let (deviation, rise) = (section.bend * eighth, high - low);
-        // The part of the chord by which the crossings may differ.
-        let spread = self.bend * eighth / rise.abs();
-        let fraction = -low / rise;
-        let is_unclear = !(spread < 0.5);
-        if is_unclear {
-            return false;
-        }
-        if fraction < -spread || fraction > 1.0 + spread {
-            return true;
-        }
-        let chord = end - start;
-        let place = start + fraction * chord;
-        // With a margin for rounding.
-        let reach = 1.001 * deviation + spread * 1.001 * chord.length();
-        let limit = reach * reach * self.normal.length_squared();
-        let [a, b, c] = corners;
-        [(a, b), (b, c), (c, a)].into_iter().any(|(from, to)| {
-            let edge = to - from;
-            let side = self.normal.dot(edge.cross(place - from));
-            side < 0.0 && side * side > limit * edge.length_squared()
-        })
-    }
-
     fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.point)
     }
