@@ -149,7 +149,7 @@ fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVe
             if is_outside {
                 break;
             }
-            if du.abs() + dv.abs() < 1e-12 {
+            if du.abs() + dv.abs() < 1e-8 {
                 let least = u.min(v).min(1.0 - u - v);
                 if found.iter().all(|&(other, _)| (other - s).abs() > 1e-7) {
                     found.push((s, least));
