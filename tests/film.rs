@@ -74,9 +74,10 @@ impl Shell {
 }
 
 /// Films of every renderer, with options that change.
-const FILMS: [&str; 7] = [
+const FILMS: [&str; 8] = [
     "-frames 5 -vel '0 0 0 .. .9 0 0' -in -sz 80 60 dice.ug",
     "-frames 5 -ti -2..2 -vel 0 .8 0 -in -sp -ex auto -ease smooth -sz 80 60 dice.ug",
+    "-frames 4 -ti -2..6 -vel 0 .8 0 -follow -va 20 -sz 80 60 dice.ug",
     "-frames 4 -cv '0 0 0 .. 0 .9 0' -xc -sp -ex -2..-4 -sz 60 40 -aa 2 street.ug",
     "-frames 4 -vel 0 0 0..-.6 -in -vec -cap 'β = {beta}' -sz 80 60 dice.ug",
     "-warp -frames 4 -cv '0 0 0 .. 0 .9 0' -sp -ex auto -pz -va 100..80 -sz 60 40 sky.png",
@@ -531,9 +532,9 @@ fn a_film_says_which_frames_are_empty_or_black() {
                  cam -ep 0 0 0 -vc 0 9 0 -va 20;";
     let film = |options: &str, lamps: &str| {
         fs::write(shell.folder.path().join("pass.ug"), format!("{scene} {lamps}")).unwrap();
-        let command = format!(
-            "ugfilm -frames 9 -vel .5 0 0 -ti -11..29 -sz 32 24 {options} -dt apng pass.ug > film.png"
-        );
+        let time = if options.contains("-ti") { "" } else { "-ti -11..29" };
+        let command =
+            format!("ugfilm -frames 9 -vel .5 0 0 {time} -sz 32 24 {options} -dt apng pass.ug > film.png");
         shell.run(&command)[1].clone()
     };
     // The eye sees the middle at x = .5 (t − √(81 + x²)), which is −2.66 at t = 4, 0 at 9, 2.34 at
@@ -544,6 +545,23 @@ fn a_film_says_which_frames_are_empty_or_black() {
         "{found}"
     );
     assert!(!found.contains("is black in"), "{found}");
+    // The same before a frame is drawn, and when it would be: from x = −2.59 on.
+    let before =
+        "nothing will be in the picture in 7 of 9 frames, 1..4, 7..9: what moves is in it with -ti from";
+    let times = found.split_once(before).unwrap().1.split_whitespace().next().unwrap();
+    assert!((times.parse::<f64>().unwrap() - (-2.59 / 0.5 + libm::hypot(9.0, 2.59))).abs() < 0.2, "{times}");
+    assert!(found.find("will be") < found.find("nothing is"), "{found}");
+    assert!(!film("-look shape -ti 9..10", "l 1;").contains("nothing"));
+    // Too dark, and too bright.
+    let found = film("-look shape -ti 8..10 -ex -9", "l 1;");
+    assert!(
+        found
+            .contains("hardly anything is bright enough to be seen in 9 of 9 frames that were drawn, 1..9: ")
+    );
+    let found = film("-ti 8..10 -ex 9", "l 1;");
+    assert!(
+        found.contains("than a tenth of what is in the picture is white in 9 of 9 frames that were drawn")
+    );
     let found = film("-look shape", "l 0;");
     assert!(
         found.contains("all that is in the picture is black in 2 of 9 frames that were drawn, 5..6: "),
@@ -552,4 +570,25 @@ fn a_film_says_which_frames_are_empty_or_black() {
     // Of a part of the film.
     let found = film("-look shape -only 5..7", "l 1;");
     assert!(found.contains("nothing is in the picture in 1 of 3 frames that were drawn, 7: "), "{found}");
+}
+
+/// A camera that follows has what moves in the middle of every frame.
+#[test]
+fn a_camera_follows_what_moves() {
+    let shell = Shell::new();
+    let scene = "c red 1 0; v a -1 9 -1; v b 1 9 -1; v c 1 9 1; v d -1 9 1; f (a b c d) red;
+                 cam -ep 0 0 0 -vc 0 9 0 -va 20; l 1;";
+    fs::write(shell.folder.path().join("pass.ug"), scene).unwrap();
+    let film = "ugfilm -frames 9 -vel .5 0 0 -ti -11..29 -sz 64 48 -look shape";
+    let [_, messages] = shell.run(&format!("{film} -follow -fo f_%d.png pass.ug"));
+    assert!(!messages.contains("nothing"), "{messages}");
+    for frame in 1..=9 {
+        let pixels = shell.pixels(&format!("f_{frame}.png"));
+        let lit: Vec<f64> =
+            (0..64 * 48).filter(|&idx| pixels[idx][0] > 100).map(|idx| (idx % 64) as f64).collect();
+        let middle = lit.iter().sum::<f64>() / lit.len() as f64;
+        assert!(lit.len() > 4 && (middle - 31.5).abs() < 1.5, "{frame}: {} {middle}", lit.len());
+    }
+    let (status, messages) = shell.fail(&format!("{film} -follow -vc 0..1 9 0 -fo g_%d.png pass.ug"));
+    assert!(status == Some(2) && messages.contains("leave out -vc"), "{messages}");
 }

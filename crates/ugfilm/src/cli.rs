@@ -16,13 +16,15 @@ use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
 use crate::blur::MotionBlur;
-use crate::film::{Film, Summary, Target};
+use crate::film::{Film, MeasuredExposure, Summary, Target};
 use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, valid_since};
+use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
 use crate::pipe::FilmSubject;
 use crate::program::Program;
 use crate::script::Script;
+use crate::sight::{Sight, Unseen};
 use crate::timeline::Ease;
 use crate::{keys, print};
 
@@ -58,6 +60,13 @@ pub struct Args {
     /// The film repeats: the frame after the last one would be the first
     #[arg(long = "loop", help_heading = FILM)]
     is_loop: bool,
+
+    /// Turn the camera in every frame toward what moves
+    ///
+    /// The view centre (-vc) of every frame is in the middle of the bodies that move, as they are
+    /// seen at its time; of all that is seen, if nothing moves. -ep, -ud and -va are as given.
+    #[arg(long, conflicts_with = "warp", help_heading = FILM)]
+    follow: bool,
 
     /// Read values at single frames from FILE: lines such as 120 -ti 0 -ep 0 -5 2
     #[arg(long, value_name = "FILE", help_heading = FILM)]
@@ -161,13 +170,23 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut script = args.script(context)?;
     let frames = args.numbers()?;
     let read = Read::new(args, &mut script, context)?;
+    if let Read::Scene(scene, _) = &read {
+        if args.follow {
+            follow(scene, &mut script)?;
+        }
+        if args.print.is_none() {
+            tell_unseen(&Sight::new(scene, &script).unseen(&frames), context);
+        }
+    }
     let (subject, format) = (read.subject(), output.frame_format());
     let blur = args.blur.map(|open| MotionBlur { open, n_moments: args.moments });
     if script.fixed("ex").as_deref() == Some("auto") {
         let film = Film { subject, script: &script, format, blur, valid_since: None };
         let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
-        let stops = exposure(&film, names, args.print.is_some(), context)?.to_string();
+        let measured = exposure(&film, names, args.print.is_some(), context)?;
+        let stops = measured.stops.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
+        tell_wrong(&measured.wrong, &format!("{} frames that were measured", measured.n_frames), context);
         script.set("ex", vec![stops]);
     }
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
@@ -221,20 +240,62 @@ fn exposure(
     names: Option<&FrameNames>,
     is_printed: bool,
     context: &Context,
-) -> Result<f64, Failure> {
+) -> Result<MeasuredExposure, Failure> {
     film.size()?;
     let key = film.exposure_key()?;
     let Some((names, key)) = names.zip(key) else { return film.exposure(&context.steps()) };
     if let Some(stops) = kept_exposure(names, &key) {
-        return Ok(stops);
+        return Ok(MeasuredExposure { stops, ..MeasuredExposure::default() });
     }
-    let stops = film.exposure(&context.steps())?;
+    let measured = film.exposure(&context.steps())?;
     if !is_printed {
         // Where it cannot be written the frames cannot either, which is told of them.
-        let _ = keep_exposure(names, &key, stops);
+        let _ = keep_exposure(names, &key, measured.stops);
     }
-    Ok(stops)
+    Ok(measured)
 }
+
+/// Turns the camera of every frame toward what moves.
+fn follow(scene: &Scene, script: &mut Script) -> Result<(), Failure> {
+    let is_placed = matches!(script.get("vc"), Some(timeline) if timeline.is_moving());
+    if is_placed {
+        return Err(Failure::usage("-follow moves the view centre: leave out -vc with several values"));
+    }
+    let centers = Sight::new(scene, script).centers()?;
+    script.set_timeline("vc", centers);
+    Ok(())
+}
+
+/// Says before a film is drawn in which frames nothing will be in the picture.
+fn tell_unseen(unseen: &Unseen, context: &Context) {
+    let Unseen { n_frames, frames, when } = unseen;
+    if frames.is_empty() {
+        return;
+    }
+    let remedy = match when {
+        Some(when) => format!("what moves is in it with -ti {when}"),
+        None => "move the eye (-ep) or the view centre (-vc), widen -va, or try -in or -follow".to_owned(),
+    };
+    let (count, list) = (frames.len(), ranges_of(frames));
+    context
+        .note(&format!("nothing will be in the picture in {count} of {n_frames} frames, {list}: {remedy}"));
+}
+
+/// Says which frames of `n_frames` that were or will be drawn are nearly black or overexposed.
+fn tell_wrong(wrong: &WrongBrightness, n_frames: &str, context: &Context) {
+    let findings = [
+        (&wrong.nearly_black, "hardly anything is bright enough to be seen", DARK_REMEDY),
+        (&wrong.overexposed, "more than a tenth of what is in the picture is white", BRIGHT_REMEDY),
+    ];
+    for (frames, finding, remedy) in findings.into_iter().filter(|(frames, ..)| !frames.is_empty()) {
+        let (count, list) = (frames.len(), ranges_of(frames));
+        context.note(&format!("{finding} in {count} of {n_frames}, {list}: {remedy}"));
+    }
+}
+
+const DARK_REMEDY: &str = "give -ex more stops, or try -look light or -look shape";
+
+const BRIGHT_REMEDY: &str = "give -ex fewer stops";
 
 /// A path as a word of a command line, which is not an option.
 fn shell_path(path: &Path) -> String {
@@ -246,7 +307,7 @@ fn shell_path(path: &Path) -> String {
 fn tell(summary: &Summary, context: &Context) {
     let notes = summary.notes.iter().flat_map(crate::note::Note::words);
     notes.for_each(|note| context.note(&format!("first frame: {note}")));
-    let Summary { n_drawn, n_done, n_elsewhere, empty, black, .. } = summary;
+    let Summary { n_drawn, n_done, n_elsewhere, empty, black, wrong, .. } = summary;
     let shares = [
         (empty, "nothing is in the picture", "try other times -ti, -in, another -vc or a wider -va"),
         (black, "all that is in the picture is black", "try -look light, or -look shape"),
@@ -255,6 +316,7 @@ fn tell(summary: &Summary, context: &Context) {
         let (count, list) = (frames.len(), ranges_of(frames));
         context.note(&format!("{finding} in {count} of {n_drawn} frames that were drawn, {list}: {remedy}"));
     }
+    tell_wrong(wrong, &format!("{n_drawn} frames that were drawn"), context);
     if *n_done + *n_elsewhere > 0 {
         let elsewhere = match n_elsewhere {
             0 => String::new(),

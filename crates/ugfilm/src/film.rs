@@ -6,7 +6,7 @@ use std::time::SystemTime;
 use ugimage::{
     Format, Frame, LinearFrame, Metadata, PictureLimits, auto_exposure, read_png, read_png_header,
 };
-use ugpicture::Rendering;
+use ugpicture::{PictureOptions, Rendering};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::{Motion, Picture};
 
@@ -15,6 +15,7 @@ use crate::blur::{MotionBlur, Shot};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
 use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
+use crate::levels::{Brightness, WrongBrightness};
 use crate::note::Note;
 use crate::pipe::{FilmSubject, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
@@ -58,11 +59,24 @@ pub struct Summary {
     pub empty: Vec<u32>,
     /// Frames that were drawn in which all is black.
     pub black: Vec<u32>,
+    /// Other frames that were drawn, whose brightness is wrong.
+    pub wrong: WrongBrightness,
+}
+
+/// The exposure of a film.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MeasuredExposure {
+    /// In stops.
+    pub stops: f64,
+    /// How many frames were measured.
+    pub n_frames: usize,
+    /// Those whose brightness is wrong at this exposure.
+    pub wrong: WrongBrightness,
 }
 
 /// The outcome of a frame.
 enum Outcome {
-    Drawn(Vec<Note>),
+    Drawn(Vec<Note>, Option<Brightness>),
     Done,
     Elsewhere,
 }
@@ -70,12 +84,17 @@ enum Outcome {
 impl Summary {
     fn add(&mut self, frame: u32, outcome: Outcome) {
         match outcome {
-            Outcome::Drawn(notes) => {
+            Outcome::Drawn(notes, brightness) => {
                 let has = |is_it: fn(&ugpicture::Note) -> bool| {
                     notes.iter().any(|note| matches!(note, Note::Picture(_, note) if is_it(note)))
                 };
-                self.empty.extend(has(ugpicture::Note::is_of_empty).then_some(frame));
-                self.black.extend(has(ugpicture::Note::is_of_black).then_some(frame));
+                if has(ugpicture::Note::is_of_empty) {
+                    self.empty.push(frame);
+                } else if has(ugpicture::Note::is_of_black) {
+                    self.black.push(frame);
+                } else {
+                    self.wrong.add(frame, brightness);
+                }
                 if self.n_drawn == 0 {
                     self.notes = notes;
                 }
@@ -187,11 +206,16 @@ impl Film<'_> {
     ///
     /// # Errors
     /// A frame cannot be drawn.
-    pub fn exposure(&self, steps: &Steps<'_>) -> Result<f64, Failure> {
-        let tone = about(1, self.pipe(1))?.picture.tone;
+    pub fn exposure(&self, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
+        let picture = about(1, self.pipe(1))?.picture;
         let frames = self.small(("measuring", steps), |pipe| pipe.light(self.subject))?;
         let pixels: Vec<[f32; 4]> = frames.iter().flat_map(LinearFrame::pixels).copied().collect();
-        Ok(auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), tone))
+        let stops = auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), picture.tone);
+        let mut wrong = WrongBrightness::default();
+        for (number, frame) in self.spread(MOST_MEASURED).into_iter().zip(&frames) {
+            wrong.add(number, Brightness::of_light(frame, &picture, stops));
+        }
+        Ok(MeasuredExposure { stops, n_frames: frames.len(), wrong })
     }
 
     /// A hash of all that the exposure depends on: the commands of the measured frames, and the
@@ -249,9 +273,11 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
+        let options = shot.frame.picture.clone();
         let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
+        let brightness = brightness(&picture, &options);
         Context::write_now(path, &picture.into_file())?;
-        Ok(Outcome::Drawn(notes))
+        Ok(Outcome::Drawn(notes, brightness))
     }
 
     /// Draws all frames of a film and gives them to `consume` in order. Frames kept in files are
@@ -293,11 +319,13 @@ impl Film<'_> {
                 Outcome::Done,
             ));
         }
+        let options = shot.frame.picture.clone();
         let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
         if let Some((path, _)) = &kept {
             Context::write_now(path, &picture.clone().into_file())?;
         }
-        Ok((pixels(picture).map_err(Failure::of)?, Outcome::Drawn(notes)))
+        let brightness = brightness(&picture, &options);
+        Ok((pixels(picture).map_err(Failure::of)?, Outcome::Drawn(notes, brightness)))
     }
 
     /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
@@ -375,6 +403,10 @@ impl Film<'_> {
         })?;
         Ok(summary)
     }
+}
+
+fn brightness(picture: &Rendering, options: &PictureOptions) -> Option<Brightness> {
+    Brightness::of(picture.pixels()?, options)
 }
 
 fn pixels(picture: Rendering) -> Result<Frame, Error> {

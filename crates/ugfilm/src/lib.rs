@@ -43,6 +43,7 @@
 //! blur                                      frames while a shutter is open
 //! options                                   the options of the programs, as our own
 //! script                                    the command lines and programs of every frame
+//! sight  levels                             what will be in view; frames that are nearly black
 //! animation                                 animated PNG and GIF
 //! keys  encode                              key frames; film formats
 //! film                                      frames, in files or in a film
@@ -65,6 +66,8 @@ mod film;
 mod frame_files;
 #[cfg(feature = "cli")]
 mod keys;
+#[cfg(feature = "cli")]
+mod levels;
 mod note;
 #[cfg(feature = "cli")]
 mod options;
@@ -76,6 +79,8 @@ mod print;
 mod program;
 #[cfg(feature = "cli")]
 mod script;
+#[cfg(feature = "cli")]
+mod sight;
 #[cfg(feature = "cli")]
 mod timeline;
 #[cfg(feature = "cli")]

@@ -106,7 +106,11 @@ impl Script {
 
     /// Replaces the values of an option, or adds it.
     pub fn set(&mut self, name: &str, values: Vec<String>) {
-        let timeline = Timeline::Fixed(values);
+        self.set_timeline(name, Timeline::Fixed(values));
+    }
+
+    /// Replaces the values of an option over the film, or adds it.
+    pub fn set_timeline(&mut self, name: &str, timeline: Timeline) {
         self.typed = OnceLock::new();
         if let Some(setting) = self.options.iter_mut().find(|setting| setting.name == name) {
             setting.timeline = timeline;

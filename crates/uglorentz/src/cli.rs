@@ -8,10 +8,10 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, LookArgs, Manual, Progress, ToolArgs, count, finite, numbers, whole,
+    CommonArgs, Context, Failure, LookArgs, Manual, Progress, ToolArgs, Words, count, finite, numbers, whole,
 };
-use ugscene::Provenance;
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
+use ugscene::{BodyBoxes, Provenance};
 
 use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure};
 
@@ -136,6 +136,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let steps = context.steps();
     steps.step("reading", 0);
     let parsed = ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
+    let boxes = BodyBoxes::new(&parsed.scene);
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
@@ -145,6 +146,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     report.warnings().iter().for_each(|warning| context.warn(warning));
     report.notes().iter().for_each(|note| context.note(note));
+    let out_of_view = boxes.note(&scene, &config.motion(), &config.camera, config.size);
+    out_of_view.iter().for_each(|note| context.note(&note.words()));
     report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {
         context.steps().step("measuring", 0);

@@ -7,13 +7,9 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::elongated;
 use ugscene::{Face, HalfSpace, Item, Scene, VertexId, View, Wire};
 
 use crate::relative_motion::{Point, RelativeMotion};
-
-/// Relative rounding error of the bound, which is computed with about ten operations.
-const ROUNDING: f64 = 1e-12;
 
 /// The half-spaces whose intersection is the view volume; empty without culling.
 #[derive(Clone, Debug, Default)]
@@ -29,8 +25,8 @@ impl ViewVolume {
     /// True only if no point between these corners of a body is in the picture, neither as seen nor
     /// as drawn.
     pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
-        // Curves of bodies on world lines have no bound in closed form.
-        motion.world_line().is_none() && self.spaces.iter().any(|space| is_outside(space, motion, corners))
+        let corners: Vec<DVec3> = corners.iter().map(|corner| corner.rest).collect();
+        self.spaces.iter().any(|space| motion.is_outside(space, &corners))
     }
 }
 
@@ -77,26 +73,6 @@ pub(crate) fn cull(
         remove(scene, points, &kept);
     }
     n_culled
-}
-
-/// True only if no point between these corners is in the half-space as seen.  Eq. (P27)
-fn is_outside(space: &HalfSpace, motion: &RelativeMotion, corners: &[&Point]) -> bool {
-    let direction = motion.direction();
-    let along = space.normal.dot(direction);
-    let (normal, flight, places): (DVec3, f64, Vec<DVec3>) = if motion.has_flight_time() {
-        let normal = elongated(space.normal, motion.velocity());
-        let places = corners.iter().map(|corner| motion.boosted_rest(corner.rest)).collect();
-        (normal, motion.proper_speed() * along, places)
-    } else {
-        // Contraction is linear: what is seen of a flat face is flat.
-        (space.normal, 0.0, corners.iter().map(|corner| corner.seen).collect())
-    };
-    let toward = places.iter().map(|place| place.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();
-    let way = |place: DVec3| if flight > 0.0 { place.dot(toward) } else { place.length() };
-    let bound = places.iter().map(|&place| place.dot(normal) - flight * way(place)).fold(f64::MIN, f64::max);
-    let size = places.iter().map(|place| place.length()).fold(0.0, f64::max);
-    let rounding = ROUNDING * ((normal.length() + flight.abs()) * size + space.offset.abs());
-    bound + space.offset < -rounding
 }
 
 /// Removes faces, and the vertices that are unused then.

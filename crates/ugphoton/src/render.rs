@@ -9,7 +9,7 @@ use ugpicture::{
     Annotated, Canvas, DepthBuffer, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata,
 };
 use ugpipe::Progress;
-use ugscene::{CameraOptions, PlacedBodies, Provenance, RestPosition, Scene, View};
+use ugscene::{BodyBoxes, CameraOptions, PlacedBodies, Provenance, RestPosition, Scene, View};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -77,6 +77,8 @@ pub struct PreparedScene {
     canvas: Canvas,
     scenery: Scenery<'static>,
     metadata: Metadata,
+    /// The note on bodies that are outside the picture, of a scene that was read.
+    out_of_view: Option<ugscene::Note>,
 }
 
 impl PreparedScene {
@@ -97,7 +99,9 @@ impl PreparedScene {
         let canvas = config.canvas()?;
         progress.step("reading", 0);
         let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-        let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
+        let boxes = BodyBoxes::new(&parsed.scene);
+        let mut drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
+        drawing.out_of_view = drawing.out_of_view_note(&boxes);
         Ok((drawing, parsed.warnings))
     }
 
@@ -113,7 +117,14 @@ impl PreparedScene {
         let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
         let config = config.on(&canvas);
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
-        Ok(Self { config, canvas, scenery, metadata })
+        Ok(Self { config, canvas, scenery, metadata, out_of_view: None })
+    }
+
+    /// The note on bodies that are outside a flat picture, with the times at which they are in it.
+    fn out_of_view_note(&self, boxes: &BodyBoxes) -> Option<ugscene::Note> {
+        let Config { lens, stereo, picture, motion, .. } = &self.config;
+        let is_flat = *lens == Lens::Pinhole && stereo.is_none();
+        is_flat.then(|| boxes.note(&self.scenery.scene, motion, &picture.camera, picture.size)).flatten()
     }
 
     /// Draws a preview: of the size of the picture, in squares of `side` pixels with one sample
@@ -132,7 +143,8 @@ impl PreparedScene {
     /// See [`Error`].
     pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
-        let notes = notes(&self.scenery, &self.config, &statistics);
+        let mut notes = notes(&self.scenery, &self.config, &statistics);
+        notes.extend(self.out_of_view.clone().map(Note::Scene));
         self.finish(frame, notes, statistics.max_light as f32, progress)
     }
 
@@ -144,7 +156,7 @@ impl PreparedScene {
         brightest: f32,
         progress: &dyn Progress,
     ) -> Result<Rendering, Error> {
-        let Self { config, canvas, scenery, metadata } = self;
+        let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
         let depths = |scene: &_, camera: &_, _| depths(scene, camera, config);
         let items = || middles::seen_items(scenery, picture.size, picture.samples);

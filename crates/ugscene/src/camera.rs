@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::camera_options::{CameraError, CameraOptions, Film};
+use crate::half_space::HalfSpace;
 use crate::{Camera, DefaultCamera, Projection, Scene};
 
 /// The default hither distance, as a fraction of the distance to the view centre: points at the eye
@@ -66,15 +67,6 @@ pub struct View {
     axis: [f64; 2],
     /// Samples of the picture.
     size: [f64; 2],
-}
-
-/// A half-space, relative to the eye: points p with p·normal + offset ≥ 0.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct HalfSpace {
-    /// Points inward; any length.
-    pub normal: DVec3,
-    /// See above.
-    pub offset: f64,
 }
 
 impl View {

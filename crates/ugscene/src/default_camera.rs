@@ -163,14 +163,14 @@ fn toward_eye(up_option: Option<DVec3>, velocities: impl IntoIterator<Item = DVe
 
 /// The power of ten that coordinates are rounded to, as exponent: a thousandth of the distance or
 /// less, so that they are short and the picture is the same.
-fn unit_of_rounding(distance: f64) -> i32 {
+pub(crate) fn unit_of_rounding(distance: f64) -> i32 {
     let text = format!("{distance:e}");
     let exponent = text.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
     exponent.unwrap_or(0) - 3
 }
 
 /// Each coordinate rounded to a multiple of 10 to the power `exponent`, where that is possible.
-fn rounded(p: DVec3, exponent: i32) -> DVec3 {
+pub(crate) fn rounded(p: DVec3, exponent: i32) -> DVec3 {
     let power: f64 = format!("1e{}", exponent.abs()).parse().unwrap_or(1.0);
     let one = |x: f64| {
         let near = if exponent < 0 { (x * power).round() / power } else { (x / power).round() * power };

@@ -29,6 +29,7 @@
 //! ```
 
 mod area;
+mod body_boxes;
 mod builder;
 mod camera;
 mod camera_fit;
@@ -42,6 +43,7 @@ mod edges;
 mod eye;
 mod flatness;
 mod geometry;
+mod half_space;
 mod measurement;
 mod mixing;
 mod motion;
@@ -54,13 +56,15 @@ mod requirements;
 mod rest_frames;
 mod shares;
 mod split;
+mod times_in_view;
 mod vtk_polygons;
 mod words;
 mod world_lines;
 
 pub use area::{newell_normal, unit_normal};
+pub use body_boxes::{BodyBoxes, SeenBoxes};
 pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
-pub use camera::{CameraPoint, HalfSpace, Slab, View, view_distance};
+pub use camera::{CameraPoint, Slab, View, view_distance};
 pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use camera_options::{CameraError, CameraOptions};
 pub use data::*;
@@ -69,6 +73,7 @@ pub use edges::face_edges;
 pub use eye::{eye, vertex_at_eye};
 pub use flatness::{BENT, BentFace, bent_faces, thickness};
 pub use geometry::{Geometry, rest_positions, world_line_points};
+pub use half_space::HalfSpace;
 pub use measurement::{Measurement, measure};
 pub use mixing::{mixing_vertices, n_mixing_vertices, repeat_vertices, separate_wires};
 pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera};
@@ -84,6 +89,7 @@ pub use requirements::{
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
+pub use times_in_view::TimesInView;
 pub use vtk_polygons::VtkPolygons;
 use world_lines::world_lines;
 pub use world_lines::{WorldLinePoint, seen_event};

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::words::point;
-use crate::{DefaultCamera, Scene, n_mixing_vertices};
+use crate::{DefaultCamera, Scene, TimesInView, n_mixing_vertices};
 
 /// A note on a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,13 @@ pub enum Note {
     SpectraAtRest {
         /// The name of its colour.
         color: String,
+    },
+    /// Bodies move, and none of those is in the picture.
+    OutOfView {
+        /// The time of the picture.
+        time: f64,
+        /// When they are in it, if they ever are.
+        when: Option<TimesInView>,
     },
 }
 
@@ -39,6 +46,12 @@ impl fmt::Display for Note {
             Self::MixedColors(n) => {
                 let vertices = if *n == 1 { "vertex" } else { "vertices" };
                 write!(f, "colours are mixed at {n} {vertices} where faces of different colours meet")
+            }
+            Self::OutOfView { time, when: Some(when) } => {
+                write!(f, "nothing that moves is in the picture at time {time}; it is {when}")
+            }
+            Self::OutOfView { when: None, .. } => {
+                write!(f, "nothing that moves is in the picture, at any time")
             }
             Self::SpectraAtRest { color } => {
                 write!(f, "black bodies and spectra count with their colour at rest (colour `{color}`)")

@@ -5,7 +5,10 @@ use std::sync::Arc;
 use glam::DVec3;
 use ugphysics::{RestFrame, Velocity, WorldLine, elongated};
 
-use crate::{Geometry, RestPosition, SeenPosition};
+use crate::{Geometry, HalfSpace, RestPosition, SeenPosition};
+
+/// Relative rounding error of the bound of (P27), which is computed with about ten operations.
+const ROUNDING: f64 = 1e-12;
 
 /// How one body moves relative to the camera, and which effects are shown.
 #[derive(Clone, Debug)]
@@ -113,5 +116,31 @@ impl RelativeMotion {
     /// it is `rest` elongated along the motion by γ, which cancels the contraction in (P3).
     pub fn boosted_rest(&self, rest: DVec3) -> DVec3 {
         if self.geometry.contraction { rest } else { elongated(rest, self.velocity()) }
+    }
+
+    /// True only if no point between these corners is in the half-space as seen. Eq. (P27) It is
+    /// never true of bodies on world lines, whose curves have no bound in closed form.
+    ///
+    /// `corners`: rest positions relative to the eye.
+    pub fn is_outside(&self, space: &HalfSpace, corners: &[DVec3]) -> bool {
+        if self.line.is_some() {
+            return false;
+        }
+        let (normal, flight, places): (DVec3, f64, Vec<DVec3>) = if self.has_flight_time() {
+            let normal = elongated(space.normal, self.velocity());
+            let flight = self.proper_speed() * space.normal.dot(self.direction());
+            (normal, flight, corners.iter().map(|&corner| self.boosted_rest(corner)).collect())
+        } else {
+            // Contraction is linear: what is seen of a flat face is flat.
+            let seen = |&corner: &DVec3| self.seen(RestPosition(corner)).0;
+            (space.normal, 0.0, corners.iter().map(seen).collect())
+        };
+        let toward = places.iter().map(|place| place.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();
+        let way = |place: DVec3| if flight > 0.0 { place.dot(toward) } else { place.length() };
+        let bounds = places.iter().map(|&place| place.dot(normal) - flight * way(place));
+        let bound = bounds.fold(f64::MIN, f64::max);
+        let size = places.iter().map(|place| place.length()).fold(0.0, f64::max);
+        let rounding = ROUNDING * ((normal.length() + flight.abs()) * size + space.offset.abs());
+        bound + space.offset < -rounding
     }
 }

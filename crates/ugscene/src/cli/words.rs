@@ -45,6 +45,12 @@ impl Words for Note {
             ),
             Self::MixedColors(_) => format!("{self}; -vr keeps them apart"),
             Self::SpectraAtRest { .. } => format!("{self}: {}", remedies::SHIFT_SPECTRA),
+            Self::OutOfView { time, when: Some(when) } => {
+                format!("nothing that moves is in the picture at -ti {time}; it is with -ti {when}")
+            }
+            Self::OutOfView { when: None, .. } => {
+                format!("{self}: move the eye (-ep) or the view centre (-vc), widen -va, or try -in")
+            }
         }
     }
 }

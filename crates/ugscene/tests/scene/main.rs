@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 mod bodies;
+mod body_boxes;
 mod builder;
 mod default_camera;
 mod geometry;

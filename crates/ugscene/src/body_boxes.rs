@@ -1,0 +1,292 @@
+//! Where the bodies of a scene are seen, and when, without drawing them.
+
+use glam::DVec3;
+use ugphysics::Event;
+
+use crate::default_camera::{rounded, unit_of_rounding};
+use crate::{
+    BodyId, Camera, CameraOptions, MotionError, MotionOptions, PlacedBodies, RelativeMotion,
+    RestPosition, Scene, Vertex, VertexId, View, Wire,
+};
+
+/// About how many boxes a scene is divided into, besides one for each body.
+const N_BOXES: usize = 256;
+
+/// Boxes around the parts of the bodies of a scene at rest.
+///
+/// They move as the bodies do, and there are few of them, so a film can find the frames in which
+/// nothing is seen before it draws any.
+#[derive(Clone, Debug)]
+pub struct BodyBoxes {
+    /// A scene with the bodies and the camera of the original. Each of its wires has the corners of
+    /// a box, which are its own vertices. Two more vertices span the unused ones of the original,
+    /// so that bodies have the same centres.
+    scene: Scene,
+}
+
+/// Corners of a box.
+const N_CORNERS: usize = 8;
+
+/// The length of the mean of directions below which they point to all sides.
+const AROUND: f64 = 0.05;
+
+/// Part of a body: its bounding box.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    body: BodyId,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Part {
+    fn empty(body: BodyId) -> Self {
+        Self { body, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY }
+    }
+
+    fn with(self, low: DVec3, high: DVec3) -> Self {
+        Self { low: self.low.min(low), high: self.high.max(high), ..self }
+    }
+
+    fn corners(&self) -> [DVec3; N_CORNERS] {
+        std::array::from_fn(|idx| {
+            let side = |bit: usize, low: f64, high: f64| if idx & bit == 0 { low } else { high };
+            let (low, high) = (self.low, self.high);
+            DVec3::new(side(1, low.x, high.x), side(2, low.y, high.y), side(4, low.z, high.z))
+        })
+    }
+}
+
+impl BodyBoxes {
+    /// The boxes of a scene.
+    pub fn new(scene: &Scene) -> Self {
+        let mut bodies = scene.bodies.ids().map(|_| Vec::new()).collect::<Vec<_>>();
+        let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.body));
+        let drawn = faces.chain(scene.wires.iter().map(|wire| (wire.contours.clone(), wire.body)));
+        let mut n_parts: usize = 0;
+        let mut is_used = vec![false; scene.vertices.len()];
+        for (contours, body) in drawn {
+            let corners = scene.contours.corners(contours).iter();
+            let part = corners.fold(Part::empty(body), |part, corner| {
+                is_used[corner.index()] = true;
+                let position = scene.vertices[corner.index()].position;
+                part.with(position, position)
+            });
+            bodies[body.index()].push(part);
+            n_parts += 1;
+        }
+        let most = n_parts.div_ceil(N_BOXES).max(1);
+        let mut boxes = Vec::new();
+        bodies.iter_mut().for_each(|parts| divide(parts, most, &mut boxes));
+        let mut out = Scene {
+            stage: scene.stage,
+            cameras: scene
+                .camera()
+                .map(|camera| Camera { name: None, ..camera.clone() })
+                .into_iter()
+                .collect(),
+            ..Scene::default()
+        };
+        copy_bodies(scene, &mut out);
+        boxes.iter().for_each(|part| add_box(&mut out, part));
+        let unused = scene.vertices.iter().zip(&is_used).filter(|(_, is_used)| !**is_used);
+        let unused = unused.fold(Part::empty(scene.bodies.unstated()), |part, (vertex, _)| {
+            part.with(vertex.position, vertex.position)
+        });
+        if unused.low.x <= unused.high.x {
+            [unused.low, unused.high].into_iter().for_each(|corner| {
+                add_vertex(&mut out, corner);
+            });
+        }
+        Self { scene: out }
+    }
+
+    /// Where they are seen.
+    ///
+    /// # Errors
+    /// See [`PlacedBodies::new`] and [`View::new`].
+    pub fn seen(
+        &self,
+        motion: &MotionOptions,
+        camera: &CameraOptions,
+        size: [u32; 2],
+    ) -> Result<SeenBoxes, MotionError> {
+        let mut scene = self.scene.clone();
+        let placed = PlacedBodies::new(&mut scene, motion, camera, size)?;
+        let rest = placed.rest_positions(&scene);
+        let middle = |row: usize| {
+            let first = row - row % N_CORNERS;
+            let corners = &rest[first..rest.len().min(first + N_CORNERS)];
+            corners.iter().sum::<DVec3>() / corners.len() as f64
+        };
+        let seen: Vec<DVec3> = rest
+            .iter()
+            .zip(&placed.bodies)
+            .enumerate()
+            .map(|(row, (&rest, body))| seen_corner(&placed.motions[body.index()], rest, middle(row)))
+            .collect();
+        // A view without a centre is toward the middle of what is seen.
+        for (vertex, seen) in scene.vertices.iter_mut().zip(&seen) {
+            vertex.position = placed.eye + *seen;
+        }
+        let camera = CameraOptions { eye: None, ..camera.clone() };
+        let view = View::new(&scene, &camera, size).map_err(MotionError::Camera)?;
+        let n_boxes = scene.wires.len();
+        Ok(SeenBoxes { placed, rest, seen, n_boxes, view })
+    }
+}
+
+/// Copies the bodies of a scene, with the names of those whose motions have statements.
+fn copy_bodies(scene: &Scene, out: &mut Scene) {
+    let bodies = &scene.bodies;
+    if let Some(velocity) = bodies.stated_velocity(bodies.unstated()) {
+        out.bodies.set_velocity(out.bodies.unstated(), velocity);
+    }
+    for body in bodies.ids().skip(1) {
+        let line = bodies.motion(body).clone();
+        let copy = out.bodies.push(None, line.clone());
+        if let (Some(statement), Some(name)) = (bodies.statement(body), bodies[body].name) {
+            let name = out.names.add(scene.names.get(name));
+            out.bodies.set_statement(copy, name, statement.clone(), line);
+        }
+    }
+}
+
+/// Where a corner of a box is seen. A corner of the box of a spinning body may be too far out to
+/// move so; it is then where the middle of its box is.
+fn seen_corner(motion: &RelativeMotion, rest: DVec3, middle: DVec3) -> DVec3 {
+    let Some(line) = motion.world_line() else {
+        return if motion.is_at_rest() { rest } else { motion.seen(RestPosition(rest)).0 };
+    };
+    let eye = Event { t: 0.0, x: DVec3::ZERO };
+    let light = line.light(rest, eye).or_else(|_| line.light(middle, eye));
+    light.map_or(rest, |light| light.event.x)
+}
+
+/// Appends the boxes of the halves of a body, of their halves, and so on, until a box contains at
+/// most `most` parts.
+fn divide(parts: &mut [Part], most: usize, boxes: &mut Vec<Part>) {
+    let Some(first) = parts.first() else { return };
+    let whole = parts.iter().fold(Part::empty(first.body), |whole, part| whole.with(part.low, part.high));
+    if parts.len() <= most {
+        boxes.push(whole);
+        return;
+    }
+    let axis = (whole.high - whole.low).max_position();
+    let middle = parts.len() / 2;
+    let center = |part: &Part| part.low[axis] + part.high[axis];
+    parts.select_nth_unstable_by(middle, |a, b| center(a).total_cmp(&center(b)));
+    let (lower, upper) = parts.split_at_mut(middle);
+    divide(lower, most, boxes);
+    divide(upper, most, boxes);
+}
+
+fn add_box(scene: &mut Scene, part: &Part) {
+    let corners = part.corners().map(|corner| add_vertex(scene, corner));
+    let contours = scene.contours.push_all([corners]);
+    scene.wires.push(Wire { name: None, contours, color: None, body: part.body });
+}
+
+fn add_vertex(scene: &mut Scene, position: DVec3) -> VertexId {
+    let name = scene.names.add("");
+    scene.add_vertex(Vertex { name, position, color: None, normal: None })
+}
+
+/// Boxes where they are seen in a picture.
+#[derive(Clone, Debug)]
+pub struct SeenBoxes {
+    placed: PlacedBodies,
+    /// Rest positions of the corners, 8 of each box, as of [`PlacedBodies::rest_positions`].
+    rest: Vec<DVec3>,
+    /// Where the corners are seen, relative to the eye.
+    seen: Vec<DVec3>,
+    n_boxes: usize,
+    view: View,
+}
+
+impl SeenBoxes {
+    /// True only if nothing is in the picture.  (P27)
+    pub fn are_out_of_view(&self) -> bool {
+        self.are_out(0..self.n_boxes)
+    }
+
+    /// True only if bodies move, and none of those that do is in the picture. They move in the
+    /// frame of the scene, or if none does, relative to the camera.
+    pub fn are_moving_out_of_view(&self) -> bool {
+        let followed = self.followed();
+        let is_moving = followed.iter().any(|&row| !self.motion(row).is_at_rest());
+        is_moving && self.are_out(followed.into_iter())
+    }
+
+    fn are_out(&self, mut rows: impl Iterator<Item = usize>) -> bool {
+        let spaces: Vec<_> = self.view.half_spaces().into_iter().flatten().collect();
+        rows.all(|row| {
+            let corners = &self.rest[8 * row..8 * row + 8];
+            spaces.iter().any(|space| self.motion(row).is_outside(space, corners))
+        })
+    }
+
+    /// The point in the middle of what is seen of moving bodies, or of all if none moves; `None` if
+    /// they are all around the eye.
+    ///
+    /// Its direction is the mean of the directions to the corners of their boxes, so it changes as
+    /// smoothly as these do. It is rounded to a hundredth of a pixel or less, so that it is short.
+    pub fn center(&self) -> Option<DVec3> {
+        let followed = self.followed();
+        let corners = followed.iter().flat_map(|&row| &self.seen[8 * row..8 * row + 8]);
+        let (mut direction, mut distance, mut count) = (DVec3::ZERO, 0.0, 0.0);
+        for corner in corners {
+            direction += ugphysics::unit_or_zero(*corner);
+            distance += ugphysics::length(*corner);
+            count += 1.0;
+        }
+        let distance = distance / count;
+        if direction.length() <= AROUND * count || !distance.is_finite() {
+            return None;
+        }
+        let center = self.placed.eye + direction.normalize() * distance;
+        Some(rounded(center, unit_of_rounding(distance) - 3)).filter(|center| *center != self.placed.eye)
+    }
+
+    fn motion(&self, row: usize) -> &RelativeMotion {
+        &self.placed.motions[self.placed.bodies[8 * row].index()]
+    }
+
+    /// The boxes of bodies that move in the frame of the scene; if none does, of those that move
+    /// relative to the camera; otherwise all.
+    fn followed(&self) -> Vec<usize> {
+        let rows = |is_it: &dyn Fn(&RelativeMotion) -> bool| {
+            (0..self.n_boxes).filter(|&row| is_it(self.motion(row))).collect::<Vec<usize>>()
+        };
+        let moving = rows(&|motion| !motion.in_scene().is_zero());
+        let relative = if moving.is_empty() { rows(&|motion| !motion.is_at_rest()) } else { moving };
+        if relative.is_empty() { (0..self.n_boxes).collect() } else { relative }
+    }
+
+    /// Unit vectors to the middles of the followed boxes; zero for one at the eye.
+    pub(crate) fn directions(&self) -> Vec<DVec3> {
+        let middle = |row: usize| self.seen[8 * row..8 * row + 8].iter().sum::<DVec3>();
+        self.followed().into_iter().map(|row| ugphysics::unit_or_zero(middle(row))).collect()
+    }
+
+    /// Unit vector into the picture.
+    pub(crate) fn forward(&self) -> DVec3 {
+        self.view.forward
+    }
+
+    /// The time that the fastest body needs for the distance of the farthest corner or of the view
+    /// centre; `None` if no body moves relative to the camera.
+    pub(crate) fn time_scale(&self) -> Option<f64> {
+        let speeds = (0..self.n_boxes).map(|row| self.motion(row).velocity().beta().length());
+        let speed = speeds.fold(0.0, f64::max);
+        let distance = self.seen.iter().map(|&corner| ugphysics::length(corner)).fold(0.0, f64::max);
+        (speed > 0.0).then(|| distance.max(self.view.distance) / speed)
+    }
+
+    /// True if a corner of a followed box is in the picture.
+    pub(crate) fn is_corner_in_view(&self) -> bool {
+        let spaces: Vec<_> = self.view.half_spaces().into_iter().flatten().collect();
+        let is_inside =
+            |corner: &DVec3| spaces.iter().all(|space| corner.dot(space.normal) + space.offset >= 0.0);
+        self.followed().iter().any(|&row| self.seen[8 * row..8 * row + 8].iter().any(is_inside))
+    }
+}
