@@ -56,8 +56,14 @@ pub struct Shade {
     kind: Kind,
     /// Brightest display-encoded value.
     most: f32,
+    /// How many times as bright as white light is where all channels are clipped.
+    highlights: f32,
     simd: Level,
 }
+
+/// Light of the least of three channels from which on a photograph is clipped more or less: above
+/// the brightest paper. Encoded it is 0.94.
+const HIGHLIGHT: f32 = 0.87;
 
 enum Kind {
     /// As at rest.
@@ -88,7 +94,18 @@ impl Shade {
             }
         };
         let is_uncut = keeps_light || matches!(kind, Kind::Spectra(_));
-        Ok(Self { kind, most: if is_uncut { f32::INFINITY } else { 1.0 }, simd: Level::new() })
+        Ok(Self {
+            kind,
+            most: if is_uncut { f32::INFINITY } else { 1.0 },
+            highlights: 1.0,
+            simd: Level::new(),
+        })
+    }
+
+    /// Makes clipped highlights of a photograph, whose channels are all 1, `factor` times as bright
+    /// as white. Below 1 the factor falls with the square of the way to `HIGHLIGHT`, where it is 1.
+    pub fn set_highlights(&mut self, factor: f32) {
+        self.highlights = factor;
     }
 
     /// Light brighter than white is kept until it is developed.
@@ -113,6 +130,11 @@ impl Shade {
         let red = f32x16::from_slice(simd, reds) * inverse;
         let green = f32x16::from_slice(simd, greens) * inverse;
         let blue = f32x16::from_slice(simd, blues) * inverse;
+        let [red, green, blue] = if self.highlights == 1.0 {
+            [red, green, blue]
+        } else {
+            self.brightened(simd, [red, green, blue])
+        };
         let [red, green, blue] = match &self.kind {
             Kind::Same => {
                 let most = f32x16::splat(simd, self.most);
@@ -128,6 +150,17 @@ impl Shade {
         (green * alpha).store_slice(greens);
         (blue * alpha).store_slice(blues);
         alpha.store_slice(alphas);
+    }
+
+    /// Light with brighter highlights. It is sampled light that is brightened, not texels: between
+    /// texels that differ by orders of magnitude the kernel would interpolate negative light.
+    #[inline(always)]
+    fn brightened<S: Simd>(&self, simd: S, light: [f32x16<S>; 3]) -> [f32x16<S>; 3] {
+        let [zero, one, start] = [0.0, 1.0, HIGHLIGHT].map(|number| f32x16::splat(simd, number));
+        let least = light[0].min(light[1]).min(light[2]);
+        let way = ((least - start) / (one - start)).max(zero).min(one);
+        let gain = one + f32x16::splat(simd, self.highlights - 1.0) * way * way;
+        light.map(|channel| channel * gain)
     }
 }
 
@@ -204,6 +237,23 @@ mod tests {
             let seen = seen(&shade, rgb, 1.0);
             assert!((0..3).all(|i| (seen[i] - rgb[i]).abs() < 1e-5), "{rgb:?} {seen:?}");
         }
+    }
+
+    /// Only light whose least channel is near white is brightened, and keeps its colour.
+    #[test]
+    fn clipped_highlights_are_brightened() {
+        let colors = SkyColors::Hues { doppler: false, law: Brightness::None };
+        let mut shade = Shade::new(colors, Velocity::ZERO, &ALL_NM, true).unwrap();
+        shade.set_highlights(64.0);
+        for rgb in [[0.0; 3], [0.87; 3], [1.0, 1.0, 0.86], [0.2, 0.4, 1.0]] {
+            assert_eq!(seen(&shade, rgb, 1.0), rgb);
+        }
+        // Interpolation may exceed white by a little.
+        assert_eq!(seen(&shade, [1.0; 3], 1.0), [64.0; 3]);
+        assert_eq!(seen(&shade, [1.01; 3], 1.0), [64.64; 3]);
+        // Half of the way: 1 + 63/4.
+        let half = seen(&shade, [1.0, 0.935, 1.0], 1.0);
+        assert!((half[1] / 0.935 - 16.75).abs() < 1e-3 && (half[0] - 16.75).abs() < 1e-3, "{half:?}");
     }
 
     #[test]

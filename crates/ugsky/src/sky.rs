@@ -29,6 +29,9 @@ pub struct Sky<'s> {
     pub bands: &'s [Band],
     /// Points of light in front of it.
     pub stars: &'s [Star],
+    /// How many times as bright as white the clipped highlights of the panorama are, if it is a
+    /// photograph in which they are not.
+    pub highlights: Option<f32>,
 }
 
 impl<'s> From<&'s Panorama> for Sky<'s> {
@@ -79,6 +82,11 @@ impl<'s> Sky<'s> {
         let layer = |(panorama, colors, range_nm)| {
             Ok(Layer { panorama, shade: Shade::new(colors, velocity, range_nm, keeps_light)? })
         };
-        visible.into_iter().chain(bands).map(layer).collect()
+        let mut layers: Vec<Layer<'s>> =
+            visible.into_iter().chain(bands).map(layer).collect::<Result<_, _>>()?;
+        if let (Some(layer), Some(factor), Some(_)) = (layers.first_mut(), self.highlights, self.panorama) {
+            layer.shade.set_highlights(factor);
+        }
+        Ok(layers)
     }
 }

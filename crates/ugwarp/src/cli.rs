@@ -81,6 +81,15 @@ pub struct Args {
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,
 
+    /// How much brighter than white clipped highlights of a photograph are, in stops
+    ///
+    /// A photograph has no number for light brighter than white, so the sun is as bright as paper in
+    /// it. With -highlights 6 pixels whose three channels are clipped are 64 times as bright as
+    /// white, and stay white in pictures of motion. Has no effect on HDR, EXR and PFM.
+    #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = number(stops),
+          help_heading = COLOR)]
+    highlights: Option<f64>,
+
     /// Panorama of infrared light
     ///
     /// A grey picture with the same arrangement of directions. Its light has the spectrum of
@@ -152,7 +161,7 @@ pub struct Args {
 
 numbers!(Args {
     "vel" => velocity, "cv" => cv, "part" => part, "basis" => basis: |kelvin: f64| Ok(kelvin.to_string()),
-    "infrared-to" => infrared_to: infrared_end, "ultraviolet-from" => ultraviolet_from: ultraviolet_end,
+    "highlights" => highlights: stops, "infrared-to" => infrared_to: infrared_end, "ultraviolet-from" => ultraviolet_from: ultraviolet_end,
     "star-width" => star_width, "white" => white
 } picture lens);
 
@@ -236,7 +245,13 @@ impl Args {
         let is_list = is_star_list(&input.text);
         let mut opened = if is_list {
             self.refuse_for_stars()?;
-            Opened { panorama: None, bands: Vec::new(), stars: stars(input)?, notes: Vec::new() }
+            Opened {
+                panorama: None,
+                bands: Vec::new(),
+                stars: stars(input)?,
+                highlights: None,
+                notes: Vec::new(),
+            }
         } else {
             self.open_panorama(input, context)?
         };
@@ -257,8 +272,8 @@ impl Args {
                 "the first file is a list of stars: name the panorama first, and add stars with --stars FILE",
             );
         }
-        if self.from.is_some() || self.part.is_some() {
-            return refused("the input is a list of stars: leave out -from and -part");
+        if self.from.is_some() || self.part.is_some() || self.highlights.is_some() {
+            return refused("the input is a list of stars: leave out -from, -part and --highlights");
         }
         if self.shift.br.is_some() || self.basis.is_some() || self.bands().next().is_some() {
             return refused(
@@ -278,17 +293,19 @@ impl Args {
         let arrangement = self.from.unwrap_or_default();
         let mut limits = PictureLimits::default();
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
-        let mut opened = open(&files, arrangement, self.extent(), limits).map_err(|error| match error {
-            Error::Read { idx, error } => {
-                let Input { name, text } = inputs[idx];
-                let remedy = match foreign_data(name, text) {
-                    Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
-                    _ => format!("; {}", remedies::DRAW_SCENE),
-                };
-                Failure::Failed(format!("`{name}`: {error}{remedy}"))
-            }
-            error => Failure::of(error),
-        })?;
+        let mut opened = open(&files, arrangement, self.extent(), self.highlights(), limits).map_err(
+            |error| match error {
+                Error::Read { idx, error } => {
+                    let Input { name, text } = inputs[idx];
+                    let remedy = match foreign_data(name, text) {
+                        Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
+                        _ => format!("; {}", remedies::DRAW_SCENE),
+                    };
+                    Failure::Failed(format!("`{name}`: {error}{remedy}"))
+                }
+                error => Failure::of(error),
+            },
+        )?;
         for (path, range_nm) in self.bands() {
             if arrangement == Arrangement::Sides {
                 return Err(Failure::usage(
@@ -296,7 +313,7 @@ impl Args {
                 ));
             }
             let file = context.input_file(path)?;
-            let band = open(&[&file.text], arrangement, self.extent(), limits)
+            let band = open(&[&file.text], arrangement, self.extent(), None, limits)
                 .map_err(|error| Failure::Failed(format!("`{}`: {}", file.name, error.words())))?;
             opened.notes.extend(band.notes);
             opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));
@@ -311,6 +328,11 @@ impl Args {
         let ultraviolet = self.ultraviolet_from.unwrap_or(ULTRAVIOLET_FROM)..VISIBLE_NM.start;
         let infrared = self.infrared.iter().map(move |path| (path, infrared.clone()));
         infrared.chain(self.ultraviolet.iter().map(move |path| (path, ultraviolet.clone())))
+    }
+
+    /// How many times as bright as white clipped highlights are.
+    fn highlights(&self) -> Option<f32> {
+        self.highlights.map(|stops| libm::exp2(stops) as f32)
     }
 
     /// The angles that the panorama shows.
@@ -367,6 +389,10 @@ fn basis(words: &[String]) -> Result<Basis, Failure> {
             words.join(" ")
         ))),
     }
+}
+
+fn stops(stops: f64) -> Result<f64, String> {
+    if (0.0..=24.0).contains(&stops) { Ok(stops) } else { Err("from 0 to 24 stops".to_owned()) }
 }
 
 fn infrared_end(nm: f64) -> Result<f64, String> {

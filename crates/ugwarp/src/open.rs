@@ -14,18 +14,26 @@ pub struct Opened {
     pub bands: Vec<Band>,
     /// The stars.
     pub stars: Vec<Star>,
+    /// How many times as bright as white clipped highlights of the panorama are.
+    pub highlights: Option<f32>,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
 
 impl<'s> From<&'s Opened> for Sky<'s> {
     fn from(opened: &'s Opened) -> Self {
-        Self { panorama: opened.panorama.as_ref(), bands: &opened.bands, stars: &opened.stars }
+        Self {
+            panorama: opened.panorama.as_ref(),
+            bands: &opened.bands,
+            stars: &opened.stars,
+            highlights: opened.highlights,
+        }
     }
 }
 
 /// Reads a panorama from the bytes of PNG, JPEG, HDR, EXR or PFM files. `extent`: the angles that
-/// an equirectangular one shows; without it the whole sphere. `limits`: of all files together.
+/// an equirectangular one shows; without it the whole sphere. `highlights`: how many times as bright
+/// as white clipped highlights of photographs are. `limits`: of all files together.
 ///
 /// # Errors
 /// - [`Error::Read`]: a file is no picture that can be read.
@@ -35,6 +43,7 @@ pub fn open(
     files: &[&[u8]],
     arrangement: Arrangement,
     extent: Option<Extent>,
+    highlights: Option<f32>,
     mut limits: PictureLimits,
 ) -> Result<Opened, Error> {
     let mut notes = Vec::new();
@@ -47,9 +56,17 @@ pub fn open(
         limits.bytes -= pixels.n_bytes().min(limits.bytes);
         pictures.push((size, texels(pixels, &mut notes)));
     }
+    let is_clipped = pictures.iter().any(|(_, texels)| matches!(texels, Texels::Srgb(_)));
+    if highlights.is_some() && !is_clipped {
+        notes.push(LIGHT.to_owned());
+    }
     let panorama = Panorama::arranged(pictures, arrangement, extent)?;
-    Ok(Opened { panorama: Some(panorama), bands: Vec::new(), stars: Vec::new(), notes })
+    let highlights = highlights.filter(|_| is_clipped);
+    Ok(Opened { panorama: Some(panorama), bands: Vec::new(), stars: Vec::new(), highlights, notes })
 }
+
+/// The note on highlights that are not clipped.
+const LIGHT: &str = "the panorama holds light, in which no highlights are clipped, so they stay as they are";
 
 fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
     match pixels {
@@ -103,7 +120,7 @@ mod tests {
     fn arrangements_agree() {
         let light = |files: &[Vec<u8>], arrangement: Arrangement| {
             let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-            let opened = open(&files, arrangement, None, PictureLimits::default())
+            let opened = open(&files, arrangement, None, None, PictureLimits::default())
                 .unwrap_or_else(|error| panic!("{error}"));
             let config = crate::Config { lens: crate::Lens::Panorama, ..crate::Config::default() };
             let picture = crate::PictureOptions { size: [40, 20], samples: 1, ..config.picture.clone() };
@@ -134,7 +151,7 @@ mod tests {
         let file = |size: [u32; 2]| png(size, |_| [9, 9, 9, 255]);
         let message = |files: &[Vec<u8>], arrangement: Arrangement| {
             let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-            open(&files, arrangement, None, PictureLimits::default())
+            open(&files, arrangement, None, None, PictureLimits::default())
                 .err()
                 .map(|error| error.to_string())
                 .unwrap_or_default()

@@ -320,7 +320,7 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     let config = Config { shift, ..geometry(ahead(0.6), [64, 32], Lens::Panorama) };
     let seen = |visible: f64, bands: &[Band]| {
         let (panorama, stars) = (sky(visible), &[][..]);
-        light(Sky { panorama: Some(&panorama), bands, stars }, &config).unwrap()
+        light(Sky { panorama: Some(&panorama), bands, stars, highlights: None }, &config).unwrap()
     };
     let both = [band(830.0..1e6, 0.4), band(0.0..360.0, 0.4)];
     let (whole, parts) = (seen(0.4, &[]), seen(0.4, &both));
@@ -355,6 +355,7 @@ fn files_are_those_of_whole_pictures() {
         panorama: Some(panorama(256, colors)),
         bands: Vec::new(),
         stars: Vec::new(),
+        highlights: None,
         notes: Vec::new(),
     };
     let metadata = Metadata { software: "ugwarp".into(), comment: "ugwarp".into(), ..Metadata::default() };

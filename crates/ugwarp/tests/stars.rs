@@ -194,7 +194,7 @@ fn light_is_conserved_at_every_place() {
                     if step > 0 {
                         continue;
                     }
-                    let both = Sky { panorama: Some(&sky), bands: &[], stars: &[star] };
+                    let both = Sky { panorama: Some(&sky), bands: &[], stars: &[star], highlights: None };
                     let on_grey = light(both, &config).unwrap();
                     let pairs = plain.pixels().iter().zip(frame.pixels());
                     for (found, (behind, star)) in on_grey.pixels().iter().zip(pairs) {
