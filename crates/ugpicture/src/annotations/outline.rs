@@ -13,7 +13,7 @@ use ugimage::figure::Point;
 use ugimage::label::Drawing;
 use ugphysics::{Event, WorldLine};
 use ugscene::{
-    BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
+    BodyId, Face, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
     vertex_bodies,
 };
 
@@ -34,6 +34,10 @@ const ASIDE: f64 = 1.6;
 /// Points closer than this to the plane of a face, relative to their distance from the eye, count
 /// as in the plane.
 const FLAT: f64 = 3e-3;
+
+/// Points further than this behind the plane of a face, relative to their distance from the eye, are
+/// behind it: a tenth of a pixel of a face that is seen at 45 degrees.
+const BEHIND: f64 = 1e-4;
 
 /// The scene for the outlines: moving bodies as they would look at rest.
 pub struct IdealScene {
@@ -67,11 +71,12 @@ pub fn draw(
     let is_moving = |body: BodyId| seen.is_moving(body);
     let visible = VisibleLines { view: &seen.view, depths };
     let mut lines = Vec::new();
-    let faces = Faces { scene: seen.scene, places, view: &seen.view };
+    let faces = Faces::new(seen.scene, places, &seen.view);
     for edge in edges(seen.scene, &is_moving).iter().filter(|edge| edge.is_shown(&faces)) {
         let ends = edge.ends.map(|vertex| places[vertex.index()]);
         lines.extend(visible.visible_where(ends, |place, across| {
-            edge.faces.len() == 2 || !faces.go_on(&visible, place, across)
+            !faces.hide(&visible, edge, place)
+                && (edge.faces.len() == 2 || !faces.go_on(&visible, place, across))
         }));
     }
     let width = style.hairline;
@@ -155,9 +160,38 @@ struct Faces<'a> {
     scene: &'a Scene,
     places: &'a [DVec3],
     view: &'a View,
+    /// For each face, the surface that it is part of: faces that are connected by vertices at the
+    /// same positions.
+    surfaces: Vec<usize>,
 }
 
-impl Faces<'_> {
+impl<'a> Faces<'a> {
+    fn new(scene: &'a Scene, places: &'a [DVec3], view: &'a View) -> Self {
+        Self { scene, places, view, surfaces: surfaces(scene) }
+    }
+
+    /// True if the face in the pixel of a point of an edge hides it.
+    ///
+    /// [`VisibleLines`] tolerates what is a little nearer, and what is beside the point, since faces
+    /// of the surface that ends at an edge are seen so. Nothing of that is needed of other surfaces,
+    /// which the point is in front of or behind, nor where the surface turns away on both sides of
+    /// the edge and does not end.
+    fn hide(&self, visible: &VisibleLines<'_>, edge: &Edge, place: DepthPoint) -> bool {
+        let Some(face) = visible.face_at([place[0], place[1]]) else { return false };
+        let is_own = edge.faces.iter().any(|&(own, _)| own == face);
+        let is_of_surface = edge.faces.iter().any(|&(own, _)| self.surfaces[own] == self.surfaces[face]);
+        let is_turned_away = edge.faces.len() > 1 && edge.faces.iter().all(|&(own, _)| !self.normal(own).1);
+        if is_own || (is_of_surface && !is_turned_away) {
+            return false;
+        }
+        let outline = self.scene.face_contours(&self.scene.faces[face]).next();
+        let Some(corner) = outline.and_then(<[VertexId]>::first) else { return false };
+        let (normal, is_front) = self.normal(face);
+        let point = visible.point(place);
+        let height = normal.dot(point - self.places[corner.index()]);
+        (if is_front { height } else { -height }) < -BEHIND * point.length()
+    }
+
     /// The normal of a face, and whether the eye is on its side.
     fn normal(&self, face: usize) -> (DVec3, bool) {
         let Some(outline) = self.scene.face_contours(&self.scene.faces[face]).next() else {
@@ -183,6 +217,34 @@ impl Faces<'_> {
         };
         matches!((side(ASIDE), side(-ASIDE)), (Some(one), Some(other)) if one.dot(other) > CREASE)
     }
+}
+
+/// The surface that each face is part of, by the row of one of its vertices.
+fn surfaces(scene: &Scene) -> Vec<usize> {
+    // A forest: the parent of each vertex, itself for a root.
+    let mut parents: Vec<usize> = (0..scene.vertices.len()).collect();
+    fn root(parents: &mut [usize], mut vertex: usize) -> usize {
+        while parents[vertex] != vertex {
+            parents[vertex] = parents[parents[vertex]];
+            vertex = parents[vertex];
+        }
+        vertex
+    }
+    let mut join = |a: usize, b: usize| {
+        let (a, b) = (root(&mut parents, a), root(&mut parents, b));
+        parents[a] = b;
+    };
+    // Only looked up, so its order does not matter.
+    let mut known = HashMap::new();
+    for (row, vertex) in scene.vertices.iter().enumerate() {
+        join(*known.entry(vertex.position.to_array().map(f64::to_bits)).or_insert(row), row);
+    }
+    let first = |face: &Face| scene.contours.corners(face.contours.clone())[0].index();
+    for face in &scene.faces {
+        let corners = scene.contours.corners(face.contours.clone());
+        corners.iter().for_each(|corner| join(first(face), corner.index()));
+    }
+    scene.faces.iter().map(|face| root(&mut parents, first(face))).collect()
 }
 
 /// An edge of faces, stored once.
