@@ -5,8 +5,8 @@ use ugphysics::Event;
 
 use crate::default_camera::{rounded, unit_of_rounding};
 use crate::{
-    BodyId, Camera, CameraOptions, MotionError, MotionOptions, PlacedBodies, RelativeMotion,
-    RestPosition, Scene, Vertex, VertexId, View, Wire,
+    BodyId, Camera, CameraOptions, MotionError, MotionOptions, PlacedBodies, RelativeMotion, RestPosition,
+    Scene, Vertex, VertexId, View, Wire,
 };
 
 /// About how many boxes a scene is divided into, besides one for each body.
