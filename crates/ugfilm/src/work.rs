@@ -18,6 +18,8 @@ struct State<T> {
 
 /// Computes `n_rows` results and consumes them in order, on this thread. Each thread works on one
 /// row with a pool of its own, and waits when it is so far ahead that results would fill memory.
+/// Where this thread is the only worker of the process, it computes the rows itself: for more threads
+/// there is not enough address space.
 /// Ends at the first row that fails, after all rows before it were consumed.
 ///
 /// # Errors
@@ -27,6 +29,9 @@ pub fn in_order<T: Send>(
     compute: impl Fn(usize) -> Result<T, Failure> + Sync,
     mut consume: impl FnMut(usize, T) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
+    if rayon::current_thread_index().is_some() {
+        return one_by_one(n_rows, compute, consume);
+    }
     let n_threads = rayon::current_num_threads();
     let n_workers = n_threads.min(n_rows).max(1);
     let state = Mutex::new(State { next: 0, n_consumed: 0, ready: BTreeMap::new(), is_stopped: false });
@@ -59,7 +64,7 @@ pub fn in_order<T: Send>(
         let start = |_| thread::Builder::new().spawn_scoped(scope, work).ok();
         if (0..n_workers).map_while(start).count() == 0 {
             // The system starts no thread.
-            return (0..n_rows).try_for_each(|row| consume(row, compute(row)?));
+            return one_by_one(n_rows, &compute, consume);
         }
         let mut outcome = Ok(());
         for row in 0..n_rows {
@@ -84,6 +89,15 @@ pub fn in_order<T: Send>(
         }
         outcome
     })
+}
+
+/// Computes and consumes the rows on this thread.
+fn one_by_one<T>(
+    n_rows: usize,
+    compute: impl Fn(usize) -> Result<T, Failure>,
+    mut consume: impl FnMut(usize, T) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    (0..n_rows).try_for_each(|row| consume(row, compute(row)?))
 }
 
 fn lock<T>(state: &Mutex<State<T>>) -> MutexGuard<'_, State<T>> {

@@ -161,9 +161,9 @@ fn decoded<P>(
         ColorType::Rgb | ColorType::Indexed => 3,
         ColorType::Rgba => 4,
     };
-    // Memory that is reserved is used only for the rows that the file has.
     let n_pixels = size[0] as usize * size[1] as usize;
-    let mut pixels = reserved(n_pixels)?;
+    // A file that has fewer rows than its header says reserves as many pixels as it has bytes.
+    let mut pixels = reserved(n_pixels.min(n_file))?;
     if reader.info().interlaced {
         // Rows come in seven passes, so the bytes of all are decoded first.
         let too_large = || ReadError::new("too large");
@@ -173,9 +173,11 @@ fn decoded<P>(
         drop(reserved::<u8>(n_bytes)?);
         let mut data = vec![0; n_bytes];
         let output = reader.next_frame(&mut data).map_err(broken)?;
+        room_for(n_pixels, n_pixels, &mut pixels)?;
         data.chunks_exact(output.line_size).for_each(|row| append(n_channels, row, &mut pixels));
     } else {
         while let Some(row) = reader.next_row().map_err(broken)? {
+            room_for(size[0] as usize, n_pixels, &mut pixels)?;
             append(n_channels, row.data(), &mut pixels);
         }
     }
@@ -229,9 +231,15 @@ pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>, ReadError> {
     Ok(rows)
 }
 
-/// Makes room for `n` more rows in a table, or returns an error if there is not enough memory.
-pub(crate) fn room_for<T>(n: usize, rows: &mut Vec<T>) -> Result<(), ReadError> {
-    rows.try_reserve(n).map_err(|_| no_memory::<T>(rows.len() + n))
+/// Makes room for `n` more rows in a table, or returns an error if there is not enough memory. The
+/// room is doubled when it is full, up to the `total` of rows, so that it follows what a file has and
+/// not what its header says.
+pub(crate) fn room_for<T>(n: usize, total: usize, rows: &mut Vec<T>) -> Result<(), ReadError> {
+    if rows.capacity() - rows.len() >= n {
+        return Ok(());
+    }
+    let more = rows.len().min(total.saturating_sub(rows.len())).max(n);
+    rows.try_reserve_exact(more).map_err(|_| no_memory::<T>(rows.len() + more))
 }
 
 fn no_memory<T>(len: usize) -> ReadError {

@@ -5,9 +5,6 @@
 
 use crate::read::{PictureLimits, ReadError, reserved, room_for};
 
-/// The most pixels that two bytes of a channel repeat.
-const LONGEST_RUN: usize = 127;
-
 /// The size and the light of a file.
 ///
 /// # Errors
@@ -19,13 +16,12 @@ pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec
     if rest.len() as u64 / 4 < height as u64 {
         return Err(truncated());
     }
-    // Rows of runs are this long or longer. A few rows of repeated pixels, which may be shorter, do
-    // not reserve more than these.
-    let n_rows = rest.len() / (4 + 4 * 2 * width.div_ceil(LONGEST_RUN));
-    let mut pixels = reserved(width * height.min(n_rows))?;
+    // A header that lies reserves as many pixels as the file has bytes. Runs may fill more.
+    let n_pixels = width * height;
+    let mut pixels = reserved(n_pixels.min(rest.len()))?;
     if width > 0 {
         for _ in 0..height {
-            room_for(width, &mut pixels)?;
+            room_for(width, n_pixels, &mut pixels)?;
             row(&mut rest, width, &mut pixels)?;
         }
     }

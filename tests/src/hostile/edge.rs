@@ -79,6 +79,11 @@ impl Edge {
         if let Self::Limit(words) = self { words } else { "" }
     }
 
+    /// True if there is little address space.
+    pub fn limits_memory(self) -> bool {
+        self.limit().contains("-v")
+    }
+
     /// The redirection in words of a shell.
     pub fn redirection(self) -> &'static str {
         match self {

@@ -7,7 +7,7 @@
 //!
 //! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and
 //!   [`MEMORY_LIMIT`], and allocates no more than 64 MiB and 16 times the bytes of its input and
-//!   output;
+//!   output; a film 64 MiB more for each frame that it draws at once;
 //! - limits of the shell (address space, processes, the size of files) cause errors, not panics;
 //! - with status 0 it has written something, and every program downstream reads it;
 //! - with another status it has written nothing to standard output, and says why;
@@ -16,7 +16,8 @@
 //! - nothing that it prints moves the cursor or reverses the text, and no number in a message is
 //!   infinite or NaN;
 //! - the number of threads changes no byte;
-//! - no temporary file is left.
+//! - no temporary file is left, unless there was not enough address space: then the next run deletes
+//!   it.
 //!
 //! [`memory`] has what must hold in memory, for fuzz targets, whose inputs are [`File`]s.
 
