@@ -21,8 +21,9 @@ pub(crate) fn doppler_factors(scene: &Scene, eye: DVec3, frames: &RestFrames) ->
     let bodies = ugscene::vertex_bodies(scene);
     (scene.vertices.par_iter().zip(bodies.par_iter()))
         .map(|(vertex, &body)| {
-            let seen = vertex.position - eye;
-            doppler_at(seen, frames.velocity_at(body, seen))
+            // Half the distance has the same direction, and does not overflow.
+            let half = 0.5 * vertex.position - 0.5 * eye;
+            doppler_at(half, frames.velocity_at(body, vertex.position - eye))
         })
         .collect()
 }

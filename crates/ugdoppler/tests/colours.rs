@@ -50,6 +50,14 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     }
 }
 
+/// The vertex is farther from the eye than the largest number.
+#[test]
+fn at_rest_the_farthest_colours_stay() {
+    let far = SCENE.replace("v b 10 1 0", "v b 10 1.7e308 0");
+    let config = Config { eye: Some(DVec3::new(0.0, -1e308, 0.0)), ..moving(0.0, 0.0, 0.0) };
+    assert_eq!(of(&colour(&far, &config).0, "b").1, 0.5);
+}
+
 /// Time and memory of the light are lights times vertices, which has a limit.
 #[test]
 fn lights_times_vertices_are_limited() {

@@ -130,6 +130,19 @@ mod tests {
     }
 
     #[test]
+    fn the_only_worker_of_the_process_starts_no_thread() {
+        let id = || thread::current().id();
+        let alone = || {
+            let consume = |_, worker| {
+                assert_eq!(worker, id());
+                Ok(())
+            };
+            in_order(3, |_| Ok(id()), consume).unwrap();
+        };
+        ThreadPoolBuilder::new().num_threads(1).build().unwrap().install(alone);
+    }
+
+    #[test]
     fn the_first_failure_ends_the_work() {
         let mut seen = Vec::new();
         let compute = |row: usize| if row == 7 { Err(Failure::failed("broken")) } else { Ok(row) };
