@@ -32,12 +32,15 @@ fn face(name: &str, corners: [DVec3; 3], motion: &str) -> String {
     format!("v {name}a {a}; v {name}b {b}; v {name}c {c}; f ({name}a {name}b {name}c) {motion};\n")
 }
 
+/// Motion, point, event of the eye, own time, seen position, velocity, D.
+type Number = (&'static str, [f64; 3], [f64; 4], f64, [f64; 3], [f64; 3], f64);
+
 /// W1 to W9: the point of a small triangle is seen where, when and with which velocity and Doppler
 /// factor it has to be.
 #[test]
 fn numbers_are_those_of_40_digits() {
     #[rustfmt::skip]
-    let rows: [(&str, [f64; 3], [f64; 4], f64, [f64; 3], [f64; 3], f64); 9] = [
+    let rows: [Number; 9] = [
         ("-acc .5 0 0 0 4", [0., 1., 0.], [3., 0., 0., 0.], 1.60943791243, [0.683281573, 1., 0.], [0.66666666667, 0., 0.], 0.5416407865),
         ("-acc .5 0 0 0 4", [0., 1., 0.], [8., 0., 0., 0.], 3.18741054194, [3.1251237606, 1., 0.], [0.92071551061, 0., 0.], 0.207912717125),
         ("-acc .5 0 0 0 4", [1., 1., 0.5], [40., 0., 0., 0.], 6.67963515099, [19.00524971, 1., 0.5], [0.96402758008, 0., 0.], 0.135450026816),
