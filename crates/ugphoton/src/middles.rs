@@ -5,9 +5,8 @@ use ugphysics::{BodyEvent, RestFrame};
 use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
 use ugscene::BodyId;
 
-use crate::path::Ray;
+use crate::path::{Ray, along};
 use crate::scenery::Scenery;
-use crate::world::along;
 
 /// The surface at the middle of each pixel.
 pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {

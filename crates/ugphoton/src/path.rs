@@ -118,3 +118,9 @@ impl Media {
         Some(Self(media))
     }
 }
+
+/// The event at parameter `s` of a ray.
+#[inline]
+pub fn along(origin: Event, step: Event, s: f64) -> Event {
+    Event { t: origin.t + s * step.t, x: origin.x + s * step.x }
+}

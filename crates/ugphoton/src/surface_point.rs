@@ -5,9 +5,9 @@ use uglight::{ScatteringTime, SurfaceColor, SurfaceElement};
 use ugphysics::{Event, RestFrame, WaveVector, WorldLine, unit_or_zero};
 use ugscene::SurfaceId;
 
-use crate::path::{Ray, Start};
+use crate::path::{Ray, Start, along};
 use crate::scenery::Scenery;
-use crate::world::{Intersection, along};
+use crate::world::Intersection;
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.

@@ -13,10 +13,10 @@ use ugtesting::Random;
 use crate::Config;
 use crate::corridor::Corridor;
 use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
-use crate::path::{Ray, Start};
+use crate::path::{Ray, Start, along};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
-use crate::world::{Intersection, PacketMemory, World, along};
+use crate::world::{Intersection, PacketMemory, World};
 
 /// Tetrahedra in random places, each with a velocity of its own.
 fn scene(random: &mut Random, n: usize, fastest: f64) -> String {

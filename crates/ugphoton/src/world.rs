@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
-use ugphysics::{Event, RestFrame, WorldLine};
+use ugphysics::{RestFrame, WorldLine};
 use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, unit_normal};
 
 use crate::corridor::Corridor;
@@ -557,10 +557,4 @@ fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> 
             all
         }
     }
-}
-
-/// The event at parameter `s` of a ray.
-#[inline]
-pub fn along(origin: Event, step: Event, s: f64) -> Event {
-    Event { t: origin.t + s * step.t, x: origin.x + s * step.x }
 }

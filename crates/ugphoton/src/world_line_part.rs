@@ -8,8 +8,7 @@ use glam::DVec3;
 use ugbvh::{Bvh, Curve};
 use ugphysics::{Event, RayStretch, WorldLine, WorldTube};
 
-use crate::path::Ray;
-use crate::world::along;
+use crate::path::{Ray, along};
 
 /// How a body moves that has no rest frame.
 #[derive(Debug)]

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::words::point;
-use crate::{DefaultCamera, Scene, TimesInView, n_mixing_vertices};
+use crate::{BodyBoxes, CameraOptions, DefaultCamera, MotionOptions, Scene, TimesInView, n_mixing_vertices};
 
 /// A note on a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,5 +57,25 @@ impl fmt::Display for Note {
                 write!(f, "black bodies and spectra count with their colour at rest (colour `{color}`)")
             }
         }
+    }
+}
+
+impl BodyBoxes {
+    /// The note on a picture in which nothing is that moves, with the times at which it would be;
+    /// `None` if it is, nothing moves, or the camera is invalid. `seen`: the scene as seen, whose
+    /// camera has the eye and the view centre.
+    pub fn note(
+        &self,
+        seen: &Scene,
+        motion: &MotionOptions,
+        options: &CameraOptions,
+        size: [u32; 2],
+    ) -> Option<Note> {
+        let camera = seen.camera()?;
+        let camera = CameraOptions { eye: camera.eye, center: camera.center, ..options.clone() };
+        if !self.seen(motion, &camera, size).ok()?.are_moving_out_of_view() {
+            return None;
+        }
+        Some(Note::OutOfView { time: motion.time, when: self.times_in_view(motion, &camera, size).ok()? })
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use glam::DVec3;
 
-use crate::{BodyBoxes, CameraOptions, MotionError, MotionOptions, Note, Scene};
+use crate::{BodyBoxes, CameraOptions, MotionError, MotionOptions};
 
 /// Times are searched as far from the first one as bodies need for this many times the distance to
 /// them. Before and after that they are near their vanishing points.
@@ -77,24 +77,6 @@ struct Search<'s> {
 }
 
 impl BodyBoxes {
-    /// The note on a picture in which nothing is that moves, with the times at which it would be;
-    /// `None` if it is, nothing moves, or the camera is invalid. `seen`: the scene as seen, whose
-    /// camera has the eye and the view centre.
-    pub fn note(
-        &self,
-        seen: &Scene,
-        motion: &MotionOptions,
-        options: &CameraOptions,
-        size: [u32; 2],
-    ) -> Option<Note> {
-        let camera = seen.camera()?;
-        let camera = CameraOptions { eye: camera.eye, center: camera.center, ..options.clone() };
-        if !self.seen(motion, &camera, size).ok()?.are_moving_out_of_view() {
-            return None;
-        }
-        Some(Note::OutOfView { time: motion.time, when: self.times_in_view(motion, &camera, size).ok()? })
-    }
-
     /// The interval of times, nearest to that of `motion`, in which bodies that move relative to the
     /// camera are in the picture; `None` if they never are, or none moves. Between the corners of
     /// boxes nothing is looked for, so it may be a little too short.
