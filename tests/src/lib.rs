@@ -15,6 +15,7 @@
 //! - [`slow_reader`]: a second, independent reader of the scene language;
 //! - [`tools`]: whether programs of others are there, and what is skipped without them;
 //! - [`tracked`]: the files of the repository;
+//! - [`world_lines`]: bodies that accelerate, spin and orbit, by integration in small steps;
 //! - [`worlds`]: random worlds, and laws that hold in them.
 
 #![allow(clippy::missing_panics_doc, reason = "a test helper fails by panicking")]
@@ -33,4 +34,5 @@ pub mod shading;
 pub mod slow_reader;
 pub mod tools;
 pub mod tracked;
+pub mod world_lines;
 pub mod worlds;

@@ -153,13 +153,15 @@ impl PlacedBodies {
         let default_camera = DefaultCamera::new(scene, camera, size, fitted);
         let default_camera = default_camera.map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
+        let roots = world_lines::roots(scene);
+        world_lines::release_parts_of_inertial_bodies(scene)?;
         camera_frame::transform_velocities(scene, of_camera)?;
-        world_lines::place(scene, &bodies, &mut motions, (eye, &observer), options)?;
+        world_lines::place(scene, (&bodies, &roots), &mut motions, (eye, &observer), options)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
             || crate::has_moving_bodies(scene)
             || crate::has_moving_lights(scene);
-        let shifts = placement::shifts(scene, &bodies, &motions, (eye, &observer), options);
+        let shifts = placement::shifts(scene, (&bodies, &roots), &motions, (eye, &observer), options);
         placement::shift_lights(scene, &motions, &shifts);
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);

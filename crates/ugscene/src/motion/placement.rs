@@ -12,10 +12,11 @@ use crate::{BodyId, LampShift, LightKind, Scene, SeenPosition};
 
 /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///
-/// `bodies`: of each vertex. `motions`: of each body.
+/// `bodies`: of each vertex. `roots`: for each body, that whose place it keeps. `motions`: of each
+/// body.
 pub(super) fn shifts(
     scene: &Scene,
-    bodies: &[BodyId],
+    (bodies, roots): (&[BodyId], &[BodyId]),
     motions: &[RelativeMotion],
     (eye, observer): (DVec3, &Observer),
     options: &MotionOptions,
@@ -26,7 +27,8 @@ pub(super) fn shifts(
     };
     // This reads every vertex.
     let centers = if is_center_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
-    let shift = |(motion, &center): (&RelativeMotion, &DVec3)| {
+    let shift = |(motion, root): (&RelativeMotion, &BodyId)| {
+        let center = centers[root.index()];
         if motion.world_line().is_some() {
             return DVec3::ZERO;
         }
@@ -40,7 +42,7 @@ pub(super) fn shifts(
         };
         anchor_shift(motion, point, options.in_place) + eye_shift(motion, observer, options.time)
     };
-    let mut shifts: Vec<DVec3> = motions.iter().zip(&centers).map(shift).collect();
+    let mut shifts: Vec<DVec3> = motions.iter().zip(roots).map(shift).collect();
     // Unused vertices are part of the first body. They get the offset of a body of the same motion.
     let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
     if let Some(row) = same_motion {

@@ -2,20 +2,21 @@
 //! the scene as part of their statements.
 
 use glam::DVec3;
-use ugphysics::{Event, Lorentz, WorldLine};
+use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
 use super::observer::Observer;
 use super::placement::centers;
 use super::{Anchor, MotionError, MotionOptions};
 use crate::world_lines::eye_event;
-use crate::{BodyId, RelativeMotion, Scene, StatedMotion};
+use crate::{BodyId, MotionPath, RelativeMotion, Scene, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
 ///
-/// A body that is part of another one stays in its place on it.
+/// A body that is part of another one stays in its place on it. `bodies`: of each vertex.
+/// `carriers`: from [`roots`].
 pub(super) fn place(
     scene: &mut Scene,
-    bodies: &[BodyId],
+    (bodies, carriers): (&[BodyId], &[BodyId]),
     motions: &mut [RelativeMotion],
     (eye, observer): (DVec3, &Observer),
     options: &MotionOptions,
@@ -34,17 +35,21 @@ pub(super) fn place(
     let frame = Lorentz::boost(observer.velocity).inverse();
     let roots: Vec<BodyId> = scene.bodies.stated_by_name().filter(|&body| is_root(scene, body)).collect();
     for body in roots {
+        let carrier = carriers[body.index()];
+        let center = centers[carrier.index()];
         let anchor = match options.anchor {
             Some(Anchor::Eye) => eye,
             Some(Anchor::Origin) => DVec3::ZERO,
-            Some(Anchor::Center) => centers[body.index()],
+            Some(Anchor::Center) => center,
             Some(Anchor::Point(point)) => point,
-            None if options.in_place => centers[body.index()],
+            None if options.in_place => center,
             None => eye,
         };
         let line = scene.bodies.motion(body);
         let shift = if options.in_place {
-            in_place_shift(line, anchor, eye).map_err(|error| impossible(scene, body, error))?
+            let inertial = WorldLine::inertial(line.initial_velocity());
+            let placed = if carrier == body { line } else { &inertial };
+            in_place_shift(placed, anchor, (eye, observer.velocity)).map_err(|error| impossible(scene, body, error))?
         } else {
             line.anchor_shift(anchor)
         };
@@ -69,6 +74,30 @@ pub(super) fn place(
     for body in scene.bodies.ids().filter(|&body| scene.bodies.is_on_world_line(body)) {
         let line = scene.bodies.motion(body).in_frame(frame, stated_eye).with_body_origin(eye);
         motions[body.index()] = RelativeMotion::on_world_line(line);
+    }
+    Ok(())
+}
+
+/// For each body, the one that carries all others that it is part of; itself if it is part of none.
+pub(super) fn roots(scene: &Scene) -> Vec<BodyId> {
+    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::on);
+    let root = |body: BodyId| std::iter::successors(Some(body), carrier).last().unwrap_or(body);
+    scene.bodies.ids().map(root).collect()
+}
+
+/// Parts that spin on inertial bodies become bodies with the velocity of their carrier. Inertial
+/// bodies of a scene as seen have velocities in the frame of the camera, all others in that of the
+/// scene, so one cannot be part of the other.
+pub(super) fn release_parts_of_inertial_bodies(scene: &mut Scene) -> Result<(), MotionError> {
+    let bodies: Vec<BodyId> =
+        scene.bodies.stated_by_name().filter(|&body| scene.bodies.is_on_world_line(body)).collect();
+    for body in bodies {
+        if let Some(motion) = scene.bodies.statement(body).cloned()
+            && let Some(velocity) = motion.on().and_then(|on| scene.bodies.motion(on).uniform_velocity())
+        {
+            let path = MotionPath::Free { velocity, accelerations: Vec::new() };
+            restate(scene, body, StatedMotion { path, ..motion }, &WorldLine::REST)?;
+        }
     }
     Ok(())
 }
@@ -102,10 +131,14 @@ fn impossible(scene: &Scene, body: BodyId, error: ugphysics::WorldLineError) -> 
     MotionError::WorldLine { name: name.to_string(), error }
 }
 
-/// The displacement, at rest for the body at its own time 0, with which `anchor` is seen from `eye`
-/// at time 0 where the scene has it.  Eq. (P26)
-fn in_place_shift(line: &WorldLine, anchor: DVec3, eye: DVec3) -> Result<Event, ugphysics::WorldLineError> {
-    let way = anchor - eye;
-    let seen = Event { t: -ugphysics::length(way), x: anchor };
-    line.displacement_to(anchor, seen)
+/// The displacement, at rest for the body at its own time 0, with which a camera with the velocity
+/// `camera` sees `anchor`, from `eye` at time 0, where the scene has it.  Eq. (P26)
+fn in_place_shift(
+    line: &WorldLine,
+    anchor: DVec3,
+    (eye, camera): (DVec3, Velocity),
+) -> Result<Event, ugphysics::WorldLineError> {
+    let seen = crate::world_lines::seen_event(anchor - eye);
+    let event = Lorentz::boost(camera).apply(seen) + Event { t: 0.0, x: eye };
+    line.displacement_to(anchor, event)
 }

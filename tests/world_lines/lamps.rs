@@ -1,0 +1,137 @@
+//! Light of lamps on world lines, on bodies on world lines.
+
+use glam::DVec3;
+use ugdoppler::Config;
+use uglight::ColorShift;
+use ugphysics::{Brightness, hue_to_wavelength};
+use ugscene::{ColorValue, Scene, Tint};
+use ugtesting::Random;
+use ugtests::pipe;
+use ugtests::scenes::parse;
+use ugtests::world_lines::statement::words;
+use ugtests::world_lines::sight::emission_time;
+use ugtests::world_lines::{Body, Four, Observer, Statement, plus, product};
+
+use crate::{World, observer, options};
+
+/// Value and hue of the surface, and the level of the lamp.
+const VALUE: f64 = 0.8;
+const HUE: f64 = 120.0;
+const LEVEL: f64 = 0.5;
+
+fn lit() -> Config {
+    let shift = ColorShift::hues(true, Brightness::None);
+    Config { light: true, tolerance: 0.0, wavelengths: true, keep: true, shift, ..Config::default() }
+}
+
+/// The part of the lamp's level that falls on a point of a triangle, and D D_l.
+fn expected(
+    eye: &Observer,
+    (body, corners, point): (&Body, [DVec3; 3], DVec3),
+    (lamp_body, lamp): (&Body, DVec3),
+) -> (f64, f64) {
+    let sighting = eye.sight(body, point);
+    let (own_time, here) = (sighting.own_time, sighting.moment);
+    let tangents = [corners[1] - corners[0], corners[2] - corners[0]].map(|t| body.vector(t, own_time));
+    let normal = across(here.velocity, tangents[0], tangents[1]);
+    let source = lamp_body.moment(lamp, emission_time(lamp_body, lamp, here.event));
+    let way = plus(source.event, -1.0, here.event);
+    let to_eye = plus(eye.event, -1.0, here.event);
+    // way = r (−u + l), so way·u = r.
+    let cosine = product(normal, way) / product(way, here.velocity);
+    let doppler = product(way, here.velocity) / product(way, source.velocity);
+    (cosine * product(normal, to_eye).signum(), doppler * sighting.doppler)
+}
+
+/// The unit vector perpendicular to three.
+fn across(a: Four, b: Four, c: Four) -> Four {
+    let minor = |rows: [usize; 3]| {
+        let [x, y, z] = [a, b, c].map(|v| DVec3::from_array(rows.map(|row| v[row])));
+        x.dot(y.cross(z))
+    };
+    // The index of time is raised with its sign.
+    let v = [-minor([1, 2, 3]), -minor([0, 2, 3]), minor([0, 1, 3]), -minor([0, 1, 2])];
+    let norm = product(v, v).sqrt();
+    v.map(|x| x / norm)
+}
+
+/// Wavelength and value of a vertex.
+fn color(scene: &Scene, name: &str) -> (f64, f64) {
+    let vertex = scene.vertices.iter().find(|vertex| scene.names.get(vertex.name) == name).unwrap();
+    match scene.colors[vertex.color.unwrap().index()].value {
+        ColorValue::Hsv { tint: Tint::Wavelength(nm), value, .. } => (nm, value),
+        // Where no light falls, there is no hue.
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn lamplight_arrives_when_integration_says() {
+    let mut random = Random(10);
+    let mut n_lit = 0;
+    for case in 0..60 {
+        let mut world = World::default();
+        for n in [1, 0] {
+            let middle = random.in_ball(3.0);
+            let motion = match (case + n) % 4 {
+                0 => Statement::inertial(random.in_ball(0.7)),
+                _ => Statement::random(&mut random, middle, 0.7),
+            };
+            world.add(&mut random, motion, middle, n);
+            let carrier = world.motions.len() - 1;
+            if case % 3 == 0 {
+                let part = Statement::random_part(&mut random, carrier, middle);
+                world.add(&mut random, part, middle, 0);
+            }
+        }
+        // The lamp is on the last body, the triangle on the first or on its part.
+        let lamp_row = world.motions.len() - 1;
+        world.triangles[0].body = usize::from(case % 6 == 0);
+        let lamp = world.motions[lamp_row].at + random.in_ball(0.5);
+        let text = world.text().replace(") <", ") green <");
+        let text = format!("c green {VALUE} {HUE} 1; l {LEVEL} {} 0 <m{lamp_row}>;\n{text}", words(lamp));
+        let velocity = random.in_ball(0.6);
+        let eye = 6.0 * random.direction();
+        let config = uglorentz::Config {
+            camera_velocity: Some(velocity),
+            ..options(eye, random.between(-2.0, 3.0))
+        };
+        let scene = parse(&pipe::doppler(&pipe::lorentz(text.as_bytes(), &config), &lit()));
+        let observer = observer(eye, velocity, config.time);
+        let bodies = world.bodies();
+        let triangle = world.triangles[0];
+        for (corner, point) in triangle.corners.into_iter().enumerate() {
+            let surface = (&bodies[triangle.body], triangle.corners, point);
+            let (cosine, doppler) = expected(&observer, surface, (&bodies[lamp_row], lamp));
+            let (nm, value) = color(&scene, &format!("p0_{corner}"));
+            let level = VALUE * LEVEL * cosine.max(0.0);
+            assert!((value - level).abs() < 1e-9, "case {case}: {value}, not {level}\n{text}");
+            if level > 0.0 {
+                let expected = hue_to_wavelength(HUE) / doppler;
+                assert!((nm / expected - 1.0).abs() < 1e-9, "case {case}: {nm}, not {expected}\n{text}");
+                n_lit += 1;
+            }
+        }
+    }
+    assert!(n_lit > 30, "{n_lit}");
+}
+
+/// A lamp on a body with constant velocity is a lamp with that velocity.
+#[test]
+fn a_lamp_on_an_inertial_body_has_its_velocity() {
+    let room = "c green .8 120 1; v a 0 3 0; v b 1 3 0; v c 0 3 1; f (a b c) green BODY;
+        cam -ep 0 -5 1 -vc 0 0 0 <.1 .2 .3>; l .5 1 -3 2 0 LAMP; l .2 2 1 3 LAMP; l .1 LAMP;";
+    for body in ["", "<.3 .5 -.2>", "<0 .1 0>", "<turning>"] {
+        // In place, the lamp has a place of its own, since a name is a body.
+        for in_place in [false, body == "<turning>"] {
+            let config = uglorentz::Config { in_place, time: 0.5, ..uglorentz::Config::default() };
+            let draw = |lamp: &str| {
+                let text = room.replace("BODY", body).replace("LAMP", lamp);
+                let text = format!("motion m -vel .3 .5 -.2; motion turning -spin 0 .2 .1; {text}");
+                let scene = parse(&pipe::doppler(&pipe::lorentz(text.as_bytes(), &config), &lit()));
+                ["a", "b", "c"].map(|name| color(&scene, name))
+            };
+            assert_eq!(draw("<m>"), draw("<.3 .5 -.2>"), "{body} {in_place}");
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! Laws that hold whatever the motion.
+
+use glam::DVec3;
+use ugscene::Anchor;
+use ugtesting::Random;
+use ugtests::picture::assert_same;
+use ugtests::pipe::Pipe;
+use ugtests::scenes::parse;
+use ugtests::world_lines::statement::words;
+use ugtests::world_lines::{Path, Statement, Stretch};
+
+use crate::{World, is_free, options, seen};
+
+/// A cube with colours, lamps and a camera; `MOTION` is the motion of the cube.
+const CUBE: &str = "c red 1 20 .8; c blue .8 230;
+    v a -1 -1 -1; v b 1 -1 -1; v c 1 1 -1; v d -1 1 -1; v e -1 -1 1; v f 1 -1 1; v g 1 1 1; v h -1 1 1;
+    f (d c b a) red MOTION; f (e f g h) blue MOTION; f (a b f e) MOTION; f (c d h g) red MOTION;
+    f (b c g f) blue MOTION; f (d a e h) red MOTION;
+    v i -3 2 -2; v j 3 2 -2; v k 3 2 2; v l -3 2 2; f (i j k l) blue;
+    l .2; l .5 -1 -2 3; l .6 2 -3 1 0 <0 0 0>;
+";
+
+const CAMERA: &str = "cam -ep 2 -6 1 -vc 0 0 0 -va 50 40;";
+
+fn pipe(time: f64) -> Pipe {
+    let mut pipe = Pipe::default();
+    pipe.lorentz.time = time;
+    pipe.rainbow.picture.size = [80, 60];
+    pipe
+}
+
+fn cube(motion: &str) -> Vec<u8> {
+    (CUBE.replace("MOTION", motion) + CAMERA).into_bytes()
+}
+
+/// Motions without acceleration and spin, however they are written, are the velocity.
+#[test]
+fn no_spin_and_no_acceleration_are_inertial_motion_byte_for_byte() {
+    let velocity = cube("<.3 .5 -.2>");
+    for options in [
+        "-vel .3 .5 -.2",
+        "-vel .3 .5 -.2 -spin 0 0 0",
+        "-at 1 2 3 -acc 0 0 0 -vel .3 .5 -.2 -acc 0 0 0 -3 -1",
+        "-vel .3 .5 -.2 -spin 0 0 0 1 2 -acc 0 0 0 1 2",
+    ] {
+        let named = [format!("motion m {options};\n").as_bytes(), &cube("<m>")].concat();
+        let on = format!("motion n -on m -at 1 1 1; motion m {options};\n");
+        let on = [on.as_bytes(), &cube("<n>")].concat();
+        for (anchor, in_place, camera) in [
+            (None, false, None),
+            (None, true, None),
+            (Some(Anchor::Origin), false, Some(DVec3::new(0.1, 0.6, 0.0))),
+            (Some(Anchor::Center), true, Some(DVec3::new(0.1, 0.6, 0.0))),
+        ] {
+            let mut pipe = pipe(1.5);
+            (pipe.lorentz.anchor, pipe.lorentz.in_place, pipe.lorentz.camera_velocity) = (anchor, in_place, camera);
+            let expected = pipe.run(&velocity);
+            for text in [&named, &on] {
+                let found = pipe.run(text);
+                assert!(found.file == expected.file, "{options} {anchor:?} {in_place} {camera:?}");
+                let positions = |text: &[u8]| -> Vec<DVec3> {
+                    parse(text).vertices.iter().map(|vertex| vertex.position).collect()
+                };
+                assert_eq!(positions(&found.seen), positions(&expected.seen), "{options}");
+            }
+        }
+    }
+}
+
+/// A camera on a body with constant velocity is a camera with that velocity.
+#[test]
+fn a_camera_on_an_inertial_body_has_its_velocity() {
+    for (motion, beta) in [("-vel .3 .5 -.2", DVec3::new(0.3, 0.5, -0.2)), ("", DVec3::ZERO)] {
+        let text = format!("motion car {motion}; motion turning -spin 0 0 .2; motion going -acc .1 .2 0;\n");
+        for body in ["<turning>", "<going>", "<.2 0 .5>", ""] {
+            let mut pipe = pipe(0.7);
+            let text = text.clone() + std::str::from_utf8(&cube(body)).unwrap();
+            let on_car = pipe.draw(text.replace("40;", "40 <car>;").as_bytes());
+            pipe.lorentz.camera_velocity = Some(beta);
+            assert_same("camera-on-car", &pipe.draw(text.as_bytes()), &on_car, 0);
+        }
+    }
+}
+
+/// A stretch of acceleration or spin in two parts.
+#[test]
+fn parts_of_a_stretch_are_the_stretch() {
+    let mut random = Random(6);
+    for _ in 0..30 {
+        let mut world = World::default();
+        let middle = random.in_ball(3.0);
+        let motion = Statement::random(&mut random, middle, 0.8);
+        world.add(&mut random, motion.clone(), middle, 3);
+        let mut parts = world.clone();
+        let halves = |pieces: &[Stretch]| -> Vec<Stretch> {
+            let split = |piece: &Stretch| {
+                let middle = 0.3 * piece.from + 0.7 * piece.to;
+                let (before, behind) = (Stretch { to: middle, ..*piece }, Stretch { from: middle, ..*piece });
+                if piece.to.is_finite() { vec![behind, before] } else { vec![*piece] }
+            };
+            pieces.iter().flat_map(split).collect()
+        };
+        parts.motions[0].spins = halves(&motion.spins);
+        if let Path::Free { velocity, accelerations } = motion.path {
+            parts.motions[0].path = Path::Free { velocity, accelerations: halves(&accelerations) };
+        }
+        let config = options(random.in_ball(8.0), random.between(-3.0, 3.0));
+        let (whole, parts) = (seen(&world.text(), &config), seen(&parts.text(), &config));
+        for (a, b) in whole.vertices.iter().zip(&parts.vertices) {
+            assert!((a.position - b.position).length() < 1e-12 * (1.0 + a.position.length()), "{a:?} {b:?}");
+        }
+    }
+}
+
+/// What rides on a body without turning on it, is the body.
+#[test]
+fn a_rider_without_spin_equals_its_carrier() {
+    let mut random = Random(7);
+    for _ in 0..30 {
+        let mut world = World::default();
+        let middle = random.in_ball(3.0);
+        let motion = Statement::random(&mut random, middle, 0.8);
+        world.add(&mut random, motion, middle, 3);
+        let mut riders = world.clone();
+        riders.motions.push(Statement { at: middle, path: Path::On(0), spins: Vec::new() });
+        riders.triangles.iter_mut().for_each(|triangle| triangle.body = 1);
+        for anchor in [None, Some(Anchor::Origin)] {
+            let config = uglorentz::Config {
+                anchor,
+                camera_velocity: Some(random.in_ball(0.8)),
+                ..options(random.in_ball(8.0), random.between(-3.0, 3.0))
+            };
+            let (carrier, rider) = (seen(&world.text(), &config), seen(&riders.text(), &config));
+            for (a, b) in carrier.vertices.iter().zip(&rider.vertices) {
+                assert_eq!(a.position, b.position);
+            }
+        }
+    }
+}
+
+/// The trip of a twin: there and back with constant acceleration, 8 own years in 8.4887144286432.
+#[test]
+fn twins_meet() {
+    let text = "motion twin -acc 0 .3 0 0 2 -acc 0 -.3 0 2 6 -acc 0 .3 0 6 8;
+        v a 0 0 0 ; v b 0 0 .1; w (a b) <twin>; v c 0 0 0; v d 0 0 .1; w (c d) <0 0 0>;";
+    // Light from there takes 10; a little later, since it leaves `b` before the end of the trip.
+    let config = options(DVec3::new(10.0, 0.0, 0.0), 18.489_3);
+    let scene = seen(text, &config);
+    for (traveller, other) in [(0, 2), (1, 3)] {
+        let [there, here] = [traveller, other].map(|row: usize| scene.vertices[row].position);
+        assert!((there - here).length() < 1e-12, "{there} {here}");
+    }
+    let rows = ugscene::measure(&scene, config.eye.unwrap(), config.time);
+    assert!((rows[0].doppler - 1.0).abs() < 1e-12, "{:?}", rows[0]);
+    // From the twin the other one is there after 8 of its own.
+    let riding = format!("{text} v e 3 4 0; v f 3 4 1; w (e f); cam -ep 0 0 .05 -vc 3 4 0 <twin>;");
+    let scene = seen(&riding, &options(DVec3::new(0.0, 0.0, 0.05), 8.0));
+    let seen_at = scene.vertices.iter().find(|vertex| scene.names.get(vertex.name) == "e").unwrap().position;
+    assert!((seen_at - DVec3::new(3.0, 4.0, 0.0)).length() < 1e-11, "{seen_at}");
+}
+
+/// The whole world with another velocity: what a camera sees is the same. Every motion gets the
+/// velocity composed with that of the frame; the axes of bodies turn (Wigner), so velocities are
+/// along one line.
+#[test]
+fn a_boost_of_the_world_changes_no_position() {
+    let mut random = Random(8);
+    for _ in 0..40 {
+        let direction = random.direction();
+        let frame = random.between(-0.8, 0.8);
+        let compose = |v: f64| (v + frame) / (1.0 + v * frame);
+        let mut world = World::default();
+        for _ in 0..3 {
+            let middle = random.in_ball(3.0);
+            let mut motion = Statement::random(&mut random, middle, 0.8);
+            while !is_free(&motion) {
+                motion = Statement::random(&mut random, middle, 0.8);
+            }
+            let Path::Free { velocity, .. } = &mut motion.path else { unreachable!() };
+            *velocity = random.between(-0.8, 0.8) * direction;
+            world.add(&mut random, motion, middle, 2);
+        }
+        let camera = random.between(-0.8, 0.8);
+        let mut other = world.clone();
+        for motion in &mut other.motions {
+            let Path::Free { velocity, .. } = &mut motion.path else { unreachable!() };
+            *velocity = compose(velocity.dot(direction)) * direction;
+        }
+        // The eye is at the common origin.
+        let config = options(DVec3::ZERO, random.between(-3.0, 3.0));
+        let with = |camera: f64| uglorentz::Config { camera_velocity: Some(camera * direction), ..config.clone() };
+        let (here, there) = (seen(&world.text(), &with(camera)), seen(&other.text(), &with(compose(camera))));
+        for (a, b) in here.vertices.iter().zip(&there.vertices) {
+            assert!((a.position - b.position).length() < 1e-10 * (1.0 + a.position.length()), "{a:?} {b:?}");
+        }
+    }
+}
+
+/// With `-in`, a body that hardly turns is where one that does not turn is, whatever the camera does.
+#[test]
+fn slow_spins_are_placed_as_no_spin() {
+    for camera in [DVec3::ZERO, DVec3::new(0.2, 0.5, 0.1)] {
+        for (anchor, in_place) in [
+            (None, false),
+            (None, true),
+            (Some(Anchor::Origin), false),
+            (Some(Anchor::Center), false),
+            (Some(Anchor::Origin), true),
+            (Some(Anchor::Point(DVec3::new(1.0, 2.0, 0.5))), true),
+        ] {
+            let config = uglorentz::Config {
+                anchor,
+                in_place,
+                camera_velocity: Some(camera),
+                ..options(DVec3::new(2.0, -6.0, 1.0), 1.5)
+            };
+            let texts = ["-spin 0 0 1e-14", ""].map(|spin| {
+                format!("motion m -vel .3 .5 -.2 {spin}; v a 1 0 0; v b 2 0 0; v c 2 1 3; f (a b c) <m>;")
+            });
+            let [turning, inertial] = texts.map(|text| seen(&text, &config));
+            for (a, b) in turning.vertices.iter().zip(&inertial.vertices) {
+                let off = (a.position - b.position).length();
+                assert!(off < 1e-11, "{camera} {anchor:?} {in_place}: {} {}", a.position, b.position);
+            }
+        }
+    }
+}
+
+/// Parts that spin on an inertial body stay in their place on it, for all ways to place it.
+#[test]
+fn parts_stay_on_inertial_bodies() {
+    let text = "motion car -vel .3 .5 -.2; motion wheel -on car -at 1 1 0 -spin 0 0 1e-14; motion door -on car;
+        v a 1 0 0; v b 3 0 0; v c 3 1 3; f (a b c) <car>;
+        v d 1 0 0; v e 1 1 1; v f 0 0 1; f (d e f) <wheel>; v g 1 0 0; v h 1 2 1; f (g h d) <door>;";
+    for (anchor, in_place) in [(None, false), (None, true), (Some(Anchor::Origin), false), (Some(Anchor::Center), false)]
+    {
+        let camera_velocity = Some(DVec3::new(0.1, 0.2, 0.3));
+        let config =
+            uglorentz::Config { anchor, in_place, camera_velocity, ..options(DVec3::new(2.0, -6.0, 1.0), 1.5) };
+        let scene = seen(text, &config);
+        let at = |name: &str| scene.vertices.iter().find(|v| scene.names.get(v.name) == name).unwrap().position;
+        for name in ["d", "g"] {
+            assert!((at(name) - at("a")).length() < 1e-11, "{anchor:?} {in_place} {name}: {} {}", at(name), at("a"));
+        }
+    }
+}
+
+/// A camera and a body on the same path see each other at rest.
+#[test]
+fn a_camera_sees_its_own_body_as_it_is() {
+    let mut random = Random(9);
+    for _ in 0..20 {
+        let eye = random.in_ball(2.0);
+        let mut motion = Statement::random(&mut random, eye, 0.8);
+        motion.at = eye;
+        if let Path::Free { accelerations, .. } = &mut motion.path {
+            accelerations.clear();
+        } else {
+            continue;
+        }
+        // Without spin it is at rest for its own camera.
+        motion.spins.clear();
+        let text = format!("{} v a 1 2 3; v b 2 2 {}; w (a b) <m0>;", motion.text(0), words(DVec3::ONE).len());
+        let scene = seen(&format!("{text} cam -vc 0 0 0 <m0>;"), &options(eye, random.between(-3.0, 3.0)));
+        let found = scene.vertices[0].position;
+        assert!((found - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-11, "{found}");
+    }
+}

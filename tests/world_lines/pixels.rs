@@ -1,0 +1,204 @@
+//! Pictures: which triangle each pixel shows, and its colour.
+
+use glam::DVec3;
+use ugphysics::{Hsv, attenuation, hue_to_wavelength, wavelength_to_hue};
+use ugscene::Anchor;
+use ugtesting::Random;
+use ugtests::agreement::{face_of, recolored};
+use ugtests::pipe::Pipe;
+use ugtests::scenes::parse;
+use ugtests::world_lines::statement::words;
+use ugtests::world_lines::{Observer, Statement, View};
+
+use crate::{World, observer};
+
+const SIZE: [u32; 2] = [24, 18];
+
+/// The full angle across the picture, degrees.
+const ANGLE_DEG: f64 = 50.0;
+
+/// How far from its edge, in pixels, a triangle may be missed.
+const REACH: f64 = 0.03;
+
+/// A picture to take.
+struct Shot {
+    world: World,
+    /// The camera, as text, without its view centre.
+    camera: String,
+    eye: DVec3,
+    center: DVec3,
+    time: f64,
+    observer: Observer,
+    /// The direction in the axes of the observer that the camera calls x, y, z.
+    axes: [DVec3; 3],
+}
+
+impl Shot {
+    /// Bodies of all kinds around the origin, seen from outside.
+    fn random(random: &mut Random) -> Self {
+        let mut world = World::default();
+        for _ in 0..2 {
+            let middle = random.in_ball(1.5);
+            let motion = Statement::random(random, middle, 0.7);
+            world.add(random, motion, middle, 3);
+            let carrier = world.motions.len() - 1;
+            let part = Statement::random_part(random, carrier, middle);
+            world.add(random, part, middle, 1);
+        }
+        let velocity = random.in_ball(0.7);
+        let eye = 5.0 * random.direction();
+        let time = random.between(4.0, 6.0);
+        let observer = observer(eye, velocity, time);
+        let mut shot = Self {
+            world,
+            camera: format!("<{}>", words(velocity)),
+            eye,
+            center: DVec3::ZERO,
+            time,
+            observer,
+            axes: DVec3::AXES,
+        };
+        shot.center = eye + shot.middle();
+        shot
+    }
+
+    /// The same, from a body that moves as well.
+    fn riding(random: &mut Random) -> Self {
+        let mut shot = Self::random(random);
+        let mut carrier = Statement::random(random, shot.eye, 0.7);
+        // At the reference point the axes of the body are those of the eye.
+        carrier.at = shot.eye;
+        if let ugtests::world_lines::Path::Orbit { center, .. } = &mut carrier.path {
+            *center = shot.eye + DVec3::new(1.0, 2.0, -1.0);
+        }
+        let row = shot.world.motions.len();
+        shot.world.motions.push(carrier);
+        let body = &shot.world.bodies()[row];
+        shot.observer = Observer::on(body, shot.eye, shot.time);
+        shot.axes = DVec3::AXES.map(|axis| shot.observer.components(body.vector(axis, shot.time)));
+        shot.camera = format!("<m{row}>");
+        let middle = shot.middle();
+        shot.center = shot.eye + DVec3::from_array(shot.axes.map(|axis| axis.dot(middle)));
+        shot
+    }
+
+    /// The mean direction to what is seen, in the axes of the observer.
+    fn middle(&self) -> DVec3 {
+        let bodies = self.world.bodies();
+        let corners = self.world.triangles.iter().flat_map(|triangle| triangle.corners.map(|p| (triangle.body, p)));
+        corners.map(|(body, p)| self.observer.sight(&bodies[body], p).seen.normalize()).sum::<DVec3>()
+    }
+
+    fn text(&self) -> String {
+        format!(
+            "{}cam -ep {} -vc {} -ud 0 0 1 -va {ANGLE_DEG} {ANGLE_DEG} {};",
+            self.world.text(),
+            words(self.eye),
+            words(self.center),
+            self.camera
+        )
+    }
+
+    /// The direction through a point of the picture, in the axes of the observer.
+    fn direction(&self, x: f64, y: f64) -> DVec3 {
+        let [width, height] = SIZE.map(f64::from);
+        let forward = (self.center - self.eye).normalize();
+        let right = forward.cross(DVec3::Z).normalize();
+        let down = forward.cross(right);
+        let pixel = 2.0 * (0.5 * ANGLE_DEG.to_radians()).tan() / width;
+        let d = forward + pixel * ((x - 0.5 * width) * right + (y - 0.5 * height) * down);
+        let [a, b, c] = self.axes;
+        (d.x * a + d.y * b + d.z * c).normalize()
+    }
+
+    fn pipe(&self) -> Pipe {
+        let mut pipe = Pipe::default();
+        pipe.lorentz.time = self.time;
+        pipe.lorentz.anchor = Some(Anchor::Origin);
+        pipe.lorentz.pieces = uglorentz::Pieces::UpTo(3e-5);
+        pipe.lorentz.color_error = 2e-4;
+        pipe.doppler.repeat = true;
+        pipe.doppler.tolerance = 0.0;
+        pipe.rainbow.picture.size = SIZE;
+        pipe.rainbow.picture.samples = 1;
+        pipe
+    }
+}
+
+/// Which triangle every pixel shows.
+fn check_shape(shot: &Shot) {
+    let text = ugparse::write(&recolored(parse(shot.text().as_bytes())));
+    let picture = shot.pipe().shape().draw(&text);
+    let bodies = shot.world.bodies();
+    let view = View::new(shot.observer, &bodies, &shot.world.triangles);
+    let look = |x: f64, y: f64| view.look(shot.direction(x, y)).map(|hit| hit.triangle);
+    let (mut n_filled, mut n_edges) = (0, 0);
+    for (column, row, pixel) in picture.enumerate_pixels() {
+        let (x, y) = (f64::from(column) + 0.5, f64::from(row) + 0.5);
+        let expected = look(x, y);
+        n_filled += usize::from(expected.is_some());
+        let shown = face_of(pixel.0);
+        if shown == Ok(expected) {
+            continue;
+        }
+        let ring = (0..16).map(|k| 0.125 * std::f64::consts::PI * f64::from(k)).map(f64::sin_cos);
+        let near: Vec<_> = ring.map(|(sin, cos)| look(x + REACH * cos, y + REACH * sin)).collect();
+        let is_explained = shown.is_ok_and(|shown| near.contains(&shown));
+        assert!(is_explained, "{column} {row} shows {shown:?}, not {expected:?}: {near:?}\n{}", shot.text());
+        n_edges += 1;
+    }
+    println!("{n_filled} pixels of triangles, {n_edges} at edges");
+    assert!(n_filled > 10 && n_edges < 10, "{}", shot.text());
+}
+
+#[test]
+fn every_pixel_shows_the_triangle_whose_light_arrives() {
+    let mut random = Random(3);
+    (0..3).for_each(|_| check_shape(&Shot::random(&mut random)));
+}
+
+#[test]
+fn every_pixel_of_a_camera_on_a_body_shows_the_triangle_whose_light_arrives() {
+    let mut random = Random(4);
+    (0..3).for_each(|_| check_shape(&Shot::riding(&mut random)));
+}
+
+/// Hues are shifted by the Doppler factor of the point that a pixel shows.
+#[test]
+fn every_pixel_has_the_hue_of_the_point_whose_light_arrives() {
+    let mut random = Random(5);
+    let rest = Hsv { hue: 120.0, saturation: 1.0, value: 0.8 };
+    let mut n_found = 0;
+    for case in 0..4 {
+        let shot = if case % 2 == 0 { Shot::random(&mut random) } else { Shot::riding(&mut random) };
+        let mut text = shot.text().replace(") <", ") green <");
+        text = format!("c green {} {} {}; l 1;\n{text}", rest.value, rest.hue, rest.saturation);
+        let mut pipe = shot.pipe();
+        let hues = ugrainbow::HueShift { doppler: true, law: ugphysics::Brightness::Photon };
+        pipe.doppler.shift = ugrainbow::ColorShift::Hues(hues);
+        let picture = pipe.draw(text.as_bytes());
+        let bodies = shot.world.bodies();
+        let view = View::new(shot.observer, &bodies, &shot.world.triangles);
+        for (column, row, pixel) in picture.enumerate_pixels() {
+            let points = [(0.5, 0.5), (0.4, 0.4), (0.6, 0.4), (0.5, 0.6)];
+            let hits = points.map(|(x, y)| view.look(shot.direction(f64::from(column) + x, f64::from(row) + y)));
+            let [Some(hit), others @ ..] = hits else { continue };
+            if others.iter().any(|other| other.is_none_or(|other| other.triangle != hit.triangle)) {
+                continue;
+            }
+            let doppler = hit.sighting.doppler;
+            let nm = hue_to_wavelength(rest.hue) / doppler;
+            let shifted = Hsv { hue: wavelength_to_hue(nm), ..rest }.attenuated(attenuation(nm));
+            // Linear light is multiplied by a power of D, and then clipped.
+            let factor = hues.law.factor(doppler);
+            let expected = shifted.to_rgb().map(|c| ugphysics::srgb_encode((ugphysics::srgb_decode(c) * factor).min(1.0)));
+            for (k, expected) in expected.into_iter().enumerate() {
+                let off = f64::from(pixel.0[k]) - 255.0 * expected;
+                assert!(off.abs() < 2.5, "{column} {row}: {:?}, not {expected:?} D {doppler}\n{text}", pixel.0);
+            }
+            n_found += 1;
+        }
+    }
+    println!("{n_found} pixels");
+    assert!(n_found > 50);
+}
