@@ -84,7 +84,13 @@ fn rest(observer: &Observer, body: &Body, seen: DVec3) -> Option<DVec3> {
 }
 
 /// The corners of each piece, seen and on its body.
-fn pieces(scene: &Scene, triangles: &[Triangle], bodies: &[Body], eye: DVec3, observer: &Observer) -> Vec<(usize, [[DVec3; 2]; 3])> {
+fn pieces(
+    scene: &Scene,
+    triangles: &[Triangle],
+    bodies: &[Body],
+    eye: DVec3,
+    observer: &Observer,
+) -> Vec<(usize, [[DVec3; 2]; 3])> {
     let mut pieces = Vec::new();
     for face in &scene.faces {
         let name = scene.names.get(face.name.unwrap());
@@ -107,7 +113,12 @@ fn pieces(scene: &Scene, triangles: &[Triangle], bodies: &[Body], eye: DVec3, ob
 /// Samples of an edge, and of the inside of a triangle.
 const N: u32 = 16;
 
-fn errors_of(pieces: &[(usize, [[DVec3; 2]; 3])], bodies: &[Body], observer: &Observer, bound: f64) -> Errors {
+fn errors_of(
+    pieces: &[(usize, [[DVec3; 2]; 3])],
+    bodies: &[Body],
+    observer: &Observer,
+    bound: f64,
+) -> Errors {
     let offset_bound = bound.max(1e-4);
     let mut errors = Errors::default();
     for &(body, corners) in pieces {
@@ -180,4 +191,3 @@ fn errors_of_edges_are_within_the_bound() {
     assert!(all.n_edges > 1000 && all.angle > 0.3, "{all:?}");
     assert!(all.angle <= 1.0 && all.depth <= 1.0 && all.inside <= 1.0, "{all:?}");
 }
-

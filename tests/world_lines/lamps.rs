@@ -8,8 +8,8 @@ use ugscene::{ColorValue, Scene, Tint};
 use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
-use ugtests::world_lines::statement::words;
 use ugtests::world_lines::sight::emission_time;
+use ugtests::world_lines::statement::words;
 use ugtests::world_lines::{Body, Four, Observer, Statement, plus, product};
 
 use crate::{World, observer, options};
@@ -24,12 +24,13 @@ fn lit() -> Config {
     Config { light: true, tolerance: 0.0, wavelengths: true, keep: true, shift, ..Config::default() }
 }
 
-/// The part of the lamp's level that falls on a point of a triangle, and D D_l.
+/// The part of the lamp's level that falls on a point of a triangle, on the side of its normal, D
+/// D_l, and the side that is seen there.
 fn expected(
     eye: &Observer,
     (body, corners, point): (&Body, [DVec3; 3], DVec3),
     (lamp_body, lamp): (&Body, DVec3),
-) -> (f64, f64) {
+) -> (f64, f64, f64) {
     let sighting = eye.sight(body, point);
     let (own_time, here) = (sighting.own_time, sighting.moment);
     let tangents = [corners[1] - corners[0], corners[2] - corners[0]].map(|t| body.vector(t, own_time));
@@ -40,7 +41,7 @@ fn expected(
     // way = r (−u + l), so way·u = r.
     let cosine = product(normal, way) / product(way, here.velocity);
     let doppler = product(way, here.velocity) / product(way, source.velocity);
-    (cosine * product(normal, to_eye).signum(), doppler * sighting.doppler)
+    (cosine, doppler * sighting.doppler, product(normal, to_eye).signum())
 }
 
 /// The unit vector perpendicular to three.
@@ -92,19 +93,19 @@ fn lamplight_arrives_when_integration_says() {
         let text = format!("c green {VALUE} {HUE} 1; l {LEVEL} {} 0 <m{lamp_row}>;\n{text}", words(lamp));
         let velocity = random.in_ball(0.6);
         let eye = 6.0 * random.direction();
-        let config = uglorentz::Config {
-            camera_velocity: Some(velocity),
-            ..options(eye, random.between(-2.0, 3.0))
-        };
+        let config =
+            uglorentz::Config { camera_velocity: Some(velocity), ..options(eye, random.between(-2.0, 3.0)) };
         let scene = parse(&pipe::doppler(&pipe::lorentz(text.as_bytes(), &config), &lit()));
         let observer = observer(eye, velocity, config.time);
         let bodies = world.bodies();
         let triangle = world.triangles[0];
+        let mut side = None;
         for (corner, point) in triangle.corners.into_iter().enumerate() {
             let surface = (&bodies[triangle.body], triangle.corners, point);
-            let (cosine, doppler) = expected(&observer, surface, (&bodies[lamp_row], lamp));
+            let (cosine, doppler, own_side) = expected(&observer, surface, (&bodies[lamp_row], lamp));
             let (nm, value) = color(&scene, &format!("p0_{corner}"));
-            let level = VALUE * LEVEL * cosine.max(0.0);
+            // A piece is lit on the side on which its first corner is seen.
+            let level = VALUE * LEVEL * (cosine * *side.get_or_insert(own_side)).max(0.0);
             assert!((value - level).abs() < 1e-9, "case {case}: {value}, not {level}\n{text}");
             if level > 0.0 {
                 let expected = hue_to_wavelength(HUE) / doppler;

@@ -70,11 +70,14 @@ fn motions_survive_a_round_trip() {
 
 #[test]
 fn comments_stay_at_their_motions() {
-    let text = "{ first }\nmotion b -spin 0 0 .1 ; { beside b }\n{ of a }\nmotion a -on b -at 1 0 0 ; { beside a }
+    let text =
+        "{ first }\nmotion b -spin 0 0 .1 ; { beside b }\n{ of a }\nmotion a -on b -at 1 0 0 ; { beside a }
         motion c -acc .1 0 0 ;\n{ of d } v d 0 9 0; v e 1 9 0; v f 0 9 1; f (d e f) <a>; f (d e f) <b>;";
     let written = String::from_utf8(ugparse::write(&parse(text.as_bytes()))).unwrap();
     let position = |part: &str| written.find(part).unwrap_or_else(|| panic!("{part}: {written}"));
-    for (before, behind) in [("motion b", "{ beside b }"), ("{ of a }", "motion a"), ("motion a", "{ beside a }")] {
+    for (before, behind) in
+        [("motion b", "{ beside b }"), ("{ of a }", "motion a"), ("motion a", "{ beside a }")]
+    {
         let (before, behind) = (position(before), position(behind));
         assert!(before < behind && !written[before..behind].contains("motion c"), "{written}");
         assert!(behind - before < 60, "{written}");

@@ -21,7 +21,9 @@ fn check(world: &World, extra: &str, config: &uglorentz::Config, eye: &Observer)
     let mut n_found = 0;
     for (vertex, row) in scene.vertices.iter().zip(rows) {
         let name = scene.names.get(vertex.name);
-        let Some((triangle, corner)) = name.strip_prefix('p').and_then(|name| name.split_once('_')) else { continue };
+        let Some((triangle, corner)) = name.strip_prefix('p').and_then(|name| name.split_once('_')) else {
+            continue;
+        };
         let triangle = world.triangles[triangle.parse::<usize>().unwrap()];
         let point = triangle.corners[corner.parse::<usize>().unwrap()];
         let expected = eye.sight(&bodies[triangle.body], point);
@@ -32,7 +34,11 @@ fn check(world: &World, extra: &str, config: &uglorentz::Config, eye: &Observer)
             / (1.0 + eye.components(expected.moment.velocity).length_squared()).sqrt();
         let velocity = (velocity - row.velocity).length();
         let worst = place.max(doppler).max(velocity);
-        assert!(worst < 1e-9, "{name}: {place:e} {doppler:e} {velocity:e} {expected:?} {row:?}\n{}{extra}", world.text());
+        assert!(
+            worst < 1e-9,
+            "{name}: {place:e} {doppler:e} {velocity:e} {expected:?} {row:?}\n{}{extra}",
+            world.text()
+        );
         largest = largest.max(worst);
         n_found += 1;
     }
@@ -93,15 +99,78 @@ fn cameras_ride_on_bodies() {
 
 /// Numbers computed with 40 digits: motion, point, event of the eye, seen position, velocity, D.
 const NUMBERS: [(&str, [f64; 3], [f64; 4], [f64; 3], [f64; 3], f64); 9] = [
-    ("-acc .5 0 0 0 4", [0., 1., 0.], [3., 0., 0., 0.], [0.683281573, 1., 0.], [0.66666666667, 0., 0.], 0.5416407865),
-    ("-acc .5 0 0 0 4", [0., 1., 0.], [8., 0., 0., 0.], [3.1251237606, 1., 0.], [0.92071551061, 0., 0.], 0.207912717125),
-    ("-acc .5 0 0 0 4", [1., 1., 0.5], [40., 0., 0., 0.], [19.00524971, 1., 0.5], [0.96402758008, 0., 0.], 0.135450026816),
-    ("-at 1 0 0 -vel 0 .6 0 -acc .5 0 0 -2 3", [1.5, 0.25, 0.], [6., 0., -3., 1.], [1.7015406705, 4.0804069747, -1.], [0.30319764641, 0.6, 0.], 0.447605168564),
-    ("-vel .8 0 0 -spin 0 1.33333333333333333 0", [0., 0., 0.54], [0., 0., -4., 0.5], [-4.655482048, 4., -0.17054648282], [0.9170161973, 0., -0.2532781712], 0.988288108042),
-    ("-vel .8 0 0 -spin 0 1.33333333333333333 0", [0.5, 0., -0.3], [2., 0., -4., 0.5], [-1.9120985359, 4., 0.08011976081], [0.97201534871, 0., -0.029073883795], 0.40168721013),
-    ("-at 3 0 0 -orbit 0 0 0 0 0 1 .2", [3.5, 0., 0.1], [7., 0., -8., 1.], [3.4154152082, 7.3268269037, -0.9], [0.14831633107, 0.58137962291, 0.], 0.504418784358),
-    ("-at 3 0 0 -orbit 0 0 0 0 0 1 .3", [3., 0.4, 0.], [-25., 10., 0., 2.], [-10.598130244, 2.947707225, -2.], [-0.8959742816, 0.085029916619, 0.], 0.232884164834),
-    ("-spin 0 0 .25", [3., 0., 0.], [10., 0., -8., 1.], [2.9346142877, 8.6229277507, -1.], [-0.15573193768, 0.73365357192, 0.], 0.403189933584),
+    (
+        "-acc .5 0 0 0 4",
+        [0., 1., 0.],
+        [3., 0., 0., 0.],
+        [0.683281573, 1., 0.],
+        [0.66666666667, 0., 0.],
+        0.5416407865,
+    ),
+    (
+        "-acc .5 0 0 0 4",
+        [0., 1., 0.],
+        [8., 0., 0., 0.],
+        [3.1251237606, 1., 0.],
+        [0.92071551061, 0., 0.],
+        0.207912717125,
+    ),
+    (
+        "-acc .5 0 0 0 4",
+        [1., 1., 0.5],
+        [40., 0., 0., 0.],
+        [19.00524971, 1., 0.5],
+        [0.96402758008, 0., 0.],
+        0.135450026816,
+    ),
+    (
+        "-at 1 0 0 -vel 0 .6 0 -acc .5 0 0 -2 3",
+        [1.5, 0.25, 0.],
+        [6., 0., -3., 1.],
+        [1.7015406705, 4.0804069747, -1.],
+        [0.30319764641, 0.6, 0.],
+        0.447605168564,
+    ),
+    (
+        "-vel .8 0 0 -spin 0 1.33333333333333333 0",
+        [0., 0., 0.54],
+        [0., 0., -4., 0.5],
+        [-4.655482048, 4., -0.17054648282],
+        [0.9170161973, 0., -0.2532781712],
+        0.988288108042,
+    ),
+    (
+        "-vel .8 0 0 -spin 0 1.33333333333333333 0",
+        [0.5, 0., -0.3],
+        [2., 0., -4., 0.5],
+        [-1.9120985359, 4., 0.08011976081],
+        [0.97201534871, 0., -0.029073883795],
+        0.40168721013,
+    ),
+    (
+        "-at 3 0 0 -orbit 0 0 0 0 0 1 .2",
+        [3.5, 0., 0.1],
+        [7., 0., -8., 1.],
+        [3.4154152082, 7.3268269037, -0.9],
+        [0.14831633107, 0.58137962291, 0.],
+        0.504418784358,
+    ),
+    (
+        "-at 3 0 0 -orbit 0 0 0 0 0 1 .3",
+        [3., 0.4, 0.],
+        [-25., 10., 0., 2.],
+        [-10.598130244, 2.947707225, -2.],
+        [-0.8959742816, 0.085029916619, 0.],
+        0.232884164834,
+    ),
+    (
+        "-spin 0 0 .25",
+        [3., 0., 0.],
+        [10., 0., -8., 1.],
+        [2.9346142877, 8.6229277507, -1.],
+        [-0.15573193768, 0.73365357192, 0.],
+        0.403189933584,
+    ),
 ];
 
 /// Half a unit of the last of `digits` significant digits, at 12 of them, and what the table rounds.
@@ -113,7 +182,8 @@ fn is_near(found: f64, expected: f64) -> bool {
 fn numbers_of_high_precision_are_reproduced() {
     for (row, (motion, point, [t, x, y, z], place, velocity, doppler)) in NUMBERS.into_iter().enumerate() {
         let [px, py, pz] = point;
-        let text = format!("motion m {motion}; v a {px} {py} {pz}; v b {px} {py} {}; w (a b) <m>;", pz + 0.01);
+        let text =
+            format!("motion m {motion}; v a {px} {py} {pz}; v b {px} {py} {}; w (a b) <m>;", pz + 0.01);
         let eye = DVec3::new(x, y, z);
         let config = options(eye, t);
         let text = pipe::lorentz(text.as_bytes(), &config);
@@ -132,7 +202,8 @@ fn numbers_of_high_precision_are_reproduced() {
 /// The same for a camera with constant acceleration: time, place of a point at rest, D.
 #[test]
 fn numbers_of_an_accelerated_camera_are_reproduced() {
-    let text = "motion ship -acc 0 .2 0 0 10; cam -ep 0 0 0 -vc 0 9 0 <ship>; v a 1 30 2; v b 1 30 3; w (a b);";
+    let text =
+        "motion ship -acc 0 .2 0 0 10; cam -ep 0 0 0 -vc 0 9 0 <ship>; v a 1 30 2; v b 1 30 3; w (a b);";
     for (time, place, doppler) in
         [(2.0, [1.0, 44.1846609207, 2.0], 1.4906572448), (10.0, [1.0, 120.17902252, 2.0], 7.35494707534)]
     {

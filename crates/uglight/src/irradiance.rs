@@ -150,23 +150,28 @@ impl SurfaceElement {
     ) -> Option<()> {
         let surface = MovingElement::new(self, frames)?;
         let velocity = surface.velocity;
-        let (motion, axes) = surface.motion_of(body, frames)?;
         let light = match place {
             LampPlace::Everywhere => {
+                let (motion, _) = surface.motion_of(body, frames)?;
                 let relative = compose(motion, -velocity);
                 for SkyRing { level, doppler } in ambient_illumination(surface.normal, relative) {
                     add(level, doppler, None, 1.0);
                 }
                 return None;
             }
-            LampPlace::Afar(toward) => illumination_from_afar(velocity, axes * toward, motion),
+            LampPlace::Afar(toward) => {
+                let (motion, axes) = surface.motion_of(body, frames)?;
+                illumination_from_afar(velocity, axes * toward, motion)
+            }
             LampPlace::At(place) => match (frames.world_line(body), surface.event) {
                 (None, None) => {
                     let ScatteringTime::Delay(delay) = self.time else { return None };
+                    let (motion, axes) = surface.motion_of(body, frames)?;
                     illumination(surface.axes * self.point, delay, velocity, axes * place, motion)
                 }
                 (None, Some(event)) => {
                     let at = frames.of(body).rest_from_camera(event).x;
+                    let (motion, axes) = surface.motion_of(body, frames)?;
                     illumination_at(axes * at, velocity, axes * place, motion)
                 }
                 (Some(line), _) => {
@@ -231,7 +236,8 @@ impl MovingElement {
             return Some((frames.velocity(body), frames.of(body).boosted_from_scene()));
         };
         let event = self.event.unwrap_or(Event { t: 0.0, x: DVec3::ZERO });
-        let pose = line.pose(line.at_event(event).ok()?.own_time);
+        // Not a point of the body, which none can be far from the axis of a spin.
+        let pose = line.pose(line.own_time_at(event).ok()?);
         let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
         let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
         Some((velocity, carried.turn() * pose.turn))

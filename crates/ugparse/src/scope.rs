@@ -325,10 +325,9 @@ impl<'t> Scope<'t> {
     }
 
     fn add_motion(&mut self, text: &'t [u8], span: Span, motion: MotionStatement) {
-        // Also those that nothing moves with are in the scene.
-        for name in std::iter::once(motion.name).chain(motion.on) {
-            self.bodies.named(text, name);
-        }
+        // Also those that nothing moves with are in the scene. Carriers follow when all statements
+        // are read, so that what is written, with motions first, is read in the same order.
+        self.bodies.named(text, motion.name);
         self.motions.push(motion, span);
     }
 

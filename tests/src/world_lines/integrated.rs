@@ -242,7 +242,9 @@ fn start(velocity: DVec3, place: Four) -> State {
     let mut s = [0.0; N_NUMBERS];
     s[..4].copy_from_slice(&place);
     s[4..8].copy_from_slice(&four_velocity(velocity));
-    for (k, axis) in [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]].into_iter().enumerate() {
+    for (k, axis) in
+        [[0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]].into_iter().enumerate()
+    {
         s[8 + 4 * k..12 + 4 * k].copy_from_slice(&boosted(velocity, axis));
     }
     for k in 0..MOST_TURNS {

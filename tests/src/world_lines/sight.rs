@@ -91,7 +91,6 @@ impl Observer {
         let doppler = product(light, self.velocity) / product(light, moment.velocity);
         Sighting { own_time, seen: -self.components(light), doppler, moment }
     }
-
 }
 
 /// Triangles of bodies before an eye.
@@ -136,7 +135,8 @@ impl<'a> View<'a> {
 
     /// The first of the triangles in a direction, a unit vector in the axes of the eye.
     pub fn look(&self, direction: DVec3) -> Option<Hit> {
-        let hits = self.bodies.iter().zip(&self.reaches).flat_map(|(body, reach)| self.hits(body, reach, direction));
+        let hits =
+            self.bodies.iter().zip(&self.reaches).flat_map(|(body, reach)| self.hits(body, reach, direction));
         hits.min_by(|a, b| a.distance.total_cmp(&b.distance))
     }
 

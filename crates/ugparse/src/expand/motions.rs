@@ -23,6 +23,9 @@ struct Motions<'m> {
 impl Expander<'_, '_> {
     /// Sets the motions of all bodies with a name. Returns what is wrong with them.
     pub(super) fn set_motions(&mut self, statements: &Rows<MotionStatement>) -> Vec<Diagnostic> {
+        for carrier in statements.rows.iter().filter_map(|motion| motion.on) {
+            self.bodies.named(self.text, carrier);
+        }
         self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
         let names = self.bodies.names();
         let mut findings = self.inner_motions();

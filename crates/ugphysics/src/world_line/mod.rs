@@ -461,6 +461,18 @@ impl WorldLine {
         }
     }
 
+    /// The own time of A that is simultaneous with an event in the frame of A, see
+    /// [`WorldLine::at_event`]. A point of the body need not be there.
+    ///
+    /// # Errors
+    /// [`WorldLineError`] if no time is found.
+    pub fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(velocity) => Ok(Lorentz::boost(*velocity).inverse().apply(event).t),
+            Kind::Moving(moving) => moving.own_time_at(event),
+        }
+    }
+
     /// Where a point of the body would be in its coordinates at an own time if it only turned: A +
     /// ξ.
     #[must_use]

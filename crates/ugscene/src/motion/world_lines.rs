@@ -49,7 +49,8 @@ pub(super) fn place(
         let shift = if options.in_place {
             let inertial = WorldLine::inertial(line.initial_velocity());
             let placed = if carrier == body { line } else { &inertial };
-            in_place_shift(placed, anchor, (eye, observer.velocity)).map_err(|error| impossible(scene, body, error))?
+            in_place_shift(placed, anchor, (eye, observer.velocity))
+                .map_err(|error| impossible(scene, body, error))?
         } else {
             line.anchor_shift(anchor)
         };
