@@ -1,7 +1,6 @@
 //! Pictures: which triangle each pixel shows, and its colour.
 
 use glam::DVec3;
-use ugphysics::{Hsv, attenuation, hue_to_wavelength, wavelength_to_hue};
 use ugscene::Anchor;
 use ugtesting::Random;
 use ugtests::agreement::{face_of, recolored};
@@ -119,7 +118,7 @@ impl Shot {
         let forward = (self.center - self.eye).normalize();
         let right = forward.cross(DVec3::Z).normalize();
         let down = forward.cross(right);
-        let pixel = 2.0 * (0.5 * self.angle_deg.to_radians()).tan() / width;
+        let pixel = 2.0 * libm::tan(0.5 * self.angle_deg.to_radians()) / width;
         let d = forward + pixel * ((x - 0.5 * width) * right + (y - 0.5 * height) * down);
         let [a, b, c] = self.axes;
         (d.x * a + d.y * b + d.z * c).normalize()
@@ -155,7 +154,7 @@ fn check_shape(shot: &Shot) {
         if shown == Ok(expected) {
             continue;
         }
-        let ring = (0..16).map(|k| 0.125 * std::f64::consts::PI * f64::from(k)).map(f64::sin_cos);
+        let ring = (0..16).map(|k| 0.125 * std::f64::consts::PI * f64::from(k)).map(libm::sincos);
         let near: Vec<_> = ring.map(|(sin, cos)| look(x + REACH * cos, y + REACH * sin)).collect();
         let is_explained = shown.is_ok_and(|shown| near.contains(&shown));
         assert!(is_explained, "{column} {row} shows {shown:?}, not {expected:?}: {near:?}\n{}", shot.text());

@@ -98,7 +98,9 @@ fn cameras_ride_on_bodies() {
 }
 
 /// Numbers computed with 40 digits: motion, point, event of the eye, seen position, velocity, D.
-const NUMBERS: [(&str, [f64; 3], [f64; 4], [f64; 3], [f64; 3], f64); 9] = [
+type Number = (&'static str, [f64; 3], [f64; 4], [f64; 3], [f64; 3], f64);
+
+const NUMBERS: [Number; 9] = [
     (
         "-acc .5 0 0 0 4",
         [0., 1., 0.],

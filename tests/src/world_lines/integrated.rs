@@ -122,7 +122,7 @@ impl Body {
                 let arm = arm - arm.dot(axis) * axis;
                 let speed = rate.abs() * arm.length();
                 let own_rate = rate / (1.0 - speed * speed).sqrt();
-                let (sin, cos) = (own_rate * own_time).sin_cos();
+                let (sin, cos) = libm::sincos(own_rate * own_time);
                 let inward = -own_rate * own_rate * (cos * arm + sin * axis.cross(arm));
                 [0.0, inward.x, inward.y, inward.z]
             }
