@@ -10,7 +10,9 @@ use proptest::prelude::*;
 use ugphysics::Velocity;
 use ugscene::{BodyId, ColorId, ColorValue, LightKind, NameId, Projection, Scene, VertexId};
 use ugtests::scenes;
-use ugtests::slow_reader::{self, Camera, Face, Flat, Light, Paint, Triple, Vertex, Wire};
+use ugtests::slow_reader::{
+    self, Camera, Face, Flat, Light, Motion, MotionOptions, Paint, Triple, Vertex, Wire,
+};
 
 /// Relative to the largest coordinate: the two readers multiply matrices in different orders, which
 /// causes a few rounding errors per transformation.
@@ -20,8 +22,9 @@ const TOLERANCE: f64 = 1e-12;
 fn flat(scene: &Scene) -> Flat {
     let text = |id: NameId| scene.names.get(id).to_string();
     let name = |id: Option<NameId>| id.map(text);
-    let velocity = |velocity: Option<Velocity>| velocity.map(|velocity| velocity.beta().to_array());
-    let motion = |body: BodyId| velocity(scene.bodies.stated_velocity(body));
+    let velocity = |velocity: Velocity| Motion::Velocity(velocity.beta().to_array());
+    let named = |body: BodyId| scene.bodies[body].name.map(|name| Motion::Named(text(name)));
+    let motion = |body: BodyId| named(body).or_else(|| scene.bodies.stated_velocity(body).map(velocity));
     let color = |id: Option<ColorId>| {
         let color = &scene.colors[id?.index()];
         Some(match color.value {
@@ -52,13 +55,13 @@ fn flat(scene: &Scene) -> Flat {
         surface: scene
             .surface(face)
             .map(|s| [s.diffuse, s.specular, s.transmitted, s.refraction, s.exponent, s.absorption]),
-        velocity: motion(face.body),
+        motion: motion(face.body),
     });
     let wires = scene.wires.iter().map(|wire| Wire {
         name: name(wire.name),
         contours: scene.wire_contours(wire).map(contour).collect(),
         color: color(wire.color),
-        velocity: motion(wire.body),
+        motion: motion(wire.body),
     });
     let lights = scene.lights.iter().map(|light| {
         let (place, radius, reference) = match light.kind {
@@ -69,13 +72,13 @@ fn flat(scene: &Scene) -> Flat {
             }
         };
         let (name, color) = (name(light.name), color(light.color));
-        let velocity = light.motion.body().and_then(motion);
-        Light { name, intensity: light.intensity, place, radius, reference, color, velocity }
+        let motion = light.motion.body().and_then(motion);
+        Light { name, intensity: light.intensity, place, radius, reference, color, motion }
     });
     let cameras = scene.cameras.iter().map(|camera| Camera {
         name: name(camera.name),
         options: camera_options(camera),
-        velocity: velocity(camera.velocity),
+        motion: camera.carrier.and_then(named).or_else(|| camera.velocity.map(velocity)),
     });
     Flat {
         vertices: vertices.collect(),
@@ -84,6 +87,7 @@ fn flat(scene: &Scene) -> Flat {
         lights: lights.collect(),
         cameras: cameras.collect(),
         escapes: scene.remarks.escapes.clone(),
+        motions: BTreeMap::new(),
     }
 }
 
@@ -154,7 +158,34 @@ fn check(text: &str) -> Flat {
         places.into_iter().flatten().flatten().collect()
     });
     assert_eq!(ours.escapes, slow.escapes, "escapes");
+    check_motions(text, &slow);
     slow
+}
+
+/// Asserts that motions are written as they were read, apart from numbers that are the default.
+#[track_caller]
+fn check_motions(text: &str, slow: &Flat) {
+    if slow.motions.is_empty() {
+        return;
+    }
+    let written = ugparse::write(&scenes::parse(text.as_bytes()));
+    let written = slow_reader::read(&String::from_utf8_lossy(&written));
+    let number =
+        |word: &String| word.parse::<f64>().map_or_else(|_| word.clone(), |number| number.to_string());
+    let plain = |options: &MotionOptions| -> MotionOptions {
+        let is_default = |words: &[String]| words.iter().all(|word| word == "0" || word == "|");
+        let options = options
+            .iter()
+            .map(|(option, words)| (option.clone(), words.iter().map(number).collect::<Vec<_>>()));
+        let stays = |(option, words): &(String, Vec<String>)| {
+            !(matches!(&option[..], "-at" | "-vel" | "-shift") && is_default(words))
+        };
+        options.filter(stays).collect()
+    };
+    let all = |flat: &Flat| -> Vec<(String, MotionOptions)> {
+        flat.motions.iter().map(|(name, options)| (name.clone(), plain(options))).collect()
+    };
+    assert_eq!(all(slow), all(&written), "motions");
 }
 
 #[test]

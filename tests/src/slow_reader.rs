@@ -25,6 +25,8 @@ pub struct Flat {
     pub cameras: Vec<Camera>,
     /// Escapes, without their outer parentheses.
     pub escapes: Vec<String>,
+    /// `motion`, by name.
+    pub motions: BTreeMap<String, MotionOptions>,
 }
 
 /// An expanded vertex.
@@ -53,8 +55,8 @@ pub struct Face {
     pub illum: Option<f64>,
     /// kd, ks, kt, n, exponent and absorption of its surface, without the name.
     pub surface: Option<[f64; 6]>,
-    /// Its velocity.
-    pub velocity: Option<Triple>,
+    /// Its motion.
+    pub motion: Option<Motion>,
 }
 
 /// An expanded wire.
@@ -66,8 +68,8 @@ pub struct Wire {
     pub contours: Vec<Vec<String>>,
     /// Its colour.
     pub color: Option<Paint>,
-    /// Its velocity.
-    pub velocity: Option<Triple>,
+    /// Its motion.
+    pub motion: Option<Motion>,
 }
 
 /// An expanded light.
@@ -85,8 +87,8 @@ pub struct Light {
     pub reference: Option<f64>,
     /// Its colour.
     pub color: Option<Paint>,
-    /// Its velocity.
-    pub velocity: Option<Triple>,
+    /// Its motion.
+    pub motion: Option<Motion>,
 }
 
 /// An expanded camera.
@@ -96,9 +98,21 @@ pub struct Camera {
     pub name: Option<String>,
     /// Options and numbers; of `-og` and `-ps` the last one.
     pub options: BTreeMap<String, Vec<f64>>,
-    /// Its velocity.
-    pub velocity: Option<Triple>,
+    /// Its motion.
+    pub motion: Option<Motion>,
 }
+
+/// `< x y z >` or `< NAME >`
+#[derive(Clone, Debug, PartialEq)]
+pub enum Motion {
+    /// A velocity.
+    Velocity(Triple),
+    /// A motion by its name.
+    Named(String),
+}
+
+/// The options of a motion with their words; those that were not given are left out.
+pub type MotionOptions = BTreeMap<String, Vec<String>>;
 
 /// A colour: its numbers and translucency.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,10 +135,10 @@ pub fn read(text: &str) -> Flat {
     let root = read_scope(&mut words, "", None);
     let mut expansion = Expansion::default();
     let scene =
-        Placement { path: String::new(), matrix: IDENTITY, is_mirrored: false, color: None, velocity: None };
+        Placement { path: String::new(), matrix: IDENTITY, is_mirrored: false, color: None, motion: None };
     expansion.scope(&[&root], &scene);
     expansion.prefer_outer_camera();
-    expansion.flat
+    Flat { motions: root.motions, ..expansion.flat }
 }
 
 // Words.
@@ -234,15 +248,16 @@ impl Words {
         self.is_number().then(|| self.triple())
     }
 
-    /// Parses `< x y z >`, if present.
-    fn velocity(&mut self) -> Option<Triple> {
+    /// Parses `< x y z >` or `< NAME >`, if present.
+    fn motion(&mut self) -> Option<Motion> {
         if self.peek() != "<" {
             return None;
         }
         self.expect("<");
-        let velocity = self.triple();
+        let motion =
+            if self.is_number() { Motion::Velocity(self.triple()) } else { Motion::Named(self.take()) };
         self.expect(">");
-        Some(velocity)
+        Some(motion)
     }
 
     fn contours(&mut self) -> Vec<Vec<String>> {
@@ -270,6 +285,7 @@ struct Scope {
     colors: BTreeMap<String, Paint>,
     surfaces: BTreeMap<String, [f64; 6]>,
     definitions: BTreeMap<String, Scope>,
+    motions: BTreeMap<String, MotionOptions>,
     statements: Vec<Statement>,
 }
 
@@ -290,14 +306,14 @@ enum Statement {
         unnamed: Option<Paint>,
         surface: Option<String>,
         illum: Option<f64>,
-        velocity: Option<Triple>,
+        motion: Option<Motion>,
     },
     /// `numbers`: intensity, then direction or position, radius and reference distance.
     Light {
         name: Option<String>,
         numbers: Vec<f64>,
         color: Option<String>,
-        velocity: Option<Triple>,
+        motion: Option<Motion>,
     },
     Camera(Camera),
     /// To copy k applies `first`, then k times `step`. An instance has no `size`.
@@ -308,7 +324,7 @@ enum Statement {
         first: Vec<Step>,
         size: Option<usize>,
         step: Vec<Step>,
-        velocity: Option<Triple>,
+        motion: Option<Motion>,
     },
     Escape(String),
 }
@@ -351,6 +367,19 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
                 let inside = read_scope(words, &format!("{prefix}{name}:"), unnamed.clone());
                 words.expect("end");
                 assert!(scope.definitions.insert(name, inside).is_none(), "a second definition");
+            }
+            "motion" => {
+                let name = words.take();
+                let mut options = MotionOptions::new();
+                while words.peek() != ";" {
+                    let option = words.take();
+                    let arguments = options.entry(option).or_default();
+                    while words.peek() != ";" && (words.is_number() || !words.peek().starts_with('-')) {
+                        arguments.push(words.take());
+                    }
+                    arguments.push("|".to_string());
+                }
+                scope.motions.insert(name, options);
             }
             _ => scope.statements.push(read_statement(&keyword, words, unnamed.clone())),
         }
@@ -395,18 +424,18 @@ fn read_statement(keyword: &str, words: &mut Words, unnamed: Option<Paint>) -> S
             unnamed,
             surface: if keyword == "f" { words.name() } else { None },
             illum: words.is_number().then(|| words.number()),
-            velocity: words.velocity(),
+            motion: words.motion(),
         },
         "l" => Statement::Light {
             name: words.name(),
             numbers: words.all_numbers(),
             color: words.name(),
-            velocity: words.velocity(),
+            motion: words.motion(),
         },
         "cam" => Statement::Camera(Camera {
             name: words.name(),
             options: camera_options(words),
-            velocity: words.velocity(),
+            motion: words.motion(),
         }),
         "i" | "a" => {
             let name = words.name();
@@ -417,7 +446,7 @@ fn read_statement(keyword: &str, words: &mut Words, unnamed: Option<Paint>) -> S
             words.expect(")");
             let size = (keyword == "a").then(|| words.take().parse().expect("a whole number"));
             let step = if keyword == "a" { steps(words) } else { Vec::new() };
-            Statement::Placed { name, definition, color, first, size, step, velocity: words.velocity() }
+            Statement::Placed { name, definition, color, first, size, step, motion: words.motion() }
         }
         _ => panic!("what is `{keyword}`?"),
     }
@@ -593,8 +622,8 @@ struct Placement {
     is_mirrored: bool,
     /// Colour of the innermost instance with a colour.
     color: Option<Paint>,
-    /// Velocity of the outermost instance with a velocity.
-    velocity: Option<Triple>,
+    /// Motion of the outermost instance with one.
+    motion: Option<Motion>,
 }
 
 impl Placement {
@@ -748,19 +777,19 @@ impl Expansion {
     }
 
     fn shape(&mut self, shape: &Statement, scopes: &[&Scope], place: &Placement, local: &Local) {
-        let Statement::Shape { is_wire, name, contours, color, unnamed, surface, illum, velocity } = shape
+        let Statement::Shape { is_wire, name, contours, color, unnamed, surface, illum, motion } = shape
         else {
             unreachable!("the caller matched a face or wire")
         };
         let name = place.optional_name(name);
         let color = find_paint(scopes, color).or_else(|| place.color.clone()).or_else(|| unnamed.clone());
-        let velocity = place.velocity.or(*velocity);
+        let motion = place.motion.clone().or_else(|| motion.clone());
         let new_name = |vertex: &String| local[&vertex[..]].1.clone();
         let mut new_contours: Vec<Vec<String>> =
             contours.iter().map(|contour| contour.iter().map(new_name).collect()).collect();
         if *is_wire {
             if contours.iter().all(|contour| contour.len() >= 2) {
-                self.flat.wires.push(Wire { name, contours: new_contours, color, velocity });
+                self.flat.wires.push(Wire { name, contours: new_contours, color, motion });
             }
         } else if is_polygon(contours, |vertex| local[vertex].0) {
             if place.is_mirrored {
@@ -774,13 +803,13 @@ impl Expansion {
                 color,
                 illum: *illum,
                 surface,
-                velocity,
+                motion,
             });
         }
     }
 
     fn light(&mut self, light: &Statement, scopes: &[&Scope], place: &Placement) {
-        let Statement::Light { name, numbers, color, velocity } = light else {
+        let Statement::Light { name, numbers, color, motion } = light else {
             unreachable!("the caller matched a light")
         };
         let triple = (numbers.len() > 1).then(|| [numbers[1], numbers[2], numbers[3]]);
@@ -793,12 +822,12 @@ impl Expansion {
             radius,
             reference: numbers.get(5).map(|reference| reference * place.scale()),
             color: find_paint(scopes, color),
-            velocity: *velocity,
+            motion: motion.clone(),
         });
     }
 
     fn placed(&mut self, placed: &Statement, scopes: &[&Scope], place: &Placement) {
-        let Statement::Placed { name, definition, color, first, size, step, velocity } = placed else {
+        let Statement::Placed { name, definition, color, first, size, step, motion } = placed else {
             unreachable!("the caller matched an instance or array")
         };
         let found = seen(scopes, |scope| scope.definitions.get(definition));
@@ -817,7 +846,7 @@ impl Expansion {
             let mut copy = place.copy(first, step, k);
             copy.path = if size.is_some() { format!("{path}#{k}") } else { path.clone() };
             copy.color = find_paint(scopes, color).or_else(|| place.color.clone());
-            copy.velocity = place.velocity.or(*velocity);
+            copy.motion = place.motion.clone().or_else(|| motion.clone());
             self.scope(&inside_scopes, &copy);
         }
     }

@@ -101,7 +101,8 @@ impl SurfacePoint {
         let velocity = line.frame(place, own_time).velocity_of_frame().unwrap_or_default();
         let frame = RestFrame::new(velocity);
         let in_frame = |normal: DVec3| line.element_normal(place, normal, own_time);
-        let outside = scenery.faces().outside(found.triangle.face);
+        let faces = scenery.faces();
+        let outside = faces.outside(found.triangle.face);
         let step = frame.rest_from_camera(ray.step).x;
         let is_outside = in_frame(outside).dot(step) <= 0.0;
         let plane = if is_outside { outside } else { -outside };
