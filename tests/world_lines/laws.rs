@@ -198,7 +198,8 @@ fn a_boost_of_the_world_changes_no_position() {
     }
 }
 
-/// With `-in`, a body that hardly turns is where one that does not turn is, whatever the camera does.
+/// With `-in`, a body that hardly turns is where one that does not turn is, whatever the camera
+/// does.
 #[test]
 fn slow_spins_are_placed_as_no_spin() {
     for camera in [DVec3::ZERO, DVec3::new(0.2, 0.5, 0.1)] {

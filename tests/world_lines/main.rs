@@ -1,5 +1,5 @@
-//! Bodies, lamps and cameras on world lines, compared with an oracle that integrates their equations
-//! of motion ([`ugtests::world_lines`]), and laws that hold for them.
+//! Bodies, lamps and cameras on world lines, compared with an oracle that integrates their
+//! equations of motion ([`ugtests::world_lines`]), and laws that hold for them.
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
 
@@ -26,6 +26,21 @@ struct World {
 }
 
 impl World {
+    /// Two bodies of `n` triangles each within `reach` of the origin, each with a part that spins.
+    /// `size`: that motions are made for.
+    fn random(random: &mut ugtesting::Random, reach: f64, size: f64, n: usize) -> Self {
+        let mut world = Self::default();
+        for _ in 0..2 {
+            let middle = random.in_ball(reach);
+            let motion = Statement::random(random, middle, size);
+            world.add(random, motion, middle, n);
+            let carrier = world.motions.len() - 1;
+            let part = Statement::random_part(random, carrier, middle);
+            world.add(random, part, middle, 1);
+        }
+        world
+    }
+
     /// Motions and faces.
     fn text(&self) -> String {
         let mut text: String =
@@ -54,7 +69,8 @@ impl World {
     }
 }
 
-/// `uglorentz` without subdivision, with scene coordinates that are those of the frame of the scene.
+/// `uglorentz` without subdivision, with scene coordinates that are those of the frame of the
+/// scene.
 fn options(eye: DVec3, time: f64) -> uglorentz::Config {
     uglorentz::Config {
         eye: Some(eye),

@@ -34,15 +34,7 @@ struct Shot {
 impl Shot {
     /// Bodies of all kinds around the origin, seen from outside.
     fn random(random: &mut Random) -> Self {
-        let mut world = World::default();
-        for _ in 0..2 {
-            let middle = random.in_ball(1.5);
-            let motion = Statement::random(random, middle, 0.7);
-            world.add(random, motion, middle, 3);
-            let carrier = world.motions.len() - 1;
-            let part = Statement::random_part(random, carrier, middle);
-            world.add(random, part, middle, 1);
-        }
+        let world = World::random(random, 1.5, 0.7, 3);
         let velocity = random.in_ball(0.7);
         let eye = 5.0 * random.direction();
         let time = random.between(4.0, 6.0);

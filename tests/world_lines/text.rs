@@ -7,21 +7,11 @@ use ugscene::Scene;
 use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
-use ugtests::world_lines::Statement;
 
 use crate::{World, options};
 
 fn world(random: &mut Random) -> World {
-    let mut world = World::default();
-    for _ in 0..2 {
-        let middle = random.in_ball(3.0);
-        let motion = Statement::random(random, middle, 0.8);
-        world.add(random, motion, middle, 2);
-        let carrier = world.motions.len() - 1;
-        let part = Statement::random_part(random, carrier, middle);
-        world.add(random, part, middle, 1);
-    }
-    world
+    World::random(random, 3.0, 0.8, 2)
 }
 
 /// The motions of a scene.

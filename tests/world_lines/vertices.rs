@@ -175,7 +175,8 @@ const NUMBERS: [Number; 9] = [
     ),
 ];
 
-/// Half a unit of the last of `digits` significant digits, at 12 of them, and what the table rounds.
+/// Half a unit of the last of `digits` significant digits, at 12 of them, and what the table
+/// rounds.
 fn is_near(found: f64, expected: f64) -> bool {
     (found - expected).abs() <= 6e-10_f64.max(6e-11 * expected.abs())
 }

@@ -4,9 +4,9 @@
 //!
 //! Between two parameters the curve is nowhere farther than M Δ²/8 from the point of its chord at
 //! the same fraction, where M bounds its second derivative and Δ is the difference of the
-//! parameters. So the chord is a ray that meets every box and triangle that the curve meets, if they
-//! are grown by this distance: twice it, since the projection to a plane adds it to itself at most.
-//! Sections of the curve are halved until it is small compared with the box that is entered.
+//! parameters. So the chord is a ray that meets every box and triangle that the curve meets, if
+//! they are grown by this distance: twice it, since the projection to a plane adds it to itself at
+//! most. Sections of the curve are halved until it is small compared with the box that is entered.
 //!
 //! In a section the height of the curve above the plane of a triangle is a function g with |g''| ≤
 //! |n| M. It has no root where it is greater at both ends, with the same sign, than its deviation
@@ -43,8 +43,8 @@ pub trait Curve {
     fn bend(&self, ends: [(f64, DVec3); 2]) -> f64;
 }
 
-/// A section is halved for boxes whose extent times this is below its deviation. Found by trial on a
-/// spinning sphere of 100 000 triangles; the time changes little between a half and twice of it.
+/// A section is halved for boxes whose extent times this is below its deviation. Found by trial on
+/// a spinning sphere of 100 000 triangles; the time changes little between a half and twice of it.
 const NODE_SLACK: f32 = 0.07;
 
 /// The same for blocks of triangles.
@@ -350,8 +350,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         }
     }
 
-    /// The crossing of a plane between two parameters, by Newton's method within a bracket, if it is
-    /// in the triangle.
+    /// The crossing of a plane between two parameters, by Newton's method within a bracket, if it
+    /// is in the triangle.
     fn crossing(
         &self,
         section: &Arc,

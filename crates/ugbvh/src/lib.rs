@@ -36,8 +36,8 @@
 //!
 //! A ray that is straight in its own frame is a curve in the coordinates of a body that turns or
 //! accelerates. [`Curve`] states how much it may bend; [`Bvh::visit_on_curve`] halves it where a
-//! box could hide between the curve and its chord. A hit is that of a tangent that touches the curve
-//! so close to it that the difference is below 10⁻¹² sizes of the mesh.
+//! box could hide between the curve and its chord. A hit is that of a tangent that touches the
+//! curve so close to it that the difference is below 10⁻¹² sizes of the mesh.
 //!
 //! # Range of numbers
 //!

@@ -337,7 +337,8 @@ mod tests {
         assert_eq!(info.utf8_text[0].get_text().unwrap(), "γ = 2");
     }
 
-    /// A panorama has one chunk that says so, read again with the history; other pictures have none.
+    /// A panorama has one chunk that says so, read again with the history; other pictures have
+    /// none.
     #[test]
     fn panoramas_state_their_area() {
         let area = PanoramaArea { whole: [8, 4], corner: [3, 1] };

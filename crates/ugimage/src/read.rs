@@ -232,8 +232,8 @@ pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>, ReadError> {
 }
 
 /// Makes room for `n` more rows in a table, or returns an error if there is not enough memory. The
-/// room is doubled when it is full, up to the `total` of rows, so that it follows what a file has and
-/// not what its header says.
+/// room is doubled when it is full, up to the `total` of rows, so that it follows what a file has
+/// and not what its header says.
 pub(crate) fn room_for<T>(n: usize, total: usize, rows: &mut Vec<T>) -> Result<(), ReadError> {
     if rows.capacity() - rows.len() >= n {
         return Ok(());

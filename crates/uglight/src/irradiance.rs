@@ -197,7 +197,8 @@ struct MovingElement {
     axes: DQuat,
     /// In these axes.
     normal: DVec3,
-    /// For a body on a world line, where and when it scatters the light, in the frame of the camera.
+    /// For a body on a world line, where and when it scatters the light, in the frame of the
+    /// camera.
     event: Option<Event>,
 }
 

@@ -49,8 +49,8 @@ impl Point {
         Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation }
     }
 
-    /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own time
-    /// at emission.
+    /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
+    /// time at emission.
     pub(crate) fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3, guess: Option<f64>) -> Point {
         const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
         let light = match guess {

@@ -105,8 +105,8 @@ fn deviation(a: &Point, b: &Point, true_point: &Point) -> Deviation {
     Deviation { tan_half, offset: off.length() / true_point.seen_distance, color: of_inverse.max(of_doppler) }
 }
 
-/// The tangent of half the angle between two vectors, given the product of their lengths: sin x/(1 +
-/// cos x).
+/// The tangent of half the angle x between two vectors, sin x/(1 + cos x). `product`: of their
+/// lengths.
 fn tan_half_angle(p: DVec3, q: DVec3, product: f64) -> f64 {
     p.cross(q).length() / (product + p.dot(q))
 }

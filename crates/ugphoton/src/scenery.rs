@@ -63,8 +63,8 @@ pub struct Scenery<'a> {
     pub is_uncut: bool,
 }
 
-/// A body on a world line with a surface that transmits light. A medium in which light has one speed
-/// has to rest in some frame.
+/// A body on a world line with a surface that transmits light. A medium in which light has one
+/// speed has to rest in some frame.
 fn moving_medium(scene: &Scene, frames: &RestFrames) -> Option<BodyId> {
     let is_medium = |face: &&Face| {
         let transmits = scene.surface(face).is_some_and(|surface| surface.transmitted > 0.0);

@@ -134,8 +134,8 @@ impl<'a> Shader<'a> {
     }
 }
 
-/// The place of a point in the frame of a lamp, or as it stands before a lamp that rests with what it
-/// lights.
+/// The place of a point in the frame of a lamp, or as it stands before a lamp that rests with what
+/// it lights.
 fn seen_from(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: usize) -> DVec3 {
     match (&scenery.lamp_motions[lamp], &scenery.world.parts[point.part].motion, &point.element) {
         (Some(LampMotion::Inertial(frame)), ..) => frame.rest_from_camera(point.event).x,

@@ -37,11 +37,11 @@ impl WorldLineMotion {
         Some(Self { line: line.clone(), tube })
     }
 
-    /// Calls `visit` with the hits of a ray at parameters in a range. `visit` returns false for a hit
-    /// that ends the search for those behind it, which may still yield hits before it.
+    /// Calls `visit` with the hits of a ray at parameters in a range. `visit` returns false for a
+    /// hit that ends the search for those behind it, which may still yield hits before it.
     ///
-    /// Along a ray in the tube of a body, later parameters have earlier own times, as long as 1 + a·ξ
-    /// is positive. `clearance`: own time before which the body of a surface is not met again.
+    /// Along a ray in the tube of a body, later parameters have earlier own times, as long as 1 +
+    /// a·ξ is positive. `clearance`: own time before which the body of a surface is not met again.
     pub fn visit(
         &self,
         bvh: &Bvh,

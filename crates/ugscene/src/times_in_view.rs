@@ -77,9 +77,9 @@ struct Search<'s> {
 }
 
 impl BodyBoxes {
-    /// The interval of times, nearest to that of `motion`, in which bodies that move relative to the
-    /// camera are in the picture; `None` if they never are, or none moves. Between the corners of
-    /// boxes nothing is looked for, so it may be a little too short.
+    /// The interval of times, nearest to that of `motion`, in which bodies that move relative to
+    /// the camera are in the picture; `None` if they never are, or none moves. Between the corners
+    /// of boxes nothing is looked for, so it may be a little too short.
     ///
     /// # Errors
     /// See [`BodyBoxes::seen`].

@@ -83,8 +83,8 @@ pub struct Args {
 
     /// How much brighter than white clipped highlights of a photograph are, in stops
     ///
-    /// A photograph has no number for light brighter than white, so the sun is as bright as paper in
-    /// it. With -highlights 6 pixels whose three channels are clipped are 64 times as bright as
+    /// A photograph has no number for light brighter than white, so the sun is as bright as paper
+    /// in it. With -highlights 6 pixels whose three channels are clipped are 64 times as bright as
     /// white, and stay white in pictures of motion. Has no effect on HDR, EXR and PFM.
     #[arg(long, value_name = "STOPS", allow_hyphen_values = true, value_parser = number(stops),
           help_heading = COLOR)]

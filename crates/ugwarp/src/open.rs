@@ -32,8 +32,8 @@ impl<'s> From<&'s Opened> for Sky<'s> {
 }
 
 /// Reads a panorama from the bytes of PNG, JPEG, HDR, EXR or PFM files. `extent`: the angles that
-/// an equirectangular one shows; without it the whole sphere. `highlights`: how many times as bright
-/// as white clipped highlights of photographs are. `limits`: of all files together.
+/// an equirectangular one shows; without it the whole sphere. `highlights`: how many times as
+/// bright as white clipped highlights of photographs are. `limits`: of all files together.
 ///
 /// # Errors
 /// - [`Error::Read`]: a file is no picture that can be read.

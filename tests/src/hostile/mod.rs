@@ -16,8 +16,8 @@
 //! - nothing that it prints moves the cursor or reverses the text, and no number in a message is
 //!   infinite or NaN;
 //! - the number of threads changes no byte;
-//! - no temporary file is left, unless there was not enough address space: then the next run deletes
-//!   it.
+//! - no temporary file is left, unless there was not enough address space: then the next run
+//!   deletes it.
 //!
 //! [`memory`] has what must hold in memory, for fuzz targets, whose inputs are [`File`]s.
 

@@ -80,7 +80,7 @@ impl Statement {
             let axis = random.direction();
             let arm = random.direction().cross(axis).normalize() * random.between(2.0, 5.0);
             let center = at + arm + random.between(-1.0, 1.0) * axis;
-            // The acceleration of the centre does not reach the body: γ²β²/ρ = 1/4 at most.
+            // The horizon stays outside of the body: the acceleration of the centre, γ²β²/ρ, is 1/4 at most.
             let part = 0.25 * arm.length();
             let rate = random.between(0.2, 1.0) * (part / (1.0 + part)).sqrt() / arm.length();
             Path::Orbit { center, axis, rate: if random.one_in(2) { rate } else { -rate } }

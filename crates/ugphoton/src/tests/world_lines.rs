@@ -124,8 +124,8 @@ fn world(random: &mut Random, kind: usize, n: usize) -> World {
 }
 
 /// Hits of a ray of light on a triangle, from the emission events of its points alone: where the
-/// direction in which a point is seen is that of the ray, by Newton's method from many points. Each is
-/// its parameter and least barycentric weight.
+/// direction in which a point is seen is that of the ray, by Newton's method from many points. Each
+/// is its parameter and least barycentric weight.
 fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVec3) -> Vec<(f64, f64)> {
     const N: i32 = 3;
     let (e, f) = direction.normalize().any_orthonormal_pair();

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 
-use super::{Moving, Path, Turn, WorldLineError};
+use super::WorldLineError;
+use super::moving::{Moving, Path, Turn};
 
 /// Samples of a stretch of time in which acceleration and spin, or several spins, act together.
 const N_SAMPLES: u32 = 512;

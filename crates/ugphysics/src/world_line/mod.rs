@@ -5,6 +5,7 @@
 //! (Fermi-Walker transport), in which it may spin.
 
 mod horizon;
+mod moving;
 mod orbit;
 mod pieces;
 mod ray;
@@ -16,6 +17,7 @@ pub use pieces::Piece;
 pub use ray::{RayPoint, RayStretch, WorldTube};
 
 use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};
+use moving::{Moment, Moving, Path, Turn};
 use pieces::{Acceleration, Spin};
 
 /// The motion of a body in the frame of the scene.
@@ -43,34 +45,6 @@ pub struct WorldLine(Kind);
 enum Kind {
     Inertial(Velocity),
     Moving(Box<Moving>),
-}
-
-/// A motion that is not inertial.
-#[derive(Clone, Debug, PartialEq)]
-struct Moving {
-    /// A, in the coordinates of the body.
-    at: DVec3,
-    /// The velocity at own time 0.
-    initial: Velocity,
-    path: Path,
-    /// Spins about points of the body, the innermost first: each turns what those before it have
-    /// turned.
-    turns: Vec<Turn>,
-}
-
-/// Spin about a point.
-#[derive(Clone, Debug, PartialEq)]
-struct Turn {
-    /// The point, in the coordinates of the body.
-    pivot: DVec3,
-    spin: Spin,
-}
-
-/// The world line of A.
-#[derive(Clone, Debug, PartialEq)]
-enum Path {
-    Accelerated(Acceleration),
-    Orbit(Box<Orbit>),
 }
 
 /// The event of A at some own time, and the body's axes there.
@@ -445,9 +419,9 @@ impl WorldLine {
         }
     }
 
-    /// The point of the body that an event is at, the inverse of [`WorldLine::event`]: τ is the root
-    /// of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the acceleration.  Eq.
-    /// (P45)
+    /// The point of the body that an event is at, the inverse of [`WorldLine::event`]: τ is the
+    /// root of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the acceleration.
+    /// Eq. (P45)
     ///
     /// # Errors
     /// [`WorldLineError::Horizon`] if no point of the body can be there.
@@ -525,286 +499,5 @@ impl WorldLine {
             Kind::Inertial(_) => normal,
             Kind::Moving(moving) => moving.element_normal(point, normal, own_time),
         }
-    }
-}
-
-/// A point of a body at an own time: its event and ∂X/∂τ.
-#[derive(Clone, Copy, Debug)]
-struct Moment {
-    event: Event,
-    rate: Event,
-    /// |∂X/∂τ|: the pace of the point's own clock.
-    clock: f64,
-}
-
-/// A point of a body relative to A, in the carried axes.
-#[derive(Clone, Copy, Debug)]
-struct Offset {
-    xi: DVec3,
-    /// dξ/dτ
-    swing: DVec3,
-}
-
-/// The pace of the clock of a point, ((1 + a·ξ)² − |dξ/dτ|²)^½.
-fn clock(pace: f64, swing: DVec3) -> f64 {
-    let swing = swing.length();
-    ((pace - swing) * (pace + swing)).sqrt()
-}
-
-/// True if a root is known to rounding after the step from `from` to `to`: the error after a step
-/// of Newton's method is about its square.
-fn is_last_step(is_newton: bool, from: f64, to: f64) -> bool {
-    let rounding = 1e-15 * to.abs().max(1.0);
-    (to - from).abs() <= if is_newton { rounding.max(1e-9) } else { rounding }
-}
-
-impl Turn {
-    /// `None` without a spin.
-    fn new(pivot: DVec3, spin: Spin) -> Option<Self> {
-        (!spin.is_none()).then_some(Self { pivot, spin })
-    }
-}
-
-impl Moving {
-    fn pose(&self, own_time: f64) -> Pose {
-        let turn = |turn: DQuat, next: &Turn| next.spin.turn(own_time) * turn;
-        Pose { turn: self.turns.iter().fold(DQuat::IDENTITY, turn), ..self.carried(own_time) }
-    }
-
-    /// The pose without spin.
-    fn carried(&self, own_time: f64) -> Pose {
-        match &self.path {
-            Path::Accelerated(acceleration) => acceleration.pose(own_time),
-            Path::Orbit(orbit) => orbit.pose(own_time),
-        }
-    }
-
-    /// ξ of a point and its derivative by τ, in the carried axes.
-    fn offset(&self, point: DVec3, own_time: f64) -> Offset {
-        let mut offset = Offset { xi: point, swing: DVec3::ZERO };
-        for Turn { pivot, spin } in &self.turns {
-            let (turn, rate) = (spin.turn(own_time), spin.rate(own_time));
-            let arm = turn * (offset.xi - *pivot);
-            offset = Offset { xi: *pivot + arm, swing: rate.cross(arm) + turn * offset.swing };
-        }
-        Offset { xi: offset.xi - self.at, ..offset }
-    }
-
-    /// 1 + a·ξ.
-    fn pace(&self, xi: DVec3, own_time: f64) -> f64 {
-        1.0 + self.acceleration(own_time).dot(xi)
-    }
-
-    /// The proper acceleration in the carried axes.
-    fn acceleration(&self, own_time: f64) -> DVec3 {
-        match &self.path {
-            Path::Accelerated(acceleration) => acceleration.at(own_time),
-            Path::Orbit(orbit) => orbit.acceleration(own_time),
-        }
-    }
-
-    /// X(τ) = z(τ) + Σ ξⁱ e_i and ∂X/∂τ = (1 + a·ξ) u + (dξ/dτ)ⁱ e_i.  Eq. (P41)
-    fn moment(&self, point: DVec3, own_time: f64) -> Result<Moment, WorldLineError> {
-        let offset = self.offset(point, own_time);
-        let Offset { xi, swing } = offset;
-        let pace = self.pace(xi, own_time);
-        if pace.partial_cmp(&swing.length()) != Some(core::cmp::Ordering::Greater) {
-            return Err(WorldLineError::Horizon { own_time });
-        }
-        let (event, rate) = match &self.path {
-            Path::Accelerated(acceleration) => acceleration.moment(offset, own_time),
-            Path::Orbit(orbit) => {
-                let Pose { event, scene_from_axes: axes, .. } = orbit.pose(own_time);
-                let at = event + axes.apply(Event { t: 0.0, x: xi });
-                (at, axes.apply(Event { t: pace, x: swing }))
-            }
-        };
-        Ok(Moment { event, rate, clock: clock(pace, swing) })
-    }
-
-    fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
-        let mut own_time = self.own_time_at(event)?;
-        let pose = self.carried(own_time);
-        let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);
-        // What rounding left.
-        own_time += t;
-        let mut point = xi + self.at;
-        for Turn { pivot, spin } in self.turns.iter().rev() {
-            point = *pivot + spin.turn(own_time).inverse() * (point - *pivot);
-        }
-        let Moment { rate, clock, .. } = self.moment(point, own_time)?;
-        Ok(BodyEvent { point, own_time, velocity: Velocity::from_proper(rate.x / clock)? })
-    }
-
-    /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ, by Newton's method.
-    fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
-        const MOST_STEPS: usize = 200;
-        let Pose { event: start, scene_from_axes, .. } = self.carried(0.0);
-        let mut own_time = scene_from_axes.inverse().apply(event - start).t;
-        if matches!(&self.path, Path::Accelerated(acceleration) if acceleration.is_none()) {
-            return Ok(own_time);
-        }
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for _ in 0..MOST_STEPS {
-            let pose = self.carried(own_time);
-            let Event { t, x } = pose.scene_from_axes.inverse().apply(event - pose.event);
-            if t > 0.0 {
-                low = own_time;
-            } else {
-                high = own_time;
-            }
-            let pace = self.pace(x, own_time);
-            let newton = own_time + t / pace;
-            let next = if pace > 0.0 && newton > low && newton < high {
-                newton
-            } else if low.is_finite() && high.is_finite() {
-                low.midpoint(high)
-            } else {
-                own_time + t
-            };
-            if (next - own_time).abs() <= 1e-15 * next.abs().max(1.0) {
-                return Ok(next);
-            }
-            if !next.is_finite() {
-                break;
-            }
-            own_time = next;
-        }
-        Ok(own_time)
-    }
-
-    fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
-        let (own_time, Moment { event, rate, clock }) = self.root(point, observer, None)?;
-        Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
-    }
-
-    /// The own time at which light leaves a point for `observer`, and the moment there.
-    fn root(
-        &self,
-        point: DVec3,
-        observer: Event,
-        guess: Option<f64>,
-    ) -> Result<(f64, Moment), WorldLineError> {
-        if let Path::Accelerated(acceleration) = &self.path
-            && acceleration.is_none()
-        {
-            return self.root_of_turn(acceleration, point, observer, guess);
-        }
-        let guess = guess.unwrap_or_else(|| self.guess(observer, point));
-        let own_time = self.emission_time(point, observer, guess)?;
-        Ok((own_time, self.moment(point, own_time)?))
-    }
-
-    /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly, by Newton's method
-    /// within a bracket, which is halved where a step leaves it.
-    fn emission_time(&self, point: DVec3, observer: Event, guess: f64) -> Result<f64, WorldLineError> {
-        /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
-        const MOST_STEPS: usize = 2200;
-        let value = |own_time: f64| -> Result<(f64, f64), WorldLineError> {
-            let Moment { event, rate, .. } = self.moment(point, own_time)?;
-            let way = observer.x - event.x;
-            let toward = unit_or_zero(way);
-            Ok((observer.t - event.t - way.length(), toward.dot(rate.x) - rate.t))
-        };
-        let mut guess = guess;
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut reach = 1.0_f64.max(0.125 * guess.abs());
-        for _ in 0..MOST_STEPS {
-            let (f, slope) = value(guess)?;
-            if f == 0.0 {
-                return Ok(guess);
-            }
-            if f > 0.0 {
-                low = guess
-            } else {
-                high = guess
-            }
-            let newton = guess - f / slope;
-            let next = if newton > low && newton < high {
-                // Far from the root a step may pass over pieces of the motion.
-                newton.clamp(guess - reach, guess + reach)
-            } else if low.is_finite() && high.is_finite() {
-                0.5 * low + 0.5 * high
-            } else {
-                if f > 0.0 { guess + reach } else { guess - reach }
-            };
-            reach *= 2.0;
-            if is_last_step(next == newton, guess, next) || next == low || next == high {
-                return Ok(next);
-            }
-            guess = next;
-        }
-        Ok(guess)
-    }
-
-    /// Without acceleration, in the rest frame of A: the fixed point of τ = t_o − |x_o − ξ(τ)|.
-    fn root_of_turn(
-        &self,
-        path: &Acceleration,
-        point: DVec3,
-        observer: Event,
-        guess: Option<f64>,
-    ) -> Result<(f64, Moment), WorldLineError> {
-        const MOST_STEPS: usize = 200;
-        let Pose { event: start, scene_from_axes: axes, .. } = path.start();
-        let Event { t, x } = axes.inverse().apply(observer - start);
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        let mut own_time = guess.unwrap_or_else(|| t - (x - self.offset(point, 0.0).xi).length());
-        for _ in 0..MOST_STEPS {
-            let Offset { xi, swing } = self.offset(point, own_time);
-            let way = x - xi;
-            let distance = way.length();
-            let f = t - own_time - distance;
-            if f > 0.0 {
-                low = own_time;
-            } else {
-                high = own_time;
-            }
-            let slope = if distance > 0.0 { way.dot(swing) / distance - 1.0 } else { -1.0 };
-            let newton = own_time - f / slope;
-            // The fixed point always gets nearer, since |dξ/dτ| < 1.
-            let next = if newton > low && newton < high { newton } else { own_time + f };
-            let is_last = is_last_step(next == newton, own_time, next) || !next.is_finite();
-            own_time = next;
-            if is_last {
-                break;
-            }
-        }
-        let Offset { xi, swing } = self.offset(point, own_time);
-        if swing.length().partial_cmp(&1.0) != Some(core::cmp::Ordering::Less) {
-            return Err(WorldLineError::Horizon { own_time });
-        }
-        let event = start + axes.apply(Event { t: own_time, x: xi });
-        let rate = axes.apply(Event { t: 1.0, x: swing });
-        Ok((own_time, Moment { event, rate, clock: clock(1.0, swing) }))
-    }
-
-    /// The root for a body that moves on as it does at own time 0.
-    fn guess(&self, observer: Event, point: DVec3) -> f64 {
-        let Pose { event, scene_from_axes, .. } = self.pose(0.0);
-        let Event { t, x } = scene_from_axes.inverse().apply(observer - event);
-        let guess = t - (x - self.offset(point, 0.0).xi).length();
-        if guess.is_finite() { guess } else { 0.0 }
-    }
-
-    /// w = (dξ/dτ)/(1 + a·ξ): the velocity of a point in the rest frame of A.
-    fn lean(&self, point: DVec3, own_time: f64) -> DVec3 {
-        let Offset { xi, swing } = self.offset(point, own_time);
-        swing / self.pace(xi, own_time)
-    }
-
-    /// N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), with w = (dξ/dτ)/(1 + a·ξ): perpendicular to
-    /// ∂X/∂τ and to both tangents of the surface.  Eq. (P43)
-    fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
-        let pose = self.pose(own_time);
-        let (w, n) = (self.lean(point, own_time), pose.turn * normal);
-        let lean = n.dot(w);
-        let scale = 1.0 / ((1.0 - lean) * (1.0 + lean)).sqrt();
-        let in_scene = pose.scene_from_axes.apply(Event { t: lean * scale, x: n * scale });
-        let rate = pose.scene_from_axes.apply(Event { t: 1.0, x: w });
-        // Where it rests, the time component is 0.
-        let velocity = Velocity::from_proper(rate.x / ((1.0 - w.length()) * (1.0 + w.length())).sqrt());
-        let boost = Lorentz::boost(velocity.unwrap_or_default());
-        unit_or_zero(boost.inverse().apply(in_scene).x)
     }
 }

@@ -2,8 +2,17 @@
 
 use glam::{DQuat, DVec3};
 
-use super::{Offset, Pose, WorldLine, WorldLineError};
+use super::{Pose, WorldLine, WorldLineError};
 use crate::{Event, HyperbolicMotion, Lorentz, Velocity};
+
+/// A point of a body relative to A, in the carried axes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Offset {
+    /// ξ
+    pub xi: DVec3,
+    /// dξ/dτ
+    pub swing: DVec3,
+}
 
 /// A vector that is constant for a stretch of own time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,8 +231,8 @@ impl Acceleration {
     }
 }
 
-/// Ends a piece without an end where it has added [`WorldLine::MOST_RAPIDITY`], and refuses others that add
-/// more.
+/// Ends a piece without an end where it has added [`WorldLine::MOST_RAPIDITY`], and refuses others
+/// that add more.
 fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
     let most = WorldLine::MOST_RAPIDITY / piece.of.length();
     let Piece { from, to, .. } = *piece;

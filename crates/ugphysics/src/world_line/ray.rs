@@ -2,19 +2,20 @@
 //!
 //! A ray is straight in the frame of the scene: X(s) = O + s K. At the own time τ of the reference
 //! point it crosses the plane of simultaneity of that point where (X(s) − z(τ))·u(τ) = 0, which is
-//! linear in s. So the ray is a curve with the parameter τ in the coordinates of the body, in closed
-//! form.  Eq. (P46)
+//! linear in s. So the ray is a curve with the parameter τ in the coordinates of the body, in
+//! closed form.  Eq. (P46)
 //!
 //! In the carried axes let K = (k⁰; k), N = 1 + a·ξ and k̂ = k/k⁰. Then ds/dτ = N/k⁰ and dξ/dτ =
 //! N k̂. Since |k̂| ≤ 1, the curve is never faster than N. Differentiated once more, with dk̂/dτ =
-//! (a·k̂)k̂ − a, this is d²ξ/dτ² = N (2(a·k̂)k̂ − a) + (a'·ξ)k̂, of length N|a| + |a'||ξ| or less. The
-//! turn of the spin adds the terms of Coriolis and of the centrifugal force.
+//! (a·k̂)k̂ − a, this is d²ξ/dτ² = N (2(a·k̂)k̂ − a) + (a'·ξ)k̂, of length N|a| + |a'||ξ| or less.
+//! The turn of the spin adds the terms of Coriolis and of the centrifugal force.
 
 use core::ops::{ControlFlow, Range};
 
 use glam::{DMat3, DVec3};
 
-use super::{Kind, Moving, Path, Turn, WorldLine, WorldLineError};
+use super::moving::{Moving, Path, Turn};
+use super::{Kind, WorldLine, WorldLineError};
 use crate::Event;
 
 /// A tube around all points of a body in motion, for [`WorldLine::visit_ray`].
@@ -30,8 +31,8 @@ pub struct WorldTube {
     least_pace: f64,
 }
 
-/// A stretch of a ray in the coordinates of a body, during which the acceleration and the spin of the
-/// body do not jump.
+/// A stretch of a ray in the coordinates of a body, during which the acceleration and the spin of
+/// the body do not jump.
 #[derive(Clone, Debug)]
 pub struct RayStretch<'a> {
     path: StretchPath<'a>,
@@ -116,9 +117,9 @@ impl WorldLine {
     /// / least (1 + a·ξ), since it is no longer than the radius and its speed is 1 + a·ξ; so does a
     /// signal back. Let τ_o be the own time at which the centre is seen at the origin of the ray,
     /// τ_e that at which it is seen at the end, and τ that of a point X of the tube on the ray. The
-    /// signal that reaches X left the centre when this could be seen at the origin, so τ − radius/N ≤
-    /// τ_o. The signal from X reaches the centre when this cannot be seen at the end yet, or at the
-    /// origin if the ray is as fast as light. So τ + radius/N ≥ τ_e.
+    /// signal that reaches X left the centre when this could be seen at the origin, so τ − radius/N
+    /// ≤ τ_o. The signal from X reaches the centre when this cannot be seen at the end yet, or at
+    /// the origin if the ray is as fast as light. So τ + radius/N ≥ τ_e.
     ///
     /// # Errors
     /// [`WorldLineError::Horizon`] if the centre of the body cannot move so.
@@ -392,8 +393,8 @@ impl RayStretch<'_> {
         }
     }
 
-    /// Moves the ends of a range of own times towards a ball, as fast as the ray can at most: with v
-    /// = 1 + a |centre| + a r at the ball, the distance d from it changes by v + a d.
+    /// Moves the ends of a range of own times towards a ball, as fast as the ray can at most: with
+    /// v = 1 + a |centre| + a r at the ball, the distance d from it changes by v + a d.
     fn shrunk(&self, center: DVec3, radius: f64, mut range: Range<f64>) -> Range<f64> {
         /// Further steps take longer than they save.
         const STEPS: usize = 3;
@@ -416,8 +417,8 @@ impl RayStretch<'_> {
     }
 }
 
-/// The own times, after that of the origin, at which a straight ray enters a ball around 0 and leaves
-/// it.
+/// The own times, after that of the origin, at which a straight ray enters a ball around 0 and
+/// leaves it.
 fn straight_within(origin: DVec3, step: Event, radius: f64) -> Option<[f64; 2]> {
     let square = step.x.length_squared();
     let nearest = -origin.dot(step.x) / square;
@@ -431,10 +432,11 @@ fn straight_within(origin: DVec3, step: Event, radius: f64) -> Option<[f64; 2]> 
     }
 }
 
-/// A ray after an own time in a stretch of constant proper acceleration, whose length is `size`. The
-/// ray is relative to the event of A at its begin, in the axes there.
+/// A ray after an own time in a stretch of constant proper acceleration, whose length is `size`.
+/// The ray is relative to the event of A at its begin, in the axes there.
 ///
-/// With c = cosh aτ and h = sinh aτ the axes (u; e) are (c, h; h, c) along â, and z is (h, c − 1)/a.
+/// With c = cosh aτ and h = sinh aτ the axes (u; e) are (c, h; h, c) along â, and z is (h, c −
+/// 1)/a.
 fn accelerated(origin: Event, step: Event, acceleration: DVec3, size: f64, passed: f64) -> Carried {
     if size == 0.0 {
         return Carried::new(Event { t: origin.t - passed, ..origin }, step, acceleration);

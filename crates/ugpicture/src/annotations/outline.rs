@@ -3,8 +3,9 @@
 //! Each body gets its rest shape (P4), placed so that its centre (of its bounding box in its rest
 //! frame) is at the apparent position of that centre (P3). The outline is thus what the eye would
 //! see if the body rested there; for a body placed by `uglorentz -in` it is the body in the scene
-//! at rest. A spinning body is turned as its centre is seen. Only edges that the eye sees are drawn: edges between front and back faces, borders,
-//! and creases. Other faces of the scene at rest occlude them, those of the picture do not.
+//! at rest. A spinning body is turned as its centre is seen. Only edges that the eye sees are
+//! drawn: edges between front and back faces, borders, and creases. Other faces of the scene at
+//! rest occlude them, those of the picture do not.
 
 use std::collections::HashMap;
 
@@ -35,8 +36,8 @@ const ASIDE: f64 = 1.6;
 /// as in the plane.
 const FLAT: f64 = 3e-3;
 
-/// Points further than this behind the plane of a face, relative to their distance from the eye, are
-/// behind it: a tenth of a pixel of a face that is seen at 45 degrees.
+/// Points further than this behind the plane of a face, relative to their distance from the eye,
+/// are behind it: a tenth of a pixel of a face that is seen at 45 degrees.
 const BEHIND: f64 = 1e-4;
 
 /// The scene for the outlines: moving bodies as they would look at rest.
@@ -172,10 +173,10 @@ impl<'a> Faces<'a> {
 
     /// True if the face in the pixel of a point of an edge hides it.
     ///
-    /// [`VisibleLines`] tolerates what is a little nearer, and what is beside the point, since faces
-    /// of the surface that ends at an edge are seen so. Nothing of that is needed of other surfaces,
-    /// which the point is in front of or behind, nor where the surface turns away on both sides of
-    /// the edge and does not end.
+    /// [`VisibleLines`] tolerates what is a little nearer, and what is beside the point, since
+    /// faces of the surface that ends at an edge are seen so. Nothing of that is needed of other
+    /// surfaces, which the point is in front of or behind, nor where the surface turns away on both
+    /// sides of the edge and does not end.
     fn hide(&self, visible: &VisibleLines<'_>, edge: &Edge, place: DepthPoint) -> bool {
         let Some(face) = visible.face_at([place[0], place[1]]) else { return false };
         let is_own = edge.faces.iter().any(|&(own, _)| own == face);
