@@ -171,14 +171,29 @@ impl<'a> Scenery<'a> {
     /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter
     /// is the depth along the view, or the distance with another lens than a pinhole.
     pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
-        let Sight { eye, direction } = self.film.sight([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
+        let sight = self.film.sight([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
+        if self.is_seen_from_origin() {
+            return Some(Ray::from_eye(sight.direction));
+        }
+        self.ray_at_event(&sight)
+    }
+
+    /// True if all light of the picture arrives at the origin, in a vacuum.
+    fn is_seen_from_origin(&self) -> bool {
+        let is_single_event = self.rays.shutter == Shutter::Pinhole && self.film.has_one_eye();
+        is_single_event && self.eye_media.innermost().is_none()
+    }
+
+    /// The ray of a line of sight, whose light may arrive at another event than the origin, or in a
+    /// medium.
+    #[inline(never)] // Or the sight of every sample is passed in memory.
+    fn ray_at_event(&self, &Sight { eye, direction }: &Sight) -> Option<Ray> {
         let ahead = match self.rays.shutter {
             Shutter::Pinhole => 0.0,
             Shutter::Film { distance } => distance * (direction.length() - 1.0),
         };
         let origin = Event { t: -ahead, x: eye };
         match self.media_at(origin).innermost() {
-            None if ahead == 0.0 && eye == DVec3::ZERO => Some(Ray::from_eye(direction)),
             None => Some(Ray::in_vacuum(origin, direction)),
             Some(solid) => Ray::in_medium(origin, direction, self.medium(solid)),
         }
@@ -207,8 +222,7 @@ impl<'a> Scenery<'a> {
         first: &mut Vec<Option<Intersection>>,
     ) {
         first.clear();
-        let is_in_vacuum = self.eye_media.innermost().is_none();
-        if self.rays.shutter != Shutter::Pinhole || !self.film.has_one_eye() || !is_in_vacuum {
+        if !self.is_seen_from_origin() {
             first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));
             return;
         }

@@ -96,10 +96,13 @@ impl<'a> Shader<'a> {
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
+        let has_shadows = scenery.has_lights() && scenery.rays.shadows;
         let add = |incident: IncidentLamp| {
             let Irradiance { level, lamp, .. } = incident.irradiance;
-            let way = incident.toward.map(|toward| LampWay::new(scenery, point, lamp, toward));
-            let part = if scenery.has_lights() && scenery.rays.shadows {
+            let is_wanted = has_shadows || exponent.is_some();
+            let toward = incident.toward.filter(|_| is_wanted);
+            let way = toward.map(|toward| LampWay::new(scenery, point, lamp, toward));
+            let part = if has_shadows {
                 let corridor = (17 * lamp as usize + point.part) % corridors.len();
                 way.as_ref().map_or(1.0, |way| unshadowed(scenery, point, way, &mut corridors[corridor]))
             } else {

@@ -114,8 +114,17 @@ impl Film {
 
     /// The line of sight at a place, in samples from the upper left corner. `None` outside the
     /// circle of a fisheye.
-    #[inline]
-    pub fn sight(&self, [x, y]: [f64; 2]) -> Option<Sight> {
+    #[inline(always)] // Called for every sample: otherwise the direction is passed in memory.
+    pub fn sight(&self, place: [f64; 2]) -> Option<Sight> {
+        if self.lens == Lens::Pinhole && self.frames == [1, 1] {
+            return Some(Sight { eye: DVec3::ZERO, direction: self.through_pinhole(place) });
+        }
+        self.sight_in_frames(place)
+    }
+
+    /// The line of sight at a place of a picture that may have several frames.
+    #[inline(never)]
+    fn sight_in_frames(&self, [x, y]: [f64; 2]) -> Option<Sight> {
         if self.frames == [1, 1] {
             return Some(Sight { eye: DVec3::ZERO, direction: self.direction([x, y], 0)? });
         }
@@ -145,15 +154,17 @@ impl Film {
         libm::sincos(core::f64::consts::TAU * (x / self.size[0] - 0.5))
     }
 
+    #[inline(always)]
+    fn through_pinhole(&self, [x, y]: [f64; 2]) -> DVec3 {
+        let [corner, across, down] = self.pinhole;
+        corner + y * down + x * across
+    }
+
     /// The direction seen at a place of a frame.
-    #[inline]
     fn direction(&self, [x, y]: [f64; 2], frame: usize) -> Option<DVec3> {
         let [width, height] = self.size;
         match self.lens {
-            Lens::Pinhole => {
-                let [corner, across, down] = self.pinhole;
-                Some(corner + y * down + x * across)
-            }
+            Lens::Pinhole => Some(self.through_pinhole([x, y])),
             Lens::Panorama => {
                 let (sin_long, cos_long) = self.longitude(x);
                 let (sin_lat, cos_lat) = libm::sincos(core::f64::consts::PI * (0.5 - y / height));
