@@ -60,7 +60,7 @@ impl SurfacePoint {
         }
         let face = &scenery.scene.faces[found.triangle.face as usize];
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
-        let place = mean(places, found.weights);
+        let place = mean(places, found.weights());
         let wave = part.frame.wave_to_rest(ray.wave);
         let outside = scenery.faces().outside(found.triangle.face);
         let step = ray.in_part(found.part, &part.frame).1;
@@ -74,7 +74,7 @@ impl SurfacePoint {
         };
         let is_moving = !part.frame.velocity().is_zero();
         let common = scenery.appearance.common_in_motion(&scenery.scene, face, is_moving);
-        let color = scenery.appearance.color_at(&common, found.triangle.corners, found.weights);
+        let color = scenery.appearance.color_at(&common, found.triangle.corners, found.weights());
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -95,7 +95,7 @@ impl SurfacePoint {
     fn on_line(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection, line: &WorldLine) -> Self {
         let face = &scenery.scene.faces[found.triangle.face as usize];
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
-        let place = mean(places, found.weights);
+        let place = mean(places, found.weights());
         let own_time = found.own_time;
         // Its speed is below that of light, or no ray would meet it.
         let velocity = line.frame(place, own_time).velocity_of_frame().unwrap_or_default();
@@ -121,7 +121,7 @@ impl SurfacePoint {
             normal: in_frame(body_normal),
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
-            color: scenery.appearance.color_at(&common, found.triangle.corners, found.weights),
+            color: scenery.appearance.color_at(&common, found.triangle.corners, found.weights()),
         }
     }
 
@@ -183,5 +183,5 @@ fn smooth(
     }
     let normals = own.map(|own| ugscene::shading_normal(own, plane));
     let lifts = [0, 1, 2].map(|at| (corners[at] - place).dot(normals[at]).max(0.0) * normals[at]);
-    (mean(normals, found.weights).normalize_or_zero(), mean(lifts, found.weights))
+    (mean(normals, found.weights()).normalize_or_zero(), mean(lifts, found.weights()))
 }

@@ -99,8 +99,17 @@ pub struct Intersection {
     pub triangle: FaceTriangle,
     /// Its row in the part.
     row: u32,
-    /// Barycentric weights of its corners.
-    pub weights: [f64; 3],
+    /// Barycentric weights of its second and third corner.
+    weights: [f64; 2],
+}
+
+impl Intersection {
+    /// Barycentric weights of the corners of the triangle.
+    #[inline]
+    pub fn weights(&self) -> [f64; 3] {
+        let [second, third] = self.weights;
+        [1.0 - second - third, second, third]
+    }
 }
 
 impl World {
@@ -465,7 +474,7 @@ impl Part {
             own_time: 0.0,
             triangle,
             row: hit.triangle,
-            weights: [1.0 - hit.u - hit.v, hit.u, hit.v],
+            weights: [hit.u, hit.v],
         }
     }
 
@@ -473,7 +482,7 @@ impl Part {
     fn is_inside(&self, Faces { scene, rest }: Faces<'_>, found: &Intersection) -> bool {
         let face = &scene.faces[found.triangle.face as usize];
         let [a, b, c] = found.triangle.corners.map(|corner| rest[corner.index()]);
-        let [wa, wb, wc] = found.weights;
+        let [wa, wb, wc] = found.weights();
         let point = wa * a + wb * b + wc * c;
         // The coordinates that are kept are those of the plane of projection with the largest area.
         let normal = (b - a).cross(c - a).abs();
