@@ -92,6 +92,7 @@ impl SurfacePoint {
     }
 
     /// Where a ray meets a face of a body on a world line.
+    #[inline(never)] // Keeps `new` small, which is called for every ray.
     fn on_line(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection, line: &WorldLine) -> Self {
         let face = &scenery.scene.faces[found.triangle.face as usize];
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
@@ -171,6 +172,7 @@ fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 /// The interpolated normal, where corners have normals of their own, and the way from a place on
 /// the face to the surface with these normals: the mean of the places projected to the tangent
 /// planes of the corners, where these are above the face (Hanika 2021).
+#[inline(always)] // Most faces are plane.
 fn smooth(
     scenery: &Scenery<'_>,
     found: &Intersection,
