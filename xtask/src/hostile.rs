@@ -2,11 +2,14 @@
 
 use std::io::{self, Write};
 use std::path::PathBuf;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use ugtests::hostile::Case;
 use ugtests::programs;
+
+/// Cases that take longer are named.
+const SLOW: Duration = Duration::from_secs(10);
 
 /// The job to run.
 #[derive(clap::Args)]
@@ -17,6 +20,9 @@ pub struct Args {
     /// Number of the first case; those of the tests begin at 0
     #[arg(long, value_name = "SEED", default_value_t = 1_000_000)]
     first: u64,
+    /// Only scenes with bodies that accelerate, spin and orbit
+    #[arg(long)]
+    motions: bool,
     /// Write the files of the first case into this folder, and run nothing
     #[arg(long, value_name = "FOLDER")]
     extract: Option<PathBuf>,
@@ -28,8 +34,9 @@ pub struct Args {
 /// Runs the cases and writes what was found; progress goes to standard error. Fails if anything was
 /// found.
 pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
+    let case_of = if args.motions { Case::with_motions } else { Case::new };
     if let Some(folder) = &args.extract {
-        let case = Case::new(args.first);
+        let case = case_of(args.first);
         case.write_to(folder)?;
         return writeln!(out, "{case:#?}");
     }
@@ -39,8 +46,15 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     // In blocks, so that findings appear while the rest runs.
     for start in (0..args.cases).step_by(1000) {
         let seeds = args.first + start..args.first + (start + 1000).min(args.cases);
-        let results: Vec<_> =
-            seeds.clone().into_par_iter().map(|seed| Case::new(seed).run(&programs)).collect();
+        let timed = |seed: u64| {
+            let begun = Instant::now();
+            (case_of(seed).run(&programs), seed, begun.elapsed())
+        };
+        let timed: Vec<_> = seeds.clone().into_par_iter().map(timed).collect();
+        for (_, seed, taken) in timed.iter().filter(|(.., taken)| *taken > SLOW) {
+            writeln!(io::stderr(), "case {seed} takes {} s", taken.as_secs())?;
+        }
+        let results: Vec<_> = timed.into_iter().map(|(result, ..)| result).collect();
         n_drawn += results.iter().filter(|result| **result == Ok(true)).count();
         for finding in results.into_iter().filter_map(Result::err) {
             n_findings += 1;

@@ -70,6 +70,7 @@ pub fn motion(random: &mut Random, line: &mut Vec<String>) {
         _ => word(random, &["eye", "origin", "center", "middle"]),
     };
     maybe(random, 8, line, "-an", anchor);
+    flags(random, 20, line, &["--keep-in-view"]);
 }
 
 /// The angle of a fisheye: mostly possible.

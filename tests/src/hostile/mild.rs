@@ -6,7 +6,7 @@ use std::fmt::Write;
 use ugtesting::Random;
 
 use super::line::{MEASURED, flags, maybe, word, words};
-use super::{Files, film, mesh, panorama, picture, scene};
+use super::{Files, film, mesh, motion as motions, panorama, picture, scene};
 
 /// Files, the first of which is the input, and the stages of a pipe.
 pub fn pipe(random: &mut Random) -> (Files, Vec<Vec<String>>) {
@@ -34,15 +34,23 @@ pub fn pipe(random: &mut Random) -> (Files, Vec<Vec<String>>) {
             (files, vec![line])
         }
         _ => {
-            let stages = if random.one_in(10) {
-                vec![words("ugparse", &[*random.pick(&["check", "tidy", "flatten", "count"])])]
-            } else {
-                drawing(random)
+            let stages = stages(random);
+            let text = match random.below(6) {
+                0 | 1 => scene::known(random),
+                2 => motions::sane(random).into_bytes(),
+                _ => statements(random).into_bytes(),
             };
-            let text = if random.one_in(3) { scene::known(random) } else { statements(random).into_bytes() };
             (vec![("scene.ug".to_owned(), text)], stages)
         }
     }
+}
+
+/// The stages for a scene.
+pub fn stages(random: &mut Random) -> Vec<Vec<String>> {
+    if random.one_in(10) {
+        return vec![words("ugparse", &[*random.pick(&["check", "tidy", "flatten", "count"])])];
+    }
+    drawing(random)
 }
 
 /// A length from tiny to huge, mostly about 1.
@@ -197,6 +205,7 @@ fn motion(random: &mut Random, line: &mut Vec<String>) {
     maybe(random, 5, line, "-ti", time);
     let anchor = word(random, &["eye", "origin", "center"]);
     maybe(random, 5, line, "-an", anchor);
+    flags(random, 12, line, &["--keep-in-view"]);
 }
 
 /// Options of `ugphoton`.

@@ -29,6 +29,7 @@ mod line;
 pub mod memory;
 mod mesh;
 mod mild;
+mod motion;
 mod options;
 mod panorama;
 mod picture;
@@ -68,6 +69,22 @@ impl Case {
     pub fn new(seed: u64) -> Self {
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
         let (files, stages) = if random.one_in(3) { wild(&mut random) } else { mild::pipe(&mut random) };
+        let is_repeated = random.one_in(4);
+        let edge = Edge::new(&mut random);
+        Self { seed, files, stages, edge, is_repeated }
+    }
+
+    /// The case of this number among scenes with motions alone.
+    pub fn with_motions(seed: u64) -> Self {
+        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let (files, stages) = if random.one_in(2) {
+            let files = scene::named(motion::wild(&mut random).into_bytes());
+            let stages = options::stages(&mut random, "scene", &files);
+            (files, stages)
+        } else {
+            let stages = mild::stages(&mut random);
+            (scene::named(motion::sane(&mut random).into_bytes()), stages)
+        };
         let is_repeated = random.one_in(4);
         let edge = Edge::new(&mut random);
         Self { seed, files, stages, edge, is_repeated }

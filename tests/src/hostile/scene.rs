@@ -4,18 +4,27 @@ use std::fmt::Write;
 
 use ugtesting::Random;
 
-use super::{Files, bytes, words};
+use super::{Files, bytes, motion, words};
 use crate::scenes;
 
 /// A scene and files it names.
 pub fn files(random: &mut Random) -> (Files, &'static str) {
+    (named(text(random)), "scene")
+}
+
+/// The same files with this scene.
+pub fn named(text: Vec<u8>) -> Files {
     let part = b"v part 0 0 1 ;\n".to_vec();
-    (vec![("scene.ug".to_owned(), text(random)), ("part.ug".to_owned(), part)], "scene")
+    vec![("scene.ug".to_owned(), text), ("part.ug".to_owned(), part)]
 }
 
 /// A scene.
 pub fn text(random: &mut Random) -> Vec<u8> {
-    let mut text = if random.one_in(3) { known(random) } else { statements(random).into_bytes() };
+    let mut text = match random.below(6) {
+        0 | 1 => known(random),
+        2 => motion::wild(random).into_bytes(),
+        _ => statements(random).into_bytes(),
+    };
     if random.one_in(3) {
         bytes::damage(random, &mut text);
     }
@@ -24,7 +33,8 @@ pub fn text(random: &mut Random) -> Vec<u8> {
 
 /// A scene of the repository that is not large.
 pub fn known(random: &mut Random) -> Vec<u8> {
-    const NAMES: [&str; 8] = ["ship", "cubes", "dice", "glass", "halves", "traffic", "lamp", "rainbow"];
+    const NAMES: [&str; 10] =
+        ["ship", "cubes", "dice", "glass", "halves", "traffic", "lamp", "rainbow", "twins", "orbit"];
     let path = scenes::root().join("scenes").join(random.pick(&NAMES)).with_extension("ug");
     std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
 }
