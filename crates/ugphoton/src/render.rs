@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use ugimage::{LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
-use ugphysics::Event;
+use ugphysics::{Event, WorldLineError};
 use ugpicture::{
     Annotated, Canvas, DepthBuffer, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata,
 };
@@ -202,8 +202,11 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
         let motion = &placed.motions[body.index()];
         if let Some(line) = motion.world_line() {
             let seen = line.emission(rest, ORIGIN).map_err(|error| {
-                let vertex = scene.names.get(vertex.name).to_string();
-                Error::WorldLine { vertex, error }
+                let name = scene.names.get(vertex.name).to_string();
+                match error {
+                    WorldLineError::NotFinite => Error::OutOfRange { name },
+                    _ => Error::WorldLine { vertex: name, error },
+                }
             })?;
             vertex.position = seen.event.x + placed.eye;
             scene.rest.push(rest);

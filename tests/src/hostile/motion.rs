@@ -153,8 +153,15 @@ fn pieces(random: &mut Random) -> Vec<String> {
 
 /// A motion in which points at the distance 1 are as fast as light, or slower by a rounding error.
 fn rim(random: &mut Random) -> String {
-    const NEAR_ONE: [&str; 7] =
-        ["1", "0.9999999999999999", "0.99999999999", "0.999999", "0.99", "1.0000000000000002", "0.7071067811865475"];
+    const NEAR_ONE: [&str; 7] = [
+        "1",
+        "0.9999999999999999",
+        "0.99999999999",
+        "0.999999",
+        "0.99",
+        "1.0000000000000002",
+        "0.7071067811865475",
+    ];
     let rate = random.pick(&NEAR_ONE);
     let path = match random.below(5) {
         0 => format!("-acc {rate} 0 0 {}", times(random)),
@@ -212,7 +219,9 @@ impl Names {
             0 => String::new(),
             1 => format!("<{}>", (random.in_ball(0.9)).to_array().map(|part| part.to_string()).join(" ")),
             10 => format!("<{}>", words::name(random)),
-            11 => (*random.pick(&["<m0", "<m0 m1>", "<m0 0 0>", "<>", "<m0> <m0>", "<-m0>", "m0>"])).to_owned(),
+            11 => {
+                (*random.pick(&["<m0", "<m0 m1>", "<m0 0 0>", "<>", "<m0> <m0>", "<-m0>", "m0>"])).to_owned()
+            }
             _ => format!("<m{}>", random.below(self.n_motions)),
         }
     }
@@ -232,7 +241,8 @@ fn scene(random: &mut Random, motions: Vec<String>, names: Names) -> String {
     for _ in 0..1 + random.below(6) {
         let motion = names.motion(random);
         let place = random.in_cube(1.5).to_array().map(|part| format!("{part:.3}"));
-        let place = format!("-sa {:.2} -tx {} -ty {} -tz {}", random.between(0.1, 1.0), place[0], place[1], place[2]);
+        let place =
+            format!("-sa {:.2} -tx {} -ty {} -tz {}", random.between(0.1, 1.0), place[0], place[1], place[2]);
         let corners = *random.pick(&["p q s", "p q r", "s t r", "p t q s"]);
         let color = *random.pick(&["", "red", "star", "blue 0.7", "red mirror", "blue mirror", "red glass"]);
         statements.push(match random.below(9) {

@@ -14,6 +14,10 @@ use crate::statement::MotionStatement;
 /// The longest chain of motions of which each is part of the next.
 const MAX_CARRIERS: usize = 64;
 
+/// The most pieces of acceleration and spin that motions take over from those they ride on, counted
+/// for each motion, so that a chain with many riders does not multiply them.
+const MAX_CARRIED_PIECES: usize = 1 << 17;
+
 /// The motions of a file by the bodies that have them.
 struct Motions<'m> {
     statements: &'m Rows<MotionStatement>,
@@ -48,11 +52,38 @@ impl Expander<'_, '_> {
             }
         }
         if findings.is_empty() {
+            findings.extend(self.too_many_pieces(&motions, &names));
+        }
+        if findings.is_empty() {
             let lines = names.iter().try_for_each(|&(body, name)| self.set_motion(&motions, body, name));
             findings.extend(lines.and_then(|()| self.check_vertices(&motions)).err());
         }
         self.note_motions(&motions);
         findings
+    }
+
+    /// An error if motions take over more pieces than [`MAX_CARRIED_PIECES`]. Circles end it, too.
+    fn too_many_pieces(&mut self, motions: &Motions<'_>, names: &[(BodyId, Span)]) -> Option<Diagnostic> {
+        let mut n_pieces = 0;
+        for &(body, name) in names {
+            let mut row = motions.rows[&body];
+            for _ in 0..MAX_CARRIERS {
+                let Some(carrier) = motions.statements.rows[row].on else { break };
+                let carrier = self.bodies.named(self.text, carrier);
+                row = motions.rows[&carrier];
+                let statement = &motions.statements.rows[row];
+                n_pieces += statement.accelerations.len() + statement.spins.len();
+            }
+            if n_pieces > MAX_CARRIED_PIECES {
+                let error = Diagnostic::error(name, "motions ride on others of too many pieces");
+                let help = format!(
+                    "all motions together may take over {MAX_CARRIED_PIECES} pieces of -acc and -spin from \
+                     those they are on"
+                );
+                return Some(error.label("used here").help(help));
+            }
+        }
+        None
     }
 
     /// A motion is a body of the whole scene.

@@ -14,6 +14,14 @@ const MOST_TURNS: f64 = 4.0;
 impl Moving {
     /// See [`super::WorldLine::check`].
     pub(super) fn check(&self, point: DVec3) -> Result<(), WorldLineError> {
+        // Most points of a motion of many pieces are far from any horizon.
+        let greatest = match &self.path {
+            Path::Accelerated(acceleration) => acceleration.greatest(),
+            Path::Orbit(orbit) => orbit.acceleration(0.0).length(),
+        };
+        if self.is_safe(point, greatest, |turn| turn.spin.greatest()) {
+            return Ok(());
+        }
         let mut changes = self.changes();
         changes.sort_by(f64::total_cmp);
         let begins = std::iter::once(f64::NEG_INFINITY).chain(changes.iter().copied());
@@ -26,7 +34,9 @@ impl Moving {
                 (begin, f64::INFINITY) => begin + 1.0,
                 (begin, end) => begin.midpoint(end),
             };
-            if self.is_safe(point, inside) { Ok(()) } else { self.check_stretch(point, stretch, inside) }
+            let acceleration = self.acceleration(inside).length();
+            let is_safe = self.is_safe(point, acceleration, |turn| turn.spin.rate(inside).length());
+            if is_safe { Ok(()) } else { self.check_stretch(point, stretch, inside) }
         })
     }
 
@@ -40,16 +50,16 @@ impl Moving {
     }
 
     /// True only if |a||ξ| + |dξ/dτ| stays below 1 whatever the directions, while acceleration and
-    /// spins are those at `inside`.
-    fn is_safe(&self, point: DVec3, inside: f64) -> bool {
+    /// spins are no greater than these.
+    fn is_safe(&self, point: DVec3, acceleration: f64, spin: impl Fn(&Turn) -> f64) -> bool {
         let (mut reach, mut from, mut swing) = (0.0, point, 0.0);
-        for Turn { pivot, spin } in &self.turns {
-            reach += (from - *pivot).length();
-            swing += spin.rate(inside).length() * reach;
-            from = *pivot;
+        for turn in &self.turns {
+            reach += (from - turn.pivot).length();
+            swing += spin(turn) * reach;
+            from = turn.pivot;
         }
         reach += (from - self.at).length();
-        self.acceleration(inside).length() * reach + swing < 1.0
+        acceleration * reach + swing < 1.0
     }
 
     fn check_stretch(

@@ -94,7 +94,7 @@ pub struct BodyEvent {
 /// Why a motion is impossible, or no event is found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WorldLineError {
-    /// A number is NaN or infinite.
+    /// A number is NaN or infinite, or becomes so at some own time.
     NotFinite,
     /// A piece ends before it begins.
     EmptyPiece {
@@ -126,8 +126,11 @@ pub enum WorldLineError {
 impl core::fmt::Display for WorldLineError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::NotFinite => write!(f, "a number of the motion is not finite"),
+            Self::NotFinite => write!(f, "a number of the motion is too large"),
             Self::EmptyPiece { piece: [from, to] } => write!(f, "a piece from {from} to {to} is empty"),
+            Self::Overlap { from: f64::NEG_INFINITY } => {
+                write!(f, "two pieces of a kind act at all times")
+            }
             Self::Overlap { from } => write!(f, "the piece that begins at {from} overlaps the one before"),
             Self::Velocity(error) => error.fmt(f),
             Self::TooLong { rapidity } => write!(

@@ -107,8 +107,10 @@ impl Moving {
         let offset = self.offset(point, own_time);
         let Offset { xi, swing } = offset;
         let pace = self.pace(xi, own_time);
-        if pace.partial_cmp(&swing.length()) != Some(core::cmp::Ordering::Greater) {
-            return Err(WorldLineError::Horizon { own_time });
+        match pace.partial_cmp(&swing.length()) {
+            Some(core::cmp::Ordering::Greater) => {}
+            Some(_) if own_time.is_finite() => return Err(WorldLineError::Horizon { own_time }),
+            _ => return Err(WorldLineError::NotFinite),
         }
         let (event, rate) = match &self.path {
             Path::Accelerated(acceleration) => acceleration.moment(offset, own_time),
@@ -275,8 +277,10 @@ impl Moving {
             }
         }
         let Offset { xi, swing } = self.offset(point, own_time);
-        if swing.length().partial_cmp(&1.0) != Some(core::cmp::Ordering::Less) {
-            return Err(WorldLineError::Horizon { own_time });
+        match swing.length().partial_cmp(&1.0) {
+            Some(core::cmp::Ordering::Less) => {}
+            Some(_) if own_time.is_finite() => return Err(WorldLineError::Horizon { own_time }),
+            _ => return Err(WorldLineError::NotFinite),
         }
         let event = start + axes.apply(Event { t: own_time, x: xi });
         let rate = axes.apply(Event { t: 1.0, x: swing });

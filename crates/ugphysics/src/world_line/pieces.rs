@@ -67,7 +67,11 @@ fn without_gaps(pieces: &[Piece]) -> Vec<(f64, DVec3)> {
 /// All of own time in stretches, in each of which a vector is constant, with a state that follows
 /// from it by `advance(vector, state, passed own time)`.
 #[derive(Clone, Debug, PartialEq)]
-struct Timeline<T>(Vec<Stretch<T>>);
+struct Timeline<T> {
+    stretches: Vec<Stretch<T>>,
+    /// The greatest length of a vector.
+    greatest: f64,
+}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Stretch<T> {
@@ -86,7 +90,7 @@ impl<T: Copy> Timeline<T> {
         let (before, behind) = pieces.split_at(current);
         let mut known_at = 0.0;
         let mut last = Stretch { from: behind[0].0, of: behind[0].1, known_at, state: start };
-        let mut all = vec![last];
+        let mut later = vec![last];
         for &(from, of) in &behind[1..] {
             last = Stretch {
                 from,
@@ -94,34 +98,38 @@ impl<T: Copy> Timeline<T> {
                 known_at: from,
                 state: advance(last.of, last.state, from - last.known_at),
             };
-            all.push(last);
+            later.push(last);
         }
         // Backwards, each is known at its end.
+        let mut all = Vec::with_capacity(pieces.len());
         let (mut state, mut end) = (start, behind[0].0);
         let mut of_later = behind[0].1;
         for &(from, of) in before.iter().rev() {
             state = advance(of_later, state, end - known_at);
             known_at = end;
-            all.insert(0, Stretch { from, of, known_at, state });
+            all.push(Stretch { from, of, known_at, state });
             (of_later, end) = (of, from);
         }
-        Self(all)
+        all.reverse();
+        all.append(&mut later);
+        let greatest = pieces.iter().map(|(_, of)| of.length()).fold(0.0, f64::max);
+        Self { stretches: all, greatest }
     }
 
     fn is_constant(&self) -> bool {
-        self.0.iter().all(|stretch| stretch.of == DVec3::ZERO)
+        self.stretches.iter().all(|stretch| stretch.of == DVec3::ZERO)
     }
 
     fn at(&self, own_time: f64) -> &Stretch<T> {
-        let row = self.0.partition_point(|stretch| stretch.from <= own_time);
+        let row = self.stretches.partition_point(|stretch| stretch.from <= own_time);
         // The first begins at −∞.
-        &self.0[row.max(1) - 1]
+        &self.stretches[row.max(1) - 1]
     }
 
     /// The last own time before this one at which a stretch begins.
     fn begin_before(&self, own_time: f64) -> f64 {
-        let row = self.0.partition_point(|stretch| stretch.from < own_time);
-        self.0[row.max(1) - 1].from
+        let row = self.stretches.partition_point(|stretch| stretch.from < own_time);
+        self.stretches[row.max(1) - 1].from
     }
 
     fn state(&self, own_time: f64, advance: impl Fn(DVec3, T, f64) -> T) -> T {
@@ -146,11 +154,11 @@ impl Acceleration {
         let is_finite = |stretch: &Stretch<Pose>| {
             stretch.state.event.x.is_finite() && stretch.state.scene_from_axes.matrix().is_finite()
         };
-        if !timeline.0.iter().all(is_finite) {
+        if !timeline.stretches.iter().all(is_finite) {
             return Err(WorldLineError::NotFinite);
         }
         // Several pieces together may exceed the limit of velocities.
-        for stretch in &timeline.0 {
+        for stretch in &timeline.stretches {
             stretch.state.scene_from_axes.velocity_of_frame()?;
         }
         Ok(Self(timeline))
@@ -168,7 +176,7 @@ impl Acceleration {
     }
 
     pub(super) fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
-        for Stretch { state, .. } in &mut self.0.0 {
+        for Stretch { state, .. } in &mut self.0.stretches {
             state.event = target_from_source.apply(state.event - origin);
             state.scene_from_axes = target_from_source * state.scene_from_axes;
         }
@@ -176,7 +184,7 @@ impl Acceleration {
 
     /// Own times at which the acceleration changes.
     pub(super) fn changes(&self) -> impl Iterator<Item = f64> + '_ {
-        self.0.0.iter().skip(1).map(|stretch| stretch.from)
+        self.0.stretches.iter().skip(1).map(|stretch| stretch.from)
     }
 
     pub(super) fn pose(&self, own_time: f64) -> Pose {
@@ -185,6 +193,11 @@ impl Acceleration {
 
     pub(super) fn at(&self, own_time: f64) -> DVec3 {
         self.0.at(own_time).of
+    }
+
+    /// Its greatest length.
+    pub(super) fn greatest(&self) -> f64 {
+        self.0.greatest
     }
 
     /// At own time 0.
@@ -222,7 +235,7 @@ impl Acceleration {
 
     /// Its values in all stretches.
     pub(super) fn values(&self) -> impl Iterator<Item = DVec3> + '_ {
-        self.0.0.iter().map(|stretch| stretch.of)
+        self.0.stretches.iter().map(|stretch| stretch.of)
     }
 
     /// The last own time before this one at which it changes, or −∞.
@@ -240,7 +253,9 @@ fn limit_rapidity(piece: &mut Piece) -> Result<(), WorldLineError> {
         return Ok(());
     }
     if from.is_finite() && to.is_finite() {
-        return Err(WorldLineError::TooLong { rapidity: (to - from) * piece.of.length() });
+        let rapidity = (to - from) * piece.of.length();
+        let is_finite = rapidity.is_finite();
+        return Err(if is_finite { WorldLineError::TooLong { rapidity } } else { WorldLineError::NotFinite });
     }
     piece.to = to.min(from.max(0.0) + most);
     piece.from = from.max(to.min(0.0) - most);
@@ -279,12 +294,17 @@ impl Spin {
 
     /// Own times at which the rate changes.
     pub(super) fn changes(&self) -> impl Iterator<Item = f64> + '_ {
-        self.0.0.iter().skip(1).map(|stretch| stretch.from)
+        self.0.stretches.iter().skip(1).map(|stretch| stretch.from)
     }
 
     /// The last own time before this one at which the rate changes, or −∞.
     pub(super) fn change_before(&self, own_time: f64) -> f64 {
         self.0.begin_before(own_time)
+    }
+
+    /// The greatest rate.
+    pub(super) fn greatest(&self) -> f64 {
+        self.0.greatest
     }
 
     pub(super) fn rate(&self, own_time: f64) -> DVec3 {
