@@ -54,6 +54,18 @@ pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation)
     let is_short = tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= bounds.tan_half;
     let bounds = if is_short { Deviation { color: f64::INFINITY, ..bounds } } else { bounds };
     SAMPLES.into_iter().any(|s| deviation(a, b, &between(a, b, line, s)).exceeds(bounds, MARGIN))
+        && !is_within_rounding(a, b)
+}
+
+/// True for an edge so short that its errors are those of rounding, which no subdivision reduces:
+/// own times are rounded, and events to a part of γ times the distance, which D multiplies once
+/// more.
+fn is_within_rounding(a: &Point, b: &Point) -> bool {
+    let rounding = |point: &Point| {
+        let shift = point.inverse_doppler.max(1.0 / point.inverse_doppler);
+        f64::EPSILON * (point.own_time.abs() + shift * shift * point.rest.length())
+    };
+    (b.rest - a.rest).length() <= rounding(a).max(rounding(b))
 }
 
 /// The largest errors of an edge, sampled.

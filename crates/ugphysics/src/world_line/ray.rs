@@ -18,9 +18,9 @@ use super::moving::{Moving, Path, Turn};
 use super::{Kind, WorldLine, WorldLineError};
 use crate::Event;
 
-/// Bodies are not met if the rounding error of own times, for which there is a factor of 4500, is
-/// about the time that light needs through the body: it would be followed along a path without an
-/// end to places that are rounding errors.
+/// A body is not met if the rounding errors of own times and of places relative to A, with a margin
+/// of 4500, exceed the size of the body by this factor. Its place is a rounding error then, and the
+/// search of a ray would not end.
 const MOST_ROUNDING: f64 = 1e3;
 
 /// A tube around all points of a body in motion, for [`WorldLine::visit_ray`].
@@ -143,7 +143,7 @@ impl WorldLine {
             Some(end) => tube.seen_at(end)?,
             None => latest,
         };
-        let rounding = 1e-12 * latest.abs().max(earliest.abs());
+        let rounding = 1e-12 * latest.abs().max(earliest.abs()).max(tube.offset.length());
         if rounding > MOST_ROUNDING * margin {
             return Ok(());
         }
