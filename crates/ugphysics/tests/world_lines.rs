@@ -292,6 +292,9 @@ fn impossible_motions_are_refused() {
     assert!(matches!(ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }), Err(Error::Horizon { .. })));
     assert!(matches!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::Z, 1.0), Err(Error::Velocity(_))));
     assert_eq!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.5), Err(Error::NoAxis));
+    // Finite numbers whose products overflow.
+    assert_eq!(Orbit::new(DVec3::X * 1e308, -1e308 * DVec3::X, DVec3::Z, 2.0), Err(Error::NotFinite));
+    assert_eq!(refused(&[piece([1e308, 0.0, 0.0], [-3.0, -1.0])], &[]), Error::NotFinite);
 }
 
 /// Motions of every kind, and points of them before every horizon.

@@ -150,7 +150,8 @@ impl core::error::Error for WorldLineError {}
 
 impl From<VelocityError> for WorldLineError {
     fn from(error: VelocityError) -> Self {
-        Self::Velocity(error)
+        // The numbers that a velocity is computed from are finite.
+        if error == VelocityError::NotFinite { Self::NotFinite } else { Self::Velocity(error) }
     }
 }
 
