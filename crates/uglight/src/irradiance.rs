@@ -208,10 +208,11 @@ impl MovingElement {
         match (frames.world_line(body), time) {
             (Some(line), ScatteringTime::Own(own_time)) => {
                 let event = line.event(point, own_time).ok()?;
+                let surface = line.element(point, own_time);
                 Some(Self {
-                    velocity: line.frame(point, own_time).velocity_of_frame().ok()?,
+                    velocity: surface.velocity,
                     axes: DQuat::IDENTITY,
-                    normal: line.element_normal(point, normal, own_time),
+                    normal: surface.normal(normal),
                     event: Some(event),
                 })
             }

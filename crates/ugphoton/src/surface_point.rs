@@ -98,17 +98,17 @@ impl SurfacePoint {
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let own_time = found.own_time;
-        // Its speed is below that of light, or no ray would meet it.
-        let velocity = line.frame(place, own_time).velocity_of_frame().unwrap_or_default();
-        let frame = RestFrame::new(velocity);
-        let in_frame = |normal: DVec3| line.element_normal(place, normal, own_time);
+        let element = line.element(place, own_time);
+        let frame = RestFrame::new(element.velocity);
         let faces = scenery.faces();
         let outside = faces.outside(found.triangle.face);
         let step = frame.rest_from_camera(ray.step).x;
-        let is_outside = in_frame(outside).dot(step) <= 0.0;
-        let plane = if is_outside { outside } else { -outside };
+        let outside_in_frame = element.normal(outside);
+        let is_outside = outside_in_frame.dot(step) <= 0.0;
+        let side = if is_outside { 1.0 } else { -1.0 };
+        let (plane, plane_normal) = (side * outside, side * outside_in_frame);
         let (body_normal, body_lift) = smooth(scenery, found, (places, place), plane);
-        let lift = ugphysics::length(body_lift) * in_frame(unit_or_zero(body_lift));
+        let lift = ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift));
         let common = scenery.appearance.common_in_motion(&scenery.scene, face, true);
         Self {
             part: found.part,
@@ -118,8 +118,8 @@ impl SurfacePoint {
             element: Some(Element { frame, own_time, body_normal }),
             delay: 0.0,
             lift: if lift.is_finite() { lift } else { DVec3::ZERO },
-            plane_normal: in_frame(plane),
-            normal: in_frame(body_normal),
+            plane_normal,
+            normal: if body_normal == plane { plane_normal } else { element.normal(body_normal) },
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
             color: scenery.appearance.color_at(&common, found.triangle.corners, found.weights()),

@@ -468,14 +468,7 @@ impl Part {
 
     fn intersection(&self, part: usize, hit: ugbvh::Hit) -> Intersection {
         let triangle = self.triangles[hit.triangle as usize];
-        Intersection {
-            part,
-            s: hit.t,
-            own_time: 0.0,
-            triangle,
-            row: hit.triangle,
-            weights: [hit.u, hit.v],
-        }
+        Intersection { part, s: hit.t, own_time: 0.0, triangle, row: hit.triangle, weights: [hit.u, hit.v] }
     }
 
     /// The even-odd rule at a point of a face.

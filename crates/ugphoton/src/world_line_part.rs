@@ -6,9 +6,9 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use ugbvh::{Bvh, Curve};
-use ugphysics::{Event, RayStretch, WorldLine, WorldTube};
+use ugphysics::{Event, Passage, RayStretch, WorldLine, WorldTube};
 
-use crate::path::{Ray, along};
+use crate::path::{Ray, Start, along};
 
 /// How a body moves that has no rest frame.
 #[derive(Debug)]
@@ -17,6 +17,8 @@ pub struct WorldLineMotion {
     /// are relative to the eye.
     pub line: Arc<WorldLine>,
     tube: WorldTube,
+    /// What light that arrives at the eye shares; none if the body is beyond the horizon.
+    seen_by_eye: Vec<Passage>,
 }
 
 /// Where a ray meets a triangle of such a body.
@@ -34,7 +36,9 @@ impl WorldLineMotion {
     /// `points`: those of the body. `None` if the motion is inertial.
     pub fn new(line: &Arc<WorldLine>, points: &[DVec3]) -> Option<Self> {
         let tube = line.tube(points.iter().copied())?;
-        Some(Self { line: line.clone(), tube })
+        let eye = Event { t: 0.0, x: DVec3::ZERO };
+        let seen_by_eye = line.passages(&tube, eye).unwrap_or_default();
+        Some(Self { line: line.clone(), tube, seen_by_eye })
     }
 
     /// Calls `visit` with the hits of a ray at parameters in a range. `visit` returns false for a
@@ -50,7 +54,6 @@ impl WorldLineMotion {
         clearance: f64,
         mut visit: impl FnMut(CurveHit) -> Next,
     ) {
-        let end = ends_before(ray, range.end);
         let visit_stretch = |stretch: &RayStretch<'_>, own_times: Range<f64>| {
             let mut is_over = false;
             let parameters = -own_times.end..-own_times.start;
@@ -79,6 +82,11 @@ impl WorldLineMotion {
             });
             if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
+        if matches!(ray.start, Start::Eye) {
+            self.line.visit_light(&self.tube, &self.seen_by_eye, ray.step, visit_stretch);
+            return;
+        }
+        let end = ends_before(ray, range.end);
         // A body beyond the horizon of its motion has no events, so no ray meets it.
         let _ = self.line.visit_ray(&self.tube, ray.origin, ray.step, end, visit_stretch);
     }

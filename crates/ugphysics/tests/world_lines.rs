@@ -247,7 +247,7 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
     let (point, normal) = (DVec3::new(1.5, 0.8, -0.4), DVec3::new(0.36, 0.48, 0.8));
     let [first, second] = normal.any_orthonormal_pair().into();
     for own_time in [-2.0, 0.0, 3.0] {
-        let found = line.element_normal(point, normal, own_time);
+        let found = line.element(point, own_time).normal(normal);
         assert!((found.length() - 1.0).abs() < 1e-14);
         let h = 1e-6;
         let difference = |plus: Event, minus: Event| Event {

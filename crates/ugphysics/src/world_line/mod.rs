@@ -12,9 +12,10 @@ mod ray;
 
 use glam::{DQuat, DVec3};
 
+pub use moving::ElementFrame;
 pub use orbit::Orbit;
 pub use pieces::Piece;
-pub use ray::{RayPoint, RayStretch, WorldTube};
+pub use ray::{Passage, RayPoint, RayStretch, WorldTube};
 
 use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};
 use moving::{Moment, Moving, Path, Turn};
@@ -492,16 +493,14 @@ impl WorldLine {
         }
     }
 
-    /// The unit normal of a surface of the body in the rest frame of the surface element, with the
-    /// axes of a single boost from the frame of the scene. It differs from the normal of the body's
-    /// shape where the body spins.  Eq. (P43)
+    /// The rest frame of a surface element at a point of the body.
     ///
-    /// `point`: of the surface, and `normal`: a unit vector, in the coordinates of the body.
+    /// `point`: in the coordinates of the body.
     #[must_use]
-    pub fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
+    pub fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
         match &self.0 {
-            Kind::Inertial(_) => normal,
-            Kind::Moving(moving) => moving.element_normal(point, normal, own_time),
+            Kind::Inertial(velocity) => ElementFrame::inertial(*velocity),
+            Kind::Moving(moving) => moving.element(point, own_time),
         }
     }
 }

@@ -301,18 +301,46 @@ impl Moving {
         swing / self.pace(xi, own_time)
     }
 
-    /// N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), with w = (dξ/dτ)/(1 + a·ξ): perpendicular
-    /// to ∂X/∂τ and to both tangents of the surface.  Eq. (P43)
-    pub(super) fn element_normal(&self, point: DVec3, normal: DVec3, own_time: f64) -> DVec3 {
-        let pose = self.pose(own_time);
-        let (w, n) = (self.lean(point, own_time), pose.turn * normal);
-        let lean = n.dot(w);
+    pub(super) fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
+        let Pose { scene_from_axes, turn, .. } = self.pose(own_time);
+        let lean = self.lean(point, own_time);
+        let rate = scene_from_axes.apply(Event { t: 1.0, x: lean });
+        let velocity = Velocity::from_proper(rate.x / ((1.0 - lean.length()) * (1.0 + lean.length())).sqrt());
+        let velocity = velocity.unwrap_or_default();
+        ElementFrame { velocity, turn, lean, from_axes: Lorentz::boost(velocity).inverse() * scene_from_axes }
+    }
+}
+
+/// The rest frame of a surface element of a body in motion, with the axes of a single boost from
+/// the frame of the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementFrame {
+    /// The velocity of the element.
+    pub velocity: Velocity,
+    /// From the axes of the body to the carried ones.
+    turn: DQuat,
+    /// w = (dξ/dτ)/(1 + a·ξ), in the carried axes.
+    lean: DVec3,
+    /// From the carried axes, with time along u.
+    from_axes: Lorentz,
+}
+
+impl ElementFrame {
+    pub(super) fn inertial(velocity: Velocity) -> Self {
+        Self { velocity, turn: DQuat::IDENTITY, lean: DVec3::ZERO, from_axes: Lorentz::IDENTITY }
+    }
+
+    /// The unit normal of the surface in this frame. It differs from that of the body's shape where
+    /// the body spins: N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), perpendicular to ∂X/∂τ and
+    /// to both tangents of the surface.  Eq. (P43)
+    ///
+    /// `normal`: a unit vector, in the coordinates of the body.
+    #[must_use]
+    pub fn normal(&self, normal: DVec3) -> DVec3 {
+        let n = self.turn * normal;
+        let lean = n.dot(self.lean);
         let scale = 1.0 / ((1.0 - lean) * (1.0 + lean)).sqrt();
-        let in_scene = pose.scene_from_axes.apply(Event { t: lean * scale, x: n * scale });
-        let rate = pose.scene_from_axes.apply(Event { t: 1.0, x: w });
         // Where it rests, the time component is 0.
-        let velocity = Velocity::from_proper(rate.x / ((1.0 - w.length()) * (1.0 + w.length())).sqrt());
-        let boost = Lorentz::boost(velocity.unwrap_or_default());
-        unit_or_zero(boost.inverse().apply(in_scene).x)
+        unit_or_zero(self.from_axes.apply(Event { t: lean * scale, x: n * scale }).x)
     }
 }

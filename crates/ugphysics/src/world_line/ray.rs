@@ -10,13 +10,14 @@
 //! (a·k̂)k̂ − a, this is d²ξ/dτ² = N (2(a·k̂)k̂ − a) + (a'·ξ)k̂, of length N|a| + |a'||ξ| or less.
 //! The turn of the spin adds the terms of Coriolis and of the centrifugal force.
 
+use core::borrow::Borrow;
 use core::ops::{ControlFlow, Range};
 
 use glam::{DMat3, DVec3};
 
 use super::moving::{Moving, Path, Turn};
 use super::{Kind, WorldLine, WorldLineError};
-use crate::Event;
+use crate::{Event, Lorentz};
 
 /// A body is not met if the rounding errors of own times and of places relative to A, with a margin
 /// of 4500, exceed the size of the body by this factor. Its place is a rounding error then, and the
@@ -36,12 +37,14 @@ pub struct WorldTube {
     least_pace: f64,
 }
 
-/// A stretch of a ray in the coordinates of a body, during which the acceleration and the spin of
-/// the body do not jump.
+/// A stretch of own time in which a body may be seen from an event, and in which its acceleration
+/// and its spin do not jump: what all rays from the event share.
 #[derive(Clone, Debug)]
-pub struct RayStretch<'a> {
-    path: StretchPath<'a>,
+pub struct Passage {
+    own_times: Range<f64>,
+    /// The middle of the own times.
     known_at: f64,
+    path: PassagePath,
     /// To the axes in which ξ is computed: turned as the spin has turned at `known_at`.
     back: DMat3,
     /// The point of the body about which it spins, or A.
@@ -51,20 +54,30 @@ pub struct RayStretch<'a> {
     /// Angular velocity: unit axis and rate.
     axis: DVec3,
     rate: f64,
-    /// Several spins, applied in place of a single one.
-    turns: &'a [Turn],
-    at: DVec3,
     /// |a| and |da/dτ| in the carried axes.
     acceleration: f64,
     jerk: f64,
 }
 
 #[derive(Clone, Debug)]
-enum StretchPath<'a> {
-    /// The ray relative to the event of A at `known_at`, and the proper acceleration.
-    Accelerated { origin: Event, step: Event, acceleration: DVec3 },
-    /// The ray in the frame of the scene.
-    Any { moving: &'a Moving, origin: Event, step: Event },
+enum PassagePath {
+    /// The origin of the rays relative to the event of A at `known_at`, in the axes there and in
+    /// those of ξ; the axes there from the frame of the scene; and the proper acceleration.
+    Accelerated { origin: Event, axes: Lorentz, acceleration: DVec3 },
+    /// The origin of the rays in the frame of the scene.
+    Any { origin: Event },
+}
+
+/// A stretch of a ray in the coordinates of a body, during which the acceleration and the spin of
+/// the body do not jump.
+#[derive(Clone, Copy, Debug)]
+pub struct RayStretch<'a> {
+    passage: &'a Passage,
+    moving: &'a Moving,
+    /// Several spins, applied in place of a single one.
+    turns: &'a [Turn],
+    /// A step of the ray, in the frame of the origin of `passage`.
+    step: Event,
 }
 
 /// A ray at an own time, in the carried axes.
@@ -128,38 +141,40 @@ impl WorldLine {
     ///
     /// # Errors
     /// [`WorldLineError::Horizon`] if the centre of the body cannot move so.
-    pub fn visit_ray<'a>(
-        &'a self,
+    pub fn visit_ray(
+        &self,
         tube: &WorldTube,
         origin: Event,
         step: Event,
         end: Option<Event>,
-        mut visit: impl FnMut(&RayStretch<'a>, Range<f64>) -> ControlFlow<()>,
+        visit: impl FnMut(&RayStretch<'_>, Range<f64>) -> ControlFlow<()>,
     ) -> Result<(), WorldLineError> {
         let Kind::Moving(moving) = &self.0 else { return Ok(()) };
-        let margin = tube.radius / tube.least_pace;
-        let latest = tube.seen_at(origin)?;
-        let earliest = match end {
-            Some(end) => tube.seen_at(end)?,
-            None => latest,
-        };
-        let rounding = 1e-12 * latest.abs().max(earliest.abs()).max(tube.offset.length());
-        if rounding > MOST_ROUNDING * margin {
-            return Ok(());
-        }
-        // Rounding errors are far below it.
-        let margin = margin * (1.0 + 1e-9) + rounding;
-        let (mut to, first) = (latest + margin, earliest - margin);
-        while to > first {
-            let from = moving.smooth_before(to).max(first);
-            let stretch = moving.stretch(from, to, origin, step);
-            let range = stretch.within(tube, from..to);
-            if range.start < range.end && visit(&stretch, range).is_break() {
-                break;
-            }
-            to = from;
-        }
+        let passages = moving.passages(tube, origin, end)?;
+        moving.visit_passages(tube, passages, step, visit);
         Ok(())
+    }
+
+    /// What rays of light that arrive at an event share, for [`WorldLine::visit_light`].
+    ///
+    /// # Errors
+    /// See [`WorldLine::visit_ray`].
+    pub fn passages(&self, tube: &WorldTube, origin: Event) -> Result<Vec<Passage>, WorldLineError> {
+        let Kind::Moving(moving) = &self.0 else { return Ok(Vec::new()) };
+        Ok(moving.passages(tube, origin, None)?.collect())
+    }
+
+    /// [`WorldLine::visit_ray`] for light that arrives at the event of these passages.
+    pub fn visit_light(
+        &self,
+        tube: &WorldTube,
+        passages: &[Passage],
+        step: Event,
+        visit: impl FnMut(&RayStretch<'_>, Range<f64>) -> ControlFlow<()>,
+    ) {
+        if let Kind::Moving(moving) = &self.0 {
+            moving.visit_passages(tube, passages.iter(), step, visit);
+        }
     }
 }
 
@@ -225,60 +240,102 @@ impl Moving {
         self.turns.iter().map(|turn| turn.spin.change_before(own_time)).fold(of_path, f64::max)
     }
 
-    /// A ray in a stretch from own time `from` to `to`, both finite.
-    fn stretch(&self, from: f64, to: f64, origin: Event, step: Event) -> RayStretch<'_> {
-        let known_at = from.midpoint(to);
-        let (pivot, spin, back, turns) = match self.turns.as_slice() {
-            [] => (self.at, DVec3::ZERO, DMat3::IDENTITY, [].as_slice()),
-            [Turn { pivot, spin }] => (
-                *pivot,
-                spin.rate(known_at),
-                DMat3::from_quat(spin.turn(known_at).conjugate()),
-                [].as_slice(),
-            ),
-            turns => (self.at, DVec3::ZERO, DMat3::IDENTITY, turns),
+    /// The stretches of own time in which a ray may meet the body, the latest first.
+    fn passages(
+        &self,
+        tube: &WorldTube,
+        origin: Event,
+        end: Option<Event>,
+    ) -> Result<impl Iterator<Item = Passage>, WorldLineError> {
+        let margin = tube.radius / tube.least_pace;
+        let latest = tube.seen_at(origin)?;
+        let earliest = match end {
+            Some(end) => tube.seen_at(end)?,
+            None => latest,
+        };
+        let rounding = 1e-12 * latest.abs().max(earliest.abs()).max(tube.offset.length());
+        let is_found = rounding <= MOST_ROUNDING * margin;
+        // Rounding errors are far below it.
+        let margin = margin * (1.0 + 1e-9) + rounding;
+        let (mut to, first) = (latest + margin, earliest - margin);
+        Ok(core::iter::from_fn(move || {
+            (is_found && to > first).then(|| {
+                let from = self.smooth_before(to).max(first);
+                let passage = self.passage(from..to, origin);
+                to = from;
+                passage
+            })
+        }))
+    }
+
+    fn visit_passages(
+        &self,
+        tube: &WorldTube,
+        passages: impl Iterator<Item = impl Borrow<Passage>>,
+        step: Event,
+        mut visit: impl FnMut(&RayStretch<'_>, Range<f64>) -> ControlFlow<()>,
+    ) {
+        for passage in passages {
+            let passage = passage.borrow();
+            let stretch = self.stretch(passage, step);
+            let range = stretch.within(tube, passage.own_times.clone());
+            if range.start < range.end && visit(&stretch, range).is_break() {
+                return;
+            }
+        }
+    }
+
+    /// Between own times, both finite.
+    fn passage(&self, own_times: Range<f64>, origin: Event) -> Passage {
+        let known_at = own_times.start.midpoint(own_times.end);
+        let (pivot, spin, back) = match self.turns.as_slice() {
+            [Turn { pivot, spin }] => {
+                (*pivot, spin.rate(known_at), DMat3::from_quat(spin.turn(known_at).conjugate()))
+            }
+            _ => (self.at, DVec3::ZERO, DMat3::IDENTITY),
         };
         let (path, acceleration, jerk) = match &self.path {
             Path::Accelerated(path) => {
                 let pose = path.pose(known_at);
                 let axes = pose.scene_from_axes.inverse();
-                let turned = |event: Event| {
-                    let Event { t, x } = axes.apply(event);
-                    Event { t, x: back * x }
-                };
                 let acceleration = path.at(known_at);
-                let origin = turned(origin - pose.event);
-                let path = StretchPath::Accelerated {
-                    origin,
-                    step: turned(step),
-                    acceleration: back * acceleration,
-                };
+                let Event { t, x } = axes.apply(origin - pose.event);
+                let origin = Event { t, x: back * x };
+                let path = PassagePath::Accelerated { origin, axes, acceleration: back * acceleration };
                 (path, acceleration.length(), 0.0)
             }
             Path::Orbit(orbit) => {
                 let acceleration = orbit.acceleration(known_at).length();
-                (
-                    StretchPath::Any { moving: self, origin, step },
-                    acceleration,
-                    orbit.turn_rate() * acceleration,
-                )
+                (PassagePath::Any { origin }, acceleration, orbit.turn_rate() * acceleration)
             }
         };
         let spin = back * spin;
         let rate = spin.length();
-        RayStretch {
-            path,
+        Passage {
+            own_times,
             known_at,
+            path,
             back,
             pivot,
             offset: back * (pivot - self.at),
             axis: if rate > 0.0 { spin / rate } else { DVec3::ZERO },
             rate,
-            turns,
-            at: self.at,
             acceleration,
             jerk,
         }
+    }
+
+    /// A ray during a passage.
+    fn stretch<'a>(&'a self, passage: &'a Passage, step: Event) -> RayStretch<'a> {
+        let step = match &passage.path {
+            PassagePath::Accelerated { axes, .. } => {
+                let Event { t, x } = axes.apply(step);
+                Event { t, x: passage.back * x }
+            }
+            PassagePath::Any { .. } => step,
+        };
+        let turns = if self.turns.len() > 1 { self.turns.as_slice() } else { &[] };
+        RayStretch { passage, moving: self, turns, step }
     }
 
     /// A ray at an own time.
@@ -304,31 +361,32 @@ impl RayStretch<'_> {
             return self.turned_back(carried, own_time);
         }
         let Carried { s, rate, xi, velocity } = carried;
-        let arm = xi - self.offset;
-        if self.rate == 0.0 {
-            return RayPoint { s, rate, point: self.pivot + arm, derivative: velocity };
+        let arm = xi - self.passage.offset;
+        if self.passage.rate == 0.0 {
+            return RayPoint { s, rate, point: self.passage.pivot + arm, derivative: velocity };
         }
-        let (sin, cos) = libm::sincos(0.5 * self.rate * (own_time - self.known_at));
+        let (sin, cos) = libm::sincos(0.5 * self.passage.rate * (own_time - self.passage.known_at));
         // The turn by the opposite angle.
         let (across, behind) = (2.0 * sin * cos, 2.0 * sin * sin);
         let turned = |v: DVec3| {
-            let side = self.axis.cross(v);
-            v - across * side + behind * self.axis.cross(side)
+            let side = self.passage.axis.cross(v);
+            v - across * side + behind * self.passage.axis.cross(side)
         };
-        let derivative = turned(velocity - self.rate * self.axis.cross(arm));
-        RayPoint { s, rate, point: self.pivot + turned(arm), derivative }
+        let derivative = turned(velocity - self.passage.rate * self.passage.axis.cross(arm));
+        RayPoint { s, rate, point: self.passage.pivot + turned(arm), derivative }
     }
 
     /// In the axes of ξ.
     fn carried(&self, own_time: f64) -> Carried {
-        match &self.path {
-            StretchPath::Accelerated { origin, step, acceleration } => {
-                let passed = own_time - self.known_at;
-                accelerated(*origin, *step, *acceleration, self.acceleration, passed)
+        let Passage { known_at, back, .. } = *self.passage;
+        match &self.passage.path {
+            PassagePath::Accelerated { origin, acceleration, .. } => {
+                let passed = own_time - known_at;
+                accelerated(*origin, self.step, *acceleration, self.passage.acceleration, passed)
             }
-            StretchPath::Any { moving, origin, step } => {
-                let carried = moving.crossing(*origin, *step, own_time);
-                let [xi, velocity] = [carried.xi, carried.velocity].map(|v| self.back * v);
+            PassagePath::Any { origin } => {
+                let carried = self.moving.crossing(*origin, self.step, own_time);
+                let [xi, velocity] = [carried.xi, carried.velocity].map(|v| back * v);
                 Carried { xi, velocity, ..carried }
             }
         }
@@ -336,7 +394,7 @@ impl RayStretch<'_> {
 
     /// Undoes several spins, the outermost first.
     fn turned_back(&self, Carried { s, rate, xi, velocity }: Carried, own_time: f64) -> RayPoint {
-        let (mut point, mut derivative) = (self.at + xi, velocity);
+        let (mut point, mut derivative) = (self.moving.at + xi, velocity);
         for Turn { pivot, spin } in self.turns.iter().rev() {
             let (back, arm) = (spin.turn(own_time).conjugate(), point - *pivot);
             derivative = back * (derivative - spin.rate(own_time).cross(arm));
@@ -352,13 +410,16 @@ impl RayStretch<'_> {
     /// bounds v and b before it, v + ωr and b + 2ωv + ω²r.
     #[must_use]
     pub fn bend(&self, [(from, start), (to, end)]: [(f64, DVec3); 2]) -> f64 {
-        let a = self.acceleration;
-        let arm = (start - self.pivot).length_squared().max((end - self.pivot).length_squared()).sqrt();
+        let a = self.passage.acceleration;
+        let arm = (start - self.passage.pivot)
+            .length_squared()
+            .max((end - self.passage.pivot).length_squared())
+            .sqrt();
         let xi = match self.turns.last() {
-            None => arm + self.offset.length(),
+            None => arm + self.passage.offset.length(),
             Some(last) => {
                 let reach = reach(self.turns, start).max(reach(self.turns, end));
-                reach + (last.pivot - self.at).length()
+                reach + (last.pivot - self.moving.at).length()
             }
         };
         // From the nearer end ξ moves by (1 + a ξ) (exp(a t) − 1)/a at most.
@@ -371,13 +432,13 @@ impl RayStretch<'_> {
         let moved = (1.0 + a * xi) * time * (1.0 + growth);
         let (arm, xi) = (arm + moved, xi + moved);
         let pace = 1.0 + a * xi;
-        let carried = pace * a + self.jerk * xi;
+        let carried = pace * a + self.passage.jerk * xi;
         if self.turns.is_empty() {
-            return carried + self.rate * (2.0 * pace + self.rate * arm);
+            return carried + self.passage.rate * (2.0 * pace + self.passage.rate * arm);
         }
-        let (mut speed, mut bend, mut arm, mut from) = (pace, carried, xi, self.at);
+        let (mut speed, mut bend, mut arm, mut from) = (pace, carried, xi, self.moving.at);
         for Turn { pivot, spin } in self.turns.iter().rev() {
-            let rate = spin.rate(self.known_at).length();
+            let rate = spin.rate(self.passage.known_at).length();
             arm += (from - *pivot).length();
             bend += rate * (2.0 * speed + rate * arm);
             speed += rate * arm;
@@ -388,14 +449,14 @@ impl RayStretch<'_> {
 
     /// The part of a range of own times in which the ray may be in a tube.
     fn within(&self, tube: &WorldTube, range: Range<f64>) -> Range<f64> {
-        let center = self.back * tube.offset;
-        match &self.path {
-            StretchPath::Accelerated { origin, step, .. } if self.acceleration == 0.0 => {
+        let center = self.passage.back * tube.offset;
+        match &self.passage.path {
+            PassagePath::Accelerated { origin, .. } if self.passage.acceleration == 0.0 => {
                 let radius = tube.radius * (1.0 + 1e-6) + 1e-12 * origin.x.length();
-                let Some([first, last]) = straight_within(origin.x - center, *step, radius) else {
+                let Some([first, last]) = straight_within(origin.x - center, self.step, radius) else {
                     return range.end..range.end;
                 };
-                let [first, last] = [first, last].map(|passed| self.known_at + origin.t + passed);
+                let [first, last] = [first, last].map(|passed| self.passage.known_at + origin.t + passed);
                 range.start.max(first)..range.end.min(last)
             }
             _ => self.shrunk(center, tube.radius, range),
@@ -407,7 +468,7 @@ impl RayStretch<'_> {
     fn shrunk(&self, center: DVec3, radius: f64, mut range: Range<f64>) -> Range<f64> {
         /// Further steps take longer than they save.
         const STEPS: usize = 3;
-        let a = self.acceleration;
+        let a = self.passage.acceleration;
         let speed = 1.0 + a * (center.length() + radius);
         let time = |own_time: f64| {
             let distance = (self.carried(own_time).xi - center).length() - radius;
