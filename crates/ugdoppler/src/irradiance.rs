@@ -94,7 +94,7 @@ impl VertexIrradiance {
         is_spectral: bool,
         progress: &dyn Progress,
     ) -> Self {
-        let lamps = Lamps::new(scene, eye, is_spectral);
+        let lamps = Lamps::new(scene, eye, is_spectral).over_time(scene, eye, is_spectral);
         let bodies = ugscene::vertex_bodies(scene);
         let own_time = |row: usize, body| {
             let seen = scene.vertices[row].position - eye;

@@ -81,11 +81,12 @@ pub fn apply(scene: Scene, config: &Config) -> Result<(Scene, Vec<Note>), Error>
 /// # Errors
 /// See [`Error`].
 pub fn apply_with(
-    scene: Scene,
+    mut scene: Scene,
     config: &Config,
     progress: &dyn Progress,
 ) -> Result<(Scene, Vec<Note>), Error> {
     progress.step("colouring", 0);
+    uglight::settle(&mut scene);
     // The light of coloured lamps multiplies spectra, which are not in the output.
     let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);
     let config = &Config { light: is_lit, ..config.clone() };
@@ -187,6 +188,7 @@ fn color(
         irradiance::replace_lights(&mut scene);
     }
     scene.mixes.clear();
+    scene.color_tables.clear();
     scene.stage = stage;
     Ok((scene, notes))
 }

@@ -82,7 +82,8 @@ impl SurfaceElement {
         mut visit: impl FnMut(IncidentLamp),
     ) {
         let (shift, standing) = (frames.lamp_shift(self.body), self.standing(frames));
-        for (row, lamp) in lamps.iter().enumerate() {
+        // Those that follow are colours of lamps that change.
+        for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
             let place = lamp.shifted(place(row, lamp), shift);
             let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
                 if level > 0.0 {
@@ -93,6 +94,16 @@ impl SurfaceElement {
                     });
                 }
             };
+            if let Some(table) = &lamp.table {
+                if let Some((incident, own_time)) = self.of_changing(lamp, place, frames) {
+                    for (lamp, share) in table.at(own_time) {
+                        let Irradiance { level, doppler, .. } = incident.irradiance;
+                        let irradiance = Irradiance { lamp, level: share * level, doppler };
+                        visit(IncidentLamp { irradiance, part: share * incident.part, ..incident });
+                    }
+                }
+                continue;
+            }
             match self.moving_body(lamp, frames) {
                 None => {
                     let level = lamp.level_from(place, standing.point, standing.normal);
@@ -105,6 +116,41 @@ impl SurfaceElement {
                 }
             }
         }
+    }
+
+    /// The light of a lamp whose colour changes, and the own time at which it sent it: a local lamp
+    /// with a motion. The row of the lamp is not set.
+    fn of_changing(
+        &self,
+        lamp: &Lamp,
+        place: LampPlace,
+        frames: &RestFrames,
+    ) -> Option<(IncidentLamp, f64)> {
+        let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
+        let incident = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
+            let irradiance = Irradiance { lamp: 0, level, doppler };
+            (level > 0.0).then_some(IncidentLamp { irradiance, toward, part })
+        };
+        let Some(body) = self.moving_body(lamp, frames) else {
+            let ScatteringTime::Delay(delay) = self.time else { return None };
+            let toward = self.direction_at_rest(place)?;
+            let part = lamp.part_at(toward.1);
+            let found = incident(lamp.level_from(place, self.point, self.normal), 1.0, Some(toward), part)?;
+            return Some((found, delay - ugphysics::length(self.point) - toward.1));
+        };
+        let mut found = None;
+        self.of_moving(lamp, (place, body), frames, &mut |level, doppler, toward, part| {
+            found = incident(level, doppler, toward, part);
+        });
+        let event = MovingElement::new(self, frames)?.event_at(self, frames)?;
+        let own_time = match frames.world_line(own) {
+            Some(line) => line.emission(at, event).ok()?.own_time,
+            None => {
+                let Event { t, x } = frames.of(own).rest_from_camera(event);
+                t - ugphysics::length(at - x)
+            }
+        };
+        Some((found?, own_time))
     }
 
     /// For lamps that rest with whatever they light: a body on a world line is lit as it stands in

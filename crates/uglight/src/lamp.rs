@@ -1,11 +1,12 @@
 //! The lights of a scene, with their colours and places ready to compute with.
 
-use std::sync::LazyLock;
+use std::collections::BTreeMap;
+use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 use ugphysics::spectrum::{LightSpectrum, Spectrum};
 use ugphysics::{length, srgb_decode, unit_or_zero};
-use ugscene::{ColorValue, Light, LightKind, LightMotion, Scene};
+use ugscene::{ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
 
 use crate::{hsv, light, spectrum};
 
@@ -37,6 +38,27 @@ pub struct Lamp {
     pub radius: f64,
     /// How its light falls off with distance; `None` if the level is the same at any distance.
     pub fall_off: Option<FallOff>,
+    /// Its colours over own time, if it changes; the colour above is then that at own time 0.
+    pub table: Option<Arc<LampTable>>,
+    /// The row of the lamp that has this colour for a time, if it is a colour of a [`LampTable`].
+    pub color_of: Option<u32>,
+}
+
+/// The colours of a lamp over own time.
+#[derive(Clone, Debug)]
+pub struct LampTable {
+    table: ColorTable,
+    /// For each colour of the table the row of a lamp with that colour.
+    rows: BTreeMap<ColorId, u32>,
+}
+
+impl LampTable {
+    /// The rows of the lamps whose light this one sends at an own time, with their shares.
+    #[must_use]
+    pub fn at(&self, own_time: f64) -> impl Iterator<Item = (u32, f64)> {
+        let parts = self.table.at(own_time).parts.into_iter().filter(|part| part.1 > 0.0);
+        parts.filter_map(|(color, share)| Some((*self.rows.get(&color)?, share)))
+    }
 }
 
 /// Light that falls off with the square of the distance.
@@ -103,6 +125,28 @@ impl Lamps {
         Self { all, is_colored, is_daylight: scene.lights.iter().all(|light| light.color.is_none()) }
     }
 
+    /// The same, followed by a lamp for each colour of those that change with own time
+    /// ([`Lamp::table`]).
+    #[must_use]
+    pub fn over_time(mut self, scene: &Scene, eye: DVec3, is_spectral: bool) -> Self {
+        for (row, light) in scene.lights.iter().enumerate() {
+            let Some(table) = light.color.and_then(|color| scene.table_of(color)) else { continue };
+            let mut rows = BTreeMap::new();
+            for &(_, color) in &table.rows {
+                rows.entry(color).or_insert_with(|| {
+                    let light = Light { color: Some(color), ..light.clone() };
+                    let lamp = lamp(scene, &light, eye, is_spectral);
+                    self.is_colored |= lamp.is_colored;
+                    // Scenes have fewer than 2^32 lights.
+                    self.all.push(Lamp { color_of: Some(row as u32), ..lamp });
+                    self.all.len() as u32 - 1
+                });
+            }
+            self.all[row].table = Some(Arc::new(LampTable { table: table.clone(), rows }));
+        }
+        self
+    }
+
     /// As [`Lamps::new`]; in a scene without lights an ambient light ([`DEFAULT_AMBIENT`]) and one
     /// from the eye ([`DEFAULT_FROM_EYE`]).
     ///
@@ -129,7 +173,11 @@ impl std::ops::Deref for Lamps {
 /// multiplies colours wavelength by wavelength.
 #[must_use]
 pub fn has_colored_lamps(scene: &Scene) -> bool {
-    scene.lights.iter().filter_map(|light| light.color).any(|id| {
+    let all = |id: ColorId| {
+        let rows = scene.table_of(id).map_or(&[][..], |table| &table.rows);
+        std::iter::once(id).chain(rows.iter().map(|row| row.1))
+    };
+    scene.lights.iter().filter_map(|light| light.color).flat_map(all).any(|id| {
         let color = &scene.colors[id.index()];
         let is_source = matches!(color.value, ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. });
         is_source || hsv(scene, color).saturation > 0.0
@@ -182,6 +230,8 @@ impl Lamp {
             motion,
             radius: 0.0,
             fall_off,
+            table: None,
+            color_of: None,
         }
     }
 

@@ -46,6 +46,7 @@ mod irradiance;
 mod lamp;
 mod light_names;
 mod lighting;
+mod own_time;
 mod palette;
 mod shift;
 mod spectra;
@@ -58,9 +59,12 @@ pub use color::{RestColor, hsv, hsv_and_factor, is_light, light, spectra_note, s
 pub use face_colors::Common;
 pub use hue::{HueColor, HueShift};
 pub use irradiance::{IncidentLamp, Irradiance, ScatteringTime, SurfaceElement};
-pub use lamp::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, FallOff, Lamp, LampPlace, Lamps, has_colored_lamps};
+pub use lamp::{
+    DEFAULT_AMBIENT, DEFAULT_FROM_EYE, FallOff, Lamp, LampPlace, LampTable, Lamps, has_colored_lamps,
+};
 pub use light_names::light_names;
 pub use lighting::Lighting;
+pub use own_time::{mean_color, settle};
 pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
 pub use spectral::{SpectralColor, SpectralFilter, SpectralShift};

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use ugpipe::Progress;
 use ugscene::{BodyId, CameraOptions, Geometry, Item, PlacedBodies, Scene, Vertex};
 
+use crate::clocks::Clocks;
 use crate::criterion::Bounds;
 use crate::cull::ViewVolume;
 use crate::edge::Tolerance;
@@ -14,7 +15,7 @@ use crate::pieces::Outcome;
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
-    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, cull, distant_bodies,
+    Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies,
     remaining_errors, uniform, viewpoint,
 };
 
@@ -60,9 +61,12 @@ pub fn apply_with(
     let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
     let tolerance = Tolerance::new(error, config.color_error);
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
-    let bounds = Bounds::new(tolerances, near_lamps, view_volume, motions);
+    let clocks = Clocks::new(&scene, config.color_error);
+    let bounds = Bounds::new(tolerances, (near_lamps, clocks), view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
-    let evenness = Evenness::new(&scene, config.repeat);
+    // Colours that change are not mixed with others.
+    let is_apart = config.repeat || scene.has_changing_surfaces();
+    let evenness = Evenness::new(&scene, is_apart);
     let max_pieces = adaptive::max_pieces(n_faces, config.size);
     let outcome = match config.pieces {
         Pieces::UpTo(_) => adaptive::cut(&scene, &evenness, &mut mesh, &bounds, max_pieces, progress)?,
@@ -72,7 +76,7 @@ pub fn apply_with(
     let has_new = !mesh.recipes.is_empty();
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
-    let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, config.repeat);
+    let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart);
     set_positions(&mut scene, &mesh, shifts, *eye)?;
     if placed.has_motion || config.geometry != Geometry::default() {
         scene.stage.geometry = placed.seen_stage(&motion_options);
@@ -83,7 +87,10 @@ pub fn apply_with(
     let remaining_errors =
         (config.measure || is_short).then(|| remaining_errors::measure(&scene, &mesh, &bounds));
     // After cutting, so that neighbours are cut alike.
-    if config.repeat {
+    if scene.has_changing_surfaces() {
+        clocks::show(&mut scene, mesh.points.iter().map(clocks::own_time).collect());
+    }
+    if is_apart {
         ugscene::repeat_vertices(&mut scene, true);
     } else {
         ugscene::separate_wires(&mut scene, &inherits);

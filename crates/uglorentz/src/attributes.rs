@@ -29,7 +29,7 @@ pub(crate) fn add_vertices(
     if recipes.is_empty() {
         return Vec::new();
     }
-    let prefix = free_prefix(scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
+    let prefix = free_prefix(PREFIX, scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
     let n_vertices = scene.vertices.len() + recipes.len();
     let is_used = shades.is_some().then(|| face_vertices(scene, n_vertices));
     let mut inherits = vec![false; if shades.is_some() { n_vertices } else { 0 }];
@@ -104,9 +104,9 @@ pub(crate) fn smooth(scene: &mut Scene, points: &[Point], motions: &[RelativeMot
     }
 }
 
-/// [`PREFIX`], extended by `#` until no name begins with it.
-fn free_prefix<'a>(names: impl Iterator<Item = &'a str> + Clone) -> String {
-    let mut prefix = PREFIX.to_string();
+/// `prefix`, extended by `#` until no name begins with it.
+pub(crate) fn free_prefix<'a>(prefix: &str, names: impl Iterator<Item = &'a str> + Clone) -> String {
+    let mut prefix = prefix.to_string();
     while names.clone().any(|name| name.starts_with(&prefix)) {
         prefix.push('#');
     }
@@ -146,7 +146,7 @@ type MixedColors = Vec<(Option<ColorId>, u64)>;
 impl ColorMixer {
     fn new(scene: &Scene) -> ColorMixer {
         let names = scene.colors.iter().map(|color| scene.names.get(color.name));
-        let prefix = free_prefix(names.clone());
+        let prefix = free_prefix(PREFIX, names.clone());
         // Then the names of a scene that has mixtures already are continued.
         let earlier = scene.stage.mixtures.map(Mixtures::prefix);
         let mixtures = Mixtures::unused(names.chain(earlier.as_deref()));

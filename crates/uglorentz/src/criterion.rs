@@ -9,6 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugscene::{Face, Scene, VertexId};
 
+use crate::clocks::Clocks;
 use crate::cull::ViewVolume;
 use crate::edge::{self, Shown, Tolerance};
 use crate::evenness::Evenness;
@@ -28,6 +29,7 @@ pub(crate) struct Bounds {
     /// The tolerance of each body.
     tolerances: Vec<Tolerance>,
     pub near_lamps: NearLamps,
+    clocks: Clocks,
     view_volume: ViewVolume,
     /// [`early_accept::most_spread`] of each body.
     spreads: Vec<f64>,
@@ -37,17 +39,21 @@ impl Bounds {
     /// `tolerances`: of each body.
     pub(crate) fn new(
         tolerances: Vec<Tolerance>,
-        near_lamps: NearLamps,
+        (near_lamps, clocks): (NearLamps, Clocks),
         view_volume: ViewVolume,
         motions: &[RelativeMotion],
     ) -> Bounds {
         let of_body = |(motion, tolerance)| early_accept::most_spread(motion, tolerance);
         let spreads = motions.iter().zip(&tolerances).map(of_body).collect();
-        Bounds { tolerances, near_lamps, view_volume, spreads }
+        Bounds { tolerances, near_lamps, clocks, view_volume, spreads }
     }
 
     fn tolerance(&self, point: &Point) -> &Tolerance {
         &self.tolerances[point.body.index()]
+    }
+
+    fn is_color_off(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
+        self.clocks.is_off(a, b, motion, self.tolerance(a).tan_half)
     }
 
     /// The visible parts of a flat piece and its edges; `None` if it is outside the view.
@@ -128,6 +134,7 @@ impl Criterion<'_, '_> {
         let (from, to, motion) = (mesh.point(low), mesh.point(high), mesh.motion(low));
         edge::bends(from, to, motion, self.bounds.tolerance(from))
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
+            || self.bounds.is_color_off(from, to, motion)
     }
 
     /// The largest error of an edge relative to its bound, without light. New edges inside a face
@@ -169,9 +176,13 @@ impl Criterion<'_, '_> {
 
     /// True only if the errors on all lines between these corners, and inside, are below the bound.
     fn is_right_for_sure(&self, motion: &RelativeMotion, corners: impl Iterator<Item = u32> + Clone) -> bool {
-        let Bounds { tolerances, near_lamps, spreads, .. } = self.bounds;
+        let Bounds { tolerances, near_lamps, clocks, spreads, .. } = self.bounds;
         let points = corners.map(|corner| self.mesh.point(corner));
-        let body = points.clone().next().map_or(0, |point| point.body.index());
+        let Some(body) = points.clone().next().map(|point| point.body) else { return true };
+        if !clocks.are_still(body) {
+            return false;
+        }
+        let body = body.index();
         let tolerance = &tolerances[body];
         let is_shape_right = || match motion.world_line() {
             Some(line) => world_line::is_surely_right(points.clone(), line, tolerance.on_world_line()),
@@ -226,6 +237,7 @@ impl Criterion<'_, '_> {
         let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::shows(from, to, motion, self.bounds.tolerance(from), shown)
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
+            || self.bounds.is_color_off(from, to, motion)
     }
 
     /// Assumes that no edge bends visibly.
@@ -249,6 +261,9 @@ impl Criterion<'_, '_> {
             Some(line) => world_line::offset_inside(points, line),
             None => interior::offset(motion, points),
         };
-        motion.has_flight_time() && !is_deep && offset() > self.bounds.tolerance(points[0]).offset
+        let tolerance = self.bounds.tolerance(points[0]);
+        !is_deep
+            && (motion.has_flight_time() && offset() > tolerance.offset
+                || self.bounds.clocks.is_off_inside(points, motion, tolerance.tan_half))
     }
 }

@@ -66,6 +66,7 @@ mod apply;
 mod attributes;
 #[cfg(feature = "cli")]
 mod cli;
+mod clocks;
 mod color;
 mod config;
 mod criterion;

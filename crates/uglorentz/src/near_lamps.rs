@@ -53,8 +53,9 @@ impl NearLamps {
         if bound == f64::INFINITY {
             return Self::default();
         }
-        let lamps = Lamps::new(scene, eye, false);
-        let near = lamps.iter().filter_map(|lamp| {
+        // Of lamps whose colour changes, each colour counts.
+        let lamps = Lamps::new(scene, eye, false).over_time(scene, eye, false);
+        let near = lamps.iter().filter(|lamp| lamp.table.is_none()).filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));

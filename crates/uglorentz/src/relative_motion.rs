@@ -20,6 +20,8 @@ pub(crate) struct Point {
     pub inverse_doppler: f64,
     /// The own time of a body on a world line at emission; 0 for inertial bodies.
     pub own_time: f64,
+    /// True on a body that is not inertial.
+    pub is_on_world_line: bool,
     /// The body it is part of.
     pub body: BodyId,
     /// Number of halvings that led to it: 0 for a vertex of the scene.
@@ -46,7 +48,18 @@ impl Point {
             1.0 / doppler_at(seen, motion.velocity())
         };
         let (own_time, generation) = (0.0, 0);
-        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation }
+        let is_on_world_line = false;
+        Point {
+            rest,
+            seen,
+            rest_distance,
+            seen_distance,
+            inverse_doppler,
+            own_time,
+            is_on_world_line,
+            body,
+            generation,
+        }
     }
 
     /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
@@ -63,7 +76,18 @@ impl Point {
         };
         let seen_distance = seen.length();
         let rest_distance = seen_distance * inverse_doppler;
-        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation: 0 }
+        let (is_on_world_line, generation) = (true, 0);
+        Point {
+            rest,
+            seen,
+            rest_distance,
+            seen_distance,
+            inverse_doppler,
+            own_time,
+            is_on_world_line,
+            body,
+            generation,
+        }
     }
 
     /// True for a point at the eye, whose direction is undefined if it moves.

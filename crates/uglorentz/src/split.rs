@@ -131,6 +131,7 @@ mod tests {
     use ugscene::{BodyId, Geometry};
 
     use super::*;
+    use crate::clocks::Clocks;
     use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
     use crate::near_lamps::NearLamps;
@@ -145,7 +146,7 @@ mod tests {
             [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
         let bounds = Bounds::new(
             vec![Tolerance::new(1e-4, 1e-3)],
-            NearLamps::default(),
+            (NearLamps::default(), Clocks::default()),
             ViewVolume::default(),
             &motions,
         );

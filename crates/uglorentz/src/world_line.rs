@@ -25,7 +25,7 @@ const MOST_CORNERS: usize = 4;
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
 /// A point of the edge from a to b.
-fn between(a: &Point, b: &Point, line: &WorldLine, s: f64) -> Point {
+pub(crate) fn between(a: &Point, b: &Point, line: &WorldLine, s: f64) -> Point {
     let guess = (1.0 - s) * a.own_time + s * b.own_time;
     Point::on_world_line(line, a.body, a.rest.lerp(b.rest, s), Some(guess))
 }
@@ -119,7 +119,7 @@ fn deviation(a: &Point, b: &Point, true_point: &Point) -> Deviation {
 
 /// The tangent of half the angle x between two vectors, sin x/(1 + cos x). `product`: of their
 /// lengths.
-fn tan_half_angle(p: DVec3, q: DVec3, product: f64) -> f64 {
+pub(crate) fn tan_half_angle(p: DVec3, q: DVec3, product: f64) -> f64 {
     p.cross(q).length() / (product + p.dot(q))
 }
 

@@ -174,6 +174,15 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
             mix.parts.iter_mut().for_each(|(part, _)| *part = offset.colors[part.index()]);
         },
     );
+    file.color_tables = join_tables(
+        &mut parts,
+        &offsets,
+        |part| &mut part.color_tables,
+        |table, offset| {
+            table.color = offset.colors[table.color.index()];
+            table.rows.iter_mut().for_each(|(_, color)| *color = offset.colors[color.index()]);
+        },
+    );
     file.surfaces.table = join_tables(&mut parts, &offsets, |part| &mut part.surfaces.table, |_, _| {});
     file.escapes = join_tables(&mut parts, &offsets, |part| &mut part.escapes, |_, _| {});
     file.unknown = join_tables(&mut parts, &offsets, |part| &mut part.unknown, |_, _| {});

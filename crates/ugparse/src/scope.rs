@@ -10,8 +10,8 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Velocity, WorldLine};
 use ugscene::{
-    Bodies, BodyId, Camera, Color, ColorId, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind,
-    LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind,
+    LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;
@@ -20,7 +20,7 @@ use crate::rows::Rows;
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, MotionReference, MotionStatement, References, Statement, SurfaceStatement, VertexStatement,
+    MixStatement, MotionReference, MotionStatement, References, Statement, SurfaceStatement, TableStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -68,6 +68,7 @@ pub(crate) struct Scope<'t> {
     pub samples: Vec<[f64; 2]>,
     pub colors: Named<'t, Color>,
     pub mixes: Rows<Mix>,
+    pub color_tables: Rows<ColorTable>,
     pub surfaces: Named<'t, SurfaceProperties>,
     /// Unnamed colours, with the first rows to which they apply.
     pub defaults: Vec<DefaultColor>,
@@ -157,6 +158,7 @@ impl<'t> Scope<'t> {
             Statement::Wire(wire) => self.add_wire(text, span, &wire, references),
             Statement::Color(color) => self.add_color(text, span, &color),
             Statement::Mix(mix) => self.add_mix(text, span, &mix),
+            Statement::Table(table) => self.add_color_table(text, span, &table),
             Statement::Surface(surface) => self.add_surface(text, span, &surface),
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
@@ -283,6 +285,23 @@ impl<'t> Scope<'t> {
             parts: mix.parts.iter().map(|&(name, share)| (color(name), share)).collect(),
         };
         self.mixes.push(row, span);
+    }
+
+    /// Adds the colour as well; its own value is set when the colours of all scopes are joined.
+    fn add_color_table(&mut self, text: &'t [u8], span: Span, table: &TableStatement) {
+        let tint = Tint::Hue(0.0);
+        let value = ColorValue::Hsv { value: 1.0, tint, saturation: 0.0, factor: 1.0 };
+        let row = Color { name: NameId::from_index(0), value, translucency: 0.0 };
+        let before = self.colors.push(text, Some(table.color), row, span);
+        self.note_duplicate("colour", Some(table.color), before);
+        let mut color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
+        let row = ColorTable {
+            color: color(table.color),
+            rows: table.rows.iter().map(|&(time, name)| (time, color(name))).collect(),
+            is_stepped: table.is_stepped,
+            period: table.period,
+        };
+        self.color_tables.push(row, span);
     }
 
     fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {

@@ -37,6 +37,7 @@ pub(crate) enum Statement {
     Wire(FaceStatement),
     Color(ColorStatement),
     Mix(MixStatement),
+    Table(TableStatement),
     Surface(SurfaceStatement),
     Light(LightStatement),
     Camera(CameraStatement),
@@ -104,6 +105,15 @@ pub(crate) struct ColorStatement {
 pub(crate) struct MixStatement {
     pub color: Span,
     pub parts: Vec<(Span, f64)>,
+}
+
+/// A colour that changes with own time, and its rows.
+#[derive(Debug)]
+pub(crate) struct TableStatement {
+    pub color: Span,
+    pub is_stepped: bool,
+    pub period: Option<f64>,
+    pub rows: Vec<(f64, Span)>,
 }
 
 /// A surface; the name in `surface` is not set.

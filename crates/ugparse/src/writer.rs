@@ -6,7 +6,7 @@ use std::io::{self, Write};
 use glam::DVec3;
 use ugphysics::Piece;
 use ugscene::{
-    BodyId, Camera, Color, ColorId, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, MotionPath,
+    BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, MotionPath,
     NameId, Projection, Scene, StatedMotion, SurfaceProperties,
 };
 
@@ -34,12 +34,18 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 /// # Errors
 /// Errors that `out` returns; it may have received a part of the text.
 pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
-    Tables { scene, chunked_writer: ChunkedWriter::new(out), comments: &scene.remarks.comments }.send()
+    let color = |(row, color)| (color, scene.table_of(ColorId::from_index(row)));
+    let are_timed = !scene.color_tables.is_empty();
+    let colors: Vec<_> = scene.colors.iter().enumerate().filter(|_| are_timed).map(color).collect();
+    let comments = &scene.remarks.comments;
+    Tables { scene, colors: &colors, chunked_writer: ChunkedWriter::new(out), comments }.send()
 }
 
 /// Writes the tables of a scene.
 struct Tables<'s, 'o> {
     scene: &'s Scene,
+    /// The colours and the tables of those that change with own time; empty if none does.
+    colors: &'s [(&'s Color, Option<&'s ColorTable>)],
     chunked_writer: ChunkedWriter<'o>,
     /// Comments not yet assigned to a block, sorted by statement.
     comments: &'s [Comment],
@@ -58,7 +64,7 @@ impl<'s> Tables<'s, '_> {
             w.text(")");
         })?;
         self.rows(&scene.remarks.unknown, Item::Unknown, |w, text| w.text(text))?;
-        self.rows(&scene.colors, Item::Color, Writer::color)?;
+        self.colors()?;
         self.rows(&scene.mixes, Item::Mix, |w, mix| {
             w.text("c_mix");
             w.name(scene.colors[mix.color.index()].name);
@@ -101,6 +107,16 @@ impl<'s> Tables<'s, '_> {
         self.chunked_writer
             .append(|out| Writer::on(out, scene, comments, |w| w.comments_at(Item::End, false)));
         self.chunked_writer.send()
+    }
+
+    fn colors(&mut self) -> io::Result<()> {
+        if self.colors.is_empty() {
+            return self.rows(&self.scene.colors, Item::Color, Writer::color);
+        }
+        self.rows(self.colors, Item::Color, |w, &(color, table)| match table {
+            Some(table) => w.color_table(table),
+            None => w.color(color),
+        })
     }
 
     /// The stage, if there is something to say of it, with its comments.
@@ -314,6 +330,24 @@ impl<'s> Writer<'s> {
             }
             self.text(")");
         }
+    }
+
+    /// A colour that changes with own time.
+    fn color_table(&mut self, table: &ColorTable) {
+        self.text("c_time");
+        self.name(self.scene.colors[table.color.index()].name);
+        if table.is_stepped {
+            self.text(" -step");
+        }
+        if let Some(period) = table.period {
+            self.text(" -period");
+            self.number(period);
+        }
+        for &(time, color) in &table.rows {
+            self.number(time);
+            self.name(self.scene.colors[color.index()].name);
+        }
+        self.text(";");
     }
 
     fn color(&mut self, color: &Color) {

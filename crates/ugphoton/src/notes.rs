@@ -78,7 +78,8 @@ fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
         };
         is_enclosed(frame.camera_from_rest(Event { t: -place.length(), x: place }))
     };
-    let row = (0..scenery.lamps.len()).find(|&row| is_dark(row))?;
+    let n_lights = scenery.scene.lights.len();
+    let row = (0..n_lights).find(|&row| is_dark(row))?;
     let is_around_the_eye = is_enclosed(Event { t: 0.0, x: DVec3::ZERO });
     (!is_around_the_eye).then(|| light_names(&scenery.scene).swap_remove(row))
 }

@@ -186,7 +186,8 @@ fn depths(scene: &Scene, camera: &CameraOptions, config: &Config) -> Result<Dept
 
 /// The scene with its vertices where they are seen and where they rest, and the stage that says so.
 pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
-    ugscene::repeat_vertices(&mut scene, config.repeat);
+    let is_apart = config.repeat || scene.has_changing_surfaces();
+    ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;
     let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
     let rest = placed.rest_positions(&scene);

@@ -124,6 +124,7 @@ impl<'a> Scenery<'a> {
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
+        let lamps = lamps.over_time(&scene, view.eye, shift.is_spectral());
         let lamp_motion = |lamp: &Lamp| {
             let body = lamp.motion.body()?;
             Some(match surface.frames().world_line(body) {

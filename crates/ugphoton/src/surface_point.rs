@@ -58,7 +58,6 @@ impl SurfacePoint {
         if let Some(motion) = &part.motion {
             return Self::on_line(scenery, ray, found, &motion.line);
         }
-        let face = &scenery.scene.faces[found.triangle.face as usize];
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let wave = part.frame.wave_to_rest(ray.wave);
@@ -73,8 +72,8 @@ impl SurfacePoint {
             _ => part.frame.rest_from_camera(event).t + ugphysics::length(place),
         };
         let is_moving = !part.frame.velocity().is_zero();
-        let common = scenery.appearance.common_in_motion(&scenery.scene, face, is_moving);
-        let color = scenery.appearance.color_at(&common, found.triangle.corners, found.weights());
+        let own_time = || delay - ugphysics::length(place);
+        let color = color(scenery, found, is_moving, own_time);
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -94,7 +93,6 @@ impl SurfacePoint {
     /// Where a ray meets a face of a body on a world line.
     #[inline(never)] // Keeps `new` small, which is called for every ray.
     fn on_line(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection, line: &WorldLine) -> Self {
-        let face = &scenery.scene.faces[found.triangle.face as usize];
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let own_time = found.own_time;
@@ -108,8 +106,7 @@ impl SurfacePoint {
         let side = if is_outside { 1.0 } else { -1.0 };
         let (plane, plane_normal) = (side * outside, side * outside_in_frame);
         let (body_normal, body_lift) = smooth(scenery, found, (places, place), plane);
-        let lift = ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift));
-        let common = scenery.appearance.common_in_motion(&scenery.scene, face, true);
+let lift = ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift));
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -122,7 +119,7 @@ impl SurfacePoint {
             normal: if body_normal == plane { plane_normal } else { element.normal(body_normal) },
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
-            color: scenery.appearance.color_at(&common, found.triangle.corners, found.weights()),
+            color: color(scenery, found, true, || own_time),
         }
     }
 
@@ -163,6 +160,26 @@ impl SurfacePoint {
             ugscene::Illum::Level(_) => None,
         }
     }
+}
+
+/// The colour at rest where a ray meets a face. `own_time`: of the body there.
+#[inline]
+fn color(
+    scenery: &Scenery<'_>,
+    found: &Intersection,
+    is_moving: bool,
+    own_time: impl Fn() -> f64,
+) -> SurfaceColor {
+    let (scene, appearance) = (&scenery.scene, &scenery.appearance);
+    let face = &scene.faces[found.triangle.face as usize];
+    if !scene.color_tables.is_empty()
+        && let Some(color) = face.color
+        && let Some(now) = appearance.color_at_time(scene, color, own_time(), is_moving)
+    {
+        return now;
+    }
+    let common = appearance.common_in_motion(scene, face, is_moving);
+    appearance.color_at(&common, found.triangle.corners, found.weights())
 }
 
 fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {

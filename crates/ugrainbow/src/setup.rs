@@ -40,6 +40,9 @@ impl<'a> Setup<'a> {
             ugscene::require_seen_geometry(scene)?;
         }
         let mut scene = drawable(scene);
+        if !scene.color_tables.is_empty() {
+            uglight::settle(scene.to_mut());
+        }
         if config.repeat {
             ugscene::repeat_vertices(scene.to_mut(), true);
         }

@@ -5,6 +5,7 @@
 
 mod cameras;
 mod motions;
+mod tables;
 mod transforms;
 
 use cameras::camera_option;
@@ -27,7 +28,7 @@ use crate::token::{
 
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str =
-    "v w f c c_rgb c_xyz c_bb c_spd c_mix surf l cam motion def end i a include execute";
+    "v w f c c_rgb c_xyz c_bb c_spd c_mix c_time surf l cam motion def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -73,6 +74,7 @@ impl<'t> Grammar<'t> {
             b"c_bb" => self.blackbody(input),
             b"c_spd" => self.spectrum(input),
             b"c_mix" => self.mix(input),
+            b"c_time" => self.table(input),
             b"surf" => self.surface(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),

@@ -6,6 +6,7 @@ mod corners;
 mod degenerate;
 mod named;
 mod sizes;
+mod tables;
 mod undefined;
 
 use ugscene::Scene;
@@ -77,6 +78,7 @@ pub(crate) fn resolve(
         let has_colors = paint(scope, &colors);
         if has_colors {
             findings.extend(gather_mixes(scope, &colors, scene));
+            tables::gather(scope, &colors, scene);
         }
         let has_surfaces = name_surfaces(scope, &surfaces);
         let has_corners = link_corners(scope);
@@ -89,6 +91,7 @@ pub(crate) fn resolve(
         remove_short_wires(text, scope, has_corners, findings);
     }
     scene.mixes.sort_by_key(|mix| mix.color);
+    tables::check(text, (scopes, &firsts.colors), scene, findings);
     apply_default_colors(&mut scopes[0]);
     let calls = (0..scopes.len()).map(|row| link_calls(text, scopes, row, findings)).collect();
     let mut links = Links { calls, first_colors: firsts.colors, levels: 0 };

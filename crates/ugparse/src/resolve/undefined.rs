@@ -29,6 +29,9 @@ impl UndefinedNames<'_, '_, '_> {
                     self.check_color(Some(mix.color));
                     mix.parts.iter().for_each(|&(part, _)| self.check_color(Some(part)));
                 }
+                Some(Statement::Table(table)) => {
+                    table.rows.iter().for_each(|&(_, color)| self.check_color(Some(color)));
+                }
                 Some(Statement::Call(call)) => self.check_color(call.color),
                 Some(Statement::Face(face) | Statement::Wire(face)) => {
                     self.check_color(face.color);

@@ -255,7 +255,7 @@ impl Teller<'_> {
         let row = light.irradiance.lamp as usize;
         let shift = self.scenery.appearance.hue_shift;
         ExplainedLamp {
-            name: self.light_names[row].clone(),
+            name: self.light_names[lamps[row].color_of.map_or(row, |light| light as usize)].clone(),
             level: (light.irradiance.level * shift.color_of(&lamps[row])).to_array(),
             doppler: light.irradiance.doppler,
             distance: light.distance,

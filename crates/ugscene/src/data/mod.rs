@@ -1,6 +1,7 @@
 //! The data model: a scene, its bodies, and what filters have done to it.
 
 mod body;
+mod color_table;
 mod contours;
 mod history;
 mod ids;
@@ -12,6 +13,7 @@ mod stage;
 mod surface;
 
 pub use body::{Bodies, Body};
+pub use color_table::{ColorTable, TablePlace};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
 pub use ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};

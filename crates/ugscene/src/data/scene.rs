@@ -15,6 +15,7 @@ use glam::DVec3;
 use ugphysics::Velocity;
 
 use super::body::Bodies;
+use super::color_table::ColorTable;
 use super::contours::Contours;
 use super::ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
 use super::names::Names;
@@ -35,13 +36,15 @@ pub struct Scene {
     pub lamp_shifts: Vec<LampShift>,
     /// Text of every name used below.
     pub names: Names,
-    /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`.
+    /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`, `c_time`.
     pub colors: Vec<Color>,
     /// Samples of spectra: wavelength in nm, increasing within each spectrum, and value, 0 or more.
     /// Linear between samples, 0 outside.
     pub samples: Vec<[f64; 2]>,
     /// `c_mix`, by the row of the colour: see [`Scene::mix_of`].
     pub mixes: Vec<Mix>,
+    /// `c_time`, by the row of the colour: see [`Scene::table_of`].
+    pub color_tables: Vec<ColorTable>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
     /// The bodies and their motions.
@@ -317,6 +320,20 @@ impl Scene {
             Ok(row) => &self.mixes[row].parts,
             Err(_) => &[],
         }
+    }
+
+    /// The table of a colour that changes with own time.
+    pub fn table_of(&self, color: ColorId) -> Option<&ColorTable> {
+        let row = self.color_tables.binary_search_by_key(&color, |table| table.color).ok()?;
+        Some(&self.color_tables[row])
+    }
+
+    /// True if the colour of a face or wire changes with own time.
+    pub fn has_changing_surfaces(&self) -> bool {
+        let changes = |color: Option<ColorId>| color.is_some_and(|color| self.table_of(color).is_some());
+        !self.color_tables.is_empty()
+            && (self.faces.iter().any(|face| changes(face.color))
+                || self.wires.iter().any(|wire| changes(wire.color)))
     }
 
     /// The fixed light level of a face, if it has one; such a face is not lit.

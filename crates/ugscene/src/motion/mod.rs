@@ -2,6 +2,7 @@
 //! rest frames: what a filter for seen positions and a ray tracer have in common.
 
 mod camera_frame;
+mod clocks;
 mod observer;
 mod placement;
 mod world_lines;
@@ -92,6 +93,9 @@ pub enum MotionError {
     /// A single effect is asked for, and a body accelerates or turns.
     #[error("bodies that accelerate or turn are seen with contraction and flight time together")]
     PartialGeometry,
+    /// A single effect is asked for, and a colour changes with own time.
+    #[error("colours that change with time are seen with contraction and flight time together")]
+    PartialTimes,
 }
 
 /// Where the bodies of a scene are relative to the camera.
@@ -108,7 +112,7 @@ pub struct PlacedBodies {
     /// For each body, what has to be added to its rest coordinates, in the axes of
     /// [`RelativeMotion::turned`].
     pub shifts: Vec<DVec3>,
-    /// True if a body, a light or the camera moves.
+    /// True if a body, a light or the camera moves, or a colour changes with own time.
     pub has_motion: bool,
     /// The velocity of the camera in the frame of the scene.
     camera: Velocity,
@@ -160,9 +164,12 @@ impl PlacedBodies {
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
             || crate::has_moving_bodies(scene)
-            || crate::has_moving_lights(scene);
-        let shifts = placement::shifts(scene, (&bodies, &roots), &motions, (eye, &observer), options);
+            || crate::has_moving_lights(scene)
+            || !scene.color_tables.is_empty();
+        let centers = placement::wanted_centers(scene, (&bodies, &roots), options);
+        let shifts = placement::shifts(&motions, &centers, (eye, &observer), options);
         placement::shift_lights(scene, &motions, &shifts);
+        clocks::count_from_eye(scene, (&motions, &centers), (eye, &observer), options)?;
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;

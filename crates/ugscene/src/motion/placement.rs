@@ -12,43 +12,57 @@ use crate::{BodyId, LampShift, LightKind, Scene, SeenPosition};
 
 /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///
-/// `bodies`: of each vertex. `roots`: for each body, that whose place it keeps. `motions`: of each
-/// body.
+/// `motions`: of each body. `centers`: from [`wanted_centers`].
 pub(super) fn shifts(
-    scene: &Scene,
-    (bodies, roots): (&[BodyId], &[BodyId]),
     motions: &[RelativeMotion],
+    centers: &[DVec3],
     (eye, observer): (DVec3, &Observer),
     options: &MotionOptions,
 ) -> Vec<DVec3> {
-    let is_center_asked = match options.anchor {
-        Some(anchor) => anchor == Anchor::Center,
-        None => options.in_place,
-    };
-    // This reads every vertex.
-    let centers = if is_center_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
-    let shift = |(motion, root): (&RelativeMotion, &BodyId)| {
-        let center = centers[root.index()];
+    let shift = |(motion, &center): (&RelativeMotion, &DVec3)| {
         if motion.world_line().is_some() {
             return DVec3::ZERO;
         }
-        let point = match options.anchor {
-            Some(Anchor::Eye) => DVec3::ZERO,
-            Some(Anchor::Origin) => -eye,
-            Some(Anchor::Center) => center - eye,
-            Some(Anchor::Point(point)) => point - eye,
-            None if options.in_place => center - eye,
-            None => DVec3::ZERO,
-        };
+        let point = anchor_point(options, eye, center);
         anchor_shift(motion, point, options.in_place) + eye_shift(motion, observer, options.time)
     };
-    let mut shifts: Vec<DVec3> = motions.iter().zip(roots).map(shift).collect();
+    let mut shifts: Vec<DVec3> = motions.iter().zip(centers).map(shift).collect();
     // Unused vertices are part of the first body. They get the offset of a body of the same motion.
     let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
     if let Some(row) = same_motion {
         shifts[0] = shifts[row];
     }
     shifts
+}
+
+/// For each body, the centre of that whose place it keeps, if it is asked for; else 0.
+pub(super) fn wanted_centers(
+    scene: &Scene,
+    (bodies, roots): (&[BodyId], &[BodyId]),
+    options: &MotionOptions,
+) -> Vec<DVec3> {
+    let is_asked = match options.anchor {
+        Some(anchor) => anchor == Anchor::Center,
+        None => options.in_place,
+    };
+    if !is_asked {
+        return vec![DVec3::ZERO; roots.len()];
+    }
+    // This reads every vertex.
+    let centers = centers(scene, bodies);
+    roots.iter().map(|root| centers[root.index()]).collect()
+}
+
+/// The fixed point of the contraction, relative to the eye. `center`: of the body.
+pub(super) fn anchor_point(options: &MotionOptions, eye: DVec3, center: DVec3) -> DVec3 {
+    match options.anchor {
+        Some(Anchor::Eye) => DVec3::ZERO,
+        Some(Anchor::Origin) => -eye,
+        Some(Anchor::Center) => center - eye,
+        Some(Anchor::Point(point)) => point - eye,
+        None if options.in_place => center - eye,
+        None => DVec3::ZERO,
+    }
 }
 
 /// `anchor`: relative to the eye, in the axes of the scene; in those of the camera for bodies in

@@ -1,0 +1,243 @@
+//! Colours that change with own time, of faces and wires.
+//!
+//! Where light left later, a colour is seen later in its table. Edges are halved until the colour
+//! interpolated between their ends is right within a bound, sampled as the errors of bodies on world
+//! lines are; where a colour jumps, or changes faster than a picture shows, until they are so short
+//! that the blur is about that of a pixel. Then every vertex gets the colour that its point had when
+//! its light left.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use uglight::{RestColor, mean_color};
+use ugscene::{BodyId, Color, ColorId, ColorTable, Mix, Scene};
+
+use crate::attributes::free_prefix;
+use crate::relative_motion::{Point, RelativeMotion};
+use crate::world_line::{between, tan_half_angle};
+
+/// The length of edges along which a colour jumps, in units of the bound of the outline.
+const BLUR: f64 = 4.0;
+
+/// Where an edge is sampled.
+const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
+
+/// The factor on sampled errors.
+const MARGIN: f64 = 1.5;
+
+/// The prefix of the names of new colours.
+const PREFIX: &str = "t#";
+
+/// The tables of the faces and wires of each body.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Clocks {
+    /// Empty if no colour changes.
+    of_body: Vec<Vec<Lights>>,
+    /// The bound of the error of the light, as a part of the brightest of a table; infinite for none.
+    bound: f64,
+}
+
+/// The light of the colours of a table.
+#[derive(Clone, Debug)]
+struct Lights {
+    table: ColorTable,
+    linear: BTreeMap<ColorId, DVec3>,
+    /// The largest component of all.
+    brightest: f64,
+}
+
+impl Clocks {
+    /// `bound`: of the error of light; infinite for none.
+    pub(crate) fn new(scene: &Scene, bound: f64) -> Self {
+        if !scene.has_changing_surfaces() {
+            return Self::default();
+        }
+        let mut tables: Vec<Vec<ColorId>> = vec![Vec::new(); scene.bodies.len()];
+        let faces = scene.faces.iter().map(|face| (face.body, face.color));
+        for (body, color) in faces.chain(scene.wires.iter().map(|wire| (wire.body, wire.color))) {
+            tables[body.index()].extend(color.filter(|&color| scene.table_of(color).is_some()));
+        }
+        let lights = |mut colors: Vec<ColorId>| {
+            colors.sort_unstable();
+            colors.dedup();
+            colors.into_iter().filter_map(|color| Lights::new(scene, scene.table_of(color)?)).collect()
+        };
+        Self { of_body: tables.into_iter().map(lights).collect(), bound }
+    }
+
+    fn of(&self, body: BodyId) -> &[Lights] {
+        self.of_body.get(body.index()).map_or(&[], Vec::as_slice)
+    }
+
+    /// True if no colour of this body changes.
+    pub(crate) fn are_still(&self, body: BodyId) -> bool {
+        self.of(body).is_empty()
+    }
+
+    /// Is the colour wrong, interpolated along an edge? The ends must always be given in the same
+    /// order. `tan_half`: of the bound of the outline.
+    pub(crate) fn is_off(&self, a: &Point, b: &Point, motion: &RelativeMotion, tan_half: f64) -> bool {
+        let lights = self.of(a.body);
+        if lights.is_empty() || self.bound == f64::INFINITY || is_short(a, b, tan_half) {
+            return false;
+        }
+        let ends = [a, b].map(own_time);
+        SAMPLES.into_iter().any(|s| {
+            let point = match motion.world_line() {
+                Some(line) => between(a, b, line, s),
+                None => Point::new(motion, a.body, a.rest.lerp(b.rest, s)),
+            };
+            let chord = b.seen - a.seen;
+            let along = (point.seen - a.seen).dot(chord) / chord.length_squared();
+            let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { s };
+            lights.iter().any(|lights| lights.is_off(ends, [1.0 - along, along], own_time(&point), self.bound))
+        })
+    }
+
+    /// Is the colour at the middle of a triangle wrong?
+    pub(crate) fn is_off_inside(
+        &self,
+        corners: [&Point; 3],
+        motion: &RelativeMotion,
+        tan_half: f64,
+    ) -> bool {
+        let [a, b, c] = corners;
+        let lights = self.of(a.body);
+        if lights.is_empty() || self.bound == f64::INFINITY {
+            return false;
+        }
+        if [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| is_short(a, b, tan_half)) {
+            return false;
+        }
+        let rest = (a.rest + b.rest + c.rest) / 3.0;
+        let point = match motion.world_line() {
+            Some(line) => {
+                let guess = (a.own_time + b.own_time + c.own_time) / 3.0;
+                Point::on_world_line(line, a.body, rest, Some(guess))
+            }
+            None => Point::new(motion, a.body, rest),
+        };
+        let (ends, weights) = (corners.map(own_time), [1.0 / 3.0; 3]);
+        lights.iter().any(|lights| lights.is_off(ends, weights, own_time(&point), self.bound))
+    }
+}
+
+/// Is an edge too short to be halved for its colours?
+fn is_short(a: &Point, b: &Point, tan_half: f64) -> bool {
+    tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= BLUR * tan_half
+}
+
+/// The time on which the tables of its body are based when the light left: on a world line that of
+/// the body, else that of its rest frame, from the event of the eye.
+pub(crate) fn own_time(point: &Point) -> f64 {
+    if point.is_on_world_line { point.own_time } else { -point.rest_distance }
+}
+
+impl Lights {
+    fn new(scene: &Scene, table: &ColorTable) -> Option<Self> {
+        let mut linear = BTreeMap::new();
+        for &(_, color) in &table.rows {
+            linear.entry(color).or_insert_with(|| RestColor::new(scene, Some(color)).linear());
+        }
+        let brightest = linear.values().map(|light| light.abs().max_element()).fold(0.0, f64::max);
+        // One colour does not change.
+        (linear.len() > 1).then(|| Self { table: table.clone(), linear, brightest })
+    }
+
+    fn light(&self, own_time: f64) -> DVec3 {
+        let parts = self.table.at(own_time).parts;
+        parts.into_iter().map(|(color, share)| share * self.linear[&color]).sum()
+    }
+
+    /// Does a colour interpolated between corners with these own times and weights differ from that
+    /// at `own_time`?
+    fn is_off<const N: usize>(
+        &self,
+        corners: [f64; N],
+        weights: [f64; N],
+        own_time: f64,
+        bound: f64,
+    ) -> bool {
+        let place = self.table.at(own_time);
+        let number = |cycle: f64, row: i64| cycle * self.table.rows.len() as f64 + row as f64;
+        let here = number(place.cycle, place.row);
+        // Between two rows that are neighbours, samples show the error.
+        let most = if self.table.is_stepped { 0.0 } else { 1.0 };
+        let is_far = |time: f64| {
+            let corner = self.table.at(time);
+            (number(corner.cycle, corner.row) - here).abs() > most
+        };
+        if corners.into_iter().any(is_far) {
+            return true;
+        }
+        if self.table.is_stepped {
+            return false;
+        }
+        let drawn: DVec3 = corners.into_iter().zip(weights).map(|(time, part)| part * self.light(time)).sum();
+        MARGIN * (drawn - self.light(own_time)).abs().max_element() > bound * self.brightest
+    }
+}
+
+/// Gives the corners of faces and wires whose colour changes the colour that they had when their
+/// light left. `times`: of each vertex, see [`own_time`]. Only lights keep their tables.
+pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
+    if !scene.has_changing_surfaces() {
+        return;
+    }
+    let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.color));
+    let wires = scene.wires.iter().map(|wire| (wire.contours.clone(), wire.color));
+    let changing = |color: Option<ColorId>| color.filter(|&color| scene.table_of(color).is_some());
+    let users: Vec<_> = faces.chain(wires).map(|(rows, color)| (rows, changing(color))).collect();
+    let rows = users.iter().map(|(rows, _)| rows.clone());
+    let copies = ugscene::split_corners(scene, rows, |user, _, vertex| {
+        vertex.color.is_none().then_some(users[user].1)
+    });
+    times.extend(copies.into_iter().map(|original| times[original.index()]).collect::<Vec<_>>());
+    let mut painter = Painter::new(scene);
+    for (rows, table) in users {
+        let Some(table) = table.and_then(|color| scene.table_of(color)).cloned() else { continue };
+        for idx in 0..scene.contours.corners(rows.clone()).len() {
+            let corner = scene.contours.corners(rows.clone())[idx].index();
+            if scene.vertices[corner].color.is_none() {
+                scene.vertices[corner].color = Some(painter.color(scene, table.at(times[corner]).parts));
+            }
+        }
+    }
+    let lights: Vec<ColorId> = scene.lights.iter().filter_map(|light| light.color).collect();
+    scene.color_tables.retain(|table| lights.contains(&table.color));
+}
+
+/// Statements of the colours between two others. Equal ones share a statement.
+struct Painter {
+    prefix: String,
+    known: FxHashMap<(ColorId, ColorId, u64), ColorId>,
+    rest: FxHashMap<ColorId, RestColor>,
+}
+
+impl Painter {
+    fn new(scene: &Scene) -> Self {
+        let names = scene.colors.iter().map(|color| scene.names.get(color.name));
+        let prefix = free_prefix(PREFIX, names);
+        Self { prefix, known: FxHashMap::default(), rest: FxHashMap::default() }
+    }
+
+    fn color(&mut self, scene: &mut Scene, parts: [(ColorId, f64); 2]) -> ColorId {
+        let [(a, _), (b, share)] = parts;
+        if share == 0.0 {
+            return a;
+        }
+        if let Some(&known) = self.known.get(&(a, b, share.to_bits())) {
+            return known;
+        }
+        let mut rest = |id| *self.rest.entry(id).or_insert_with(|| RestColor::new(scene, Some(id)));
+        let mean = mean_color(parts.map(|(id, share)| (rest(id), share)));
+        let name = scene.names.add_parts(&[&self.prefix, &(self.known.len() + 1).to_string()]);
+        let color = ColorId::from_index(scene.colors.len());
+        scene.colors.push(Color { name, value: mean.value(), translucency: mean.translucency });
+        // Colours in ascending order, as the scene requires.
+        scene.mixes.push(Mix { color, parts: parts.to_vec() });
+        self.known.insert((a, b, share.to_bits()), color);
+        color
+    }
+}

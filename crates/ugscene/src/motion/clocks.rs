@@ -1,0 +1,99 @@
+//! Clocks of inertial bodies.
+//!
+//! The own time of a body is that of the clock of its motion: for an inertial body the time of its
+//! rest frame, which is 0 where the fixed point of the contraction is at time 0 of the scene. What a
+//! program downstream knows of an inertial body, its velocity and rest positions relative to the
+//! eye, does not tell when that was. So tables of colours are changed to count from the event of the
+//! eye: light that is seen directly left |p'| before that.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+use ugphysics::{Event, Lorentz};
+
+use super::observer::Observer;
+use super::placement::anchor_point;
+use super::{MotionError, MotionOptions};
+use crate::{BodyId, Color, ColorId, ColorTable, RelativeMotion, Scene, UniqueNames};
+
+/// Makes the tables of colours on inertial bodies count from the event of the eye. `motions`: of each
+/// body. `centers`: from [`super::placement::wanted_centers`].
+///
+/// # Errors
+/// [`MotionError::PartialTimes`].
+pub(super) fn count_from_eye(
+    scene: &mut Scene,
+    (motions, centers): (&[RelativeMotion], &[DVec3]),
+    (eye, observer): (DVec3, &Observer),
+    options: &MotionOptions,
+) -> Result<(), MotionError> {
+    if scene.color_tables.is_empty() {
+        return Ok(());
+    }
+    if !(options.geometry.contraction && options.geometry.flight_time) {
+        return Err(MotionError::PartialTimes);
+    }
+    let time = |(motion, &center): (&RelativeMotion, &DVec3)| {
+        if motion.world_line().is_some() {
+            return 0.0;
+        }
+        // Displacements of bodies in place are simultaneous in their rest frames.
+        let zero = if options.in_place {
+            DVec3::ZERO
+        } else {
+            eye + anchor_point(options, eye, center)
+        };
+        let event = observer.event(options.time) + Event { t: 0.0, x: eye - zero };
+        Lorentz::boost(motion.in_scene()).inverse().apply(event).t
+    };
+    let times: Vec<f64> = motions.iter().zip(centers).map(time).collect();
+    let mut recount = Recount { times, known: FxHashMap::default(), names: None };
+    for row in 0..scene.faces.len() {
+        let face = &scene.faces[row];
+        scene.faces[row].color = recount.color(scene, face.color, face.body);
+    }
+    for row in 0..scene.wires.len() {
+        let wire = &scene.wires[row];
+        scene.wires[row].color = recount.color(scene, wire.color, wire.body);
+    }
+    for row in 0..scene.lights.len() {
+        let light = &scene.lights[row];
+        if let Some(body) = light.motion.body() {
+            scene.lights[row].color = recount.color(scene, light.color, body);
+        }
+    }
+    Ok(())
+}
+
+/// Adds the tables of several bodies.
+struct Recount {
+    /// For each body, its own time at the event of the eye; 0 on world lines.
+    times: Vec<f64>,
+    /// By colour and the bits of that time.
+    known: FxHashMap<(ColorId, u64), ColorId>,
+    names: Option<UniqueNames>,
+}
+
+impl Recount {
+    fn color(&mut self, scene: &mut Scene, color: Option<ColorId>, body: BodyId) -> Option<ColorId> {
+        let id = color?;
+        let zero = self.times[body.index()];
+        if zero == 0.0 {
+            return color;
+        }
+        if let Some(&known) = self.known.get(&(id, zero.to_bits())) {
+            return Some(known);
+        }
+        let Some(table) = scene.table_of(id) else { return color };
+        let table = table.counted_from(zero);
+        let original = &scene.colors[id.index()];
+        let all = || scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
+        let name = self.names.get_or_insert_with(all).fresh(scene.names.get(original.name));
+        let name = scene.names.add(&name);
+        let new = ColorId::from_index(scene.colors.len());
+        scene.colors.push(Color { name, ..scene.colors[id.index()].clone() });
+        // Ids in ascending order, as the scene requires.
+        scene.color_tables.push(ColorTable { color: new, ..table });
+        self.known.insert((id, zero.to_bits()), new);
+        Some(new)
+    }
+}
