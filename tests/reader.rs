@@ -11,7 +11,7 @@ use ugphysics::Velocity;
 use ugscene::{BodyId, ColorId, ColorValue, LightKind, NameId, Projection, Scene, VertexId};
 use ugtests::scenes;
 use ugtests::slow_reader::{
-    self, Camera, Face, Flat, Light, Motion, MotionOptions, Paint, Triple, Vertex, Wire,
+    self, Camera, Face, Flat, Light, Motion, MotionOptions, Paint, Timed, Triple, Vertex, Wire,
 };
 
 /// Relative to the largest coordinate: the two readers multiply matrices in different orders, which
@@ -26,6 +26,12 @@ fn flat(scene: &Scene) -> Flat {
     let named = |body: BodyId| scene.bodies[body].name.map(|name| Motion::Named(text(name)));
     let motion = |body: BodyId| named(body).or_else(|| scene.bodies.stated_velocity(body).map(velocity));
     let color = |id: Option<ColorId>| {
+        if let Some(table) = scene.table_of(id?) {
+            let name = |color: ColorId| text(scene.colors[color.index()].name);
+            let rows = table.rows.iter().map(|&(time, color)| (time, name(color))).collect();
+            let (is_stepped, period) = (table.is_stepped, table.period);
+            return Some(Paint::Timed(Timed { is_stepped, period, rows }));
+        }
         let color = &scene.colors[id?.index()];
         Some(match color.value {
             ColorValue::Hsv { value, tint, saturation, factor } => {

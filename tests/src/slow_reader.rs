@@ -127,6 +127,19 @@ pub enum Paint {
     Blackbody([f64; 2]),
     /// Wavelengths with their values.
     Spectrum(Vec<f64>),
+    /// Over own time.
+    Timed(Timed),
+}
+
+/// The colours of `c_time`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Timed {
+    /// `-step`.
+    pub is_stepped: bool,
+    /// `-period`.
+    pub period: Option<f64>,
+    /// Times and names of colours.
+    pub rows: Vec<(f64, String)>,
 }
 
 /// Reads a valid scene.
@@ -349,6 +362,22 @@ fn read_scope(words: &mut Words, prefix: &str, mut unnamed: Option<Paint>) -> Sc
                     None => unnamed = Some(paint),
                     Some(name) => assert!(scope.colors.insert(name, paint).is_none(), "a second colour"),
                 }
+            }
+            "c_time" => {
+                let name = words.take();
+                let mut timed = Timed { is_stepped: false, period: None, rows: Vec::new() };
+                while words.peek().starts_with('-') && !words.is_number() {
+                    match &words.take()[..] {
+                        "-step" => timed.is_stepped = true,
+                        "-period" => timed.period = Some(words.number()),
+                        other => panic!("what is `{other}`?"),
+                    }
+                }
+                while words.is_number() {
+                    timed.rows.push((words.number(), words.take()));
+                }
+                let paint = Paint::Timed(timed);
+                assert!(scope.colors.insert(name, paint).is_none(), "a second colour");
             }
             "surf" => {
                 let name = words.take();

@@ -120,12 +120,7 @@ impl SurfaceElement {
 
     /// The light of a lamp whose colour changes, and the own time at which it sent it: a local lamp
     /// with a motion. The row of the lamp is not set.
-    fn of_changing(
-        &self,
-        lamp: &Lamp,
-        place: LampPlace,
-        frames: &RestFrames,
-    ) -> Option<(IncidentLamp, f64)> {
+    fn of_changing(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<(IncidentLamp, f64)> {
         let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
         let incident = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
             let irradiance = Irradiance { lamp: 0, level, doppler };

@@ -9,7 +9,7 @@
 use std::collections::BTreeMap;
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use uglight::{RestColor, mean_color};
 use ugscene::{BodyId, Color, ColorId, ColorTable, Mix, Scene};
 
@@ -91,17 +91,14 @@ impl Clocks {
             let chord = b.seen - a.seen;
             let along = (point.seen - a.seen).dot(chord) / chord.length_squared();
             let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { s };
-            lights.iter().any(|lights| lights.is_off(ends, [1.0 - along, along], own_time(&point), self.bound))
+            lights
+                .iter()
+                .any(|lights| lights.is_off(ends, [1.0 - along, along], own_time(&point), self.bound))
         })
     }
 
     /// Is the colour at the middle of a triangle wrong?
-    pub(crate) fn is_off_inside(
-        &self,
-        corners: [&Point; 3],
-        motion: &RelativeMotion,
-        tan_half: f64,
-    ) -> bool {
+    pub(crate) fn is_off_inside(&self, corners: [&Point; 3], motion: &RelativeMotion, tan_half: f64) -> bool {
         let [a, b, c] = corners;
         let lights = self.of(a.body);
         if lights.is_empty() || self.bound == f64::INFINITY {
@@ -204,7 +201,7 @@ pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
             }
         }
     }
-    let lights: Vec<ColorId> = scene.lights.iter().filter_map(|light| light.color).collect();
+    let lights: FxHashSet<ColorId> = scene.lights.iter().filter_map(|light| light.color).collect();
     scene.color_tables.retain(|table| lights.contains(&table.color));
 }
 

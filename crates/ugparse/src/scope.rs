@@ -10,8 +10,8 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Velocity, WorldLine};
 use ugscene::{
-    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Illum, IllumId, Light, LightKind,
-    LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Illum, IllumId, Light,
+    LightKind, LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;
@@ -20,7 +20,8 @@ use crate::rows::Rows;
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, MotionReference, MotionStatement, References, Statement, SurfaceStatement, TableStatement, VertexStatement,
+    MixStatement, MotionReference, MotionStatement, References, Statement, SurfaceStatement, TableStatement,
+    VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 

@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use glam::DVec3;
 use ugphysics::Piece;
 use ugscene::{
-    BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light, LightKind, MotionPath,
-    NameId, Projection, Scene, StatedMotion, SurfaceProperties,
+    BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light, LightKind,
+    MotionPath, NameId, Projection, Scene, StatedMotion, SurfaceProperties,
 };
 
 use crate::chunked_writer::ChunkedWriter;

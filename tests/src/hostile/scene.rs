@@ -130,7 +130,12 @@ fn contours(random: &mut Random, n_vertices: usize) -> String {
 
 fn color(random: &mut Random, idx: usize) -> String {
     let numbers = [(); 3].map(|()| words::number(random)).join(" ");
-    match random.below(7) {
+    match random.below(8) {
+        6 => {
+            let times = [(); 2].map(|()| words::number(random));
+            let option = ["", "-step", "-period 3"][random.below(3)];
+            format!("c_time red{idx} {option} {} red0 {} red1 ;", times[0], times[1])
+        }
         0 => format!("c_rgb red{idx} {numbers} ;"),
         1 => format!("c_xyz red{idx} {numbers} ;"),
         2 => format!("c_bb red{idx} {} ;", words::number(random)),

@@ -74,7 +74,9 @@ impl Check<'_> {
             let mut names = std::iter::once(mix.color).chain(mix.parts.iter().map(|part| part.0));
             if let Some(at) = names.position(|name| row(name).is_some_and(|color| self.is_timed(color))) {
                 let mut references = References::default();
-                let Some(Statement::Mix(mix)) = read_again(self.text, span, &mut references) else { continue };
+                let Some(Statement::Mix(mix)) = read_again(self.text, span, &mut references) else {
+                    continue;
+                };
                 let name = at.checked_sub(1).map_or(mix.color, |part| mix.parts[part].0);
                 self.refuse(name, "is in a mixture", "mix the colours of its rows");
             }
@@ -115,7 +117,8 @@ impl Check<'_> {
         if nested {
             self.refuse(name, "is in a table of times", "write its rows there");
         } else if self.findings.len() < MAX_ERRORS {
-            let message = format!("colour `{}` has another translucency than the first row", show(self.text, name));
+            let message =
+                format!("colour `{}` has another translucency than the first row", show(self.text, name));
             let error = Diagnostic::error(name, message).label("here");
             self.findings.push(error.help("give all colours of a table the same translucency"));
         }

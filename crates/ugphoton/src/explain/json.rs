@@ -44,6 +44,7 @@ fn surface(surface: &ExplainedSurface) -> Value {
         "velocity": point(surface.beta),
         "beta": surface.beta.length(),
         "gamma": surface.gamma,
+        "own_time": surface.own_time,
         "emission": { "t": surface.emission.0, "x": point(surface.emission.1) },
         "emission_at_rest": { "t": surface.rest.0, "x": point(surface.rest.1) },
         "angle_deg": surface.angles_deg.map(|[camera, _]| camera),

@@ -66,6 +66,8 @@ pub struct ExplainedSurface {
     pub beta: DVec3,
     /// Lorentz factor γ of the body.
     pub gamma: f64,
+    /// The own time of a body that is not inertial.
+    pub own_time: Option<f64>,
     /// Time and position of emission, relative to the eye, in the frame of the camera.
     pub emission: (f64, DVec3),
     /// The emission event in the rest frame of the body and the axes of the scene.
@@ -227,6 +229,7 @@ impl Teller<'_> {
             medium: visit.medium.map(|(solid, left)| self.medium(solid, left)),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
+            own_time: point.element.map(|element| element.own_time),
             emission: (point.event.t, point.event.x - sample.ray.origin.x),
             rest: (rest_time, point.place),
             angles_deg,

@@ -53,6 +53,9 @@ fn write_surface(
     writeln!(out, "\nsurface {}, {way}", at + 1)?;
     row(out, surface.item.kind, described(&surface.item))?;
     row(out, "body", body(surface.beta, surface.gamma, explanation.pixel.is_at_rest))?;
+    if let Some(own_time) = surface.own_time {
+        row(out, "own time", number(own_time))?;
+    }
     let (time, place) = surface.emission;
     row(out, "emission", event(Some(time), place.to_array(), "camera frame, from the eye"))?;
     let (time, place) = surface.rest;

@@ -65,7 +65,9 @@ impl Words for MotionError {
             Self::Camera(error) => error.words(),
             Self::Eye { .. } => format!("{self}: move it nearer to the point -at of that motion"),
             Self::WorldLine { .. } => self.to_string(),
-            Self::PartialGeometry | Self::PartialTimes => format!("{self}: leave out -nc and --no-flight-time"),
+            Self::PartialGeometry | Self::PartialTimes => {
+                format!("{self}: leave out -nc and --no-flight-time")
+            }
         }
     }
 

@@ -37,11 +37,7 @@ pub(super) fn count_from_eye(
             return 0.0;
         }
         // Displacements of bodies in place are simultaneous in their rest frames.
-        let zero = if options.in_place {
-            DVec3::ZERO
-        } else {
-            eye + anchor_point(options, eye, center)
-        };
+        let zero = if options.in_place { DVec3::ZERO } else { eye + anchor_point(options, eye, center) };
         let event = observer.event(options.time) + Event { t: 0.0, x: eye - zero };
         Lorentz::boost(motion.in_scene()).inverse().apply(event).t
     };

@@ -1,0 +1,314 @@
+//! Colours that change with own time: the readings of clocks, against the Lorentz transformation and
+//! published numbers.
+//!
+//! A clock is a face whose Y is a hundredth of its own time.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use glam::DVec3;
+use ugimage::LinearFrame;
+use uglight::ColorShift;
+use uglorentz::Pieces;
+use ugphoton::RayOptions;
+use ugphysics::{Brightness, Event, Lorentz, Velocity, compose};
+use ugrainbow::{Output, PictureOptions};
+use ugscene::{Anchor, ColorValue, MotionOptions, Scene};
+use ugtests::pipe;
+use ugtests::scenes::parse;
+
+/// The largest time that a clock shows, and the number of times in a unit of Y.
+const RANGE: f64 = 1000.0;
+const UNIT: f64 = 100.0;
+
+/// A clock at each place, all with this motion.
+fn clocks(places: &[DVec3], motion: &str) -> String {
+    let mut text = format!(
+        "c_xyz low 0 {} 0; c_xyz high 0 {} 0; c_time clock {} low {RANGE} high;\n",
+        -RANGE / UNIT,
+        RANGE / UNIT,
+        -RANGE
+    );
+    for (row, place) in places.iter().enumerate() {
+        let [x, y, z] = place.to_array();
+        text += &format!(
+            "v p{row} {x} {y} {z}; v q{row} {} {y} {z}; v r{row} {x} {y} {};\nf (p{row} q{row} r{row}) clock {motion};\n",
+            x + 1e-3,
+            z + 1e-3
+        );
+    }
+    text
+}
+
+fn options(eye: DVec3, time: f64) -> uglorentz::Config {
+    uglorentz::Config {
+        eye: Some(eye),
+        time,
+        anchor: Some(Anchor::Origin),
+        pieces: Pieces::PerEdge(1),
+        ..uglorentz::Config::default()
+    }
+}
+
+/// What the first corners of the clocks show.
+fn readings(text: &str, config: &uglorentz::Config) -> Vec<f64> {
+    let scene = parse(&pipe::lorentz(text.as_bytes(), config));
+    let first = scene.vertices.iter().filter(|vertex| scene.names.get(vertex.name).starts_with('p'));
+    first.map(|vertex| shown(&scene, vertex.color.unwrap())).collect()
+}
+
+fn shown(scene: &Scene, color: ugscene::ColorId) -> f64 {
+    match scene.colors[color.index()].value {
+        ColorValue::Xyz([_, y, _]) => UNIT * y,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn speed(beta: f64) -> Velocity {
+    Velocity::from_beta(DVec3::X * beta).unwrap()
+}
+
+/// The own time that a clock at rest at `place` in a frame with the velocity v is seen to show at
+/// `event`: by Newton's method in that frame, where it stands still.
+fn expected(place: DVec3, velocity: Velocity, event: Event) -> f64 {
+    let Event { t, x } = Lorentz::boost(velocity).inverse().apply(event);
+    t - (place - x).length()
+}
+
+const PLACES: [DVec3; 4] = [
+    DVec3::new(-3.0, 4.0, 0.5),
+    DVec3::new(0.0, 3.0, -1.0),
+    DVec3::new(2.0, 5.0, 0.0),
+    DVec3::new(7.0, 4.0, 2.0),
+];
+
+#[test]
+fn a_row_of_clocks_is_seen_as_the_lorentz_transformation_says() {
+    for (beta, camera, time) in [(0.8, 0.0, 0.0), (0.8, 0.0, 7.5), (0.0, -0.8, 4.0), (0.6, 0.9, -3.0)] {
+        let eye = DVec3::new(0.5, -2.0, 0.25);
+        let config = uglorentz::Config { camera_velocity: Some(DVec3::X * camera), ..options(eye, time) };
+        let event = Lorentz::boost(speed(camera)).apply(Event { t: time, x: DVec3::ZERO });
+        let event = event + Event { t: 0.0, x: eye };
+        let found = readings(&clocks(&PLACES, &format!("<{beta} 0 0>")), &config);
+        assert_eq!(found.len(), PLACES.len());
+        for (found, place) in found.into_iter().zip(PLACES) {
+            let expected = expected(place, speed(beta), event);
+            assert!((found - expected).abs() < 1e-9, "{beta} {camera} {time}: {found}, not {expected}");
+        }
+    }
+}
+
+/// Two clocks 5 apart at rest, passed at 0.8: at one time of the camera they differ by 4.
+#[test]
+fn clocks_that_pass_differ_by_speed_times_distance() {
+    let places = [DVec3::ZERO, DVec3::new(5.0, 0.0, 0.0)];
+    // Seen from far in the plane between both, so that light takes the same time from both.
+    let far = 1e6;
+    let text = clocks(&places, "<.8 0 0>").replace("1000 ", "4000000 ").replace(" 10 0;", " 40000 0;");
+    let text = text.replace(" -10 0;", " -40000 0;");
+    let found = readings(&text, &options(DVec3::new(1.5, -far, 0.0), far));
+    assert!((found[0] - found[1] - 4.0).abs() < 1e-3, "{found:?}");
+}
+
+/// A clock that comes or goes straight is seen to tick D times as fast.
+#[test]
+fn ticking_is_doppler_shifted() {
+    for (beta, doppler) in [(-0.6, 2.0), (0.6, 0.5), (0.8, 1.0 / 3.0), (-0.8, 3.0)] {
+        let text = clocks(&[DVec3::ZERO], &format!("<0 {beta} 0>"));
+        let at = |time: f64| readings(&text, &options(DVec3::new(0.0, -50.0, 0.0), time))[0];
+        let rate = (at(10.0) - at(4.0)) / 6.0;
+        assert!((rate - doppler).abs() < 1e-9, "{beta}: {rate}");
+    }
+}
+
+/// As above, by the moments at which a face that blinks with the period 1.5 changes.
+#[test]
+fn blinking_has_the_shifted_period() {
+    for (motion, period) in [("<0 -.6 0>", 0.75), ("<0 .6 0>", 3.0), ("", 1.5)] {
+        let text = format!(
+            "c on 1; c off 0; c_time blink -step -period 1.5 0 on .5 off;\n
+             v p 0 0 0; v q .001 0 0; v r 0 0 .001; f (p q r) blink {motion};"
+        );
+        let is_on = |time: f64| {
+            let config = options(DVec3::new(0.0, -50.0, 0.0), time);
+            let scene = parse(&pipe::lorentz(text.as_bytes(), &config));
+            let color = scene.vertices[0].color.unwrap();
+            scene.names.get(scene.colors[color.index()].name) == "on"
+        };
+        let mut changes = Vec::new();
+        let step = period / 20.0;
+        for n in 0..70 {
+            let (mut low, mut high) = (2.0 + step * f64::from(n), 2.0 + step * f64::from(n + 1));
+            if is_on(low) || !is_on(high) {
+                continue;
+            }
+            for _ in 0..50 {
+                let middle = f64::midpoint(low, high);
+                *(if is_on(middle) { &mut high } else { &mut low }) = middle;
+            }
+            changes.push(high);
+        }
+        assert!(changes.len() >= 3);
+        for pair in changes.windows(2) {
+            assert!((pair[1] - pair[0] - period).abs() < 1e-9, "{motion}: {changes:?}");
+        }
+    }
+}
+
+/// The trip of own time 8 takes 8.4887144286432 for those who stay.
+#[test]
+fn twins_come_back_with_their_own_times() {
+    let motion = "motion trip -acc 0 .3 0 0 2 -acc 0 -.3 0 2 6 -acc 0 .3 0 6 8;\n";
+    let places = [DVec3::ZERO];
+    let eye = DVec3::new(0.0, -3.0, 0.0);
+    let trip = format!("{motion}{}", clocks(&places, "<trip>"));
+    for (since, own) in [(0.0, 0.0), (8.488_714_428_643_2, 8.0), (9.488_714_428_643_2, 9.0)] {
+        let config = options(eye, 3.0 + since);
+        let found = readings(&trip, &config)[0];
+        assert!((found - own).abs() < 1e-9, "{found}, not {own}");
+        let stayed = readings(&clocks(&places, ""), &config)[0];
+        assert!((stayed - since).abs() < 1e-9, "{stayed}, not {since}");
+    }
+}
+
+/// Bodies with a velocity and bodies on world lines that hardly accelerate show the same time,
+/// however they are placed.
+#[test]
+fn inertial_clocks_are_those_of_motions() {
+    let inertial = clocks(&PLACES, "<.5 .3 -.2>");
+    let moved = clocks(&PLACES, "<m>") + "motion m -vel .5 .3 -.2 -acc 1e-14 0 0;";
+    let eye = DVec3::new(0.5, -2.0, 0.25);
+    let point = Anchor::Point(DVec3::new(1.0, 2.0, 3.0));
+    for anchor in [None, Some(Anchor::Eye), Some(Anchor::Origin), Some(Anchor::Center), Some(point)] {
+        for in_place in [false, true] {
+            for camera in [DVec3::ZERO, DVec3::new(0.2, -0.7, 0.1)] {
+                let config = uglorentz::Config {
+                    anchor,
+                    in_place,
+                    camera_velocity: Some(camera),
+                    ..options(eye, 2.5)
+                };
+                for (a, b) in readings(&inertial, &config).into_iter().zip(readings(&moved, &config)) {
+                    assert!((a - b).abs() < 1e-9, "{anchor:?} {in_place} {camera}: {a} {b}");
+                }
+            }
+        }
+    }
+}
+
+/// A boost of bodies and camera changes no reading.
+#[test]
+fn a_boost_of_the_whole_world_changes_nothing() {
+    let of = |bodies: Velocity, camera: Velocity| {
+        let text = clocks(&PLACES, &format!("<{:.17} 0 0>", bodies.beta().x));
+        let camera_velocity = Some(camera.beta());
+        readings(&text, &uglorentz::Config { camera_velocity, ..options(DVec3::ZERO, 3.0) })
+    };
+    let (bodies, camera) = (speed(0.4), speed(-0.5));
+    let before = of(bodies, camera);
+    for boost in [-0.9, 0.3, 0.7] {
+        let after = of(compose(bodies, speed(boost)), compose(camera, speed(boost)));
+        for (a, b) in before.iter().zip(&after) {
+            assert!((a - b).abs() < 1e-9, "{boost}: {before:?} {after:?}");
+        }
+    }
+}
+
+/// The light of a lamp that changes, on a surface, is that which left it when the light that is
+/// scattered toward the eye left it.
+#[test]
+fn lamps_light_with_the_colour_they_had() {
+    let (surface, lamp, eye) =
+        (DVec3::new(0.5, 4.0, 0.0), DVec3::new(1.0, -1.0, 2.0), DVec3::new(0.0, -2.0, 0.0));
+    let shift = ColorShift::hues(true, Brightness::None);
+    let lit = ugdoppler::Config { light: true, tolerance: 0.0, keep: true, shift, ..Default::default() };
+    for (of_surface, of_lamp) in [(0.0, 0.0), (0.5, 0.0), (0.5, 0.5), (-0.3, 0.6)] {
+        for acceleration in ["", "-acc 1e-14 0 0"] {
+            let [x, y, z] = surface.to_array();
+            let [a, b, c] = lamp.to_array();
+            let text = format!(
+                "motion m -vel {of_lamp} 0 0 {acceleration}; motion s -vel {of_surface} 0 0;
+                 c off 0; c on 1; c_time ramp -100 off 100 on; l 1 {a} {b} {c} 0 ramp <m>;
+                 v p {x} {y} {z}; v q {} {y} {z}; v r {x} {y} {}; f (p q r) <s>;",
+                x + 1e-3,
+                z + 1e-3
+            );
+            let plain = text.replace("ramp <m>", "on <m>");
+            let value = |text: &str| {
+                let seen = pipe::lorentz(text.as_bytes(), &options(eye, 9.0));
+                let scene = parse(&pipe::doppler(&seen, &lit));
+                match scene.colors[scene.vertices[0].color.unwrap().index()].value {
+                    ColorValue::Hsv { value, .. } => value,
+                    other => panic!("{other:?}"),
+                }
+            };
+            // When the surface scatters the light, and when the lamp sent it, in the scene.
+            let own = expected(surface, speed(of_surface), Event { t: 9.0, x: eye });
+            let here = Lorentz::boost(speed(of_surface)).apply(Event { t: own, x: surface });
+            let sent = expected(lamp, speed(of_lamp), here);
+            let part = value(&text) / value(&plain);
+            let wanted = (sent + 100.0) / 200.0;
+            assert!((part - wanted).abs() < 1e-7, "{of_surface} {of_lamp}: {part}, not {wanted}");
+        }
+    }
+}
+
+/// The picture of the pipe, and that by rays.
+fn pictures(scene: &Scene, shift: ColorShift) -> [LinearFrame; 2] {
+    let output = Output::Color(ugimage::Format::Exr);
+    let picture = PictureOptions { size: [80, 60], samples: 1, output, ..PictureOptions::default() };
+    let motion = MotionOptions { time: 6.0, anchor: Some(Anchor::Origin), ..MotionOptions::default() };
+    let lorentz = uglorentz::Config { time: 6.0, anchor: motion.anchor, ..Default::default() };
+    let (seen, _) = uglorentz::apply(scene.clone(), &lorentz).unwrap();
+    let doppler = ugdoppler::Config { shift, tolerance: 0.0, keep: true, ..Default::default() };
+    let (colored, _) = ugdoppler::apply(seen, &doppler).unwrap();
+    let config = ugrainbow::Config { picture: picture.clone(), ..Default::default() };
+    let by_pipe = ugrainbow::light(&colored, &config).unwrap();
+    let rays = RayOptions { depth: 0, shadows: false, ..RayOptions::default() };
+    let config = ugphoton::Config { picture, motion, shift, rays, ..Default::default() };
+    [by_pipe, ugphoton::light(scene.clone(), &config).unwrap()]
+}
+
+/// The scene, with the statements of three colours.
+fn faces(colors: &str) -> Scene {
+    let text = format!(
+        "c_rgb red 1 .1 .1; c_rgb pale .8 .8 .9; {colors}
+         motion turning -at 2.5 0 .5 -spin 0 .4 0 -vel -.2 .3 0;
+         v a -1 0 -1; v b 1 0 -1; v c 1 0 1; v d -1 0 1; f (a b c d) tick <.4 .2 0>;
+         v e 2 0 0; v f 3 0 0; v g 3 0 1; v h 2 0 1; f (e f g h) wave <turning>;
+         v i -3 1 -2; v j 4 1 -2; v k 4 1 2; v l -3 1 2; f (i j k l) still;
+         l 1; cam -ep 1 -6 .5 -vc 1 0 .5;"
+    );
+    parse(text.as_bytes())
+}
+
+/// Faces of three bodies change, in steps and linearly: rays draw what the pipe draws, but for
+/// pixels at which a colour jumps or a face ends.
+#[test]
+fn rays_draw_what_the_pipe_draws() {
+    let scene = faces(
+        "c_time tick -step -period 1.3 0 red .5 pale; c_time wave -period 2 0 red 1 pale;
+         c_time still -period 3 0 red 1 pale;",
+    );
+    for shift in [ColorShift::NONE, ColorShift::SPECTRA] {
+        let [pipe, rays] = pictures(&scene, shift);
+        let is_off = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|k| (a[k] - b[k]).abs() > 4e-3);
+        let n_off = pipe.pixels().iter().zip(rays.pixels()).filter(|&pair| is_off(pair)).count();
+        let n_lit = rays.pixels().iter().filter(|pixel| pixel[0] > 0.0).count();
+        assert!(n_lit > 2500 && n_off < 60, "{shift:?}: {n_off} of {n_lit}");
+    }
+}
+
+/// A colour that does not change is a plain one, to the bit.
+#[test]
+fn constant_tables_are_plain_colours() {
+    let plain = faces("c_rgb tick .3 .6 .2; c_rgb wave .3 .6 .2; c_rgb still .3 .6 .2;");
+    let table = faces(
+        "c_rgb leaf .3 .6 .2; c_time tick 0 leaf; c_time wave -step -period 2 0 leaf 1 leaf;
+         c_time still -3 leaf 5 leaf;",
+    );
+    for shift in [ColorShift::hues(true, Brightness::Report), ColorShift::SPECTRA] {
+        for (expected, found) in pictures(&plain, shift).iter().zip(pictures(&table, shift)) {
+            assert_eq!(expected.pixels(), found.pixels(), "{shift:?}");
+        }
+    }
+}
