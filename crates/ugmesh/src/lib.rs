@@ -154,6 +154,8 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
         return Err(Error::NothingToConvert);
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
+    // Meshes show no times.
+    uglight::settle(&mut scene);
     if config.target != Target::Ug && !config.rest_normals {
         as_seen::see_normals(&mut scene);
     }

@@ -24,6 +24,8 @@ const FILES: [(&str, &str); 30] = [
     ("wheels.ug", include_str!("../../../../scenes/wheels.ug")),
     ("twins.ug", include_str!("../../../../scenes/twins.ug")),
     ("orbit.ug", include_str!("../../../../scenes/orbit.ug")),
+    ("ticks.ug", include_str!("../../../../scenes/ticks.ug")),
+    ("lanterns.ug", include_str!("../../../../scenes/lanterns.ug")),
     ("dice.ug", include_str!("../../../../scenes/dice.ug")),
     ("traffic.ug", include_str!("../../../../scenes/traffic.ug")),
     ("lamp.ug", include_str!("../../../../scenes/lamp.ug")),
