@@ -1,5 +1,5 @@
-//! Colours that change with own time: the readings of clocks, against the Lorentz transformation and
-//! published numbers.
+//! Colours that change with own time: the readings of clocks, against the Lorentz transformation
+//! and published numbers.
 //!
 //! A clock is a face whose Y is a hundredth of its own time.
 

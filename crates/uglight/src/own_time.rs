@@ -23,8 +23,8 @@ fn encoded(linear: DVec3) -> Hsv {
     Hsv::from_rgb(linear.to_array().map(|channel| srgb_encode(channel.max(0.0))))
 }
 
-/// Gives all colours that change with own time their colour at own time 0, for programs that show no
-/// times. Lamps keep their tables.
+/// Gives all colours that change with own time their colour at own time 0, for programs that show
+/// no times. Lamps keep their tables.
 pub fn settle(scene: &mut Scene) {
     for row in 0..scene.color_tables.len() {
         let table = &scene.color_tables[row];

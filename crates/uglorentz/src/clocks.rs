@@ -1,10 +1,10 @@
 //! Colours that change with own time, of faces and wires.
 //!
 //! Where light left later, a colour is seen later in its table. Edges are halved until the colour
-//! interpolated between their ends is right within a bound, sampled as the errors of bodies on world
-//! lines are; where a colour jumps, or changes faster than a picture shows, until they are so short
-//! that the blur is about that of a pixel. Then every vertex gets the colour that its point had when
-//! its light left.
+//! interpolated between their ends is right within a bound, sampled as the errors of bodies on
+//! world lines are; where a colour jumps, or changes faster than a picture shows, until they are so
+//! short that the blur is about that of a pixel. Then every vertex gets the colour that its point
+//! had when its light left.
 
 use std::collections::BTreeMap;
 
@@ -34,7 +34,8 @@ const PREFIX: &str = "t#";
 pub(crate) struct Clocks {
     /// Empty if no colour changes.
     of_body: Vec<Vec<Lights>>,
-    /// The bound of the error of the light, as a part of the brightest of a table; infinite for none.
+    /// The bound of the error of the light, as a part of the brightest of a table; infinite for
+    /// none.
     bound: f64,
 }
 

@@ -1,10 +1,10 @@
 //! Clocks of inertial bodies.
 //!
 //! The own time of a body is that of the clock of its motion: for an inertial body the time of its
-//! rest frame, which is 0 where the fixed point of the contraction is at time 0 of the scene. What a
-//! program downstream knows of an inertial body, its velocity and rest positions relative to the
-//! eye, does not tell when that was. So tables of colours are changed to count from the event of the
-//! eye: light that is seen directly left |p'| before that.
+//! rest frame, which is 0 where the fixed point of the contraction is at time 0 of the scene. What
+//! a program downstream knows of an inertial body, its velocity and rest positions relative to the
+//! eye, does not tell when that was. So tables of colours are changed to count from the event of
+//! the eye: light that is seen directly left |p'| before that.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -15,8 +15,8 @@ use super::placement::anchor_point;
 use super::{MotionError, MotionOptions};
 use crate::{BodyId, Color, ColorId, ColorTable, RelativeMotion, Scene, UniqueNames};
 
-/// Makes the tables of colours on inertial bodies count from the event of the eye. `motions`: of each
-/// body. `centers`: from [`super::placement::wanted_centers`].
+/// Makes the tables of colours on inertial bodies count from the event of the eye. `motions`: of
+/// each body. `centers`: from [`super::placement::wanted_centers`].
 ///
 /// # Errors
 /// [`MotionError::PartialTimes`].
