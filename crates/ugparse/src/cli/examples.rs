@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ugpipe::{Context, Failure, one_of};
 
 /// Names of files and texts.
-const FILES: [(&str, &str); 30] = [
+const FILES: [(&str, &str); 32] = [
     ("house.ug", include_str!("../../../../scenes/house.ug")),
     ("houses.ug", include_str!("../../../../scenes/houses.ug")),
     ("ship.ug", include_str!("../../../../scenes/ship.ug")),

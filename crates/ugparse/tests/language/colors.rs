@@ -201,3 +201,19 @@ help: for red 1, green 0.502, blue 0 write `c_rgb yellow 1 0.502 0`"
         is_noticed(text, false);
     }
 }
+
+#[test]
+fn tables_of_own_times_are_kept() {
+    let row = |text: &str, expected: &[&str]| {
+        let text = text.replace("FACE", FACE);
+        check_rest(
+            &format!("c r 1 0; c g 1 120; {text}"),
+            &[&["c r 1 0 1;", "c g 1 120 1;"], expected].concat(),
+        );
+    };
+    let table = "c_time t -step -period 3 0 r 1.5 g;";
+    row(&format!("{table} FACE f (a b c) t;"), &[table, "f (a b c) t;"]);
+    // Colours may be defined after their use, and the same one may stand in every row.
+    let table = "c_time t -2 g 0 g;";
+    row(&format!("FACE f (a b c) t; {table}"), &[table, "f (a b c) t;"]);
+}
