@@ -54,7 +54,6 @@ pub struct LampTable {
 
 impl LampTable {
     /// The rows of the lamps whose light this one sends at an own time, with their shares.
-    #[must_use]
     pub fn at(&self, own_time: f64) -> impl Iterator<Item = (u32, f64)> {
         let parts = self.table.at(own_time).parts.into_iter().filter(|part| part.1 > 0.0);
         parts.filter_map(|(color, share)| Some((*self.rows.get(&color)?, share)))

@@ -240,6 +240,7 @@ mod tests {
     use ugscene::{BodyId, Geometry};
 
     use super::*;
+    use crate::clocks::Clocks;
     use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
     use crate::near_lamps::NearLamps;
@@ -261,7 +262,7 @@ mod tests {
             let mut mesh = RefinedMesh::new(&motions, points);
             let bounds = Bounds::new(
                 vec![Tolerance::new(1e-9, 2e-3)],
-                NearLamps::default(),
+                (NearLamps::default(), Clocks::default()),
                 ViewVolume::default(),
                 &motions,
             );
