@@ -1,7 +1,7 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueShift, RestColor, VertexColor};
+use uglight::{HueColor, HueShift, VertexColor};
 use ugphysics::{hue_to_wavelength, srgb_decode, srgb_encode};
 use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
@@ -21,8 +21,9 @@ pub(crate) struct HueStatements<'s> {
     n_given: usize,
     /// Step of the quantization of ln D; 0 for none.
     step: f64,
-    /// By row of the colour at rest, and quantized D.
-    made: FxHashMap<(u32, u64), ColorId>,
+    /// By row of the colour at rest, quantized D, and whether a colour of a display is on a moving
+    /// body.
+    made: FxHashMap<(u32, u64, bool), ColorId>,
     /// Colours that include light, by translucency and quantized wavelength, saturation, value and
     /// factor.
     lit: FxHashMap<[u64; 5], ColorId>,
@@ -39,7 +40,7 @@ pub(crate) struct HueStatements<'s> {
 enum BaseKey {
     Named(ColorId),
     White,
-    /// See [`RestColor::key`].
+    /// See [`uglight::RestColor::key`].
     Mixed([u64; 5]),
 }
 
@@ -48,6 +49,7 @@ struct Base {
     given: VertexColor,
     color: HueColor,
     translucency: f64,
+    is_display: bool,
     name: String,
 }
 
@@ -74,11 +76,14 @@ impl<'s> HueStatements<'s> {
     pub fn set(&mut self, row: usize, color: VertexColor, doppler: f64) {
         let step = self.quantized(doppler);
         let base = self.base(color);
-        let id = match self.made.get(&(base, step.to_bits())) {
+        // On a body at rest D is exactly 1.
+        let is_moving = self.bases[base as usize].is_display && doppler != 1.0 && self.shift.doppler;
+        let key = (base, step.to_bits(), is_moving);
+        let id = match self.made.get(&key) {
             Some(&id) => id,
             None => {
-                let id = self.make(base, self.doppler_at(step));
-                self.made.insert((base, step.to_bits()), id);
+                let id = self.make(base, self.doppler_at(step), is_moving);
+                self.made.insert(key, id);
                 id
             }
         };
@@ -140,13 +145,15 @@ impl<'s> HueStatements<'s> {
     }
 
     /// A colour statement for a colour at rest as seen with D; the given one if nothing changes.
-    fn make(&mut self, base: u32, doppler: f64) -> ColorId {
+    /// `is_moving`: a colour of a display becomes a hue even so, like the others of its body, since
+    /// hues and colours of a display are mixed differently downstream.
+    fn make(&mut self, base: u32, doppler: f64, is_moving: bool) -> ColorId {
         let base = &self.bases[base as usize];
         let seen = self.shift.seen(base.color, doppler);
         let is_changed = !self.shift.keeps_wavelength(base.color.saturation, doppler)
             || self.shift.law.factor(doppler) != 1.0;
         self.largest = self.largest.max(self.intensity(&seen));
-        if let (false, VertexColor::Named(id)) = (is_changed, base.given) {
+        if let (false, false, VertexColor::Named(id)) = (is_changed, is_moving, base.given) {
             return id;
         }
         let name = if is_changed {
@@ -156,11 +163,12 @@ impl<'s> HueStatements<'s> {
             self.names.fresh(&base.name)
         };
         let name = self.scene.names.add(&name);
-        if let (false, VertexColor::Mixed(color @ RestColor { light: Some(_), translucency, .. })) =
-            (is_changed, base.given)
-        {
-            self.scene.colors.push(Color { name, value: color.value(), translucency });
-            return ColorId::from_index(self.scene.colors.len() - 1);
+        if let (false, VertexColor::Mixed(color)) = (is_changed, base.given) {
+            if color.light.is_some() || color.is_display && !is_moving {
+                let translucency = color.translucency;
+                self.scene.colors.push(Color { name, value: color.value(), translucency });
+                return ColorId::from_index(self.scene.colors.len() - 1);
+            }
         }
         let translucency = base.translucency;
         self.push(name, seen, translucency)
@@ -195,7 +203,13 @@ impl<'s> HueStatements<'s> {
             VertexColor::White => ("white".to_string(), 0.0),
             VertexColor::Mixed(color) => (format!("mixed{}", self.bases.len() + 1), color.translucency),
         };
-        let base = Base { given, color: crate::hue_color(self.scene, self.shift, given), translucency, name };
+        let is_display = match given {
+            VertexColor::Named(id) => uglight::is_display(&self.scene.colors[id.index()]),
+            VertexColor::White => false,
+            VertexColor::Mixed(color) => color.is_display,
+        };
+        let color = crate::hue_color(self.scene, self.shift, given);
+        let base = Base { given, color, translucency, is_display, name };
         // Scenes have fewer than 2^32 vertices.
         let row = self.bases.len() as u32;
         self.bases.push(base);

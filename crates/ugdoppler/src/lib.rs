@@ -242,6 +242,9 @@ fn lit_hues(
 /// that, else with a value that contains the factor.
 pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> HueColor {
     match color {
+        VertexColor::Named(id) if uglight::is_display(&scene.colors[id.index()]) => {
+            uglight::display_hue(scene, id).into()
+        }
         VertexColor::Named(id) if shift.law.acts_on_light() => {
             let (hsv, factor) = hsv_and_factor(scene, &scene.colors[id.index()]);
             HueColor { factor, ..hsv.into() }

@@ -50,6 +50,20 @@ fn of(scene: &Scene, vertex: &str) -> (String, f64, f64, f64) {
     }
 }
 
+/// Between red and blue light is green, the mean hue, where motion shifts it, and purple elsewhere.
+#[test]
+fn mixtures_of_light_shift_as_the_mean_of_hues() {
+    let text = "c_rgb r 1 0 0; c_rgb b 0 0 1; c_rgb m .7 0 .7; c_mix m r 0.5 b 0.5; c g 1 120;
+        v a 9 0 0 m; v b 10 1 0 m; v c 9 1 1 m; f (a b c);
+        v d 9 0 0 g; v e 10 1 0 g; v f 9 1 1 g; f (d e f);";
+    let [still, moving] = [0.0, 0.1].map(|speed| colour(text, &moving(speed, 0.0, 0.0)).0);
+    for (mixture, green) in [("a", "d"), ("b", "e"), ("c", "f")] {
+        let [(_, value, hue, saturation), (_, v, h, s)] = [mixture, green].map(|name| of(&moving, name));
+        assert!((value - v).abs() + (hue - h).abs() + (saturation - s).abs() < 1e-9, "{hue} {h}");
+    }
+    assert_eq!(of(&still, "a"), ("m".to_string(), 0.7, 0.0, 0.7));
+}
+
 /// The vertex is farther from the eye than the largest number.
 #[test]
 fn at_rest_the_farthest_colours_stay() {

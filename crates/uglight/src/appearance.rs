@@ -141,12 +141,14 @@ impl Appearance {
     /// the wavelength of its tint.  Eq. (P11), (P12), (P18)
     ///
     /// A colour given as light is returned unchanged. On moving bodies such colours occur only in
-    /// spectral mode; otherwise the renderer replaces them by hues.
+    /// spectral mode; otherwise the renderer replaces them by hues. One of a display is replaced
+    /// here.
     #[inline]
     pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
-        if rest.light.is_some() || stretch == 1.0 {
+        if stretch == 1.0 || rest.light.is_some() && (!rest.is_display || self.keeps_light()) {
             return *rest;
         }
+        let rest = &Swatch { light: None, ..*rest };
         let factor = self.hue_shift.law.factor(1.0 / stretch);
         let seen = if self.hue_shift.law.acts_on_light() {
             Swatch { factor: rest.factor * factor, ..*rest }
@@ -214,6 +216,9 @@ impl Appearance {
 
     /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters.
     fn hue_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
+        if rest.is_display && rest.light.is_some() {
+            return self.display_light(rest, doppler, light);
+        }
         let of_level = |level: f64| {
             let base = self.hue_shift.brightened(self.hue_color(rest), level);
             self.hue_shift.seen(base, doppler).light()
@@ -232,6 +237,29 @@ impl Appearance {
             (None, Illumination::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
         };
         seen.min(DVec3::splat(self.ceiling))
+    }
+
+    /// [`Appearance::hue_light`] of a colour of a display that is drawn as light. Where something
+    /// shifts it, it is the hue that it stands for.
+    fn display_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
+        let is_shifted = |doppler: f64| doppler != 1.0 && !self.keeps_light();
+        let level = match light {
+            Illumination::Level(level) => DVec3::splat(level),
+            Illumination::Lamps(parts, _) if parts.iter().any(|part| is_shifted(part.doppler)) => {
+                return self.hue_light(&Swatch { light: None, ..*rest }, doppler, light);
+            }
+            Illumination::Lamps(parts, lamps) => {
+                let of_lamp =
+                    |part: &Irradiance| part.level * self.hue_shift.color_of(&lamps[part.lamp as usize]);
+                parts.iter().map(of_lamp).sum()
+            }
+        };
+        if is_shifted(doppler) {
+            return self.hue_light(&Swatch { light: None, ..*rest }, doppler, light);
+        }
+        let is_display = !self.hue_shift.law.acts_on_light();
+        let lit = Swatch { is_display, ..*rest }.lit(level).unwrap_or_default();
+        lit.min(DVec3::splat(self.ceiling))
     }
 
     /// Linear light of a hue under lamps, which may be coloured, and move. Light adds up, as seen,

@@ -12,20 +12,32 @@ pub struct RestColor {
     pub hsv: Hsv,
     /// As [`light`], if it is given so.
     pub light: Option<[f64; 3]>,
+    /// It was written as red, green and blue of a display (`c_rgb`), so mixtures with it are
+    /// mixtures of light.
+    pub is_display: bool,
     /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
 
 impl RestColor {
     /// The colour of what has none.
-    pub const WHITE: Self =
-        Self { hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }, light: None, translucency: 0.0 };
+    pub const WHITE: Self = Self {
+        hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
+        light: None,
+        is_display: false,
+        translucency: 0.0,
+    };
 
     /// The colour of a statement, or white.
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         color.map_or(Self::WHITE, |id| {
             let color = &scene.colors[id.index()];
-            Self { hsv: hsv(scene, color), light: light(scene, color), translucency: color.translucency }
+            Self {
+                hsv: hsv(scene, color),
+                light: light(scene, color),
+                is_display: is_display(color),
+                translucency: color.translucency,
+            }
         })
     }
 
@@ -39,6 +51,7 @@ impl RestColor {
         let Hsv { hue, saturation, value } = self.hsv;
         match self.light {
             Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
+            None if self.is_display => ColorValue::Rgb(self.hsv.to_rgb()),
             None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
         }
     }
@@ -48,8 +61,8 @@ impl RestColor {
         let Hsv { hue, saturation, value } = self.hsv;
         // The hue of light is clipped.
         let [a, b, c] = self.light.unwrap_or([hue, saturation, value]);
-        let is_light = f64::from(u8::from(self.light.is_some()));
-        [is_light, a, b, c, self.translucency].map(f64::to_bits)
+        let kind = f64::from(u8::from(self.light.is_some()) + 2 * u8::from(self.is_display));
+        [kind, a, b, c, self.translucency].map(f64::to_bits)
     }
 }
 
@@ -105,6 +118,22 @@ fn hue(tint: Tint) -> f64 {
 /// and for red, green and blue of a screen.
 pub fn is_light(color: &Color) -> bool {
     !matches!(color.value, ColorValue::Hsv { .. } | ColorValue::Rgb(_))
+}
+
+/// True for red, green and blue of a display (`c_rgb`), of which meshes consist as well.
+pub fn is_display(color: &Color) -> bool {
+    matches!(color.value, ColorValue::Rgb(_))
+}
+
+/// The hue of red, green and blue of a display. That of a mixture of other colours (`c_mix`) is the
+/// mean of their hues, as the renderer of 1988 interpolates them: its own statement is the mixture
+/// of their light.
+pub fn display_hue(scene: &Scene, id: ColorId) -> Hsv {
+    let of = |id: ColorId| hsv(scene, &scene.colors[id.index()]);
+    match scene.mix_of(id) {
+        [] => of(id),
+        parts => mean_hue(parts.iter().map(|&(part, share)| (of(part), share))),
+    }
 }
 
 /// A colour statement at rest as linear red, green and blue with the sRGB primaries, without
@@ -169,6 +198,32 @@ pub fn spectra_note(scene: &Scene) -> Option<Note> {
     let lights = scene.lights.iter().filter_map(|light| light.color);
     let color = vertices.chain(faces).chain(wires).chain(lights).find(is_spectrum)?;
     Some(Note::SpectraAtRest { color: scene.names.get(scene.colors[color.index()].name).to_owned() })
+}
+
+/// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them
+/// between the corners of a face. Wavelengths in place of hues are averaged alike. Greys do not
+/// contribute to the hue.
+pub fn mean_hue(parts: impl Iterator<Item = (Hsv, f64)>) -> Hsv {
+    let (mut mean, mut hue_weight) = (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0);
+    for (color, weight) in parts {
+        mean.value += weight * color.value;
+        mean.saturation += weight * color.saturation;
+        if color.saturation > 0.0 {
+            mean.hue += weight * below_violet(color.hue);
+            hue_weight += weight;
+        }
+    }
+    if hue_weight > 0.0 {
+        mean.hue /= hue_weight;
+    }
+    // Weights may add up to more than 1 by rounding.
+    Hsv { saturation: mean.saturation.min(1.0), ..mean }
+}
+
+/// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are
+/// wavelengths.
+fn below_violet(hue: f64) -> f64 {
+    if hue > 300.0 && hue < 360.0 { hue - 360.0 } else { hue }
 }
 
 #[cfg(test)]

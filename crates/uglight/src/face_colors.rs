@@ -15,6 +15,9 @@ pub struct Common {
     translucency: Option<f64>,
     /// A corner's colour is given as light, so light is interpolated instead of hue.
     pub is_light: bool,
+    /// A corner's colour is one of a display, and the colours of the corners differ, so light is
+    /// interpolated; but it is lit like a hue. A single colour is drawn so where its hue fades.
+    pub is_display: bool,
 }
 
 impl Swatch {
@@ -30,6 +33,7 @@ impl Swatch {
             value: number(|swatch| swatch.value),
             factor: number(|swatch| swatch.factor),
             light: a.light.zip(b.light).zip(c.light).map(|((a, b), c)| mean(a, b, c)),
+            is_display: a.is_display,
             translucency: number(|swatch| swatch.translucency),
         }
     }
@@ -49,16 +53,28 @@ impl Appearance {
         };
         let grey_tint = if swatches().any(Swatch::is_grey) { mean_tint() } else { 0.0 };
         let translucency = face.color.map(|color| self.palette.get(color).translucency);
-        let is_light = self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some());
-        Common { grey_tint, translucency, is_light }
+        let is_light =
+            self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some() && !swatch.is_display);
+        let is_display = !is_light && self.palette.has_display() && self.mixes_light(swatches().copied());
+        Common { grey_tint, translucency, is_light, is_display }
+    }
+
+    /// True if the colours of corners are drawn as light, because of one of a display.
+    pub fn mixes_light(&self, swatches: impl Iterator<Item = Swatch> + Clone) -> bool {
+        let Some(first) = swatches.clone().next() else { return false };
+        let is_even = swatches.clone().all(|swatch| swatch == first);
+        let mut all = swatches;
+        all.any(|swatch| swatch.is_display && (!is_even || self.palette.is_faded(&swatch)))
     }
 
     /// As [`Appearance::common`], of a face that moves or not. Colours given as light have no hue
-    /// to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode.
+    /// to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode. So
+    /// are colours of a display, and their hues are mixed.
     pub fn common_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> Common {
         let common = self.common(scene, face);
-        let is_light = common.is_light && (self.keeps_light() || !is_moving);
-        Common { is_light, ..common }
+        let keeps_light = self.keeps_light() || !is_moving;
+        let (is_light, is_display) = (common.is_light && keeps_light, common.is_display && keeps_light);
+        Common { is_light, is_display, ..common }
     }
 
     /// The colour of a corner of a face.
@@ -67,7 +83,11 @@ impl Appearance {
         let own = *self.surface.swatch(vertex);
         let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..own };
         if common.is_light {
-            self.palette.as_light(swatch)
+            Swatch { is_display: false, ..self.palette.as_light(swatch) }
+        } else if common.is_display {
+            // The hue is that of light from where something shifts it.
+            let tint = if swatch.is_grey() { common.grey_tint } else { swatch.tint };
+            Swatch { tint, is_display: true, ..self.palette.as_light(swatch) }
         } else if swatch.is_grey() {
             Swatch { tint: common.grey_tint, light: None, ..swatch }
         } else {

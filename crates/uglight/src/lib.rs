@@ -55,7 +55,10 @@ mod surface_attributes;
 mod vertex_color;
 
 pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor, SurfaceSpectrum};
-pub use color::{RestColor, hsv, hsv_and_factor, is_light, light, spectra_note, spectrum};
+pub use color::{
+    RestColor, display_hue, hsv, hsv_and_factor, is_display, is_light, light, mean_hue, spectra_note,
+    spectrum,
+};
 pub use face_colors::Common;
 pub use hue::{HueColor, HueShift};
 pub use irradiance::{IncidentLamp, Irradiance, ScatteringTime, SurfaceElement};

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugphysics::{
     Brightness, Hsv, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
 };
-use ugscene::{Color, ColorId, ColorValue, Scene, Tint};
+use ugscene::{ColorId, ColorValue, Scene, Tint};
 
 /// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,22 +29,45 @@ pub struct Swatch {
     /// Factor of the linear light that tint, saturation and value stand for. At rest it is 1; laws
     /// that act on linear light change it instead of the value.
     pub factor: f64,
-    /// The light itself, if the colour is given as such (`c_xyz`): linear red, green and blue,
+    /// The light itself, if the colour is given as such (`c_xyz`, `c_rgb`): linear red, green and blue,
     /// neither clipped nor gamut-mapped. Tint, saturation and value are then the nearest colour
     /// that a display has.
     pub light: Option<DVec3>,
+    /// The light was written as red, green and blue of a display (`c_rgb`). Between corners of
+    /// different colours it is drawn as such, and lit like a hue: see [`Swatch::lit`]. Otherwise it
+    /// is drawn as the hue it stands for.
+    pub is_display: bool,
     /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
 
 impl Swatch {
     /// The colour of objects without a colour.
-    pub const WHITE: Self =
-        Self { tint: 0.0, saturation: 0.0, value: 1.0, factor: 1.0, light: None, translucency: 0.0 };
+    pub const WHITE: Self = Self {
+        tint: 0.0,
+        saturation: 0.0,
+        value: 1.0,
+        factor: 1.0,
+        light: None,
+        is_display: false,
+        translucency: 0.0,
+    };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
         self.saturation == 0.0
+    }
+
+    /// Its light under levels of red, green and blue, if it is drawn as light. Levels multiply
+    /// display-encoded channels of colours of a display, as they do of hues, and linear light of
+    /// others.
+    pub fn lit(&self, level: DVec3) -> Option<DVec3> {
+        let light = self.light?;
+        if !self.is_display || level == DVec3::ONE {
+            return Some(light * level);
+        }
+        let lit = |channel: f64, level: f64| srgb_decode(srgb_encode(channel) * level);
+        Some(DVec3::new(lit(light.x, level.x), lit(light.y, level.y), lit(light.z, level.z)))
     }
 }
 
@@ -56,6 +79,7 @@ pub struct Palette {
     /// Colours are spectra.
     is_spectral: bool,
     has_light: bool,
+    has_display: bool,
     has_translucency: bool,
 }
 
@@ -66,9 +90,20 @@ impl Palette {
     pub fn new(scene: &Scene, interpolation: Interpolation, is_spectral: bool) -> Self {
         let has_light = is_spectral || scene.colors.iter().any(crate::is_light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
-        let mut palette =
-            Self { swatches: Vec::new(), interpolation, is_spectral, has_light, has_translucency };
-        palette.swatches = scene.colors.iter().map(|color| palette.read(scene, color)).collect();
+        let mut palette = Self {
+            swatches: Vec::new(),
+            interpolation,
+            is_spectral,
+            has_light,
+            has_display: false,
+            has_translucency,
+        };
+        let ids = (0..scene.colors.len()).map(ColorId::from_index);
+        palette.swatches = ids.map(|id| palette.read(scene, id)).collect();
+        // One colour is drawn as a hue, unless hues fade there.
+        let has_mixtures = palette.swatches.len() > 1;
+        let is_drawn = |swatch: &Swatch| swatch.is_display && (has_mixtures || palette.is_faded(swatch));
+        palette.has_display = palette.swatches.iter().any(is_drawn);
         palette
     }
 
@@ -95,6 +130,21 @@ impl Palette {
     /// True if a colour of the scene is drawn as light.
     pub fn has_light(&self) -> bool {
         self.has_light
+    }
+
+    /// True if a face may be drawn with colours of a display as light.
+    pub fn has_display(&self) -> bool {
+        self.has_display
+    }
+
+    /// True if a hue is attenuated, because it stands for a wavelength near the ends of the visible
+    /// range.  Eq. (P17)
+    pub fn is_faded(&self, swatch: &Swatch) -> bool {
+        let is_full = match self.interpolation {
+            Interpolation::Hue => (0.0..=240.0).contains(&swatch.tint),
+            Interpolation::Wavelength => attenuation(swatch.tint) >= 1.0,
+        };
+        !swatch.is_grey() && !is_full
     }
 
     /// True if a colour of the scene is not opaque.
@@ -142,7 +192,8 @@ impl Palette {
         Swatch { light: Some(self.light(&swatch)), ..swatch }
     }
 
-    fn read(&self, scene: &Scene, color: &Color) -> Swatch {
+    fn read(&self, scene: &Scene, id: ColorId) -> Swatch {
+        let color = &scene.colors[id.index()];
         let translucency = color.translucency;
         // In other scenes the factor is part of the value, which light levels multiply.
         let is_linear = scene.stage.law().is_some_and(Brightness::acts_on_light);
@@ -153,12 +204,18 @@ impl Palette {
             {
                 let [value, factor] =
                     if is_linear { [value, factor] } else { [value_times(value, factor), 1.0] };
-                Swatch { tint, saturation, value, factor, light: None, translucency }
+                Swatch { tint, saturation, value, factor, translucency, ..Swatch::WHITE }
             }
             ColorValue::Hsv { .. } if is_linear => {
                 let (color, factor) = crate::hsv_and_factor(scene, color);
                 Swatch { factor, translucency, ..self.swatch(color) }
             }
+            ColorValue::Rgb(rgb) if !self.is_spectral => Swatch {
+                light: Some(DVec3::from_array(rgb.map(srgb_decode))),
+                is_display: true,
+                translucency,
+                ..self.swatch(crate::display_hue(scene, id))
+            },
             _ => Swatch {
                 light: crate::light(scene, color).map(DVec3::from_array),
                 translucency,

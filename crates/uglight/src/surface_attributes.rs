@@ -146,9 +146,12 @@ fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut V
     let rows = colors.map(|color| match color {
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
-        VertexColor::Mixed(RestColor { hsv, light, translucency }) => {
+        VertexColor::Mixed(color) => {
+            let RestColor { hsv, light, is_display, translucency } = color;
             let light = light.map(DVec3::from_array).or(palette.white().light);
-            swatches.push(Swatch { light, translucency, ..palette.swatch(hsv) });
+            let is_display = is_display && light.is_none();
+            let light = light.or(is_display.then(|| color.linear()));
+            swatches.push(Swatch { light, is_display, translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1
         }

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugphysics::{Hsv, srgb_encode};
 use ugscene::{ColorId, Scene, Shares, vertex_shares};
 
-use crate::{RestColor, is_light};
+use crate::{RestColor, is_display, is_light};
 
 /// The colour of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub enum VertexColor {
     /// Neither the vertex nor its faces have a colour: white.
     White,
     /// Its faces have different colours: their mean in linear RGB, weighted by the angle of the
-    /// faces' corners. It is light if one of the colours is.
+    /// faces' corners. It is light if one of the colours is, else of a display if one is.
     Mixed(RestColor),
 }
 
@@ -44,9 +44,10 @@ pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
 fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> VertexColor {
     let mut sum = DVec3::ZERO;
     let mut translucency = 0.0;
-    let mut has_light = false;
+    let (mut has_light, mut has_display) = (false, false);
     for &(color, share) in parts {
         has_light |= color.is_some_and(|color| is_light(&scene.colors[color.index()]));
+        has_display |= color.is_some_and(|color| is_display(&scene.colors[color.index()]));
         sum += color.map_or(DVec3::ONE, |color| linear[color.index()]) * share;
         translucency += color.map_or(0.0, |color| scene.colors[color.index()].translucency) * share;
     }
@@ -54,6 +55,7 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
     VertexColor::Mixed(RestColor {
         hsv: Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0)))),
         light: has_light.then_some(linear),
+        is_display: has_display && !has_light,
         translucency,
     })
 }

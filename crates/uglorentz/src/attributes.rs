@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::{RestColor, VertexColor};
-use ugphysics::{Hsv, unit_or_zero};
+use ugphysics::{Hsv, srgb_encode, unit_or_zero};
 use ugscene::{
     Color, ColorId, ColorValue, Mix, Mixtures, Scene, Shares, Tint, Vertex, face_vertices, vertex_shares,
 };
@@ -275,37 +275,26 @@ fn sum(parts: impl Iterator<Item = (Shares, f64)>) -> Shares {
     }
 }
 
-/// The weighted means of hue, saturation and value, as the renderer of 1988 interpolates them
-/// between the corners of a face. Wavelengths in place of hues are averaged alike. Greys do not
-/// contribute to the hue. If a part is given as light, light is averaged instead.
-fn blend(parts: impl Iterator<Item = (Shade, f64)>) -> Shade {
-    let (mut hsv, mut hue_weight) = (Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }, 0.0);
+/// The mean of hues ([`uglight::mean_hue`]). If a part is given as light, or as a colour of a
+/// display (`c_rgb`), light is averaged instead.
+fn blend(parts: impl Iterator<Item = (Shade, f64)> + Clone) -> Shade {
     let (mut linear, mut translucency) = (DVec3::ZERO, 0.0);
-    let (mut has_light, mut is_mixture) = (false, false);
-    for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts {
-        hsv.value += weight * rest.hsv.value;
-        hsv.saturation += weight * rest.hsv.saturation;
+    let (mut has_light, mut has_display, mut is_mixture) = (false, false, false);
+    for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts.clone() {
         translucency += weight * rest.translucency;
-        if rest.hsv.saturation > 0.0 {
-            hsv.hue += weight * below_violet(rest.hsv.hue);
-            hue_weight += weight;
-        }
         linear += weight * rest.linear();
         has_light |= rest.light.is_some();
+        has_display |= rest.is_display;
         is_mixture |= is_mixed;
     }
-    if hue_weight > 0.0 {
-        hsv.hue /= hue_weight;
-    }
     // Weights may add up to more than 1 by rounding.
-    hsv.saturation = hsv.saturation.min(1.0);
     let translucency = translucency.min(1.0);
     let light = has_light.then(|| linear.to_array());
-    Shade { color: None, is_mixture, rest: RestColor { hsv, light, translucency } }
-}
-
-/// Maps hues between violet (300) and red (360) to negative ones, (P16). Larger numbers are
-/// wavelengths.
-fn below_violet(hue: f64) -> f64 {
-    if hue > 300.0 && hue < 360.0 { hue - 360.0 } else { hue }
+    let is_display = has_display && !has_light;
+    let hsv = if is_display {
+        Hsv::from_rgb(linear.to_array().map(|channel| srgb_encode(channel).min(1.0)))
+    } else {
+        uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight)))
+    };
+    Shade { color: None, is_mixture, rest: RestColor { hsv, light, is_display, translucency } }
 }

@@ -419,7 +419,9 @@ fn colours_between_vertices() {
     check("red", "green", "c s#1 0.75 60 0.75 0.5;");
     check("red", "violet", "c s#1 1 -15 1;");
     check("green", "grey", "c s#1 0.5 120 0.25 0.5;");
-    check("red", "blue", "c s#1 1 120 1;");
+    // Colours of a display mix as light, also with hues.
+    let half = ugphysics::srgb_encode(0.5);
+    check("red", "blue", &format!("c_rgb s#1 {half} 0 {half};"));
 }
 
 #[test]

@@ -139,7 +139,8 @@ impl PackedLayout {
     pub fn new(palette: &Palette, lighting: &Lighting) -> Self {
         // The exact mode adds the light of coloured lamps as such.
         let adds_light = lighting.is_colored() && lighting.acts_on_light();
-        match (palette.has_light() || adds_light, lighting.is_colored() || lighting.acts_on_light()) {
+        let draws_light = palette.has_light() || palette.has_display() || adds_light;
+        match (draws_light, lighting.is_colored() || lighting.acts_on_light()) {
             (false, false) => Self::Plain,
             (false, true) => Self::Colored,
             (true, false) => Self::Mixed,
@@ -202,7 +203,7 @@ pub fn pack_colored(swatch: &Swatch, level: DVec3) -> [f64; 6] {
 
 /// White light, and some colours given as light.
 pub fn pack_mixed(swatch: &Swatch, level: DVec3) -> [f64; 4] {
-    let color = match swatch.light.map(|light| light * level) {
+    let color = match swatch.lit(level) {
         Some(light) => Mixed {
             tint_or_red: light.x,
             saturation_or_green: light.y,
@@ -241,7 +242,7 @@ pub fn pack_transparent(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALU
 }
 
 fn mixed_colored(swatch: &Swatch, level: DVec3) -> MixedColored<f64> {
-    match swatch.light.map(|light| light * level) {
+    match swatch.lit(level) {
         Some(light) => MixedColored {
             tint_or_red: light.x,
             saturation_or_green: light.y,

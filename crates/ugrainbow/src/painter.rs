@@ -60,7 +60,14 @@ impl Painter<'_> {
     /// The colour of a corner of a face.
     #[inline]
     pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
-        self.appearance.swatch(vertex, common)
+        self.lit_as_written(self.appearance.swatch(vertex, common))
+    }
+
+    /// A colour of a display that is drawn as light, lit like hues: in linear light if the law of
+    /// the picture names a quantity.
+    #[inline]
+    pub fn lit_as_written(&self, swatch: Swatch) -> Swatch {
+        Swatch { is_display: swatch.is_display && !self.lighting.acts_on_light(), ..swatch }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its
@@ -87,9 +94,18 @@ impl Painter<'_> {
 
     /// True if a colour of the wire is given as light.
     pub fn is_light_wire(&self, wire: &Wire, color: &Swatch) -> bool {
-        let mut ends = self.scene.contours.corners(wire.contours.clone()).iter();
         self.appearance.palette.has_light()
-            && ends.any(|&vertex| self.wire_end(vertex, color).light.is_some())
+            && self.wire_ends(wire, color).any(|end| end.light.is_some() && !end.is_display)
+    }
+
+    /// True if the colours of a wire differ and one is of a display, so that they mix as light.
+    pub fn is_display_wire(&self, wire: &Wire, color: &Swatch) -> bool {
+        self.appearance.palette.has_display() && self.appearance.mixes_light(self.wire_ends(wire, color))
+    }
+
+    fn wire_ends<'s>(&'s self, wire: &Wire, color: &'s Swatch) -> impl Iterator<Item = Swatch> + Clone + 's {
+        let corners = self.scene.contours.corners(wire.contours.clone());
+        corners.iter().map(|&vertex| self.wire_end(vertex, color))
     }
 
     /// The triangles of a face, as numbers of its corners; `None` if it intersects itself.
@@ -173,7 +189,8 @@ impl Painter<'_> {
     /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry();
-        let is_plain = !self.appearance.palette.has_light() && !self.appearance.palette.has_translucency();
+        let palette = &self.appearance.palette;
+        let is_plain = !palette.has_light() && !palette.has_display() && !palette.has_translucency();
         (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 

@@ -84,7 +84,7 @@ pub use position::{RestPosition, SeenPosition};
 pub use relative_motion::RelativeMotion;
 pub use requirements::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
-    require_eye, require_geometry_at_rest, require_seen_geometry,
+    require_eye, require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shares::{Shares, face_vertices, vertex_shares};

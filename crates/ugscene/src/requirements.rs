@@ -3,9 +3,10 @@
 
 use glam::DVec3;
 use thiserror::Error;
+use ugphysics::{Hsv, hue_to_wavelength};
 
 use crate::words::point;
-use crate::{BodyId, ColorScale, HueScale, Scene};
+use crate::{BodyId, ColorScale, ColorValue, HueScale, Scene, Tint};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -104,6 +105,22 @@ pub fn hue_scale(scene: &Scene, asked: HueScale) -> Result<HueScale, StageError>
         (HueScale::Degrees, HueScale::Wavelengths) if are_as_written => Ok(asked),
         (HueScale::Degrees, HueScale::Wavelengths) => Err(StageError::NotWavelengths),
         (scale, _) => Ok(scale),
+    }
+}
+
+/// Writes red, green and blue of a display (`c_rgb`) as hue, saturation and value (`c`), which are
+/// mixed by hue, as in 1988.
+pub fn write_display_as_hues(scene: &mut Scene) {
+    let unit = scene.stage.hue_scale();
+    for color in &mut scene.colors {
+        if let ColorValue::Rgb(rgb) = color.value {
+            let Hsv { hue, saturation, value } = Hsv::from_rgb(rgb);
+            let tint = match unit {
+                HueScale::Wavelengths if saturation > 0.0 => Tint::Wavelength(hue_to_wavelength(hue)),
+                unit => Tint::new(hue, unit),
+            };
+            color.value = ColorValue::Hsv { value, tint, saturation, factor: 1.0 };
+        }
     }
 }
 

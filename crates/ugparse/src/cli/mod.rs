@@ -62,6 +62,13 @@ struct CommandArgs {
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t = Format::Text)]
     format: Format,
 
+    /// Write c_rgb colours as hues (flatten), which mix by hue, as in 1988
+    ///
+    /// Between corners of different colours, red, green and blue (c_rgb, and the colours of meshes)
+    /// are mixed as light; hues (c) are mixed by hue, through the rainbow.
+    #[arg(long)]
+    hues: bool,
+
     #[command(flatten)]
     common: CommonArgs,
 }
@@ -112,10 +119,15 @@ pub fn main() -> ExitCode {
 
 /// Runs the command; returns false if the scene is invalid.
 fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
-    let CommandArgs { format, common } = args.command_args();
+    let CommandArgs { format, hues, common } = args.command_args();
     let is_json = *format == Format::Json;
     if is_json && matches!(args.command, Some(Command::Tidy(_) | Command::Flatten(_))) {
         return Err(Failure::usage("a scene is not written as JSON; -format is for check and count"));
+    }
+    if *hues && !matches!(args.command, Some(Command::Flatten(_))) {
+        return Err(Failure::usage(
+            "--hues changes colours in a scene that is written: `ugparse flatten --hues`",
+        ));
     }
     if args.command.is_some() && args.rest.common.input().is_some() {
         return Err(Failure::usage("the command must come before the file: `ugparse tidy FILE`"));
@@ -135,8 +147,11 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             context.write_with(|out| write_scene(out, |out| out.write_all(&text)))?;
         }
         Some(Command::Flatten(_)) => {
-            let (_, parsed) = read(source, &options, context).map_err(refused)?;
+            let (_, mut parsed) = read(source, &options, context).map_err(refused)?;
             warn(&parsed.warnings, context);
+            if *hues {
+                ugscene::write_display_as_hues(&mut parsed.scene);
+            }
             context.write_with(|out| write_scene(out, |out| crate::write_to(&parsed.scene, out)))?;
         }
         Some(Command::Count(_)) => {

@@ -75,7 +75,7 @@ impl Look {
         let common = appearance.common_in_motion(painter.scene, face, !frame.velocity.is_zero());
         let normal = painter.seen_normal(face);
         let corner = |&vertex: &VertexId| {
-            let color = painter.swatch(vertex, &common);
+            let color = appearance.swatch(vertex, &common);
             Corner {
                 color,
                 row: painter.appearance.surface.row(vertex),
@@ -92,7 +92,8 @@ impl Look {
         let has_normals = differ(&|a, b| a.normal != b.normal);
         let has_level = painter.scene.light_level(face).is_some();
         let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
-        let is_lit_by_hues = !has_level && !is_spectral && !common.is_light && painter.lighting.is_colored();
+        let keeps_light = common.is_light || common.is_display;
+        let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && painter.lighting.is_colored();
         let is_even = has_level
             || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
         let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)
@@ -153,6 +154,7 @@ impl Look {
             }
             _ => appearance.seen(&self.color, self.wavelength_nm, ray.stretch),
         };
+        let color = painter.lit_as_written(color);
         if let Some(level) = self.level {
             return (color, level);
         }
@@ -258,7 +260,8 @@ impl Spot<'_> {
         let first = &self.mesh.corners[self.triangle.corners[0] as usize];
         let light = first.color.light.and_then(|_| self.light());
         let translucency = if self.mesh.has_translucency { self.translucency() } else { 0.0 };
-        Swatch { tint, saturation, value, factor: first.color.factor, light, translucency }
+        let is_display = first.color.is_display;
+        Swatch { tint, saturation, value, factor: first.color.factor, light, is_display, translucency }
     }
 
     fn translucency(&self) -> f64 {

@@ -81,6 +81,7 @@ impl Curve<'_> {
             value: mix(a.value, b.value),
             factor: mix(a.factor, b.factor),
             translucency: 0.0,
+            is_display: a.is_display,
             light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
         };
         let seen = self.point(part);

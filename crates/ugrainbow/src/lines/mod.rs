@@ -125,9 +125,14 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
     let keeps_light = shape.keeps_light(wire.body);
     // One end given as light makes the whole wire light, as with faces.
     let is_light = keeps_light && painter.is_light_wire(wire, &color);
+    let is_display = !is_light && painter.is_display_wire(wire, &color);
     let end = |vertex| {
         let swatch = Swatch { translucency: 0.0, ..painter.wire_end(vertex, &color) };
-        if is_light { painter.appearance.palette.as_light(swatch) } else { Swatch { light: None, ..swatch } }
+        if is_light || is_display {
+            Swatch { is_display, ..painter.appearance.palette.as_light(swatch) }
+        } else {
+            Swatch { light: None, ..swatch }
+        }
     };
     for contour in painter.scene.wire_contours(wire) {
         for ends in contour.windows(2) {
@@ -146,7 +151,7 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
         None => {
             let is_moving = !shape.keeps_light(face.body);
             let common = painter.appearance.common_in_motion(painter.scene, face, is_moving);
-            edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.swatch(end, &common) })
+            edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.appearance.swatch(end, &common) })
         }
     };
     let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));

@@ -80,7 +80,11 @@ impl Shader {
 
     /// A colour given as light already contains that of the lights.
     fn mixed_lit(&self, sample: &Mixed<f32>, lights: [f32; 3]) -> ShadedSample {
-        if sample.is_light > 0.5 { given(sample.light()) } else { self.lit(sample.color(), lights) }
+        if sample.is_light > 0.5 {
+            given(sample.light(), self.ceiling)
+        } else {
+            self.lit(sample.color(), lights)
+        }
     }
 
     fn lit(&self, Plain { tint, saturation, value }: Plain<f32>, lights: [f32; 3]) -> ShadedSample {
@@ -257,7 +261,7 @@ impl Shading<4> for Shader {
     fn shade(&self, samples: [&[f32]; 4], encoding: Encoding, run: &mut ShadedRun) {
         let samples = Mixed::unpack(samples);
         self.lit_all(samples.color(), None, encoding, run);
-        set_given(&samples, encoding, run);
+        set_given(&samples, self.ceiling, encoding, run);
     }
 }
 
@@ -265,7 +269,7 @@ impl Shading<7> for Shader {
     fn shade(&self, samples: [&[f32]; 7], encoding: Encoding, run: &mut ShadedRun) {
         let samples = MixedColored::unpack(samples);
         self.lit_all(samples.mixed().color(), Some(samples.level()), encoding, run);
-        set_given(&samples.mixed(), encoding, run);
+        set_given(&samples.mixed(), self.ceiling, encoding, run);
     }
 }
 
@@ -290,10 +294,10 @@ fn times(light: [f32; 3], peak: f32, levels: [f32; 3], ceiling: f32) -> ([f32; 3
 }
 
 /// Replaces the samples whose colours are given as light.
-fn set_given(samples: &Mixed<&[f32]>, encoding: Encoding, run: &mut ShadedRun) {
+fn set_given(samples: &Mixed<&[f32]>, ceiling: f32, encoding: Encoding, run: &mut ShadedRun) {
     let light = samples.light();
     for (idx, _) in samples.is_light.iter().enumerate().filter(|(_, is_light)| **is_light > 0.5) {
-        let shade = given(light.map(|channel| channel[idx]));
+        let shade = given(light.map(|channel| channel[idx]), ceiling);
         let light = match encoding {
             Encoding::Linear => shade.light,
             Encoding::Display => shade.light.map(|light| srgb_encode(f64::from(light)) as f32),
@@ -302,9 +306,11 @@ fn set_given(samples: &Mixed<&[f32]>, encoding: Encoding, run: &mut ShadedRun) {
     }
 }
 
-/// A sample whose colour is given as light.
-fn given(light: [f32; 3]) -> ShadedSample {
-    ShadedSample { light, intensity: light.into_iter().fold(0.0, f32::max), is_out_of_range: false }
+/// A sample whose colour is given as light, clipped to `ceiling`.
+fn given(light: [f32; 3], ceiling: f32) -> ShadedSample {
+    let intensity = light.into_iter().fold(0.0, f32::max);
+    let light = light.map(|channel| channel.min(ceiling));
+    ShadedSample { light, intensity, is_out_of_range: false }
 }
 
 /// A function on 0…1, interpolated linearly between tabulated points.

@@ -12,11 +12,8 @@ fn a_fully_lit_colour_is_its_8_bit_self() {
         for green in (0..=255).step_by(17) {
             for blue in [0, 1, 100, 254] {
                 let [r, g, b] = [red, green, blue].map(|level| f64::from(level) / 255.0);
-                let hue = Hsv::from_rgb([r, g, b]).hue;
-                if (0.0..=240.0).contains(&hue) {
-                    let text = format!("c_rgb k {r} {g} {b}; l 1; {SQUARE} f (a b c d) k; {camera}");
-                    assert_eq!(draw(&text, &config).pixel(1, 0), [red, green, blue, 255]);
-                }
+                let text = format!("c_rgb k {r} {g} {b}; l 1; {SQUARE} f (a b c d) k; {camera}");
+                assert_eq!(draw(&text, &config).pixel(1, 0), [red, green, blue, 255]);
             }
         }
     }
@@ -30,6 +27,28 @@ fn band(colors: &str, a: &str, b: &str, config: &Config, part: f64) -> [u8; 4] {
     );
     let frame = draw(&text, config);
     frame.pixel((part * f64::from(frame.width())) as u32, frame.height() / 2)
+}
+
+/// Half way between colours of which one is written as red, green and blue, light is the mean of
+/// their linear light. The level of the light multiplies what is displayed, as it does of hues.
+#[test]
+fn red_green_and_blue_mix_as_light() {
+    let (_, config) = map(101, 5);
+    let exact = Config { exact: Some(uglight::ColorShift::NONE), ..config.clone() };
+    let half = srgb_encode(0.5);
+    for (colors, expected) in [
+        ("c_rgb r 1 0 0; c_rgb b 0 0 1;", [half, 0.0, half]),
+        ("c_rgb r 1 0 0; c b 1 240;", [half, 0.0, half]),
+        ("c r 1 0; c_rgb b 0 0 1;", [half, 0.0, half]),
+        ("c_rgb r 1 1 0; c_rgb b 0 0 1;", [half; 3]),
+        ("c r 1 0; c b 1 240;", [0.0, 1.0, 0.0]),
+    ] {
+        for config in [&config, &exact] {
+            assert_near(band(colors, "r", "b", config, 0.5), expected);
+            let dim = band(&format!("{colors} l -0.5;"), "r", "b", config, 0.5);
+            assert_near(dim, expected.map(|channel| 0.5 * channel));
+        }
+    }
 }
 
 #[test]
