@@ -189,7 +189,7 @@ fn the_rainbow_of_1988() {
 /// wavelength.
 #[test]
 fn hue_and_wavelength() {
-    const STRIPES: &[u8] = b"c red 1 0; c blue 1 240; c_rgb white 1 1 1; l 1;
+    const STRIPES: &[u8] = b"c red 1 0; c blue 1 240; c white 1; l 1;
         v a -2 9 .6 red; v b 2 9 .6 blue; v c 2 9 1.4 blue; v d -2 9 1.4 red; f (a b c d);
         v e -2 9 -.4 white; v f 2 9 -.4 blue; v g 2 9 .4 blue; v h -2 9 .4 white; f (e f g h);
         v i -2 9 -1.4 red; v j 2 9 -1.4 white; v k 2 9 -.6 white; v l -2 9 -.6 red; f (i j k l);

@@ -21,9 +21,14 @@ fn a_fully_lit_colour_is_its_8_bit_self() {
 
 /// The colour at part `part` of the way from a to b on an upright band.
 fn band(colors: &str, a: &str, b: &str, config: &Config, part: f64) -> [u8; 4] {
+    lit_band(1.0, colors, [a, b], config, part)
+}
+
+/// The same under ambient light of a level.
+fn lit_band(level: f64, colors: &str, [a, b]: [&str; 2], config: &Config, part: f64) -> [u8; 4] {
     let (camera, _) = map(1, 1);
     let text = format!(
-        "{colors} l 1; v a -4 -4 0 {a}; v b 4 -4 0 {b}; v c 4 4 0 {b}; v d -4 4 0 {a}; f (a b c d); {camera}"
+        "{colors} l {level}; v a -4 -4 0 {a}; v b 4 -4 0 {b}; v c 4 4 0 {b}; v d -4 4 0 {a}; f (a b c d); {camera}"
     );
     let frame = draw(&text, config);
     frame.pixel((part * f64::from(frame.width())) as u32, frame.height() / 2)
@@ -45,7 +50,7 @@ fn red_green_and_blue_mix_as_light() {
     ] {
         for config in [&config, &exact] {
             assert_near(band(colors, "r", "b", config, 0.5), expected);
-            let dim = band(&format!("{colors} l -0.5;"), "r", "b", config, 0.5);
+            let dim = lit_band(0.5, colors, ["r", "b"], config, 0.5);
             assert_near(dim, expected.map(|channel| 0.5 * channel));
         }
     }
