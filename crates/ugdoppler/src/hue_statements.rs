@@ -163,12 +163,12 @@ impl<'s> HueStatements<'s> {
             self.names.fresh(&base.name)
         };
         let name = self.scene.names.add(&name);
-        if let (false, VertexColor::Mixed(color)) = (is_changed, base.given) {
-            if color.light.is_some() || color.is_display && !is_moving {
-                let translucency = color.translucency;
-                self.scene.colors.push(Color { name, value: color.value(), translucency });
-                return ColorId::from_index(self.scene.colors.len() - 1);
-            }
+        if let (false, VertexColor::Mixed(color)) = (is_changed, base.given)
+            && (color.light.is_some() || color.is_display && !is_moving)
+        {
+            let translucency = color.translucency;
+            self.scene.colors.push(Color { name, value: color.value(), translucency });
+            return ColorId::from_index(self.scene.colors.len() - 1);
         }
         let translucency = base.translucency;
         self.push(name, seen, translucency)
