@@ -27,6 +27,8 @@ fn band(colors: &str, a: &str, b: &str, config: &Config, part: f64) -> [u8; 4] {
 /// The same under ambient light of a level.
 fn lit_band(level: f64, colors: &str, [a, b]: [&str; 2], config: &Config, part: f64) -> [u8; 4] {
     let (camera, _) = map(1, 1);
+    // Rays are drawn in perspective, which is the same at the centre.
+    let camera = if config.exact.is_some() { camera.replace(" -og", "") } else { camera };
     let text = format!(
         "{colors} l {level}; v a -4 -4 0 {a}; v b 4 -4 0 {b}; v c 4 4 0 {b}; v d -4 4 0 {a}; f (a b c d); {camera}"
     );
