@@ -16,7 +16,7 @@ pub fn mean_color([a, b]: [(RestColor, f64); 2]) -> RestColor {
     let linear = a.1 * a.0.linear() + b.1 * b.0.linear();
     let is_light = a.0.light.is_some() || b.0.light.is_some();
     let light = is_light.then(|| linear.to_array());
-    RestColor { hsv: encoded(linear), light, translucency: a.0.translucency }
+    RestColor { hsv: encoded(linear), light, is_display: false, translucency: a.0.translucency }
 }
 
 fn encoded(linear: DVec3) -> Hsv {
@@ -58,7 +58,8 @@ impl Appearance {
         let keeps_light = self.keeps_light() || !is_moving;
         let of = |color: ColorId| {
             let swatch = self.palette.get(color);
-            let light = swatch.light.filter(|_| keeps_light);
+            // One colour of a display is drawn as a hue.
+            let light = swatch.light.filter(|_| keeps_light && !swatch.is_display);
             Swatch { light, ..swatch }
         };
         let [(a, share), (b, rest)] = parts;
