@@ -318,7 +318,13 @@ impl Teller<'_> {
         }
         let Some(wire) = scene.wires.get(item as usize - scene.faces.len()) else { return Vec::new() };
         let color = painter.wire_swatch(wire);
-        let end = |vertex| self.corner(vertex, &painter.wire_end(vertex, &color), DVec3::ONE, Vec::new());
+        let is_display = painter.is_display_wire(wire, &color);
+        let end = |vertex| {
+            let end = painter.wire_end(vertex, &color);
+            // A single colour of a display is drawn as a hue.
+            let light = end.light.filter(|_| !end.is_display || is_display);
+            self.corner(vertex, &Swatch { light, ..end }, DVec3::ONE, Vec::new())
+        };
         vertices(&wire.contours).into_iter().map(end).collect()
     }
 
