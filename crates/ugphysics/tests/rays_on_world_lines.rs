@@ -5,7 +5,7 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use ugphysics::{Event, Lorentz, Orbit, Piece, Velocity, WorldLine};
+use ugphysics::{Event, Lorentz, Orbit, Piece, SampledPath, Velocity, WorldLine};
 
 /// SplitMix64.
 struct Random(u64);
@@ -44,7 +44,7 @@ fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
     };
     let always =
         |random: &mut Random| [Piece { of: random.in_ball(0.6), from: f64::NEG_INFINITY, to: f64::INFINITY }];
-    let world_line = match kind % 6 {
+    let world_line = match kind % 7 {
         0 => WorldLine::accelerated(at, velocity, &pieces(random, 0.5), &[]),
         1 => WorldLine::accelerated(at, velocity, &[], &always(random)),
         2 => {
@@ -61,6 +61,15 @@ fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
                 at + random.in_ball(1.0),
                 &always(random).map(|spin| Piece { of: 0.5 * spin.of, ..spin }),
             )
+        }
+        5 => {
+            let rows = [0.0, 1.5, 2.7, 4.5, 5.0, 6.2, 8.0, 9.0].map(|passed: f64| {
+                let x = at + passed * velocity.beta() * 0.5;
+                let bend = DVec3::new(libm::sin(0.6 * passed), libm::cos(0.5 * passed), 0.1 * passed);
+                Event { t: begins[0] + passed, x: x + 0.5 * bend }
+            });
+            let spin = if kind % 2 == 0 { &[][..] } else { &pieces(random, 0.2) };
+            WorldLine::along(at, SampledPath::new(&rows).unwrap(), spin)
         }
         _ => {
             let disc = WorldLine::accelerated(at, velocity, &pieces(random, 0.1), &always(random)).unwrap();

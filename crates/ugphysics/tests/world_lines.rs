@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
 use glam::DVec3;
-use ugphysics::{Event, Lorentz, Orbit, Piece, Velocity, WorldLine, doppler_at};
+use ugphysics::{Event, Lorentz, Orbit, Piece, SampledPath, Velocity, WorldLine, doppler_at};
 
 const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -314,8 +314,20 @@ fn motions() -> Vec<WorldLine> {
         moon.clone(),
         moon.with_part(DVec3::new(0.5, 0.0, 0.0), &[piece([0.2, 0.0, 0.0], ALWAYS)]).unwrap(),
         moving([0.0; 3], [0.5, 0.0, 0.0], &[], &spin),
+        WorldLine::along(DVec3::X * 0.1, curve(), &[]).unwrap(),
+        WorldLine::along(DVec3::X * 0.1, curve(), &spin).unwrap(),
         WorldLine::inertial(Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap()),
     ]
+}
+
+/// A path with an acceleration of 0.5 at most.
+fn curve() -> SampledPath {
+    let row = |k: i32| {
+        let t = f64::from(k) * 1.5 - 4.0 + 0.3 * f64::from(k % 2);
+        let x = DVec3::new(0.3 * t + libm::sin(0.5 * t), libm::cos(0.4 * t), 0.2 * t);
+        Event { t, x }
+    };
+    SampledPath::new(&(0..9).map(row).collect::<Vec<_>>()).unwrap()
 }
 
 fn points() -> impl Iterator<Item = DVec3> {

@@ -1,9 +1,12 @@
 //! Which points of a body can move as it does at all times.
 
+use std::collections::VecDeque;
+
 use glam::DVec3;
 
 use super::WorldLineError;
 use super::moving::{Moving, Path, Turn};
+use super::table::{ALL_TIMES, Along};
 
 /// Samples of a stretch of time in which acceleration and spin, or several spins, act together.
 const N_SAMPLES: u32 = 512;
@@ -18,6 +21,7 @@ impl Moving {
         let greatest = match &self.path {
             Path::Accelerated(acceleration) => acceleration.greatest(),
             Path::Orbit(orbit) => orbit.acceleration(0.0).length(),
+            Path::Along(along) => along.path.bounds(ALL_TIMES)[0],
         };
         if self.is_safe(point, greatest, |turn| turn.spin.greatest()) {
             return Ok(());
@@ -34,7 +38,10 @@ impl Moving {
                 (begin, f64::INFINITY) => begin + 1.0,
                 (begin, end) => begin.midpoint(end),
             };
-            let acceleration = self.acceleration(inside).length();
+            let acceleration = match &self.path {
+                Path::Along(along) => along.path.bounds([stretch.0, stretch.1])[0],
+                _ => self.acceleration(inside).length(),
+            };
             let is_safe = self.is_safe(point, acceleration, |turn| turn.spin.rate(inside).length());
             if is_safe { Ok(()) } else { self.check_stretch(point, stretch, inside) }
         })
@@ -45,6 +52,7 @@ impl Moving {
         let of_path: Vec<f64> = match &self.path {
             Path::Accelerated(acceleration) => acceleration.changes().collect(),
             Path::Orbit(_) => Vec::new(),
+            Path::Along(along) => vec![0.0, along.path.end()],
         };
         of_path.into_iter().chain(self.turns.iter().flat_map(|turn| turn.spin.changes())).collect()
     }
@@ -69,6 +77,12 @@ impl Moving {
         inside: f64,
     ) -> Result<(), WorldLineError> {
         let is_at = |own_time: f64| self.moment(point, own_time).map(drop);
+        if let Path::Along(along) = &self.path
+            && begin >= 0.0
+            && end <= along.path.end()
+        {
+            return self.check_along(point, (begin, end), along);
+        }
         let rates = self.turns.iter().map(|turn| turn.spin.rate(inside).length()).filter(|&rate| rate > 0.0);
         let (n_spins, slowest) = rates.fold((0, f64::INFINITY), |(n, least), rate| (n + 1, rate.min(least)));
         let turns_alone = n_spins == 1 && self.acceleration(inside) == DVec3::ZERO && !self.is_orbit();
@@ -77,13 +91,37 @@ impl Moving {
         }
         let slowest = match &self.path {
             Path::Orbit(orbit) => slowest.min(orbit.own_rate()),
-            Path::Accelerated(_) => slowest,
+            Path::Accelerated(_) | Path::Along(_) => slowest,
         };
         let span = MOST_TURNS * std::f64::consts::TAU / slowest;
         let begin = if begin.is_finite() { begin } else { end.min(0.0) - span };
         let end = if end.is_finite() { end } else { begin.max(0.0) + span };
         let step = (end - begin) / f64::from(N_SAMPLES);
         (0..N_SAMPLES).try_for_each(|k| is_at(begin + (f64::from(k) + 0.5) * step))
+    }
+
+    /// Halves a stretch between two events of a path where no bound shows that it is safe.
+    fn check_along(
+        &self,
+        point: DVec3,
+        (begin, end): (f64, f64),
+        along: &Along,
+    ) -> Result<(), WorldLineError> {
+        let mut parts = VecDeque::from([(begin, end)]);
+        let mut n_samples = 0;
+        while let Some((begin, end)) = parts.pop_front() {
+            let middle = begin.midpoint(end);
+            let [acceleration, _] = along.path.bounds([begin, end]);
+            if n_samples == N_SAMPLES
+                || self.is_safe(point, acceleration, |turn| turn.spin.rate(middle).length())
+            {
+                continue;
+            }
+            self.moment(point, middle)?;
+            n_samples += 1;
+            parts.extend([(begin, middle), (middle, end)]);
+        }
+        Ok(())
     }
 
     fn is_orbit(&self) -> bool {

@@ -8,7 +8,10 @@ mod horizon;
 mod moving;
 mod orbit;
 mod pieces;
+mod range_maximum;
 mod ray;
+mod spline;
+mod table;
 
 use glam::{DQuat, DVec3};
 
@@ -16,10 +19,12 @@ pub use moving::ElementFrame;
 pub use orbit::Orbit;
 pub use pieces::Piece;
 pub use ray::{Passage, RayPoint, RayStretch, WorldTube};
+pub use table::SampledPath;
 
 use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};
 use moving::{Moment, Moving, Path, Turn};
 use pieces::{Acceleration, Spin};
+use table::Along;
 
 /// The motion of a body in the frame of the scene.
 ///
@@ -116,6 +121,18 @@ pub enum WorldLineError {
     },
     /// The axis of an orbit is the zero vector.
     NoAxis,
+    /// A path has fewer than two events.
+    FewEvents,
+    /// The time of an event is not later than that of the one before.
+    TimeOrder {
+        /// The earlier of the two, counted from 0.
+        row: usize,
+    },
+    /// Between two events of a path the speed is not below that of light.
+    TooFast {
+        /// The earlier of the two, counted from 0.
+        row: usize,
+    },
     /// A point would move at the speed of light or faster: it is too far from the axis of the spin,
     /// or beyond the horizon of the acceleration, 1 + a·ξ ≤ |ω×ξ|.  Eq. (P41)
     Horizon {
@@ -140,6 +157,11 @@ impl core::fmt::Display for WorldLineError {
                 WorldLine::MOST_RAPIDITY
             ),
             Self::NoAxis => write!(f, "the axis is the zero vector"),
+            Self::FewEvents => write!(f, "the path has fewer than two events"),
+            Self::TimeOrder { row } => write!(f, "the time does not increase from event {} on", row + 1),
+            Self::TooFast { row } => {
+                write!(f, "the speed reaches that of light between events {} and {}", row + 1, row + 2)
+            }
             Self::Horizon { own_time } => {
                 write!(f, "at own time {own_time} the point would move at the speed of light or faster")
             }
@@ -210,6 +232,20 @@ impl WorldLine {
         Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path: Path::Orbit(Box::new(orbit)), turns }))))
     }
 
+    /// A motion whose reference point, `at` in the coordinates of the body, passes given events, at
+    /// whose first its own time is 0.  Eq. (P48)
+    ///
+    /// # Errors
+    /// See [`WorldLineError`].
+    pub fn along(at: DVec3, path: SampledPath, spins: &[Piece]) -> Result<Self, WorldLineError> {
+        if !at.is_finite() {
+            return Err(WorldLineError::NotFinite);
+        }
+        let turns = Turn::new(at, Spin::new(spins)?).into_iter().collect();
+        let (initial, path) = (path.velocity(), Path::Along(Box::new(Along::new(path))));
+        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path, turns }))))
+    }
+
     /// The motion of a part of a body with this motion, which spins about its point `at` of it: a
     /// wheel on a car. Own times of the part are those of the body.
     ///
@@ -236,6 +272,7 @@ impl WorldLine {
         match &mut moving.path {
             Path::Accelerated(acceleration) => acceleration.change_frame(target_from_source, origin),
             Path::Orbit(orbit) => orbit.change_frame(target_from_source, origin),
+            Path::Along(along) => along.change_frame(target_from_source, origin),
         }
         let frame = moving.pose(0.0).scene_from_axes;
         moving.initial = frame.velocity_of_frame().unwrap_or(moving.initial);

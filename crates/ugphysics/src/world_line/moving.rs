@@ -4,6 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::orbit::Orbit;
 use super::pieces::{Acceleration, Offset, Spin};
+use super::table::Along;
 use super::{BodyEvent, EmissionEvent, Pose, WorldLineError};
 use crate::{Event, Lorentz, Velocity, unit_or_zero};
 
@@ -33,6 +34,7 @@ pub(super) struct Turn {
 pub(super) enum Path {
     Accelerated(Acceleration),
     Orbit(Box<Orbit>),
+    Along(Box<Along>),
 }
 
 /// A point of a body at an own time: its event and ∂X/∂τ.
@@ -48,6 +50,16 @@ pub(super) struct Moment {
 fn clock(pace: f64, swing: DVec3) -> f64 {
     let swing = swing.length();
     ((pace - swing) * (pace + swing)).sqrt()
+}
+
+/// 1 + a·ξ, if it is above |dξ/dτ|.
+fn checked_pace(acceleration: DVec3, offset: Offset, own_time: f64) -> Result<f64, WorldLineError> {
+    let pace = 1.0 + acceleration.dot(offset.xi);
+    match pace.partial_cmp(&offset.swing.length()) {
+        Some(core::cmp::Ordering::Greater) => Ok(pace),
+        Some(_) if own_time.is_finite() => Err(WorldLineError::Horizon { own_time }),
+        _ => Err(WorldLineError::NotFinite),
+    }
 }
 
 /// True if a root is known to rounding after the step from `from` to `to`: the error after a step
@@ -75,6 +87,15 @@ impl Moving {
         match &self.path {
             Path::Accelerated(acceleration) => acceleration.pose(own_time),
             Path::Orbit(orbit) => orbit.pose(own_time),
+            Path::Along(along) => along.pose(own_time).0,
+        }
+    }
+
+    /// The pose without spin, and the proper acceleration in the carried axes.
+    pub(super) fn carried_with_acceleration(&self, own_time: f64) -> (Pose, DVec3) {
+        match &self.path {
+            Path::Along(along) => along.pose(own_time),
+            _ => (self.carried(own_time), self.acceleration(own_time)),
         }
     }
 
@@ -89,16 +110,12 @@ impl Moving {
         Offset { xi: offset.xi - self.at, ..offset }
     }
 
-    /// 1 + a·ξ.
-    pub(super) fn pace(&self, xi: DVec3, own_time: f64) -> f64 {
-        1.0 + self.acceleration(own_time).dot(xi)
-    }
-
     /// The proper acceleration in the carried axes.
     pub(super) fn acceleration(&self, own_time: f64) -> DVec3 {
         match &self.path {
             Path::Accelerated(acceleration) => acceleration.at(own_time),
             Path::Orbit(orbit) => orbit.acceleration(own_time),
+            Path::Along(along) => along.pose(own_time).1,
         }
     }
 
@@ -106,18 +123,17 @@ impl Moving {
     pub(super) fn moment(&self, point: DVec3, own_time: f64) -> Result<Moment, WorldLineError> {
         let offset = self.offset(point, own_time);
         let Offset { xi, swing } = offset;
-        let pace = self.pace(xi, own_time);
-        match pace.partial_cmp(&swing.length()) {
-            Some(core::cmp::Ordering::Greater) => {}
-            Some(_) if own_time.is_finite() => return Err(WorldLineError::Horizon { own_time }),
-            _ => return Err(WorldLineError::NotFinite),
-        }
-        let (event, rate) = match &self.path {
-            Path::Accelerated(acceleration) => acceleration.moment(offset, own_time),
-            Path::Orbit(orbit) => {
-                let Pose { event, scene_from_axes: axes, .. } = orbit.pose(own_time);
+        let (pace, (event, rate)) = match &self.path {
+            Path::Accelerated(acceleration) => {
+                let pace = checked_pace(acceleration.at(own_time), offset, own_time)?;
+                (pace, acceleration.moment(offset, own_time))
+            }
+            Path::Orbit(_) | Path::Along(_) => {
+                let (pose, acceleration) = self.carried_with_acceleration(own_time);
+                let pace = checked_pace(acceleration, offset, own_time)?;
+                let Pose { event, scene_from_axes: axes, .. } = pose;
                 let at = event + axes.apply(Event { t: 0.0, x: xi });
-                (at, axes.apply(Event { t: pace, x: swing }))
+                (pace, (at, axes.apply(Event { t: pace, x: swing })))
             }
         };
         Ok(Moment { event, rate, clock: clock(pace, swing) })
@@ -147,14 +163,14 @@ impl Moving {
         }
         let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
         for _ in 0..MOST_STEPS {
-            let pose = self.carried(own_time);
+            let (pose, acceleration) = self.carried_with_acceleration(own_time);
             let Event { t, x } = pose.scene_from_axes.inverse().apply(event - pose.event);
             if t > 0.0 {
                 low = own_time;
             } else {
                 high = own_time;
             }
-            let pace = self.pace(x, own_time);
+            let pace = 1.0 + acceleration.dot(x);
             let newton = own_time + t / pace;
             let next = if pace > 0.0 && newton > low && newton < high {
                 newton
@@ -298,7 +314,7 @@ impl Moving {
     /// w = (dξ/dτ)/(1 + a·ξ): the velocity of a point in the rest frame of A.
     pub(super) fn lean(&self, point: DVec3, own_time: f64) -> DVec3 {
         let Offset { xi, swing } = self.offset(point, own_time);
-        swing / self.pace(xi, own_time)
+        swing / (1.0 + self.acceleration(own_time).dot(xi))
     }
 
     pub(super) fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {

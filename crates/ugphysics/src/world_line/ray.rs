@@ -16,6 +16,7 @@ use core::ops::{ControlFlow, Range};
 use glam::{DMat3, DVec3};
 
 use super::moving::{Moving, Path, Turn};
+use super::table::ALL_TIMES;
 use super::{Kind, WorldLine, WorldLineError};
 use crate::{Event, Lorentz};
 
@@ -54,7 +55,7 @@ pub struct Passage {
     /// Angular velocity: unit axis and rate.
     axis: DVec3,
     rate: f64,
-    /// |a| and |da/dτ| in the carried axes.
+    /// |a| and |da/dτ| in the carried axes, or upper bounds of them.
     acceleration: f64,
     jerk: f64,
 }
@@ -221,11 +222,12 @@ impl Moving {
                 .fold(1.0, f64::min),
             // Whatever the directions.
             Path::Accelerated(_) => 1.0 + acceleration.dot(offset) - acceleration.length() * radius,
-            Path::Orbit(_) => 1.0 - acceleration.length() * (offset.length() + radius),
+            Path::Orbit(_) | Path::Along(_) => 1.0 - acceleration.length() * (offset.length() + radius),
         };
         let least_pace = match &self.path {
             Path::Accelerated(path) => path.values().map(pace).fold(1.0, f64::min),
             Path::Orbit(orbit) => pace(orbit.acceleration(0.0)),
+            Path::Along(along) => pace(along.path.bounds(ALL_TIMES)[0] * DVec3::X),
         };
         let carried = Moving { turns: Vec::new(), ..self.clone() };
         WorldTube { carried, offset, radius, least_pace: least_pace.max(LEAST) }
@@ -236,6 +238,10 @@ impl Moving {
         let of_path = match &self.path {
             Path::Accelerated(acceleration) => acceleration.change_before(own_time),
             Path::Orbit(_) => f64::NEG_INFINITY,
+            // Inside, the acceleration is continuous and the bound of its derivative holds.
+            Path::Along(along) if own_time > along.path.end() => along.path.end(),
+            Path::Along(_) if own_time > 0.0 => 0.0,
+            Path::Along(_) => f64::NEG_INFINITY,
         };
         self.turns.iter().map(|turn| turn.spin.change_before(own_time)).fold(of_path, f64::max)
     }
@@ -308,6 +314,10 @@ impl Moving {
                 let acceleration = orbit.acceleration(known_at).length();
                 (PassagePath::Any { origin }, acceleration, orbit.turn_rate() * acceleration)
             }
+            Path::Along(along) => {
+                let [acceleration, jerk] = along.path.bounds([own_times.start, own_times.end]);
+                (PassagePath::Any { origin }, acceleration, jerk)
+            }
         };
         let spin = back * spin;
         let rate = spin.length();
@@ -340,9 +350,9 @@ impl Moving {
 
     /// A ray at an own time.
     fn crossing(&self, origin: Event, step: Event, own_time: f64) -> Carried {
-        let pose = self.pose(own_time);
+        let (pose, acceleration) = self.carried_with_acceleration(own_time);
         let axes = pose.scene_from_axes.inverse();
-        Carried::new(axes.apply(origin - pose.event), axes.apply(step), self.acceleration(own_time))
+        Carried::new(axes.apply(origin - pose.event), axes.apply(step), acceleration)
     }
 }
 
