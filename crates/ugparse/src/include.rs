@@ -1,5 +1,5 @@
-//! Replaces `include` statements by the text of files, and `execute` statements by the output of
-//! programs.
+//! Replaces `include` statements by the text of files, `execute` statements by the output of
+//! programs, and the names of tables by their events.
 //!
 //! The result is one text, with line marks of the C preprocessor where files begin and continue, so
 //! that messages name the original file and line. The caller reads the files and runs the programs;
@@ -11,6 +11,7 @@ use ugmeshfile::MeshFormat;
 
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
+use crate::event_table;
 use crate::grammar::KEYWORDS;
 use crate::mesh;
 use crate::options::{Limit, Options};
@@ -22,8 +23,8 @@ use crate::request::{Request, RequestError, RequestKind};
 use crate::source::{LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
-/// Replaces `include` statements by the text of files, and `execute` statements by the output of
-/// programs; reads a mesh of another format, with the files that it names.
+/// Replaces `include` statements by the text of files, `execute` statements by the output of
+/// programs, and the files that `-path` names by their events; reads a mesh of another format, with the files that it names.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
 /// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)
@@ -74,13 +75,20 @@ pub fn include(
 
 /// Does one of the keywords occur anywhere in the text?
 fn may_have_requests(text: &[u8]) -> bool {
-    ["include", "execute"].iter().any(|word| memchr::memmem::find(text, word.as_bytes()).is_some())
+    let has_word = |word: &str| memchr::memmem::find(text, word.as_bytes()).is_some();
+    // Programs write the events of a path in parentheses.
+    let names_a_file = |at: usize| !text[at + PATH.len()..].trim_ascii_start().starts_with(b"(");
+    ["include", "execute"].into_iter().any(has_word)
+        || memchr::memmem::find_iter(text, PATH).any(names_a_file)
 }
+
+const PATH: &[u8] = b"-path";
 
 /// The error for a statement in a text that was not passed through [`include`].
 pub(crate) fn not_replaced(statement: &RequestStatement) -> Diagnostic {
     let (message, label) = match statement.kind {
         RequestKind::Include => ("files are not included here", "asks for a file"),
+        RequestKind::Path => ("tables are not read here", "asks for a file"),
         RequestKind::Execute => ("programs are not run here", "asks for a program"),
     };
     Diagnostic::error(statement.span, message)
@@ -133,50 +141,94 @@ impl Inclusion<'_> {
             self.out.extend_from_slice(&text.source.text[text.n_done..statement.span.start as usize]);
             text.n_replaced += 1;
             text.n_done = statement.span.end as usize;
-            let next = self.load(statement)?;
-            self.open.push(next);
-            self.mark();
+            if statement.kind == RequestKind::Path {
+                self.events(statement)?;
+            } else {
+                let next = self.load(statement)?;
+                self.open.push(next);
+                self.mark();
+            }
         }
         Ok(())
     }
 
+    /// Writes the events of a table, in parentheses and on one line, so that the numbers of the
+    /// lines that follow stay the same.
+    fn events(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
+        let (path, text) = self.fetch(statement)?;
+        let table = Source { mesh: Some(Box::new(None)), ..Source::new(path.display().to_string(), text) };
+        let Some(events) = event_table::events(&table)? else {
+            let (source, finding) = self.finding(statement);
+            let finding = finding(format!("file `{}` is not a table of events", source.slice(statement.file)));
+            let help = "its first line names the columns `t`, `x`, `y` and `z`, with commas between them";
+            return Err(Diagnostics::one(source, finding.help(help)));
+        };
+        self.out.extend_from_slice(&events);
+        Ok(())
+    }
+
+    /// The innermost open text, and an error at a request in it.
+    fn finding(&self, statement: RequestStatement) -> (&Source, impl Fn(String) -> Diagnostic + use<>) {
+        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
+        let label = match statement.kind {
+            RequestKind::Include => "included here",
+            RequestKind::Path => "read here",
+            RequestKind::Execute => "run here",
+        };
+        (source, move |message: String| Diagnostic::error(statement.file, message).label(label))
+    }
+
     /// Loads the text requested by a statement of the innermost open text.
     fn load(&mut self, statement: RequestStatement) -> Result<(PathBuf, Text), Diagnostics> {
-        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
-        let finding = |message: String| {
-            let label = match statement.kind {
-                RequestKind::Include => "included here",
-                RequestKind::Execute => "run here",
-            };
-            Diagnostic::error(statement.file, message).label(label)
-        };
-        let refuse = |finding: Diagnostic| Diagnostics::one(source, finding);
         let limits = &self.options.limits;
+        let (source, finding) = self.finding(statement);
+        let refuse = |finding: Diagnostic| Diagnostics::one(source, finding);
         let shown = source.slice(statement.file);
         if statement.kind == RequestKind::Execute && !self.options.execute {
             let finding = finding(format!("program `{shown}` is not run"));
             let finding = finding.help("a scene can run any program; if you trust this one, allow it");
             return Err(refuse(finding.setting(Setting::Execute)));
         }
-        let refuse_text = || {
-            let text = match statement.kind {
-                RequestKind::Include => format!("file `{shown}`"),
-                RequestKind::Execute => format!("the output of `{shown}`"),
-            };
-            refuse(finding(format!("{text} is not UniGrafix")).help(
-                "it must begin with a statement or a comment; errors in it are shown if it is read by itself",
-            ))
-        };
         let path = relative_to(&source.name, &shown);
         if self.open.iter().any(|(open, _)| *open == path) {
             let finding = finding(format!("file `{shown}` includes itself"));
             return Err(refuse(finding.help("a file must not include itself, directly or through others")));
         }
-        self.n_files += 1;
         if self.open.len() as u64 > limits.get(Limit::Includes) {
             let finding = finding("files include each other too deeply".into());
             return Err(refuse(finding.limited(limits, Limit::Includes, "use fewer")));
         }
+        let (path, text) = self.fetch(statement)?;
+        let file = Source::new(path.display().to_string(), text);
+        // Messages quote lines. Those of a file that is no scene, such as a list of passwords, must
+        // not become visible.
+        let is_scene = begins_like_a_scene(&file.text);
+        let text = Text::new(file, self.options)
+            .map_err(|found| if is_scene { found } else { self.not_a_scene(statement) })?;
+        Ok((path, text))
+    }
+
+    fn not_a_scene(&self, statement: RequestStatement) -> Diagnostics {
+        let (source, finding) = self.finding(statement);
+        let shown = source.slice(statement.file);
+        let text = match statement.kind {
+            RequestKind::Include | RequestKind::Path => format!("file `{shown}`"),
+            RequestKind::Execute => format!("the output of `{shown}`"),
+        };
+        let help =
+            "it must begin with a statement or a comment; errors in it are shown if it is read by itself";
+        Diagnostics::one(source, finding(format!("{text} is not UniGrafix")).help(help))
+    }
+
+    /// Loads the bytes requested by a statement of the innermost open text.
+    fn fetch(&mut self, statement: RequestStatement) -> Result<(PathBuf, Vec<u8>), Diagnostics> {
+        self.n_files += 1;
+        let limits = &self.options.limits;
+        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
+        let finding = self.finding(statement).1;
+        let refuse = |finding: Diagnostic| Diagnostics::one(source, finding);
+        let shown = source.slice(statement.file);
+        let path = relative_to(&source.name, &shown);
         if self.n_files > limits.get(Limit::Files) {
             let finding = finding("too many files are included".into());
             return Err(refuse(finding.limited(limits, Limit::Files, "include fewer")));
@@ -190,12 +242,6 @@ impl Inclusion<'_> {
             return Err(refuse(finding.limited(limits, Limit::Text, "split it")));
         }
         self.n_bytes += text.len() as u64;
-        let file = Source::new(path.display().to_string(), text);
-        // Messages quote lines. Those of a file that is no scene, such as a list of passwords, must
-        // not become visible.
-        let is_scene = begins_like_a_scene(&file.text);
-        let text =
-            Text::new(file, self.options).map_err(|found| if is_scene { found } else { refuse_text() })?;
         Ok((path, text))
     }
 
@@ -212,7 +258,7 @@ impl Inclusion<'_> {
 fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
     let path = path.display();
     match (error, kind) {
-        (RequestError::System(error), RequestKind::Include) => format!("cannot read `{path}`: {error}"),
+        (RequestError::System(error), RequestKind::Include | RequestKind::Path) => format!("cannot read `{path}`: {error}"),
         (RequestError::System(error), RequestKind::Execute) => format!("cannot run `{path}`: {error}"),
         (RequestError::Failed { status, complaint }, _) if complaint.is_empty() => {
             format!("program `{path}` failed with {status}")
@@ -231,6 +277,7 @@ fn beginning(text: &str) -> String {
 fn remedy(kind: RequestKind, error: &RequestError) -> String {
     match (error, kind) {
         (RequestError::System(_), RequestKind::Include) => "names are relative to the file that includes",
+        (RequestError::System(_), RequestKind::Path) => "names are relative to the file that has the motion",
         (RequestError::System(_), RequestKind::Execute) => {
             "names are relative to the file that has the statement; the file must be a program"
         }

@@ -40,6 +40,7 @@ mod chunked_writer;
 mod cli;
 mod diagnostic;
 mod diagnostics;
+mod event_table;
 mod expand;
 mod fast_path;
 mod flatness;

@@ -49,7 +49,7 @@ pub fn origin(context: &Context) -> Origin {
     Origin::Pending { name: context.recorded_name(), sha256: ugpipe::sha256 }
 }
 
-/// Replaces the `include` and `execute` statements of a scene, or reads a mesh, see
+/// Replaces the `include` and `execute` statements and the tables of events of a scene, or reads a mesh, see
 /// [`crate::include`]. Error output of successful programs is reported as a note.
 ///
 /// # Errors
@@ -60,7 +60,7 @@ pub fn follow(source: Source, options: &Options, context: &Context) -> Result<So
 
 fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
-        RequestKind::Include => Ok(context.read_named(request.path, request.room + 1)?),
+        RequestKind::Include | RequestKind::Path => Ok(context.read_named(request.path, request.room + 1)?),
         RequestKind::Execute => {
             let printed = context.run_named(request.path, request.room + 1)?;
             if let Some(status) = printed.failure {

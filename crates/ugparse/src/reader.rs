@@ -10,7 +10,7 @@ use crate::options::{Limit, Options};
 use crate::request::RequestKind;
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::statement::References;
+use crate::statement::{PathStatement, References, Statement};
 use crate::token::{
     Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
     mark, skip_statement, syntax_error, wanted, word,
@@ -28,7 +28,7 @@ pub(crate) struct Document<'t> {
     pub first_statement: Option<u32>,
     /// Line marks of the C preprocessor.
     pub line_marks: Vec<LineMark>,
-    /// `include` and `execute` statements.
+    /// `include` and `execute` statements, and the files of `-path`.
     pub requests: Vec<RequestStatement>,
     /// The stage of the scene and where it is stated, taken out of the escapes.
     pub stage: Option<(Stage, Span)>,
@@ -44,7 +44,8 @@ pub(crate) struct CommentSpan {
     pub trailing: bool,
 }
 
-/// `include FILE ;` or `execute FILE ;`
+/// `include FILE ;`, `execute FILE ;` or the file of `-path FILE`; the text that replaces it takes
+/// the place of `span`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RequestStatement {
     pub kind: RequestKind,
@@ -239,6 +240,11 @@ impl<'t, 'f> Reader<'t, 'f> {
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         let span = self.span(input, rest);
         let row = self.open[self.open.len() - 1];
+        if let Statement::Motion(motion) = &statement
+            && let Some(PathStatement::File { span, name }) = motion.path
+        {
+            self.document.requests.push(RequestStatement { kind: RequestKind::Path, span, file: name });
+        }
         self.document.first_statement.get_or_insert(span.start);
         self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
         self.note_inner_comments(input, rest);

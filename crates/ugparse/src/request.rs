@@ -8,6 +8,8 @@ use std::path::Path;
 pub enum RequestKind {
     /// `include`: the bytes of a file.
     Include,
+    /// `-path` of a motion: the bytes of a file, a table of events.
+    Path,
     /// `execute`: the standard output of a program.
     Execute,
 }

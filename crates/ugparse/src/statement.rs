@@ -62,9 +62,28 @@ pub(crate) struct MotionStatement {
     pub spins: Vec<Piece>,
     /// Centre, axis and rate.
     pub orbit: Option<(DVec3, DVec3, f64)>,
+    pub path: Option<PathStatement>,
     /// The motion that it is part of.
     pub on: Option<Span>,
     pub shift: Event,
+}
+
+/// The events of a path.
+#[derive(Debug)]
+pub(crate) enum PathStatement {
+    /// `-path FILE`
+    File {
+        /// With quotes, if there are any.
+        span: Span,
+        /// The name without quotes.
+        name: Span,
+    },
+    /// `-path (t x y z …)`
+    Events {
+        /// Between the parentheses.
+        span: Span,
+        events: Vec<Event>,
+    },
 }
 
 #[derive(Debug)]

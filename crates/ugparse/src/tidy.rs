@@ -157,6 +157,7 @@ impl Layout {
     /// opening or before a closing bracket; returns the input after it.
     fn words<'t>(&mut self, mut input: Input<'t>, keyword: &[u8]) -> Input<'t> {
         let mut is_open = true;
+        let mut names_file = matches!(keyword, b"include" | b"execute");
         loop {
             let n_blanks = input.iter().take_while(|&&byte| is_blank(byte)).count();
             input = &input[n_blanks..];
@@ -166,7 +167,16 @@ impl Layout {
             }
             is_open = matches!(byte, b'(' | b'<');
             let rest = behind_word(input);
-            self.word(taken(input, rest), keyword);
+            let text = taken(input, rest);
+            if names_file && byte != b'(' {
+                self.verbatim(text);
+            } else {
+                self.word(text, keyword);
+            }
+            names_file = match keyword {
+                b"include" | b"execute" => true,
+                _ => keyword == b"motion" && (text == b"-path" || names_file && byte == b'{'),
+            };
             input = rest;
             if byte == b';' {
                 return input;
@@ -176,9 +186,7 @@ impl Layout {
 
     /// Writes one word, comment or punctuation mark of a statement.
     fn word(&mut self, text: &[u8], keyword: &[u8]) {
-        if matches!(keyword, b"include" | b"execute") {
-            self.verbatim(text);
-        } else if keyword == b"a" && matches!(integer(text), Ok(([], _))) {
+        if keyword == b"a" && matches!(integer(text), Ok(([], _))) {
             // The size of an array is an integer with any number of digits.
             let zeros = text.iter().take_while(|&&digit| digit == b'0').count();
             self.verbatim(&text[zeros.min(text.len() - 1)..]);

@@ -4,7 +4,7 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
-use ugphysics::Piece;
+use ugphysics::{Event, Piece};
 use ugscene::{
     BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light, LightKind,
     MotionPath, NameId, Projection, Scene, StatedMotion, SurfaceProperties,
@@ -429,6 +429,15 @@ impl<'s> Writer<'s> {
                 self.point(*center);
                 self.point(*axis);
                 self.number(*rate);
+            }
+            MotionPath::Along(path) => {
+                self.text(" -path (");
+                for (row, Event { t, x }) in path.events().enumerate() {
+                    self.text(if row == 0 { "" } else { " " });
+                    self.number(t);
+                    self.point(x);
+                }
+                self.text(")");
             }
             MotionPath::On(carrier) => {
                 self.text(" -on");

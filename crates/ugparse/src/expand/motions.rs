@@ -1,15 +1,17 @@
 //! Gives the bodies with a name their motions, after all statements are read.
 
 use rustc_hash::{FxHashMap, FxHashSet};
-use ugphysics::{WorldLine, WorldLineError};
+use ugphysics::{SampledPath, WorldLine, WorldLineError};
 use ugscene::{BodyId, Item, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
+use crate::event_table::impossible as impossible_path;
 use crate::resolve::undefined_like;
 use crate::rows::Rows;
 use crate::source::Span;
-use crate::statement::MotionStatement;
+use crate::statement::{MotionStatement, PathStatement};
+use crate::token::{blank, found, number};
 
 /// The longest chain of motions of which each is part of the next.
 const MAX_CARRIERS: usize = 64;
@@ -22,6 +24,8 @@ const MAX_CARRIED_PIECES: usize = 1 << 17;
 struct Motions<'m> {
     statements: &'m Rows<MotionStatement>,
     rows: FxHashMap<BodyId, usize>,
+    /// Of each statement.
+    paths: Vec<Option<SampledPath>>,
 }
 
 impl Expander<'_, '_> {
@@ -33,7 +37,7 @@ impl Expander<'_, '_> {
         self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
         let names = self.bodies.names();
         let mut findings = self.inner_motions();
-        let mut motions = Motions { statements, rows: FxHashMap::default() };
+        let mut motions = Motions { statements, rows: FxHashMap::default(), paths: Vec::new() };
         for (row, motion) in statements.rows.iter().enumerate() {
             let body = self.bodies.named(self.text, motion.name);
             if let Some(first) = motions.rows.insert(body, row) {
@@ -53,6 +57,12 @@ impl Expander<'_, '_> {
         }
         if findings.is_empty() {
             findings.extend(self.too_many_pieces(&motions, &names));
+        }
+        if findings.is_empty() {
+            match statements.rows.iter().map(|motion| self.path(motion)).collect() {
+                Ok(paths) => motions.paths = paths,
+                Err(error) => findings.push(error),
+            }
         }
         if findings.is_empty() {
             let lines = names.iter().try_for_each(|&(body, name)| self.set_motion(&motions, body, name));
@@ -97,6 +107,14 @@ impl Expander<'_, '_> {
         inner.map(error).into_iter().collect()
     }
 
+    /// The path of a motion through events.
+    fn path(&self, motion: &MotionStatement) -> Result<Option<SampledPath>, Diagnostic> {
+        let Some(PathStatement::Events { span, events }) = &motion.path else { return Ok(None) };
+        let path = SampledPath::new(events)
+            .map_err(|error| impossible_path(&error, |row| event_span(self.text, *span, row)))?;
+        Ok(Some(path))
+    }
+
     fn note_motions(&mut self, motions: &Motions<'_>) {
         let rows: Vec<BodyId> = self.scene.bodies.stated_by_name().collect();
         for (row, body) in rows.into_iter().enumerate() {
@@ -129,15 +147,16 @@ impl Expander<'_, '_> {
             return Err(error.label("this one").help(help));
         }
         let MotionStatement { at, velocity, accelerations, spins, orbit, on, shift, .. } = statement;
-        let (path, carrier) = match (on, orbit) {
-            (Some(name), _) => {
+        let (path, carrier) = match (on, orbit, &motions.paths[row]) {
+            (Some(name), _, _) => {
                 let carrier = self.bodies.named(self.text, *name);
                 (MotionPath::On(carrier), self.motion(motions, carrier, depth + 1)?.1)
             }
-            (None, &Some((center, axis, rate))) => {
+            (None, &Some((center, axis, rate)), _) => {
                 (MotionPath::Orbit { center, axis, rate }, WorldLine::REST)
             }
-            (None, None) => {
+            (None, None, Some(path)) => (MotionPath::Along(path.clone()), WorldLine::REST),
+            (None, None, None) => {
                 let velocity = velocity.unwrap_or_default();
                 (MotionPath::Free { velocity, accelerations: accelerations.clone() }, WorldLine::REST)
             }
@@ -170,6 +189,27 @@ impl Expander<'_, '_> {
             }
         }
         Ok(())
+    }
+}
+
+/// Where an event stands in a list; the whole list if it has fewer.
+fn event_span(text: &[u8], list: Span, row: usize) -> Span {
+    let mut rest = list.of(text);
+    let mut skip = |n: usize| -> Option<u32> {
+        for _ in 0..n {
+            rest = number(rest).ok()?.0;
+        }
+        Some(list.end - blank(rest).map_or(rest, |(rest, ())| rest).len() as u32)
+    };
+    let start = skip(4 * row);
+    // A number ends where the blank after it begins, or at the end of the list.
+    let last = skip(3);
+    match (start, last) {
+        (Some(start), Some(last)) if last < list.end => {
+            let length = found(&text[last as usize..]).len() as u32;
+            Span { start, end: last + length }
+        }
+        _ => list,
     }
 }
 

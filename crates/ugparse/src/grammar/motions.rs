@@ -3,15 +3,16 @@
 use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
-use ugphysics::{Event, Piece};
+use ugphysics::{Event, Piece, SampledPath};
 use ugscene::StatedMotion;
 
 use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
-use crate::statement::{MotionStatement, Statement};
-use crate::token::{Input, Parsed, Reason, blank, fail, number, point, require, wanted};
+use crate::source::Span;
+use crate::statement::{MotionStatement, PathStatement, Statement};
+use crate::token::{Input, Parsed, Reason, blank, fail, file_name, mark, number, point, require, wanted};
 
 impl Grammar<'_> {
-    /// `motion ID { -vel -at -acc -spin -orbit -on -shift }`
+    /// `motion ID { -vel -at -acc -spin -orbit -path -on -shift }`
     pub(super) fn motion<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
         let mut motion = MotionStatement {
@@ -21,6 +22,7 @@ impl Grammar<'_> {
             accelerations: Vec::new(),
             spins: Vec::new(),
             orbit: None,
+            path: None,
             on: None,
             shift: StatedMotion::NO_SHIFT,
         };
@@ -39,20 +41,21 @@ impl Grammar<'_> {
         input: Input<'a>,
     ) -> Parsed<'a, ()> {
         let at = blank(at)?.0;
-        let is_path =
-            |motion: &MotionStatement| motion.velocity.is_some() || !motion.accelerations.is_empty();
+        let is_free = motion.velocity.is_some() || !motion.accelerations.is_empty();
+        let [no_orbit, no_path, no_carrier] =
+            [motion.orbit.is_none(), motion.path.is_none(), motion.on.is_none()];
         let rest = match option {
-            b"vel" if motion.orbit.is_none() && motion.on.is_none() => {
+            b"vel" if no_orbit && no_path && no_carrier => {
                 let (rest, velocity) = velocity(input)?;
                 motion.velocity = Some(velocity);
                 rest
             }
-            b"acc" if motion.orbit.is_none() && motion.on.is_none() => {
+            b"acc" if no_orbit && no_path && no_carrier => {
                 let (rest, piece) = piece(input, 0.0)?;
                 motion.accelerations.push(piece);
                 rest
             }
-            b"orbit" if !is_path(motion) && motion.on.is_none() => {
+            b"orbit" if !is_free && no_path && no_carrier => {
                 let (rest, center) = require(point(input))?;
                 let axis_at = blank(rest)?.0;
                 let (rest, axis) = require(point(rest))?;
@@ -63,13 +66,18 @@ impl Grammar<'_> {
                 motion.orbit = Some((center, axis, rate));
                 rest
             }
-            b"on" if !is_path(motion) && motion.orbit.is_none() => {
+            b"path" if !is_free && no_orbit && no_path && no_carrier => {
+                let (rest, path) = self.path(input)?;
+                motion.path = Some(path);
+                rest
+            }
+            b"on" if !is_free && no_orbit && no_path => {
                 let (rest, on) = require(wanted(self.name(input), "the name of a motion"))?;
                 motion.on = Some(on);
                 rest
             }
-            b"vel" | b"acc" | b"orbit" | b"on" => {
-                let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-on`";
+            b"vel" | b"acc" | b"orbit" | b"path" | b"on" => {
+                let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-path`, or `-on`";
                 return fail(at, Reason::Impossible(1, "the motion has another path already", remedy));
             }
             b"at" => {
@@ -88,11 +96,35 @@ impl Grammar<'_> {
                 rest
             }
             _ => {
-                let expected = "an option of a motion (-vel -at -acc -spin -orbit -on -shift)";
+                let expected = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
                 return fail(at, Reason::Expected(expected));
             }
         };
         Ok((rest, ()))
+    }
+
+    /// `FILE` or `(t x y z …)`
+    fn path<'a>(&self, input: Input<'a>) -> Parsed<'a, PathStatement> {
+        let Ok((list, ())) = mark(b'(', "`(`")(input) else {
+            let at = blank(input)?.0;
+            let (rest, name) = require(wanted(file_name(input), "a file name, or `(` and a list of events"))?;
+            let span = Span { start: self.position(at), end: self.position(rest) };
+            let start = span.start + u32::from(at.starts_with(b"\""));
+            return Ok((rest, PathStatement::File { span, name: Span { start, end: start + name.len() as u32 } }));
+        };
+        let (mut input, mut events) = (list, Vec::new());
+        while let (rest, Some(t)) = opt(number).parse(input)? {
+            if events.len() == SampledPath::MOST_EVENTS {
+                let remedy = "give 1000000 events at most";
+                return fail(blank(input)?.0, Reason::Impossible(1, "the path has too many events", remedy));
+            }
+            let (rest, x) = require(point(rest))?;
+            events.push(Event { t, x });
+            input = rest;
+        }
+        let (rest, ()) = require(mark(b')', "a number or `)`")(input))?;
+        let span = Span { start: self.position(list), end: self.position(rest) - 1 };
+        Ok((rest, PathStatement::Events { span, events }))
     }
 }
 

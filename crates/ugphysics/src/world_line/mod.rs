@@ -287,9 +287,20 @@ impl WorldLine {
         self.in_frame(Lorentz::IDENTITY, Event { t: -shift.t, x: -shift.x })
     }
 
-    /// The displacement in space and time of [`WorldLine::anchored`].
+    /// True if it passes given events, or is part of a motion that does: its place in space and
+    /// time is stated, and does not depend on a fixed point of the contraction.
+    #[must_use]
+    pub fn passes_events(&self) -> bool {
+        matches!(&self.0, Kind::Moving(moving) if matches!(moving.path, Path::Along(_)))
+    }
+
+    /// The displacement in space and time of [`WorldLine::anchored`]; none if
+    /// [`WorldLine::passes_events`].
     #[must_use]
     pub fn anchor_shift(&self, anchor: DVec3) -> Event {
+        if self.passes_events() {
+            return Event { t: 0.0, x: DVec3::ZERO };
+        }
         let there = Event { t: 0.0, x: anchor };
         there - Lorentz::boost(self.initial_velocity()).apply(there)
     }

@@ -1,7 +1,7 @@
 //! Motions with a name, as the text states them.
 
 use glam::DVec3;
-use ugphysics::{Event, Orbit, Piece, Velocity, WorldLine, WorldLineError};
+use ugphysics::{Event, Orbit, Piece, SampledPath, Velocity, WorldLine, WorldLineError};
 
 use super::ids::BodyId;
 
@@ -38,6 +38,8 @@ pub enum MotionPath {
         /// Radians per unit of the time of the scene.
         rate: f64,
     },
+    /// `-path`: A passes the events of a table.
+    Along(SampledPath),
     /// `-on`: A is a point of another body.
     On(BodyId),
 }
@@ -73,6 +75,7 @@ impl StatedMotion {
             &MotionPath::Orbit { center, axis, rate } => {
                 WorldLine::orbiting(Orbit::new(self.at, center, axis, rate)?, &self.spins)
             }
+            MotionPath::Along(path) => WorldLine::along(self.at, path.clone(), &self.spins),
             MotionPath::On(_) => carrier.with_part(self.at, &self.spins),
         }?;
         if self.shift == Self::NO_SHIFT {

@@ -46,7 +46,7 @@ pub(super) fn place(
             None => eye,
         };
         let line = scene.bodies.motion(body);
-        let shift = if options.in_place {
+        let shift = if options.in_place && !line.passes_events() {
             let inertial = WorldLine::inertial(line.initial_velocity());
             let placed = if carrier == body { line } else { &inertial };
             in_place_shift(placed, anchor, (eye, observer.velocity))
