@@ -6,6 +6,7 @@
 mod bound;
 mod lamps;
 mod laws;
+mod paths;
 mod pixels;
 mod text;
 mod vertices;

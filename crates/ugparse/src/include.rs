@@ -159,7 +159,8 @@ impl Inclusion<'_> {
         let table = Source { mesh: Some(Box::new(None)), ..Source::new(path.display().to_string(), text) };
         let Some(events) = event_table::events(&table)? else {
             let (source, finding) = self.finding(statement);
-            let finding = finding(format!("file `{}` is not a table of events", source.slice(statement.file)));
+            let finding =
+                finding(format!("file `{}` is not a table of events", source.slice(statement.file)));
             let help = "its first line names the columns `t`, `x`, `y` and `z`, with commas between them";
             return Err(Diagnostics::one(source, finding.help(help)));
         };
@@ -258,7 +259,9 @@ impl Inclusion<'_> {
 fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
     let path = path.display();
     match (error, kind) {
-        (RequestError::System(error), RequestKind::Include | RequestKind::Path) => format!("cannot read `{path}`: {error}"),
+        (RequestError::System(error), RequestKind::Include | RequestKind::Path) => {
+            format!("cannot read `{path}`: {error}")
+        }
         (RequestError::System(error), RequestKind::Execute) => format!("cannot run `{path}`: {error}"),
         (RequestError::Failed { status, complaint }, _) if complaint.is_empty() => {
             format!("program `{path}` failed with {status}")

@@ -432,10 +432,12 @@ impl<'s> Writer<'s> {
             }
             MotionPath::Along(path) => {
                 self.text(" -path (");
-                for (row, Event { t, x }) in path.events().enumerate() {
-                    self.text(if row == 0 { "" } else { " " });
-                    self.number(t);
+                let mut behind = "";
+                for Event { t, x } in path.events() {
+                    self.text(behind);
+                    push_number(&mut self.out, &mut self.numbers, t);
                     self.point(x);
+                    behind = " ";
                 }
                 self.text(")");
             }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::curve::Curve;
 use super::statement::{Path, Statement, Stretch};
 use super::{Four, boosted, four_velocity, plus, product};
 
@@ -29,6 +30,7 @@ struct Rates {
 pub struct Body {
     at: DVec3,
     orbit: Option<(DVec3, DVec3, f64)>,
+    curve: Option<Curve>,
     pivots: [DVec3; MOST_TURNS],
     /// Own times, in order, the state there, and what acts up to the next.
     nodes: Vec<(f64, State, Rates)>,
@@ -59,13 +61,23 @@ impl Body {
             &Path::Orbit { center, axis, rate } => {
                 (rate * axis.cross(root.at - center), [].as_slice(), Some((center, axis, rate)))
             }
+            Path::Events(rows) => (Curve::new(rows).at(rows[0][0]).0, [].as_slice(), None),
             Path::On(_) => unreachable!("the last carrier is on no other"),
         };
         let mut pivots = [DVec3::ZERO; MOST_TURNS];
         pivots.iter_mut().zip(&turns).for_each(|(pivot, (at, _))| *pivot = *at);
         let at_start = [0.0, root.at.x, root.at.y, root.at.z];
-        let place = if orbit.is_some() { at_start } else { boosted(velocity, at_start) };
-        let mut body = Self { at: root.at, orbit, pivots, nodes: Vec::new() };
+        let curve = match &root.path {
+            Path::Events(rows) => Some(Curve::new(rows)),
+            _ => None,
+        };
+        let place = match &curve {
+            Some(curve) => curve.start(),
+            None if orbit.is_some() => at_start,
+            None => boosted(velocity, at_start),
+        };
+        let knots = curve.as_ref().map_or(Vec::new(), Curve::own_times);
+        let mut body = Self { at: root.at, orbit, curve, pivots, nodes: Vec::new() };
         let rates = |inside: f64| {
             let of = |pieces: &[Stretch]| {
                 let piece = pieces.iter().find(|piece| (piece.from..piece.to).contains(&inside));
@@ -78,6 +90,7 @@ impl Body {
         let pieces = accelerations.iter().chain(turns.iter().flat_map(|(_, spins)| *spins));
         let mut changes: Vec<f64> = pieces.flat_map(|piece| [piece.from, piece.to]).collect();
         changes.extend([begin, 0.0, end]);
+        changes.extend(knots);
         changes.retain(|change| (begin..=end).contains(change));
         changes.sort_by(f64::total_cmp);
         changes.dedup();
@@ -112,6 +125,7 @@ impl Body {
         let four = |row: usize| [s[row], s[row + 1], s[row + 2], s[row + 3]];
         let (u, axes) = (four(4), [four(8), four(12), four(16)]);
         let a = match self.orbit {
+            None if let Some(curve) = &self.curve => curve.acceleration(s[0]),
             None => {
                 let of = rates.acceleration.to_array();
                 (0..3).fold([0.0; 4], |sum, k| plus(sum, of[k], axes[k]))

@@ -2,11 +2,13 @@
 //! of motion in small steps.
 //!
 //! - [`statement`]: motions as text, and random ones;
+//! - [`curve`]: splines through events;
 //! - [`integrated`]: the world line of a body, by the method of Runge and Kutta;
 //! - [`sight`]: what is seen of it, by bisection, and along a ray by small steps into the past.
 //!
 //! No function of the programs is used. Events are (t, x, y, z), the metric is (−+++).
 
+pub mod curve;
 pub mod integrated;
 pub mod sight;
 pub mod statement;

@@ -5,6 +5,8 @@ use std::fmt::Write;
 use glam::DVec3;
 use ugtesting::Random;
 
+use super::Four;
+
 /// A vector that acts for a stretch of own time.
 #[derive(Clone, Copy, Debug)]
 pub struct Stretch {
@@ -35,6 +37,8 @@ pub enum Path {
         /// Radians per unit of the time of the scene.
         rate: f64,
     },
+    /// `-path`: t, x, y, z of events.
+    Events(Vec<Four>),
     /// `-on`: the row of another motion.
     On(usize),
 }
@@ -67,6 +71,11 @@ impl Statement {
             Path::Orbit { center, axis, rate } => {
                 write!(text, " -orbit {} {} {rate:?}", words(*center), words(*axis)).expect("memory");
             }
+            Path::Events(rows) => {
+                let rows: Vec<String> =
+                    rows.iter().map(|[t, x, y, z]| format!("{t:?} {x:?} {y:?} {z:?}")).collect();
+                write!(text, " -path ({})", rows.join("  ")).expect("memory");
+            }
             Path::On(carrier) => write!(text, " -on m{carrier}").expect("memory"),
         }
         self.spins.iter().for_each(|piece| text += &piece.option("spin"));
@@ -84,6 +93,8 @@ impl Statement {
             let part = 0.25 * arm.length();
             let rate = random.between(0.2, 1.0) * (part / (1.0 + part)).sqrt() / arm.length();
             Path::Orbit { center, axis, rate: if random.one_in(2) { rate } else { -rate } }
+        } else if random.one_in(3) {
+            Path::Events(events(random, at, 0.5 * speed))
         } else {
             let velocity = random.direction() * random.between(0.0, speed);
             let mut from = random.between(-9.0, 0.0);
@@ -104,6 +115,24 @@ impl Statement {
         let at = middle + random.in_ball(0.3);
         Self { at, path: Path::On(carrier), spins: spins(random, 0.15) }
     }
+}
+
+/// Events from `at` on, with a mean speed of `speed` at most, and an acceleration below 0.4.
+fn events(random: &mut Random, at: DVec3, speed: f64) -> Vec<Four> {
+    let velocity = random.in_ball(speed);
+    let [first, second] = [random.in_ball(0.4), random.in_ball(0.4)];
+    let [slow, fast] = [random.between(0.1, 0.4), random.between(0.4, 0.6)];
+    let start = random.between(-12.0, 2.0);
+    let mut passed = 0.0;
+    (0..2 + random.below(9))
+        .map(|_| {
+            let (rise, turn) = (1.0 - libm::cos(slow * passed), libm::sin(fast * passed));
+            let x = at + passed * velocity + rise * first + 0.5 * turn * second;
+            let row = [start + passed, x.x, x.y, x.z];
+            passed += random.between(0.5, 2.0);
+            row
+        })
+        .collect()
 }
 
 /// Up to 3 pieces of spin, or one for ever.

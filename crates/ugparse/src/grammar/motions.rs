@@ -110,7 +110,10 @@ impl Grammar<'_> {
             let (rest, name) = require(wanted(file_name(input), "a file name, or `(` and a list of events"))?;
             let span = Span { start: self.position(at), end: self.position(rest) };
             let start = span.start + u32::from(at.starts_with(b"\""));
-            return Ok((rest, PathStatement::File { span, name: Span { start, end: start + name.len() as u32 } }));
+            return Ok((
+                rest,
+                PathStatement::File { span, name: Span { start, end: start + name.len() as u32 } },
+            ));
         };
         let (mut input, mut events) = (list, Vec::new());
         while let (rest, Some(t)) = opt(number).parse(input)? {
