@@ -57,6 +57,16 @@ fn sane_motion(random: &mut Random, row: usize) -> String {
             let [u, v, w] = axis.to_array();
             let _ = write!(text, " -orbit {x} {y} {z} {u} {v} {w} {}", random.between(-0.2, 0.2));
         }
+        2 if random.one_in(2) => {
+            let [x, y, z] = random.in_ball(0.4).to_array();
+            let rows = (-3..4).map(|k| {
+                let k = f64::from(k);
+                let [u, v, w] = random.in_cube(0.1).to_array();
+                format!("{} {} {} {}", 2.0 * k, k * x + u, k * y + v, k * z + w)
+            });
+            let rows: Vec<String> = rows.collect();
+            let _ = write!(text, " -path ({})", rows.join(" "));
+        }
         kind => {
             let speed = *random.pick(&[0.5, 0.9, 0.999_999]);
             let [x, y, z] = (random.in_ball(speed)).to_array();
@@ -103,10 +113,15 @@ fn wild_motion(random: &mut Random, row: usize, n: usize) -> String {
             13 | 14 => {
                 write!(text, " -orbit {} {} {}", numbers(random, 3), numbers(random, 3), number(random))
             }
-            15 | 16 => write!(text, " -on m{}", random.below(n + 1)),
+            15 => write!(text, " -on m{}", random.below(n + 1)),
+            16 => {
+                let n_numbers = *random.pick(&[0, 4, 7, 8, 12, 40]);
+                write!(text, " -path ({})", numbers(random, n_numbers))
+            }
             17 | 18 => write!(text, " -shift {}", numbers(random, 4)),
             _ => {
-                let option = random.pick(&["-at", "-acc", "-spin", "-orbit", "-on", "-rotate", "-", "<m0>"]);
+                let option =
+                    random.pick(&["-at", "-acc", "-spin", "-orbit", "-path", "-on", "-rotate", "-", "<m0>"]);
                 let n_numbers = random.below(9);
                 write!(text, " {option} {}", numbers(random, n_numbers))
             }

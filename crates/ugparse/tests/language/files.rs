@@ -19,7 +19,7 @@ fn read_with(files: &[(&str, &str)], options: &Options) -> String {
         let found = files.iter().find(|(name, _)| Path::new(name) == request.path);
         let Some((_, text)) = found else { return Err(io::Error::other("no such file").into()) };
         match (request.kind, text.strip_prefix("#!")) {
-            (RequestKind::Include, None) => Ok(text.as_bytes().to_vec()),
+            (RequestKind::Include | RequestKind::Path, None) => Ok(text.as_bytes().to_vec()),
             (RequestKind::Execute, Some(rest)) => match rest.strip_prefix('3') {
                 Some(complaint) => {
                     Err(RequestError::Failed { status: "exit status: 3".into(), complaint: complaint.into() })
@@ -47,6 +47,47 @@ fn message_with(files: &[(&str, &str)], options: &Options) -> String {
     let title = lines.next().unwrap_or_default();
     let place = lines.next().unwrap_or_default().trim().trim_start_matches("--> ");
     format!("{title} at {place}")
+}
+
+/// Columns in any order, others, blanks in place of commas, comments; the writer states the events.
+#[test]
+fn tables_are_read() {
+    let scene = "include \"sub/ship.ug\";\nv a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <ship>;";
+    let motion = "motion ship -spin 0 0 .1 -path { of the ship } \"my table.csv\" ;";
+    let expected = "motion ship -path (-1 0 0 0 1 0.5 0 0 2 1 0.25 0) -spin 0 0 0.1;\n";
+    for table in [
+        "t,x,y,z\n-1,0,0,0\n1,0.5,0,0\n2,1,0.25,0\n",
+        "\u{feff}# 7 \"other\"\r\n\r\n\"x\", \"y\", \"name\", \"z\", \"t\"\r\n0,0,here,0,-1\r\n5e-1,-0, ,+0,1\r\n1,.25,there,0,2",
+        "  t x y z\n -1 0 0 0\n# then\n 1\t.5 0 0\n 2 1 .25  0 \n\n",
+    ] {
+        let written = read(&[("scene.ug", scene), ("sub/ship.ug", motion), ("sub/my table.csv", table)]);
+        assert!(written.starts_with(expected), "{table}: {written}");
+        assert_eq!(read(&[("written.ug", &written)]), written);
+    }
+    // Errors further on have the lines of the scene.
+    let table = ("a.csv", "t,x,y,z\n0,0,0,0\n1,0,0,0\n");
+    let text = "motion ship -path a.csv ;\nv a 0 0 0; f (a b a) <ship>;";
+    assert_eq!(message(&[("s.ug", text), table]), "error: vertex `b` is not defined at s.ug:2:17");
+    let missing = message(&[("s.ug", "motion ship -path b.csv ;"), table]);
+    assert_eq!(missing, "error: cannot read `b.csv`: no such file at s.ug:1:19");
+    // A file of another kind is not quoted.
+    let secret = read(&[("s.ug", "motion ship -path b.csv ;"), ("b.csv", "root:x:0\nt,x,y,z\n")]);
+    assert!(secret.contains("is not a table of events") && !secret.contains("root"), "{secret}");
+    // Without files a name is refused.
+    let alone = ugparse::parse(&Source::new("s.ug", "motion a -path b.csv ;"), &Options::default());
+    assert!(alone.unwrap_err().render(false).starts_with("error: tables are not read here"));
+}
+
+#[test]
+fn file_names_of_tables_stay_as_they_are() {
+    let tidy = |text: &str| {
+        let tidied = ugparse::tidy(&Source::new("s.ug", text), &Options::default()).unwrap();
+        String::from_utf8(tidied).unwrap()
+    };
+    let text = "motion a -path 007.50 -at 1.0 0 0 ;motion b -path {of} \"1.0 2\";motion c -path (0 0 0. 0 1.0 0 0 0);";
+    let expected = "motion a -path 007.50 -at 1 0 0;\nmotion b -path {of} \"1.0 2\";\nmotion c -path (0 0 0 0 1 0 0 0);\n";
+    assert_eq!(tidy(text), expected);
+    assert_eq!(tidy(expected), expected);
 }
 
 #[test]
