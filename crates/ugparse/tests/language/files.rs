@@ -54,7 +54,7 @@ fn message_with(files: &[(&str, &str)], options: &Options) -> String {
 fn tables_are_read() {
     let scene = "include \"sub/ship.ug\";\nv a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <ship>;";
     let motion = "motion ship -spin 0 0 .1 -path { of the ship } \"my table.csv\" ;";
-    let expected = "motion ship -path (-1 0 0 0 1 0.5 0 0 2 1 0.25 0) -spin 0 0 0.1;\n";
+    let expected = "{ of the ship }\nmotion ship -path (-1 0 0 0 1 0.5 0 0 2 1 0.25 0) -spin 0 0 0.1;\n";
     for table in [
         "t,x,y,z\n-1,0,0,0\n1,0.5,0,0\n2,1,0.25,0\n",
         "\u{feff}# 7 \"other\"\r\n\r\n\"x\", \"y\", \"name\", \"z\", \"t\"\r\n0,0,here,0,-1\r\n5e-1,-0, ,+0,1\r\n1,.25,there,0,2",
