@@ -68,7 +68,7 @@ fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
                 let bend = DVec3::new(libm::sin(0.6 * passed), libm::cos(0.5 * passed), 0.1 * passed);
                 Event { t: begins[0] + passed, x: x + 0.5 * bend }
             });
-            let spin = if kind % 2 == 0 { &[][..] } else { &pieces(random, 0.2) };
+            let spin = if kind.is_multiple_of(2) { &[][..] } else { &pieces(random, 0.2) };
             WorldLine::along(at, SampledPath::new(&rows).unwrap(), spin)
         }
         _ => {
