@@ -276,7 +276,7 @@ fn both_readers_agree_on_every_statement() {
     let slow = check(ALL);
     assert!(slow.faces.len() > 200 && slow.lights.len() > 15 && slow.cameras.len() > 10, "{slow:?}");
     let slow = check(
-        "motion ship -path (-1 0 0 0  { then } 1 .5 -.5 0\n 2 1 .25 1e-1) -spin 0 0 .1; motion part -on ship;
+        "motion ship -path (-1 0 0 0  { then } 1 .5 -.5 0\n 4 1 .25 1e-1) -spin 0 0 .1; motion part -on ship;
          v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) <ship>; f (c b a) <part>;",
     );
     assert_eq!(slow.motions["ship"]["-path"].len(), 15);
