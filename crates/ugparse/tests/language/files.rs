@@ -57,7 +57,7 @@ fn tables_are_read() {
     let expected = "{ of the ship }\nmotion ship -path (-1 0 0 0 1 0.5 0 0 2 1 0.25 0) -spin 0 0 0.1;\n";
     for table in [
         "t,x,y,z\n-1,0,0,0\n1,0.5,0,0\n2,1,0.25,0\n",
-        "\u{feff}# 7 \"other\"\r\n\r\n\"x\", \"y\", \"name\", \"z\", \"t\"\r\n0,0,here,0,-1\r\n5e-1,-0, ,+0,1\r\n1,.25,there,0,2",
+        "\u{feff}# 7 \"other\"\r\n\r\n\"x\", \"y\", \"name\", \"z\", \"t\"\r\n0,0,here,0,-1\r\n5e-1,+0, ,0,1\r\n1,.25,there,0,2",
         "  t x y z\n -1 0 0 0\n# then\n 1\t.5 0 0\n 2 1 .25  0 \n\n",
     ] {
         let written = read(&[("scene.ug", scene), ("sub/ship.ug", motion), ("sub/my table.csv", table)]);
