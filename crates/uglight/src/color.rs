@@ -46,11 +46,15 @@ impl RestColor {
         DVec3::from_array(self.light.unwrap_or_else(|| self.hsv.to_rgb().map(srgb_decode)))
     }
 
-    /// A statement of it.
+    /// A statement of it. Mixtures may be brighter than `c_rgb` can be, where a colour has a factor of
+    /// its light: they are light.
     pub fn value(&self) -> ColorValue {
         let Hsv { hue, saturation, value } = self.hsv;
         match self.light {
             Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
+            None if self.is_display && value > 1.0 => {
+                ColorValue::Xyz(linear_srgb_to_xyz(self.linear().to_array()))
+            }
             None if self.is_display => ColorValue::Rgb(self.hsv.to_rgb()),
             None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
         }

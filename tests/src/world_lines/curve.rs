@@ -38,9 +38,8 @@ impl Curve {
         for pivot in 0..n {
             for row in (0..n).filter(|&row| row != pivot) {
                 let factor = matrix[row][pivot] / matrix[pivot][pivot];
-                for column in 0..n {
-                    matrix[row][column] -= factor * matrix[pivot][column];
-                }
+                let subtracted = matrix[pivot].clone();
+                matrix[row].iter_mut().zip(subtracted).for_each(|(entry, other)| *entry -= factor * other);
                 right[row] = right[row] - factor * right[pivot];
             }
         }

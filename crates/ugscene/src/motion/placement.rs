@@ -3,6 +3,8 @@
 //! All three add a constant to the rest coordinates of a body. So all later steps work on rest
 //! coordinates alone, and the rest geometry recovered from the output has the same shape.
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 use ugphysics::{Lorentz, observer_shift};
 
@@ -156,5 +158,9 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
         let velocity = scene.bodies.velocity(body);
         (shift != DVec3::ZERO).then_some(LampShift { velocity, shift })
     };
-    scene.lamp_shifts = shifts.into_iter().filter_map(stated).collect();
+    // Bodies with motions of their own may have one velocity, for which one shift is stated.
+    let mut velocities = HashSet::new();
+    let key = |shift: &LampShift| (shift.velocity.beta() + DVec3::ZERO).to_array().map(f64::to_bits);
+    let is_new = |shift: &LampShift| velocities.insert(key(shift));
+    scene.lamp_shifts = shifts.into_iter().filter_map(stated).filter(is_new).collect();
 }
