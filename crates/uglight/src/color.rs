@@ -46,8 +46,8 @@ impl RestColor {
         DVec3::from_array(self.light.unwrap_or_else(|| self.hsv.to_rgb().map(srgb_decode)))
     }
 
-    /// A statement of it. Mixtures may be brighter than `c_rgb` can be, where a colour has a factor of
-    /// its light: they are light.
+    /// A statement of it. A mixture that is brighter than the largest `c_rgb`, because a colour of
+    /// it has a factor above 1, is written as light (`c_xyz`).
     pub fn value(&self) -> ColorValue {
         let Hsv { hue, saturation, value } = self.hsv;
         match self.light {
@@ -124,6 +124,12 @@ pub fn is_light(color: &Color) -> bool {
     !matches!(color.value, ColorValue::Hsv { .. } | ColorValue::Rgb(_))
 }
 
+/// Linear red, green and blue as the hue, saturation and value that a display shows: channels below
+/// 0 are clipped, those above 1 are kept.
+pub(crate) fn encoded_hsv(linear: [f64; 3]) -> Hsv {
+    Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0))))
+}
+
 /// True for red, green and blue of a display (`c_rgb`), of which meshes consist as well.
 pub fn is_display(color: &Color) -> bool {
     matches!(color.value, ColorValue::Rgb(_))
@@ -158,7 +164,7 @@ fn shown(xyz: [f64; 3]) -> Hsv {
     const BRIGHTEST: f64 = 1e300;
     let largest = xyz.iter().fold(BRIGHTEST, |largest, part| largest.max(part.abs()));
     let xyz = xyz.map(|part| part * (BRIGHTEST / largest));
-    Hsv::from_rgb(xyz_to_linear_srgb(xyz).map(|channel| srgb_encode(channel.max(0.0))))
+    encoded_hsv(xyz_to_linear_srgb(xyz))
 }
 
 /// The spectrum of a colour statement: for `c`, `c_rgb` and `c_xyz` that of a surface of

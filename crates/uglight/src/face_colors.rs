@@ -59,7 +59,8 @@ impl Appearance {
         Common { grey_tint, translucency, is_light, is_display }
     }
 
-    /// True if the colours of corners are drawn as light, because of one of a display.
+    /// True if corners with these colours are interpolated in linear light, because one of them was
+    /// written as red, green and blue (`c_rgb`) and they differ.
     pub fn mixes_light(&self, swatches: impl Iterator<Item = Swatch> + Clone) -> bool {
         let Some(first) = swatches.clone().next() else { return false };
         let is_even = swatches.clone().all(|swatch| swatch == first);

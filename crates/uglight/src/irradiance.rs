@@ -85,25 +85,27 @@ impl SurfaceElement {
         // Those that follow are colours of lamps that change.
         for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
             let place = lamp.shifted(place(row, lamp), shift);
-            let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
-                if level > 0.0 {
-                    visit(IncidentLamp {
-                        irradiance: Irradiance { lamp: row as u32, level, doppler },
-                        toward,
-                        part,
-                    });
-                }
+            let colors = match &lamp.table {
+                Some(table) => match self.lamp_time(lamp, place, frames) {
+                    Some(own_time) => Some(table.at(own_time)),
+                    None => continue,
+                },
+                None => None,
             };
-            if let Some(table) = &lamp.table {
-                if let Some((incident, own_time)) = self.of_changing(lamp, place, frames) {
-                    for (lamp, share) in table.at(own_time) {
-                        let Irradiance { level, doppler, .. } = incident.irradiance;
-                        let irradiance = Irradiance { lamp, level: share * level, doppler };
-                        visit(IncidentLamp { irradiance, part: share * incident.part, ..incident });
+            let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
+                let mut of_color = |lamp: u32, share: f64| {
+                    let irradiance = Irradiance { lamp, level: share * level, doppler };
+                    visit(IncidentLamp { irradiance, toward, part: share * part });
+                };
+                match colors {
+                    _ if level <= 0.0 => {}
+                    None => of_color(row as u32, 1.0),
+                    Some(colors) => {
+                        let lit = colors.into_iter().filter(|&(_, share)| share > 0.0);
+                        lit.for_each(|(lamp, share)| of_color(lamp, share));
                     }
                 }
-                continue;
-            }
+            };
             match self.moving_body(lamp, frames) {
                 None => {
                     let level = lamp.level_from(place, standing.point, standing.normal);
@@ -118,34 +120,22 @@ impl SurfaceElement {
         }
     }
 
-    /// The light of a lamp whose colour changes, and the own time at which it sent it: a local lamp
-    /// with a motion. The row of the lamp is not set.
-    fn of_changing(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<(IncidentLamp, f64)> {
+    /// The own time at which a lamp sent the light that the surface scatters: a lamp with a place and
+    /// a motion.
+    fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
         let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
-        let incident = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
-            let irradiance = Irradiance { lamp: 0, level, doppler };
-            (level > 0.0).then_some(IncidentLamp { irradiance, toward, part })
-        };
-        let Some(body) = self.moving_body(lamp, frames) else {
-            let ScatteringTime::Delay(delay) = self.time else { return None };
-            let toward = self.direction_at_rest(place)?;
-            let part = lamp.part_at(toward.1);
-            let found = incident(lamp.level_from(place, self.point, self.normal), 1.0, Some(toward), part)?;
-            return Some((found, delay - ugphysics::length(self.point) - toward.1));
-        };
-        let mut found = None;
-        self.of_moving(lamp, (place, body), frames, &mut |level, doppler, toward, part| {
-            found = incident(level, doppler, toward, part);
-        });
+        if let (None, ScatteringTime::Delay(delay)) = (self.moving_body(lamp, frames), self.time) {
+            let (_, distance) = self.direction_at_rest(place)?;
+            return Some(delay - ugphysics::length(self.point) - distance);
+        }
         let event = MovingElement::new(self, frames)?.event_at(self, frames)?;
-        let own_time = match frames.world_line(own) {
-            Some(line) => line.emission(at, event).ok()?.own_time,
+        match frames.world_line(own) {
+            Some(line) => Some(line.emission(at, event).ok()?.own_time),
             None => {
                 let Event { t, x } = frames.of(own).rest_from_camera(event);
-                t - ugphysics::length(at - x)
+                Some(t - ugphysics::length(at - x))
             }
-        };
-        Some((found?, own_time))
+        }
     }
 
     /// For lamps that rest with whatever they light: a body on a world line is lit as it stands in

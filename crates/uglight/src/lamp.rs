@@ -48,15 +48,15 @@ pub struct Lamp {
 #[derive(Clone, Debug)]
 pub struct LampTable {
     table: ColorTable,
-    /// For each colour of the table the row of a lamp with that colour.
+    /// The row of [`Lamps`] that holds each colour of the table.
     rows: BTreeMap<ColorId, u32>,
 }
 
 impl LampTable {
-    /// The rows of the lamps whose light this one sends at an own time, with their shares.
-    pub fn at(&self, own_time: f64) -> impl Iterator<Item = (u32, f64)> {
-        let parts = self.table.at(own_time).parts.into_iter().filter(|part| part.1 > 0.0);
-        parts.filter_map(|(color, share)| Some((*self.rows.get(&color)?, share)))
+    /// The rows of the lamps whose light this one sends at an own time, with their shares; the
+    /// second may have none.
+    pub fn at(&self, own_time: f64) -> [(u32, f64); 2] {
+        self.table.at(own_time).parts.map(|(color, share)| (self.rows[&color], share))
     }
 }
 

@@ -1,9 +1,9 @@
 //! Colours that change with own time (`c_time`), at one time.
 
 use glam::DVec3;
-use ugphysics::{Hsv, srgb_encode};
 use ugscene::{ColorId, Mix, Scene};
 
+use crate::color::encoded_hsv;
 use crate::{Appearance, RestColor, SurfaceColor, SurfaceSpectrum, Swatch};
 
 /// The colour of parts with shares that add up to 1, the second of which may have none: the mean of
@@ -16,11 +16,12 @@ pub fn mean_color([a, b]: [(RestColor, f64); 2]) -> RestColor {
     let linear = a.1 * a.0.linear() + b.1 * b.0.linear();
     let is_light = a.0.light.is_some() || b.0.light.is_some();
     let light = is_light.then(|| linear.to_array());
-    RestColor { hsv: encoded(linear), light, is_display: false, translucency: a.0.translucency }
-}
-
-fn encoded(linear: DVec3) -> Hsv {
-    Hsv::from_rgb(linear.to_array().map(|channel| srgb_encode(channel.max(0.0))))
+    RestColor {
+        hsv: encoded_hsv(linear.to_array()),
+        light,
+        is_display: false,
+        translucency: a.0.translucency,
+    }
 }
 
 /// Gives all colours that change with own time their colour at own time 0, for programs that show
@@ -77,6 +78,6 @@ impl Appearance {
         let mean = a.1 * linear(a.0) + b.1 * linear(b.0);
         let is_light = a.0.light.is_some() || b.0.light.is_some();
         let light = is_light.then_some(mean);
-        Swatch { light, translucency: a.0.translucency, ..self.palette.swatch(encoded(mean)) }
+        Swatch { light, translucency: a.0.translucency, ..self.palette.swatch(encoded_hsv(mean.to_array())) }
     }
 }

@@ -1,9 +1,9 @@
 //! The colour of a vertex: its own, or the mean of those of its faces (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugphysics::{Hsv, srgb_encode};
 use ugscene::{ColorId, Scene, Shares, vertex_shares};
 
+use crate::color::encoded_hsv;
 use crate::{RestColor, is_display, is_light};
 
 /// The colour of a vertex.
@@ -53,7 +53,7 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
     }
     let linear = sum.to_array();
     VertexColor::Mixed(RestColor {
-        hsv: Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0)))),
+        hsv: encoded_hsv(linear),
         light: has_light.then_some(linear),
         is_display: has_display && !has_light,
         translucency,

@@ -88,7 +88,7 @@ pub fn apply_with(
         (config.measure || is_short).then(|| remaining_errors::measure(&scene, &mesh, &bounds));
     // After cutting, so that neighbours are cut alike.
     if scene.has_changing_surfaces() {
-        clocks::show(&mut scene, mesh.points.iter().map(clocks::own_time).collect());
+        clocks::show(&mut scene, mesh.points.iter().map(|point| point.own_time).collect());
     }
     if is_apart {
         ugscene::repeat_vertices(&mut scene, true);

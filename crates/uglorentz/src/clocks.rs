@@ -83,7 +83,7 @@ impl Clocks {
         if lights.is_empty() || self.bound == f64::INFINITY || is_short(a, b, tan_half) {
             return false;
         }
-        let ends = [a, b].map(own_time);
+        let ends = [a, b].map(|end| end.own_time);
         SAMPLES.into_iter().any(|s| {
             let point = match motion.world_line() {
                 Some(line) => between(a, b, line, s),
@@ -92,9 +92,7 @@ impl Clocks {
             let chord = b.seen - a.seen;
             let along = (point.seen - a.seen).dot(chord) / chord.length_squared();
             let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { s };
-            lights
-                .iter()
-                .any(|lights| lights.is_off(ends, [1.0 - along, along], own_time(&point), self.bound))
+            lights.iter().any(|lights| lights.is_off(ends, [1.0 - along, along], point.own_time, self.bound))
         })
     }
 
@@ -116,20 +114,14 @@ impl Clocks {
             }
             None => Point::new(motion, a.body, rest),
         };
-        let (ends, weights) = (corners.map(own_time), [1.0 / 3.0; 3]);
-        lights.iter().any(|lights| lights.is_off(ends, weights, own_time(&point), self.bound))
+        let (ends, weights) = (corners.map(|corner| corner.own_time), [1.0 / 3.0; 3]);
+        lights.iter().any(|lights| lights.is_off(ends, weights, point.own_time, self.bound))
     }
 }
 
 /// Is an edge too short to be halved for its colours?
 fn is_short(a: &Point, b: &Point, tan_half: f64) -> bool {
     tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= BLUR * tan_half
-}
-
-/// The time on which the tables of its body are based when the light left: on a world line that of
-/// the body, else that of its rest frame, from the event of the eye.
-pub(crate) fn own_time(point: &Point) -> f64 {
-    if point.is_on_world_line { point.own_time } else { -point.rest_distance }
 }
 
 impl Lights {
@@ -178,7 +170,7 @@ impl Lights {
 }
 
 /// Gives the corners of faces and wires whose colour changes the colour that they had when their
-/// light left. `times`: of each vertex, see [`own_time`]. Only lights keep their tables.
+/// light left. `times`: of each vertex, see [`Point::own_time`]. Only lights keep their tables.
 pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
     if !scene.has_changing_surfaces() {
         return;

@@ -18,10 +18,9 @@ pub(crate) struct Point {
     pub seen_distance: f64,
     /// 1/D, (P10).
     pub inverse_doppler: f64,
-    /// The own time of a body on a world line at emission; 0 for inertial bodies.
+    /// The own time of the body at emission, on which tables of colours are based: on a world line
+    /// that of its reference point, else the time of its rest frame after the event of the eye.
     pub own_time: f64,
-    /// True on a body that is not inertial.
-    pub is_on_world_line: bool,
     /// The body it is part of.
     pub body: BodyId,
     /// Number of halvings that led to it: 0 for a vertex of the scene.
@@ -47,19 +46,8 @@ impl Point {
         } else {
             1.0 / doppler_at(seen, motion.velocity())
         };
-        let (own_time, generation) = (0.0, 0);
-        let is_on_world_line = false;
-        Point {
-            rest,
-            seen,
-            rest_distance,
-            seen_distance,
-            inverse_doppler,
-            own_time,
-            is_on_world_line,
-            body,
-            generation,
-        }
+        let (own_time, generation) = (-rest_distance, 0);
+        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation }
     }
 
     /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
@@ -76,18 +64,7 @@ impl Point {
         };
         let seen_distance = seen.length();
         let rest_distance = seen_distance * inverse_doppler;
-        let (is_on_world_line, generation) = (true, 0);
-        Point {
-            rest,
-            seen,
-            rest_distance,
-            seen_distance,
-            inverse_doppler,
-            own_time,
-            is_on_world_line,
-            body,
-            generation,
-        }
+        Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation: 0 }
     }
 
     /// True for a point at the eye, whose direction is undefined if it moves.

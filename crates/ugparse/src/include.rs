@@ -1,5 +1,5 @@
 //! Replaces `include` statements by the text of files, `execute` statements by the output of
-//! programs, and the names of tables by their events.
+//! programs, and the file name after `-path` by the events in that file.
 //!
 //! The result is one text, with line marks of the C preprocessor where files begin and continue, so
 //! that messages name the original file and line. The caller reads the files and runs the programs;
@@ -24,7 +24,8 @@ use crate::source::{LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
-/// programs, and the files that `-path` names by their events; reads a mesh of another format, with the files that it names.
+/// programs, and the file name after `-path` by the events in that file; reads a mesh of another
+/// format, with the files that it names.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
 /// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)

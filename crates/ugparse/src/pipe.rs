@@ -49,8 +49,8 @@ pub fn origin(context: &Context) -> Origin {
     Origin::Pending { name: context.recorded_name(), sha256: ugpipe::sha256 }
 }
 
-/// Replaces the `include` and `execute` statements and the tables of events of a scene, or reads a mesh, see
-/// [`crate::include`]. Error output of successful programs is reported as a note.
+/// Replaces the `include` and `execute` statements and the tables of events of a scene, or reads a
+/// mesh, see [`crate::include`]. Error output of successful programs is reported as a note.
 ///
 /// # Errors
 /// See [`crate::include`].

@@ -18,8 +18,9 @@ pub fn sane(random: &mut Random) -> String {
     scene(random, motions, names)
 }
 
-/// The same with speeds near that of light, numbers at the ends of their ranges, pieces that
-/// overlap, motions that ride on each other in a circle or very deep, and statements that are none.
+/// Scenes whose motions are extreme or wrong: speeds near that of light, numbers at the limits of
+/// their ranges, overlapping pieces, motions that ride on each other in a circle or in long chains,
+/// and malformed statements.
 pub fn wild(random: &mut Random) -> String {
     let motions = match random.below(16) {
         0 => {

@@ -140,7 +140,7 @@ fn pipe(
             for reader in readers(&words) {
                 let read = stage(programs, &reader, &input, folder, Edge::Plain, MEMORY_LIMIT)?;
                 let messages = String::from_utf8_lossy(&read.messages).into_owned();
-                // A valid scene may be empty, and have an eye that its camera's motion cannot carry.
+                // A valid scene may be empty, or have an eye that its camera's motion cannot carry.
                 let excuses = ["there is nothing to draw", "the eye cannot move with the motion"];
                 let is_excused = excuses.iter().any(|excuse| messages.contains(excuse));
                 if read.status.code() != Some(0) && !is_excused {

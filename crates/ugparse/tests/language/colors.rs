@@ -213,7 +213,7 @@ fn tables_of_own_times_are_kept() {
     };
     let table = "c_time t -step -period 3 0 r 1.5 g;";
     row(&format!("{table} FACE f (a b c) t;"), &[table, "f (a b c) t;"]);
-    // Colours may be defined after their use, and the same one may stand in every row.
+    // A colour may be defined after the table that uses it, and rows may share one.
     let table = "c_time t -2 g 0 g;";
     row(&format!("FACE f (a b c) t; {table}"), &[table, "f (a b c) t;"]);
 }

@@ -1,9 +1,9 @@
-//! The greatest of any stretch of a list.
+//! The maximum of any range of a list, in logarithmic time.
 
 use core::ops::Range;
 
-/// A binary tree whose leaves are the second half of the list; each parent has the maxima of its two
-/// children.
+/// A binary tree whose leaves are the second half of the list; each parent has the maxima of its
+/// two children.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RangeMaximum(Vec<[f64; 2]>);
 

@@ -46,8 +46,8 @@ impl Instant {
         (1.0 - speed) * (1.0 + speed)
     }
 
-    /// A lower bound of 1 − v² between two instants of a row that are `time` apart: v is a parabola,
-    /// so v² is within the control points of its Bézier curve of the fourth degree.
+    /// A lower bound of 1 − v² between two instants of a row that are `time` apart: v is a
+    /// parabola, so v² is within the control points of its Bézier curve of the fourth degree.
     pub(super) fn least_slowness_between(start: &Self, end: &Self, time: f64) -> f64 {
         let (a, c) = (start.velocity, end.velocity);
         let b = a + 0.5 * time * start.second;

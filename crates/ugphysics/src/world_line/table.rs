@@ -60,12 +60,12 @@ pub(super) const ALL_TIMES: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 #[derive(Clone, Copy, Debug)]
 struct Step {
     own_time: f64,
-    /// The vector about which the carried axes turn, by its length.
+    /// The rotation of the carried axes: along its axis, with the angle in radians as length.
     turn: DVec3,
 }
 
-/// A step of the sixth order, by the rule of Gauss and Legendre with three nodes. For the turn it is
-/// that of Magnus: dR/dt = [ω]× R with ω = γ²/(γ + 1) dv/dt × v (Thomas). Commutators of [a]× and
+/// A step of the sixth order, by the rule of Gauss and Legendre with three nodes. For the turn it
+/// is that of Magnus: dR/dt = [ω]× R with ω = γ²/(γ + 1) dv/dt × v (Thomas). Commutators of [a]× and
 /// [b]× are [a × b]×, so they are cross products.  Eq. (P48)
 fn step(row: &Row, from: f64, to: f64) -> Step {
     let length = to - from;

@@ -36,8 +36,8 @@ fn lit_band(level: f64, colors: &str, [a, b]: [&str; 2], config: &Config, part: 
     frame.pixel((part * f64::from(frame.width())) as u32, frame.height() / 2)
 }
 
-/// Half way between colours of which one is written as red, green and blue, light is the mean of
-/// their linear light. The level of the light multiplies what is displayed, as it does of hues.
+/// Half way between two colours, one of them written as `c_rgb`, the linear light is the mean of
+/// theirs. The level of a lamp multiplies the encoded values, as it does for hues.
 #[test]
 fn red_green_and_blue_mix_as_light() {
     let (_, config) = map(101, 5);
