@@ -1,7 +1,7 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueShift, VertexColor};
+use uglight::{HueColor, HueShift, RestColor, VertexColor};
 use ugphysics::{hue_to_wavelength, srgb_decode, srgb_encode};
 use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
@@ -24,9 +24,11 @@ pub(crate) struct HueStatements<'s> {
     /// By row of the colour at rest, quantized D, and whether a colour of a display is on a moving
     /// body.
     made: FxHashMap<(u32, u64, bool), ColorId>,
-    /// Colours that include light, by translucency and quantized wavelength, saturation, value and
-    /// factor.
-    lit: FxHashMap<[u64; 5], ColorId>,
+    /// Colours that include light, by translucency, kind, and quantized wavelength (or hue, of a
+    /// display), saturation, value and factor.
+    lit: FxHashMap<[u64; 6], ColorId>,
+    /// Statements that become red, green and blue of a display in the end.
+    displays: Vec<ColorId>,
     /// Colours at rest, and their rows.
     bases: Vec<Base>,
     base_rows: FxHashMap<BaseKey, u32>,
@@ -42,6 +44,14 @@ enum BaseKey {
     White,
     /// See [`uglight::RestColor::key`].
     Mixed([u64; 5]),
+}
+
+/// A colour that includes light, or is written as it is seen.
+#[derive(Clone, Copy)]
+pub(crate) struct LitColor {
+    pub seen: HueColor,
+    /// It is written as red, green and blue of a display, of which mixtures are mixtures of light.
+    pub is_display: bool,
 }
 
 /// A colour at rest.
@@ -62,6 +72,7 @@ impl<'s> HueStatements<'s> {
             step: 2.0 * config.bounded_tolerance() / LONGEST_NM,
             made: FxHashMap::default(),
             lit: FxHashMap::default(),
+            displays: Vec::new(),
             bases: Vec::new(),
             base_rows: FxHashMap::default(),
             names,
@@ -91,17 +102,17 @@ impl<'s> HueStatements<'s> {
     }
 
     /// Gives vertex `row` a colour that includes light already; `color` is that of the surface.
-    pub fn set_lit(&mut self, row: usize, color: VertexColor, seen: HueColor) {
+    pub fn set_lit(&mut self, row: usize, color: VertexColor, lit: LitColor) {
         let base = self.base(color);
         let base = &self.bases[base as usize];
-        let (key, n_lit) = (self.lit_key(base.translucency, seen), self.lit.len());
+        let (key, n_lit) = (self.lit_key(base.translucency, lit), self.lit.len());
         let id = match self.lit.get(&key) {
             Some(&id) => id,
             None => {
-                self.largest = self.largest.max(self.intensity(&seen));
+                self.largest = self.largest.max(self.intensity(&lit.seen));
                 let name = self.names.fresh(&format!("{}#lit{}", base.name, n_lit + 1));
                 let name = self.scene.names.add(&name);
-                let id = self.push(name, seen, base.translucency);
+                let id = self.push(name, lit, base.translucency);
                 self.lit.insert(key, id);
                 id
             }
@@ -111,16 +122,18 @@ impl<'s> HueStatements<'s> {
 
     /// The key under which lit colours that differ by less than the tolerance are found: the first
     /// of them stands for all.
-    fn lit_key(&self, translucency: f64, seen: HueColor) -> [u64; 5] {
+    fn lit_key(&self, translucency: f64, LitColor { seen, is_display }: LitColor) -> [u64; 6] {
         let tolerance = self.config.bounded_tolerance();
         let step = |number: f64, width: f64| {
             let number = if tolerance > 0.0 { (number / width).round() } else { number };
             number.to_bits()
         };
-        let wavelength = if seen.saturation > 0.0 { seen.wavelength_nm } else { 0.0 };
+        let tint = if is_display { seen.hue } else { seen.wavelength_nm };
+        let tint = if seen.saturation > 0.0 { tint } else { 0.0 };
         [
             translucency.to_bits(),
-            step(wavelength, tolerance),
+            u64::from(is_display),
+            step(tint, tolerance),
             step(seen.saturation, tolerance / 100.0),
             // Relative to the value, since the iris may scale dark scenes up.
             step(libm::log(seen.value), tolerance / 100.0),
@@ -163,22 +176,23 @@ impl<'s> HueStatements<'s> {
             self.names.fresh(&base.name)
         };
         let name = self.scene.names.add(&name);
+        let translucency = base.translucency;
         if let (false, VertexColor::Mixed(color)) = (is_changed, base.given)
-            && (color.light.is_some() || color.is_display && !is_moving)
+            && color.light.is_some()
         {
-            let translucency = color.translucency;
             self.scene.colors.push(Color { name, value: color.value(), translucency });
             return ColorId::from_index(self.scene.colors.len() - 1);
         }
-        let translucency = base.translucency;
-        self.push(name, seen, translucency)
+        let is_display = !is_changed && base.is_display && !is_moving;
+        self.push(name, LitColor { seen, is_display }, translucency)
     }
 
     /// Adds a colour statement. Greys have no hue, and are written with 0.
-    fn push(&mut self, name: NameId, color: HueColor, translucency: f64) -> ColorId {
+    fn push(&mut self, name: NameId, color: LitColor, translucency: f64) -> ColorId {
+        let LitColor { seen: color, is_display } = color;
         let tint = match color.saturation {
             0.0 => Tint::new(0.0, self.config.hue_scale()),
-            _ if self.config.wavelengths => Tint::Wavelength(color.wavelength_nm),
+            _ if self.config.wavelengths && !is_display => Tint::Wavelength(color.wavelength_nm),
             _ => Tint::Hue(color.hue),
         };
         let HueColor { value, saturation, .. } = color;
@@ -186,7 +200,11 @@ impl<'s> HueStatements<'s> {
         let factor = if color.factor.is_nan() { 0.0 } else { color.factor.min(f64::MAX) };
         let value = ColorValue::Hsv { value, tint, saturation, factor };
         self.scene.colors.push(Color { name, value, translucency });
-        ColorId::from_index(self.scene.colors.len() - 1)
+        let id = ColorId::from_index(self.scene.colors.len() - 1);
+        if is_display {
+            self.displays.push(id);
+        }
+        id
     }
 
     /// The row of a colour at rest.
@@ -203,11 +221,7 @@ impl<'s> HueStatements<'s> {
             VertexColor::White => ("white".to_string(), 0.0),
             VertexColor::Mixed(color) => (format!("mixed{}", self.bases.len() + 1), color.translucency),
         };
-        let is_display = match given {
-            VertexColor::Named(id) => uglight::is_display(&self.scene.colors[id.index()]),
-            VertexColor::White => false,
-            VertexColor::Mixed(color) => color.is_display,
-        };
+        let is_display = given.is_display(self.scene);
         let color = crate::hue_color(self.scene, self.shift, given);
         let base = Base { given, color, translucency, is_display, name };
         // Scenes have fewer than 2^32 vertices.
@@ -234,7 +248,13 @@ impl<'s> HueStatements<'s> {
                 };
             }
         }
-        if self.config.iris { self.scale_values() } else { self.clip_values() }
+        let notes = if self.config.iris { self.scale_values() } else { self.clip_values() };
+        for id in self.displays {
+            let hsv = uglight::hsv(self.scene, &self.scene.colors[id.index()]);
+            self.scene.colors[id.index()].value =
+                RestColor { hsv, is_display: true, ..RestColor::WHITE }.value();
+        }
+        notes
     }
 
     /// Divides the values of vertices by the largest. Those of lights stay, for they multiply what

@@ -60,7 +60,7 @@ pub use config::{Config, DEFAULT_TOLERANCE};
 pub use error::Error;
 pub use notes::Note;
 
-use hue_statements::HueStatements;
+use hue_statements::{HueStatements, LitColor};
 use irradiance::VertexIrradiance;
 use vertices::doppler_factors;
 
@@ -169,13 +169,13 @@ fn color(
         let mut colors = uglight::vertex_colors(&scene, &rest);
         let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut colors, progress)?;
         let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
-        let lit = light.map(|light| lit_hues(&scene, shift, &colors, &factors, &light));
+        let lit = light.map(|light| lit_colors(&scene, shift, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
         let mut statements = HueStatements::new(&mut scene, config, shift);
         for (row, (&color, &doppler)) in colors.iter().zip(&factors).enumerate() {
             match lit.as_ref().and_then(|lit| lit[row]) {
                 _ if !used[row] => {}
-                Some(seen) => statements.set_lit(row, color, seen),
+                Some(lit) => statements.set_lit(row, color, lit),
                 None => statements.set(row, color, doppler),
             }
         }
@@ -223,28 +223,52 @@ fn light_vertices<T: Clone>(
 }
 
 /// The colour as seen of every vertex with light on it; `None` where it is not lit.
-fn lit_hues(
+///
+/// One of a display stays red, green and blue where nothing shifts it, and it is mixed with other
+/// colours in a face, or would be faded as a hue.
+fn lit_colors(
     scene: &Scene,
     shift: HueShift,
     colors: &[VertexColor],
     factors: &[f64],
     light: &VertexIrradiance,
-) -> Vec<Option<HueColor>> {
-    let all = colors.par_iter().zip(factors).zip(&light.of_vertex);
-    all.map(|((&color, &doppler), parts)| {
-        let base = hue_color(scene, shift, color);
-        Some(shift.seen_lit(base, doppler, parts.as_ref()?, &light.lamps))
+) -> Vec<Option<LitColor>> {
+    let is_mixed = displays_in_mixtures(scene, colors);
+    let all = colors.par_iter().zip(factors).zip(&light.of_vertex).zip(is_mixed);
+    all.map(|(((&color, &doppler), parts), is_mixed)| {
+        let (base, parts) = (hue_color(scene, shift, color), parts.as_ref()?);
+        let is_display = is_mixed || base.is_faded() && color.is_display(scene);
+        let colors = || (color.at_rest(scene).linear(), base);
+        let display = || shift.display_lit(colors(), doppler, parts, &light.lamps).map(HueColor::of_display);
+        let display = if is_display { display() } else { None };
+        let hue = || shift.seen_lit(base, doppler, parts, &light.lamps);
+        Some(LitColor { seen: display.unwrap_or_else(hue), is_display: display.is_some() })
     })
     .collect()
+}
+
+/// For each vertex whether it has the colour of a display, and a face of it other colours as well.
+fn displays_in_mixtures(scene: &Scene, colors: &[VertexColor]) -> Vec<bool> {
+    let mut is_mixed = vec![false; colors.len()];
+    if !scene.colors.iter().any(uglight::is_display) {
+        return is_mixed;
+    }
+    for face in &scene.faces {
+        let corners = scene.contours.corners(face.contours.clone());
+        let of = |corner: &ugscene::VertexId| colors[corner.index()];
+        if corners.iter().any(|corner| of(corner) != of(&corners[0])) {
+            let displays = corners.iter().filter(|corner| of(corner).is_display(scene));
+            displays.for_each(|corner| is_mixed[corner.index()] = true);
+        }
+    }
+    is_mixed
 }
 
 /// A colour at rest as `shift` requires it: with the factor of its linear light if the law acts on
 /// that, else with a value that contains the factor.
 pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> HueColor {
     match color {
-        VertexColor::Named(id) if uglight::is_display(&scene.colors[id.index()]) => {
-            uglight::display_hue(scene, id).into()
-        }
+        VertexColor::Named(id) if color.is_display(scene) => uglight::display_hue(scene, id).into(),
         VertexColor::Named(id) if shift.law.acts_on_light() => {
             let (hsv, factor) = hsv_and_factor(scene, &scene.colors[id.index()]);
             HueColor { factor, ..hsv.into() }

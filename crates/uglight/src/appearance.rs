@@ -242,23 +242,20 @@ impl Appearance {
     /// [`Appearance::hue_light`] of a colour of a display that is drawn as light. Where something
     /// shifts it, it is the hue that it stands for.
     fn display_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
-        let is_shifted = |doppler: f64| doppler != 1.0 && !self.keeps_light();
-        let level = match light {
-            Illumination::Level(level) => DVec3::splat(level),
-            Illumination::Lamps(parts, _) if parts.iter().any(|part| is_shifted(part.doppler)) => {
-                return self.hue_light(&Swatch { light: None, ..*rest }, doppler, light);
+        let shift = self.hue_shift;
+        let lit = rest.light.and_then(|own| match light {
+            Illumination::Level(_) if shift.shifts(doppler) => None,
+            Illumination::Level(level) => {
+                let is_display = !shift.law.acts_on_light();
+                Swatch { is_display, ..*rest }.lit(DVec3::splat(level))
             }
             Illumination::Lamps(parts, lamps) => {
-                let of_lamp =
-                    |part: &Irradiance| part.level * self.hue_shift.color_of(&lamps[part.lamp as usize]);
-                parts.iter().map(of_lamp).sum()
+                shift.display_lit((own, self.hue_color(rest)), doppler, parts, lamps)
             }
-        };
-        if is_shifted(doppler) {
+        });
+        let Some(lit) = lit else {
             return self.hue_light(&Swatch { light: None, ..*rest }, doppler, light);
-        }
-        let is_display = !self.hue_shift.law.acts_on_light();
-        let lit = Swatch { is_display, ..*rest }.lit(level).unwrap_or_default();
+        };
         lit.min(DVec3::splat(self.ceiling))
     }
 

@@ -130,6 +130,13 @@ pub(crate) fn encoded_hsv(linear: [f64; 3]) -> Hsv {
     Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0))))
 }
 
+/// Linear light of a surface whose colour is that of a display, under levels of red, green and blue:
+/// they multiply display-encoded channels, as they do of hues.
+pub(crate) fn lit_display(linear: DVec3, level: DVec3) -> DVec3 {
+    let lit = |channel: f64, level: f64| srgb_decode(srgb_encode(channel) * level);
+    DVec3::new(lit(linear.x, level.x), lit(linear.y, level.y), lit(linear.z, level.z))
+}
+
 /// True for red, green and blue of a display (`c_rgb`), of which meshes consist as well.
 pub fn is_display(color: &Color) -> bool {
     matches!(color.value, ColorValue::Rgb(_))

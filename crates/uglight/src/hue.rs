@@ -5,6 +5,7 @@ use ugphysics::{
     Brightness, Hsv, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
 };
 
+use crate::color::{encoded_hsv, lit_display};
 use crate::{Irradiance, Lamp};
 
 /// A display-encoded colour made of white and of light of one wavelength.
@@ -112,6 +113,39 @@ impl HueShift {
         if self.law.acts_on_light() { HueColor::sum_of_light(&parts) } else { HueColor::sum(&parts) }
     }
 
+    /// Linear light of a surface with the colour of a display under several lamps, if its motion does
+    /// not shift it; else `None`. It reflects light that is not shifted by its red, green and blue
+    /// (`linear`), other light as the hue `base`. So `None` also if no light is of the first kind, or
+    /// if they cannot be added, because the law does not act on light.
+    #[must_use]
+    pub fn display_lit(
+        self,
+        (linear, base): (DVec3, HueColor),
+        doppler: f64,
+        light: &[Irradiance],
+        lamps: &[Lamp],
+    ) -> Option<DVec3> {
+        let is_shifted = |part: &&Irradiance| self.shifts(part.doppler);
+        let n_shifted = light.iter().filter(is_shifted).count();
+        let is_linear = self.law.acts_on_light();
+        let is_hue = n_shifted > 0 && (!is_linear || n_shifted == light.len());
+        if self.shifts(doppler) || is_hue {
+            return None;
+        }
+        let own = light.iter().filter(|part| !is_shifted(part));
+        let level = own.map(|part| part.level * self.color_of(&lamps[part.lamp as usize])).sum();
+        let lit = if is_linear { linear * level } else { lit_display(linear, level) };
+        let seen = |part: &Irradiance| self.seen_lit(base, doppler, &[*part], lamps).light();
+        Some(lit + light.iter().filter(is_shifted).map(seen).sum::<DVec3>())
+    }
+
+    /// True if the Doppler factor changes colours. One that is a product along a path, through glass
+    /// in motion for example, is 1 but for rounding.
+    pub(crate) fn shifts(self, doppler: f64) -> bool {
+        const ROUNDING: f64 = 1e-12;
+        (doppler - 1.0).abs() > ROUNDING && self != Self::NONE
+    }
+
     /// The colour of a surface times that of a lamp, channel by channel.
     fn reflected(self, base: HueColor, lamp: &Lamp) -> HueColor {
         let color = self.color_of(lamp);
@@ -142,10 +176,24 @@ impl From<Hsv> for HueColor {
 }
 
 impl HueColor {
+    /// The hue, saturation and value that a display shows of linear red, green and blue: channels
+    /// below 0 are clipped, those above 1 are kept.
+    #[must_use]
+    pub fn of_display(linear: DVec3) -> Self {
+        encoded_hsv(linear.to_array()).into()
+    }
+
     const BLACK: Self = Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0, factor: 1.0 };
 
     fn hsv(&self) -> Hsv {
         Hsv { hue: self.hue, saturation: self.saturation, value: self.value }
+    }
+
+    /// True if a renderer fades it as a hue, because it stands for a wavelength near the ends of the
+    /// visible range.  Eq. (P17)
+    #[must_use]
+    pub fn is_faded(&self) -> bool {
+        self.saturation > 0.0 && attenuation(self.wavelength_nm) < 1.0
     }
 
     /// Its brightness without attenuation: linear light of its largest channel.

@@ -6,6 +6,8 @@ use ugphysics::{
 };
 use ugscene::{ColorId, ColorValue, Scene, Tint};
 
+use crate::color::lit_display;
+
 /// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
@@ -66,8 +68,7 @@ impl Swatch {
         if !self.is_display || level == DVec3::ONE {
             return Some(light * level);
         }
-        let lit = |channel: f64, level: f64| srgb_decode(srgb_encode(channel) * level);
-        Some(DVec3::new(lit(light.x, level.x), lit(light.y, level.y), lit(light.z, level.z)))
+        Some(lit_display(light, level))
     }
 }
 

@@ -18,6 +18,26 @@ pub enum VertexColor {
     Mixed(RestColor),
 }
 
+impl VertexColor {
+    /// As it is written or mixed.
+    pub fn at_rest(&self, scene: &Scene) -> RestColor {
+        match *self {
+            Self::Named(id) => RestColor::new(scene, Some(id)),
+            Self::White => RestColor::WHITE,
+            Self::Mixed(color) => color,
+        }
+    }
+
+    /// True if it was written as red, green and blue of a display (`c_rgb`).
+    pub fn is_display(&self, scene: &Scene) -> bool {
+        match self {
+            Self::Named(id) => is_display(&scene.colors[id.index()]),
+            Self::White => false,
+            Self::Mixed(color) => color.is_display,
+        }
+    }
+}
+
 /// The colour of every vertex: its own, else from its faces, else from its wires.
 ///
 /// `positions`: one for each vertex, in the rest frame of its body, where

@@ -281,7 +281,9 @@ impl Camera {
         let eye = self.event.truncate() - self.velocity * self.event.w + anchor;
         let numbers = |vector: DVec3| format!("{} {} {}", vector.x, vector.y, vector.z);
         // The view centre is far enough away that its digits tell the direction.
-        let center = eye + eye.length().max(1.0) * self.forward;
+        // Not farther than the world is large: what is within 10⁻⁶ of that distance is not drawn.
+        let distance = if eye.length() > 0.0 { eye.length() } else { 1.0 };
+        let center = eye + distance * self.forward;
         let moving = velocity((self.velocity != DVec3::ZERO).then_some(self.velocity));
         let [eye, center, up] = [eye, center, self.up].map(numbers);
         format!("cam -ep {eye} -vc {center} -ud {up} -va {}{moving};\n", self.angle)
