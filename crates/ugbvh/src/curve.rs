@@ -19,7 +19,8 @@
 //! Close to a root the curve is replaced by its tangent, and the triangle is tested as for a
 //! straight ray. Parameters at which tangents touch are multiples of a step, so a curve through a
 //! common edge of two triangles has the same tangent for both, and crosses one of them. The step is
-//! so small that the tangent is within 2⁻⁴⁴ sizes of the mesh.
+//! so small that the tangent is within 2⁻⁴⁴ sizes of the mesh. Halves of a section have its step,
+//! since triangles that meet at a corner may be tested with sections of different lengths.
 
 use std::ops::Range;
 
@@ -116,6 +117,8 @@ struct Section {
     /// In box coordinates; infinite if the section has to be halved in any case.
     deviation: f32,
     halvings: u32,
+    /// Between parameters of tangents; NaN if M is infinite.
+    step: f64,
     chord: Option<Chord>,
     /// Rows of its halves; `None` for a half that misses the mesh.
     halves: Option<[Option<u32>; 2]>,
@@ -142,8 +145,9 @@ impl Section {
 }
 
 impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
-    /// Adds a section, unless it misses the mesh. Returns its row.
-    fn section(&mut self, ends: [(f64, DVec3); 2], halvings: u32) -> Option<u32> {
+    /// Adds a section, unless it misses the mesh. Returns its row. `step`: of the section that it is
+    /// a half of, or NaN.
+    fn section(&mut self, ends: [(f64, DVec3); 2], halvings: u32, step: f64) -> Option<u32> {
         let [(from, start), (to, end)] = ends;
         let bend = self.curve.bend(ends);
         let deviation = bend * ((to - from) * (to - from) * 0.125) * self.bvh.frame.scale;
@@ -160,7 +164,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
             return None;
         }
         let deviation = if chord.is_some() { deviation as f32 } else { f32::INFINITY };
-        self.sections.push(Section { ends, bend, deviation, halvings, chord, halves: None });
+        let step = if step.is_nan() { self.step(ends, bend) } else { step };
+        self.sections.push(Section { ends, bend, deviation, halvings, step, chord, halves: None });
         u32::try_from(self.sections.len() - 1).ok()
     }
 
@@ -179,7 +184,7 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     }
 
     fn halves(&mut self, row: u32) -> [Option<u32>; 2] {
-        let Section { ends, halvings, halves, .. } = self.sections[row as usize];
+        let Section { ends, halvings, step, halves, .. } = self.sections[row as usize];
         if let Some(halves) = halves {
             return halves;
         }
@@ -187,7 +192,7 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let parameter = from + 0.5 * (to - from);
         let middle = (parameter, self.curve.at(parameter).0);
         let halves = if from < parameter && parameter < to && self.sections.len() < MOST_SECTIONS {
-            [[ends[0], middle], [middle, ends[1]]].map(|ends| self.section(ends, halvings + 1))
+            [[ends[0], middle], [middle, ends[1]]].map(|ends| self.section(ends, halvings + 1, step))
         } else {
             [None; 2]
         };
@@ -215,7 +220,7 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
             if from.0 >= self.end {
                 return;
             }
-            if let Some(section) = self.section([from, to], 0) {
+            if let Some(section) = self.section([from, to], 0, f64::NAN) {
                 self.stack.push(Entry { key: from.0, child: 0, parent: None, section, extent: 2.0 });
                 self.walk(simd);
             }
@@ -301,8 +306,8 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         while mask != 0 {
             let triangle = self.bvh.triangles[block.first as usize + lowest(mask)];
             mask &= mask - 1;
-            let Section { ends, bend, halvings, .. } = self.sections[entry.section as usize];
-            self.cross(&Arc { ends, bend, halvings }, &triangle);
+            let Section { ends, bend, halvings, step, .. } = self.sections[entry.section as usize];
+            self.cross(&Arc { ends, bend, halvings, step }, &triangle);
         }
     }
 
@@ -361,7 +366,7 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     ) -> Option<Crossing> {
         /// Halvings of a bracket down to rounding, and steps of Newton's method between them.
         const MOST_STEPS: usize = 200;
-        let step = self.step(section);
+        let step = section.step;
         let mut guess = from + (to - from) * (low / (low - high));
         for at in 0..MOST_STEPS {
             let touch = (guess / step).round() * step;
@@ -388,11 +393,13 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         None
     }
 
-    /// The step between parameters of tangents: a power of two.
-    fn step(&self, section: &Arc) -> f64 {
-        let [(from, _), (to, _)] = section.ends;
+    /// The step between parameters of tangents: a power of two, or NaN.
+    fn step(&self, [(from, _), (to, _)]: [(f64, DVec3); 2], bend: f64) -> f64 {
+        if bend == f64::INFINITY {
+            return f64::NAN;
+        }
         // At half a step from where it touches, a tangent is M step²/8 from the curve.
-        let longest = (8.0 * TANGENT_ERROR / (section.bend * self.bvh.frame.scale)).sqrt();
+        let longest = (8.0 * TANGENT_ERROR / (bend * self.bvh.frame.scale)).sqrt();
         let least = from.abs().max(to.abs()) * power_of_two(-50);
         power_of_two(exponent(longest.min(0.25 * (to - from)).max(least)).clamp(-1000, 1000))
     }
@@ -403,6 +410,7 @@ struct Arc {
     ends: [(f64, DVec3); 2],
     bend: f64,
     halvings: u32,
+    step: f64,
 }
 
 /// The chord of a section has no length.
