@@ -182,7 +182,11 @@ fn errors_of_edges_are_within_the_bound() {
         let some: Vec<_> = pieces.iter().copied().step_by(pieces.len().div_ceil(25)).collect();
         let errors = errors_of(&some, &bodies, &observer, bound);
         if errors.angle > 1.0 || errors.depth > 1.0 || errors.inside > 1.0 {
-            println!("{case} {bound}: {errors:?} of {} pieces\n{}", pieces.len(), world.motions[0].text(0));
+            println!(
+                "{case} {bound}: {errors:?} of {} pieces\n{}",
+                pieces.len(),
+                world.motions[0].text("m0")
+            );
             n_beyond += 1;
         }
         all = all.with(errors);

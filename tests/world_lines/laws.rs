@@ -276,7 +276,7 @@ fn a_camera_sees_its_own_body_as_it_is() {
         // Without spin it is at rest for its own camera.
         motion.spins.clear();
         let text =
-            format!("{} v a 1 2 3; v b 2 2 {}; w (a b) <m0>;", motion.text(0), words(DVec3::ONE).len());
+            format!("{} v a 1 2 3; v b 2 2 {}; w (a b) <m0>;", motion.text("m0"), words(DVec3::ONE).len());
         let scene = seen(&format!("{text} cam -vc 0 0 0 <m0>;"), &options(eye, random.between(-3.0, 3.0)));
         let found = scene.vertices[0].position;
         assert!((found - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-11, "{found}");

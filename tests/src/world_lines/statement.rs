@@ -2,10 +2,11 @@
 
 use std::fmt::Write;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3, DVec4};
 use ugtesting::Random;
 
 use super::Four;
+use crate::worlds::spacetime::{Change, RestChange};
 
 /// A vector that acts for a stretch of own time.
 #[derive(Clone, Copy, Debug)]
@@ -60,9 +61,9 @@ impl Statement {
         Self { at: DVec3::ZERO, path: Path::Free { velocity, accelerations: Vec::new() }, spins: Vec::new() }
     }
 
-    /// The text of motion `m` and the number `row`.
-    pub fn text(&self, row: usize) -> String {
-        let mut text = format!("motion m{row} -at {}", words(self.at));
+    /// Its text. The carrier of `-on` has the name `m` and its row.
+    pub fn text(&self, name: &str) -> String {
+        let mut text = format!("motion {name} -at {}", words(self.at));
         match &self.path {
             Path::Free { velocity, accelerations } => {
                 write!(text, " -vel {}", words(*velocity)).expect("memory");
@@ -80,6 +81,45 @@ impl Statement {
         }
         self.spins.iter().for_each(|piece| text += &piece.option("spin"));
         text + " ;\n"
+    }
+
+    /// The same motion turned or mirrored, in another unit of length and time.
+    #[must_use]
+    pub fn placed(&self, turn: DMat3, unit: f64) -> Self {
+        let parity = turn.determinant().signum();
+        let place = |place: DVec3| unit * (turn * place);
+        let path = match &self.path {
+            Path::Free { velocity, accelerations } => {
+                Path::Free { velocity: turn * *velocity, accelerations: turned(accelerations, turn, unit) }
+            }
+            Path::Orbit { center, axis, rate } => {
+                Path::Orbit { center: place(*center), axis: parity * (turn * *axis), rate: rate / unit }
+            }
+            Path::Events(rows) => {
+                let placed = |&[t, x, y, z]: &Four| {
+                    let [x, y, z] = place(DVec3::new(x, y, z)).to_array();
+                    [unit * t, x, y, z]
+                };
+                Path::Events(rows.iter().map(placed).collect())
+            }
+            Path::On(carrier) => Path::On(*carrier),
+        };
+        Self { at: place(self.at), path, spins: turned(&self.spins, parity * turn, unit) }
+    }
+
+    /// The same motion in another frame; returns the turn of the coordinates of its body. Not of
+    /// orbits and paths, which are given in the frame of the scene.
+    pub fn boosted(&mut self, change: &Change) -> DMat3 {
+        let Path::Free { velocity, accelerations } = &mut self.path else {
+            panic!("a motion of the frame of the scene");
+        };
+        assert_eq!(change.shift, DVec4::ZERO, "own times stay");
+        let (moved, RestChange { turn, .. }) = change.of_frame(*velocity);
+        *velocity = moved;
+        *accelerations = turned(accelerations, turn, 1.0);
+        self.spins = turned(&self.spins, turn, 1.0);
+        self.at = turn * self.at;
+        turn
     }
 
     /// A random motion for a body of radius 1 about `middle`. `speed`: the largest at own time 0.
@@ -115,6 +155,16 @@ impl Statement {
         let at = middle + random.in_ball(0.3);
         Self { at, path: Path::On(carrier), spins: spins(random, 0.15) }
     }
+}
+
+/// Accelerations or angular velocities after a turn, in another unit of length and time.
+fn turned(pieces: &[Stretch], turn: DMat3, unit: f64) -> Vec<Stretch> {
+    let turned = |piece: &Stretch| Stretch {
+        of: turn * piece.of / unit,
+        from: unit * piece.from,
+        to: unit * piece.to,
+    };
+    pieces.iter().map(turned).collect()
 }
 
 /// Events from `at` on, with a mean speed of `speed` at most, and an acceleration below 0.4.

@@ -35,6 +35,12 @@ fn both(
     Ok([draw(one)?, draw(other)?])
 }
 
+/// Both worlds have the same picture, by rays or by the whole pipe.
+pub(super) fn check_both(random: &mut Random, one: &World, other: &World) -> Outcome {
+    let [one, other] = both(random, one, other, &[Renderer::Rays, Renderer::Rays, Renderer::Pipe])?;
+    check_same(&one, &other)
+}
+
 /// A boost, a turn, and a shift in space and time.
 pub fn boosts(random: &mut Random) -> Outcome {
     let recipe = Recipe { fastest: 0.9, lamps: Lamps::Stated, surfaces: Surfaces::Glass };

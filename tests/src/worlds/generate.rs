@@ -180,7 +180,7 @@ pub fn lamp(random: &mut Random, camera: &Camera, bodies: &[Body], recipe: Recip
         LampPlace::Ambient if random.one_in(2) && recipe.lamps == Lamps::Stated => None,
         _ => velocity,
     };
-    Lamp { intensity: random.between(0.3, 1.5), place, paint, velocity }
+    Lamp { intensity: random.between(0.3, 1.5), place, paint, velocity, motion: None }
 }
 
 /// The direction, in the frame of a lamp that moves with `beta`, in which a lamp is afar that is
@@ -207,6 +207,7 @@ fn plain(vertices: Vec<DVec3>, faces: Vec<Vec<usize>>) -> Body {
         vertex_paints: Vec::new(),
         surface: Surface::Matt,
         velocity: None,
+        motion: None,
     }
 }
 

@@ -6,11 +6,13 @@ use ugphoton::Channel;
 use ugtesting::Random;
 
 use super::Outcome;
+use super::accelerated::{accelerate_any, accelerate_any_lamp};
 use super::compare::{check, n_lit, reversed};
 use super::generate::{self, Recipe, Surfaces, afar, camera, change};
 use super::picture::{Picture, SPECTRA, UNSHIFTED, by_law};
 use super::spacetime::{aberrated, boost};
 use super::world::{Body, Camera, Lamp, LampPlace, Surface, World};
+use crate::world_lines::{self, Statement};
 
 /// The plane of the mirror, in the frame in which it rests: x·normal = −height.
 struct Plane {
@@ -65,22 +67,31 @@ impl Plane {
 /// Bodies and lamps of all motions. A lamp with a velocity may belong to another frame than what it
 /// lights.
 pub fn mirror(random: &mut Random) -> Outcome {
-    check_mirror(random, generate::Lamps::All)
+    check_mirror(random, inertial(generate::Lamps::All), false)
 }
 
 /// As [`mirror`], with lamps that have a velocity.
 pub fn mirror_with_moving_lamps(random: &mut Random) -> Outcome {
-    check_mirror(random, generate::Lamps::Stated)
+    check_mirror(random, inertial(generate::Lamps::Stated), false)
 }
 
-fn check_mirror(random: &mut Random, lamps: generate::Lamps) -> Outcome {
-    let recipe = Recipe { fastest: 0.9, lamps, surfaces: Surfaces::Mirrors };
+fn inertial(lamps: generate::Lamps) -> Recipe {
+    Recipe { fastest: 0.9, lamps, surfaces: Surfaces::Mirrors }
+}
+
+/// As [`mirror`], with bodies and lamps that accelerate, spin and run on orbits.
+pub fn accelerated_mirror(random: &mut Random) -> Outcome {
+    let recipe = Recipe { fastest: 0.7, lamps: generate::Lamps::All, surfaces: Surfaces::Mirrors };
+    check_mirror(random, recipe, true)
+}
+
+fn check_mirror(random: &mut Random, recipe: Recipe, accelerates: bool) -> Outcome {
     let camera = camera(random);
     let plane = Plane { normal: (random.direction() - 1.5 * camera.forward).normalize(), height: 0.0 };
     let height = random.between(1.0, 3.0) - camera.event.truncate().dot(plane.normal);
     let plane = Plane { height, ..plane };
     let behind = plane.behind(&camera);
-    let (bodies, lamps) = world_before(random, &plane, &behind, recipe);
+    let (bodies, lamps) = world_before(random, &plane, &behind, recipe, accelerates);
     if bodies.is_empty() {
         return Ok(0);
     }
@@ -115,18 +126,29 @@ fn world_before(
     plane: &Plane,
     behind: &Camera,
     recipe: Recipe,
+    accelerates: bool,
 ) -> (Vec<Body>, Vec<Lamp>) {
     let (mut bodies, mut lamps) = (Vec::new(), Vec::new());
     let n_bodies = 2 + random.below(3);
     for _ in 0..100 {
         if bodies.len() < n_bodies {
-            bodies.extend(body_before(random, plane, behind, recipe));
+            let body = body_before(random, plane, behind, recipe);
+            bodies.extend(if accelerates && random.one_in(2) {
+                body.and_then(|body| accelerated_before(random, plane, behind, body))
+            } else {
+                body
+            });
         }
     }
     let n_lamps = 1 + random.below(2);
     for _ in 0..100 {
         if !bodies.is_empty() && lamps.len() < n_lamps {
-            lamps.extend(lamp_before(random, plane, behind, &bodies, recipe));
+            let lamp = lamp_before(random, plane, behind, &bodies, recipe);
+            lamps.extend(if accelerates && random.one_in(2) {
+                lamp.and_then(|lamp| accelerated_lamp_before(random, plane, behind, lamp))
+            } else {
+                lamp
+            });
         }
     }
     (bodies, lamps)
@@ -183,4 +205,37 @@ fn lamp_before(
         }),
     };
     is_before.then_some(lamp)
+}
+
+/// A body with a motion that never leads behind the mirror before the picture is taken.
+fn accelerated_before(random: &mut Random, plane: &Plane, behind: &Camera, mut body: Body) -> Option<Body> {
+    accelerate_any(random, &mut body, behind);
+    let points: Vec<DVec3> = body.vertices.clone();
+    is_always_before(plane, behind, body.motion.as_ref()?, &points).then_some(body)
+}
+
+fn accelerated_lamp_before(
+    random: &mut Random,
+    plane: &Plane,
+    behind: &Camera,
+    mut lamp: Lamp,
+) -> Option<Lamp> {
+    // Lamps that rest with what they light, and those without a place, have no motion.
+    let (LampPlace::At(_), Some(_)) = (lamp.place, lamp.velocity) else { return Some(lamp) };
+    accelerate_any_lamp(random, &mut lamp);
+    let LampPlace::At(place) = lamp.place else { return None };
+    is_always_before(plane, behind, lamp.motion.as_ref()?, &[place]).then_some(lamp)
+}
+
+/// True if points of a body are before the mirror at all times up to that of the picture.
+fn is_always_before(plane: &Plane, behind: &Camera, motion: &Statement, points: &[DVec3]) -> bool {
+    const RANGE: [f64; 2] = [-40.0, 25.0];
+    let body = world_lines::Body::new(std::slice::from_ref(motion), 0, RANGE);
+    let own_times = (0..600).map(|step| 0.98 * RANGE[0] + 0.1 * f64::from(step));
+    own_times.take_while(|own_time| *own_time < 0.98 * RANGE[1]).all(|own_time| {
+        points.iter().all(|&point| {
+            let [t, x, y, z] = body.moment(point, own_time).event;
+            t > behind.event.w || plane.distance(DVec3::new(x, y, z)) > 0.1
+        })
+    })
 }

@@ -8,6 +8,7 @@
 //! Pixels are compared at samples, one a pixel. The same rays, computed in another frame or order,
 //! differ by rounding, so only a ray that passes an edge by less than that may see something else.
 
+mod accelerated;
 mod compare;
 mod frames;
 mod generate;
@@ -86,4 +87,9 @@ pub const LAWS: &[Law] = &[
     law("painted-pipe", renderers::painted_pipe, 4),
     law("colored-exact", renderers::colored_exact, 30),
     law("colored-pipe", renderers::colored_pipe, 4),
+    law("accelerated-pipe", accelerated::pipe, 4),
+    law("accelerated-boosts", accelerated::boosts, 10),
+    law("accelerated-turns", accelerated::turns, 10),
+    law("accelerated-stretches", accelerated::stretches, 10),
+    law("accelerated-mirror", mirror::accelerated_mirror, 20),
 ];

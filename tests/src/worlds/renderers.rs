@@ -25,12 +25,14 @@ pub fn painted_exact(random: &mut Random) -> Outcome {
 /// Rays and the whole pipe, off edges, and off pieces of faces in which a lamp sets. Bodies have
 /// one colour, and lamps are white.
 pub fn pipe(random: &mut Random) -> Outcome {
-    check_pipe(random, white_lamps)
+    let world = random_world(random, white_lamps);
+    check_pipe(random, &world)
 }
 
 /// As [`pipe`], with colours at vertices and faces that are not flat.
 pub fn painted_pipe(random: &mut Random) -> Outcome {
-    check_pipe(random, painted)
+    let world = random_world(random, painted);
+    check_pipe(random, &world)
 }
 
 /// As [`exact`], under coloured lamps.
@@ -40,7 +42,8 @@ pub fn colored_exact(random: &mut Random) -> Outcome {
 
 /// As [`pipe`], under coloured lamps, and off pieces whose corners have hues far apart.
 pub fn colored_pipe(random: &mut Random) -> Outcome {
-    check_pipe(random, |_, world| world)
+    let world = random_world(random, |_, world| world);
+    check_pipe(random, &world)
 }
 
 fn check_exact(random: &mut Random, change: fn(&mut Random, World) -> World) -> Outcome {
@@ -54,13 +57,17 @@ fn check_exact(random: &mut Random, change: fn(&mut Random, World) -> World) -> 
     check_within(&pairs, [&one, &other], 3e-3, 3)
 }
 
-fn check_pipe(random: &mut Random, change: fn(&mut Random, World) -> World) -> Outcome {
+fn random_world(random: &mut Random, change: fn(&mut Random, World) -> World) -> World {
     let recipe = Recipe { fastest: 0.8, lamps: Lamps::All, surfaces: Surfaces::Matt };
     let world = world(random, recipe);
-    let world = change(random, world);
+    change(random, world)
+}
+
+/// Rays and the whole pipe draw a world alike.
+pub(super) fn check_pipe(random: &mut Random, world: &World) -> Outcome {
     let shift = *random.pick(&[SPECTRA, UNSHIFTED]);
     let channels = vec![Channel::Id];
-    let rays = Picture { channels, ..Picture::new(&world, shift).like_pipe() };
+    let rays = Picture { channels, ..Picture::new(world, shift).like_pipe() };
     let pipe = rays.clone().by(Renderer::Pipe);
     let (one, other, is_uneven) = (pipe.draw()?, rays.draw()?, pipe.uneven_pieces()?);
     let (width, light, ids) = (rays.size[0] as usize, other.light(), other.ids());

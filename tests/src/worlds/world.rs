@@ -6,6 +6,7 @@ use glam::{DMat3, DVec3};
 use ugscene::{Anchor, MotionOptions};
 
 use super::spacetime::{Change, Event, boost, rest_place};
+use crate::world_lines::Statement;
 
 /// Bodies, lamps and a camera. All rest frames have the same origin: the event at place and time 0.
 #[derive(Clone, Debug)]
@@ -35,6 +36,8 @@ pub struct Body {
     pub surface: Surface,
     /// `None`: it rests in the scene.
     pub velocity: Option<DVec3>,
+    /// Instead of a velocity. Vertices are where they are at own time 0.
+    pub motion: Option<Statement>,
 }
 
 /// The reflection of light by faces.
@@ -59,6 +62,8 @@ pub struct Lamp {
     pub paint: Option<[f64; 3]>,
     /// `None`: it rests with whatever it lights.
     pub velocity: Option<DVec3>,
+    /// Instead of a velocity. Its place is where it is at own time 0.
+    pub motion: Option<Statement>,
 }
 
 /// Where a light is, in its rest frame.
@@ -118,16 +123,26 @@ impl Camera {
 
 impl World {
     /// The same world in another frame. Lights that rest with what they light are left out of it,
-    /// except ambient light.
+    /// except ambient light; of motions only those that [`Statement::boosted`] can change, and their
+    /// origin has to stay.
     #[must_use]
     pub fn changed(&self, change: &Change) -> Self {
         let mut world = self.clone();
         for body in &mut world.bodies {
+            if let Some(motion) = &mut body.motion {
+                let turn = motion.boosted(change);
+                body.vertices.iter_mut().for_each(|place| *place = turn * *place);
+                continue;
+            }
             let (velocity, rest) = change.of_frame(body.velocity.unwrap_or_default());
             body.velocity = (body.velocity.is_some() || velocity != DVec3::ZERO).then_some(velocity);
             body.vertices.iter_mut().for_each(|place| *place = rest.place(*place));
         }
         for lamp in &mut world.lamps {
+            if let (Some(motion), LampPlace::At(place)) = (&mut lamp.motion, &mut lamp.place) {
+                *place = motion.boosted(change) * *place;
+                continue;
+            }
             let Some(velocity) = &mut lamp.velocity else { continue };
             let (moved, rest) = change.of_frame(*velocity);
             *velocity = moved;
@@ -153,6 +168,7 @@ impl World {
         for body in &mut world.bodies {
             body.vertices.iter_mut().for_each(place);
             body.velocity = body.velocity.map(|velocity| turn * velocity);
+            body.motion = body.motion.as_ref().map(|motion| motion.placed(turn, unit));
             if let Surface::Reflecting([.., absorption]) = &mut body.surface {
                 *absorption /= unit;
             }
@@ -162,6 +178,7 @@ impl World {
         }
         for lamp in &mut world.lamps {
             lamp.velocity = lamp.velocity.map(|velocity| turn * velocity);
+            lamp.motion = lamp.motion.as_ref().map(|motion| motion.placed(turn, unit));
             match &mut lamp.place {
                 LampPlace::Ambient => {}
                 LampPlace::Afar(toward) => *toward = turn * *toward,
@@ -194,7 +211,11 @@ impl World {
     pub fn statements(&self) -> Vec<String> {
         let mut all = Vec::new();
         for (row, body) in self.bodies.iter().enumerate() {
+            all.extend(body.motion.iter().map(|motion| motion.text(&format!("b{row}"))));
             body.write(row, self.anchor, &mut all);
+        }
+        for (row, lamp) in self.lamps.iter().enumerate() {
+            all.extend(lamp.motion.iter().map(|motion| motion.text(&format!("l{row}"))));
         }
         all.extend(self.lamps.iter().enumerate().map(|(row, lamp)| lamp.statements(row, self.anchor)));
         all.push(self.camera.statement(self.anchor));
@@ -237,10 +258,13 @@ impl Body {
                 format!(" s{row}")
             }
         };
-        let velocity = velocity(self.velocity);
+        let moving = match &self.motion {
+            Some(_) => format!(" <b{row}>"),
+            None => velocity(self.velocity),
+        };
         for face in &self.faces {
             let corners: Vec<String> = face.iter().map(|corner| format!("b{row}_{corner}")).collect();
-            all.push(format!("f ({}) c{row}{surface}{velocity};\n", corners.join(" ")));
+            all.push(format!("f ({}) c{row}{surface}{moving};\n", corners.join(" ")));
         }
     }
 
@@ -272,7 +296,7 @@ impl Lamp {
         if self.paint.is_some() {
             let _ = write!(text, " l{row}");
         }
-        text + &velocity(self.velocity) + ";\n"
+        text + &self.motion.as_ref().map_or_else(|| velocity(self.velocity), |_| format!(" <l{row}>")) + ";\n"
     }
 }
 
