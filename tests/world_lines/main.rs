@@ -8,6 +8,7 @@ mod lamps;
 mod laws;
 mod paths;
 mod pixels;
+mod rays;
 mod text;
 mod vertices;
 

@@ -65,7 +65,8 @@ fn numbers_are_those_of_40_digits() {
             );
             let scenery = scenery_at(&text, time);
             let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
-            let event = line.emission(point - scenery.view.eye, Event { t: 0.0, x: DVec3::ZERO }).unwrap().event;
+            let event =
+                line.emission(point - scenery.view.eye, Event { t: 0.0, x: DVec3::ZERO }).unwrap().event;
             // The places have 8 decimals and more: the ray needs more.
             assert!((event.x - place).length() < 3e-9, "{motion}: {} {place}", event.x);
             let place = event.x;

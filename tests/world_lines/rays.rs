@@ -1,0 +1,66 @@
+//! Pictures by rays.
+
+use ugimage::Samples;
+use ugphoton::Channel;
+use ugscene::Anchor;
+
+use crate::{DVec3, options, seen};
+
+/// A year on board with 1 g, in years: 9.80665 m/s² times 31 557 600 s, divided by c.
+const G: f64 = 9.80665 * 31_557_600.0 / 299_792_458.0;
+
+/// T30: from a ship with 1 g, a wall ahead shows its speed by the Doppler factor, and where it is by
+/// the distance at which the wall is seen. A second wall, which moves, shows when it is there. Then
+/// by rays, as far as single precision tells.
+#[test]
+fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
+    const AHEAD: f64 = 100.0;
+    const SPEED: f64 = 0.2;
+    // Own time, speed or γ, time and place in years and light years; NaN where no digits are known.
+    for (own_time, speed, gamma, time, place) in [
+        (1.0, 0.7748272626, 1.581845454, 1.187312402, 0.5636424651),
+        (2.0, 0.9683178487, 4.004470079, 3.75628945, 2.910475472),
+        (5.0, f64::NAN, 87.21375564, f64::NAN, 83.51656515),
+    ] {
+        let speed: f64 = if speed.is_nan() { (1.0_f64 - 1.0 / (gamma * gamma)).sqrt() } else { speed };
+        let doppler = gamma * (1.0 + speed);
+        // The event (−r, r) of the scene relative to the eye is D times as far for the eye.
+        let rests = (AHEAD - place, doppler);
+        // Its place x₀ + v(t − r) is r ahead of the ship.
+        let moves = ((AHEAD + SPEED * time - place) / (1.0 + SPEED), {
+            doppler * ((1.0 - SPEED) / (1.0 + SPEED)).sqrt()
+        });
+        for ((distance, doppler), velocity) in [(rests, 0.0), (moves, SPEED)] {
+            if distance.is_nan() {
+                continue;
+            }
+            let distance = distance * gamma * (1.0 + speed);
+            let x = AHEAD * if velocity == 0.0 { 1.0 } else { (1.0_f64 - SPEED * SPEED).sqrt().recip() };
+            let text = format!(
+                "motion ship -acc {G} 0 0; cam -ep 0 0 0 -vc 9 0 0 -ud 0 0 1 -va 5 <ship>; l 1;
+                v a {x} 0 0; v b {x} -9 -9; v c {x} 9 -9; v d {x} 0 9; f (b c d) <{velocity} 0 0>;
+                w (a b) <{velocity} 0 0>;"
+            );
+            let config = options(DVec3::ZERO, own_time);
+            let scene = seen(&text, &config);
+            let at = scene.vertices[0].position;
+            assert!((at - distance * DVec3::X).length() < 1e-9 * distance, "{own_time}: {at} {distance}");
+            let found = ugscene::measure(&scene, DVec3::ZERO, own_time)[0].doppler;
+            assert!((found - doppler).abs() < 1e-9 * doppler, "{own_time}: {found} {doppler}");
+
+            let mut config = ugphoton::Config::default();
+            (config.motion.time, config.motion.anchor) = (own_time, Some(Anchor::Origin));
+            (config.picture.size, config.picture.samples) = ([1, 1], 1);
+            config.picture.channels = vec![Channel::Doppler, Channel::Distance];
+            config.picture.output = ugphoton::Output::Color(ugimage::Format::Exr);
+            let frame = ugphoton::light(ugtests::scenes::parse(text.as_bytes()), &config).expect("a picture");
+            let found = frame.planes().iter().map(|plane| match &plane.samples {
+                Samples::Float(numbers) => numbers[0],
+                Samples::Whole(_) => panic!("a real number"),
+            });
+            for (found, expected) in found.zip([doppler, distance]) {
+                assert!((f64::from(found) / expected - 1.0).abs() < 1.5e-7, "{own_time}: {found} {expected}");
+            }
+        }
+    }
+}
