@@ -244,3 +244,39 @@ pub fn machine() -> String {
         rustc.map_or_else(|_| "rustc".into(), |out| String::from_utf8_lossy(&out.stdout).trim().to_string());
     format!("{}, {threads} threads, {rustc}", model.trim_start_matches([' ', '\t', ':']))
 }
+
+/// Times of a command in seconds.
+#[derive(Clone, Copy)]
+pub struct CommandTimes {
+    /// Processor time in user mode, summed over threads.
+    pub user: f64,
+    /// Wall-clock time.
+    pub wall: f64,
+}
+
+impl std::fmt::Display for CommandTimes {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:.3} ({:.3})", self.user, self.wall)
+    }
+}
+
+impl CommandTimes {
+    /// The least of both times.
+    pub fn least(self, other: Self) -> Self {
+        Self { user: self.user.min(other.user), wall: self.wall.min(other.wall) }
+    }
+
+    /// Longer than any.
+    pub const MOST: Self = Self { user: f64::INFINITY, wall: f64::INFINITY };
+
+    /// Those of a shell command, with the programs on its path.
+    pub fn of(command: &str) -> Result<Self, Box<dyn Error>> {
+        let times =
+            stderr_of(&format!("TIMEFORMAT='%U %R'; time {{ {command} > /dev/null 2> /dev/null; }}"))?;
+        let mut numbers = times.split_whitespace().map(str::parse::<f64>);
+        match (numbers.next(), numbers.next()) {
+            (Some(Ok(user)), Some(Ok(wall))) => Ok(Self { user, wall }),
+            _ => Err(format!("`time` printed `{times}`").into()),
+        }
+    }
+}

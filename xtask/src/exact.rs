@@ -13,7 +13,7 @@ use ugtests::picture::{Picture, decode};
 use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
 use ugtests::scenes;
 
-use crate::bench;
+use crate::bench::{self, CommandTimes};
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
 
@@ -116,7 +116,7 @@ impl View {
     }
 
     /// Times of the exact picture, and of the pipe with default bounds and with finer ones.
-    fn time(&self, finer: u32) -> Outcome<[Times; 3]> {
+    fn time(&self, finer: u32) -> Outcome<[CommandTimes; 3]> {
         let DVec3 { x, y, z } = self.beta;
         let in_place = if self.in_place { " -in" } else { "" };
         let file = scenes::root().join("scenes").join(format!("{}.ug", self.name));
@@ -129,11 +129,10 @@ impl View {
             format!("{lorentz} | ugdoppler -qt | {rainbow}"),
             format!("{lorentz} -se {milliradians} -sc {percent} | ugdoppler -qt -hd | {rainbow}"),
         ];
-        let mut best = [Times::MOST; 3];
+        let mut best = [CommandTimes::MOST; 3];
         for _ in 0..RUNS {
             for (best, command) in best.iter_mut().zip(&commands) {
-                let times = Times::of(command)?;
-                *best = Times { user: best.user.min(times.user), wall: best.wall.min(times.wall) };
+                *best = best.least(CommandTimes::of(command)?);
             }
         }
         Ok(best)
@@ -151,33 +150,4 @@ fn fraction_correct(picture: &Picture, exact: &Picture) -> f64 {
         n_correct += f64::from(u8::from(a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1)));
     }
     n_correct / n_shown
-}
-
-/// Times in seconds.
-#[derive(Clone, Copy)]
-struct Times {
-    /// Processor time in user mode, summed over threads.
-    user: f64,
-    /// Wall-clock time.
-    wall: f64,
-}
-
-impl std::fmt::Display for Times {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:.3} ({:.3})", self.user, self.wall)
-    }
-}
-
-impl Times {
-    const MOST: Self = Self { user: f64::INFINITY, wall: f64::INFINITY };
-
-    fn of(command: &str) -> Outcome<Self> {
-        let times =
-            bench::stderr_of(&format!("TIMEFORMAT='%U %R'; time {{ {command} > /dev/null 2> /dev/null; }}"))?;
-        let mut numbers = times.split_whitespace().map(str::parse::<f64>);
-        match (numbers.next(), numbers.next()) {
-            (Some(Ok(user)), Some(Ok(wall))) => Ok(Self { user, wall }),
-            _ => Err(format!("`time` printed `{times}`").into()),
-        }
-    }
 }

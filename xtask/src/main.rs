@@ -47,6 +47,7 @@ mod short;
 mod sphere;
 mod teapot;
 mod warp;
+mod world_lines;
 mod worlds;
 
 use clap::{Parser, Subcommand};
@@ -183,6 +184,13 @@ enum Task {
         #[arg(long, value_name = "NAME")]
         only: Option<String>,
     },
+    /// Measure the pipe and rays on bodies that accelerate and spin, relative to inertial motion, as
+    /// Markdown
+    BenchWorldLines {
+        /// Triangles, roughly
+        #[arg(default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(36..=10_000_000))]
+        triangles: u32,
+    },
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
@@ -295,6 +303,9 @@ fn run(task: &Task) -> io::Result<()> {
         }
         Task::BenchExact { only } => {
             exact::write(&mut out, only.as_deref()).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::BenchWorldLines { triangles } => {
+            world_lines::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::Geometry(args) => {
             geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
