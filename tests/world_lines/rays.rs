@@ -64,3 +64,37 @@ fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
         }
     }
 }
+
+/// Both renderers explain a pixel of a body that accelerates and spins alike.
+#[test]
+fn the_pipe_and_rays_explain_one_event() {
+    let text = "motion m -acc .2 .1 0 -9 9 -spin 0 .1 .2; v a -1 0 -1; v b 1 0 -1; v c 1 0 1; v d -1 0 1;
+        f (a b c d) <m>; cam -ep 0 -6 0 -vc 0 0 0 -ud 0 0 1 -va 40;";
+    let (size, pixel, time) = ([32, 24], [14, 13], 5.0);
+    let mut rays = ugphoton::Config::default();
+    (rays.motion.time, rays.motion.anchor) = (time, Some(Anchor::Origin));
+    (rays.picture.size, rays.picture.samples) = (size, 1);
+    let source = ugparse::Source::new("rays.ug", text);
+    let (rays, _) = ugphoton::explain(&rays, &source, pixel).expect("an explanation");
+    let rays = &rays.sample.expect("the body").surfaces[0];
+
+    let config = uglorentz::Config {
+        pieces: uglorentz::Pieces::UpTo(1e-5),
+        ..options(DVec3::new(0.0, -6.0, 0.0), time)
+    };
+    let text = ugtests::pipe::lorentz(text.as_bytes(), &config);
+    let mut pipe = ugrainbow::Config::default();
+    (pipe.picture.size, pipe.picture.samples) = (size, 1);
+    let (pipe, _) =
+        ugrainbow::explain::explain(&pipe, &ugparse::Source::new("pipe.ug", text), pixel).expect("one");
+    let pipe = pipe.sample.expect("the body");
+
+    let times = [pipe.own_time, rays.own_time].map(|own_time| own_time.expect("it is not inertial"));
+    assert!((times[0] - times[1]).abs() < 1e-3 && times[0].abs() > 0.1, "{times:?}");
+    let rest = (pipe.rest.1 - rays.rest.1).length();
+    assert!(rest < 1e-3 && rays.rest.1.x.abs() > 0.5, "{} {}", pipe.rest.1, rays.rest.1);
+    assert!((pipe.rest.0.expect("a time") - rays.rest.0).abs() < 1e-3, "{:?} {:?}", pipe.rest, rays.rest);
+    // An event on the light cone is so in every frame.
+    assert!((rays.rest.0 + rays.rest.1.length()).abs() < 1e-9, "{:?}", rays.rest);
+    assert!((pipe.emission.1 - rays.emission.1).length() < 1e-3 && pipe.gamma > 1.05);
+}

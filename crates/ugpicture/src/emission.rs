@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
-use ugscene::{Geometry, RestFrames, Scene, View};
+use ugscene::{BodyId, Geometry, RestFrames, Scene, View, WorldLinePoint};
 
 use crate::depth_buffer::SurfaceSample;
 
@@ -69,18 +69,29 @@ impl<'a> Emissions<'a> {
     pub fn at(&self, [column, row]: [u32; 2], seen: SurfaceSample) -> Emission {
         let key = f64::from(seen.key);
         let depth = if self.view.is_perspective { 1.0 / key } else { -key };
-        let (item, n_faces) = (seen.item as usize, self.scene.faces.len());
-        let body = match self.scene.faces.get(item) {
-            Some(face) => Some(face.body),
-            None => self.scene.wires.get(item - n_faces).map(|wire| wire.body),
-        };
-        // Everything drawn is a face or a wire.
-        let body = body.unwrap_or(self.scene.bodies.unstated());
+        let body = self.body(seen.item);
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
         let velocity = self.frames.velocity_at(body, place);
         let scene_from_axes = self.frames.of(body).scene_from_boosted();
         Emission { place, depth, time, velocity, scene_from_axes, in_medium: None }
+    }
+
+    /// The own time of a body that is not inertial at the emission of light from its surface
+    /// `item`, see [`SurfaceSample::item`].
+    pub fn own_time(&self, item: u32, emission: &Emission) -> Option<f64> {
+        let line = self.frames.world_line(self.body(item))?;
+        Some(WorldLinePoint::new(line, emission.place)?.own_time)
+    }
+
+    fn body(&self, item: u32) -> BodyId {
+        let (item, n_faces) = (item as usize, self.scene.faces.len());
+        let body = match self.scene.faces.get(item) {
+            Some(face) => Some(face.body),
+            None => self.scene.wires.get(item - n_faces).map(|wire| wire.body),
+        };
+        // Everything drawn is a face or a wire.
+        body.unwrap_or(self.scene.bodies.unstated())
     }
 
     /// The surface at the middle of a pixel, for channels. `seen`: the surfaces at the

@@ -214,7 +214,10 @@ impl Teller<'_> {
         let point = &visit.point;
         let frame = point.frame(self.scenery);
         let velocity: Velocity = frame.velocity();
-        let rest_time = frame.rest_from_camera(point.event).t;
+        let at_rest = frame.rest_from_camera(point.event);
+        // A body that is not inertial has coordinates of its own; this is the frame in which its
+        // surface rests at emission.
+        let rest = if point.element.is_some() { at_rest.x } else { point.place };
         let is_direct = visit.depth == 0 && !velocity.is_zero();
         let angles_deg = is_direct.then(|| {
             let moving = frame.turned_velocity(velocity).direction();
@@ -231,7 +234,7 @@ impl Teller<'_> {
             gamma: velocity.gamma(),
             own_time: point.element.map(|element| element.own_time),
             emission: (point.event.t, point.event.x - sample.ray.origin.x),
-            rest: (rest_time, point.place),
+            rest: (at_rest.t, rest),
             angles_deg,
             doppler: point.doppler(),
             translucency: point.color.swatch.translucency,

@@ -23,6 +23,7 @@ fn shown(shown: &ExplainedSample) -> Value {
         "velocity": point(shown.beta),
         "beta": shown.beta.length(),
         "gamma": shown.gamma,
+        "own_time": shown.own_time,
         "emission": { "t": shown.emission.0, "x": point(shown.emission.1) },
         "emission_at_rest": { "t": shown.rest.0, "x": point(shown.rest.1) },
         "angle_deg": shown.angles_deg.map(|[camera, _]| camera),

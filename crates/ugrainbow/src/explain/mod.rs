@@ -52,6 +52,8 @@ pub struct ExplainedSample {
     pub gamma: f64,
     /// Time and position of emission, relative to the eye, in the frame of the camera.
     pub emission: (f64, DVec3),
+    /// The own time of a body that is not inertial.
+    pub own_time: Option<f64>,
     /// The emission event in the rest frame of the body and the axes of the scene; without a time
     /// if contraction or time of flight was left out.
     pub rest: (Option<f64>, DVec3),
@@ -223,6 +225,7 @@ impl Teller<'_> {
             item: self.item(seen.item),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
+            own_time: emissions.own_time(seen.item, &emission),
             emission: (emission.time, place),
             rest: (rest_time, emission.scene_from_axes * rest),
             angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),

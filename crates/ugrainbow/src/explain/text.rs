@@ -24,6 +24,9 @@ fn write_sample(out: &mut String, shown: &ExplainedSample, explanation: &Explana
     writeln!(out, "\nthe covered sample nearest to the centre, at {} {}", number(x), number(y))?;
     row(out, shown.item.kind, described(&shown.item))?;
     row(out, "body", body(shown.beta, shown.gamma, explanation.pixel.is_at_rest))?;
+    if let Some(own_time) = shown.own_time {
+        row(out, "own time", number(own_time))?;
+    }
     row(
         out,
         "emission",
