@@ -2,11 +2,10 @@
 
 use std::fmt::Write;
 
-use glam::{DMat3, DVec3, DVec4};
+use glam::{DMat3, DVec3};
 use ugtesting::Random;
 
 use super::Four;
-use crate::worlds::spacetime::{Change, RestChange};
 
 /// A vector that acts for a stretch of own time.
 #[derive(Clone, Copy, Debug)]
@@ -107,19 +106,15 @@ impl Statement {
         Self { at: place(self.at), path, spins: turned(&self.spins, parity * turn, unit) }
     }
 
-    /// The same motion in another frame; returns the turn of the coordinates of its body. Not of
-    /// orbits and paths, which are given in the frame of the scene.
-    pub fn boosted(&mut self, change: &Change) -> DMat3 {
-        let Path::Free { velocity, accelerations } = &mut self.path else {
-            panic!("a motion of the frame of the scene");
-        };
-        assert_eq!(change.shift, DVec4::ZERO, "own times stay");
-        let (moved, RestChange { turn, .. }) = change.of_frame(*velocity);
-        *velocity = moved;
-        *accelerations = turned(accelerations, turn, 1.0);
-        self.spins = turned(&self.spins, turn, 1.0);
-        self.at = turn * self.at;
-        turn
+    /// The same motion with another velocity at own time 0, and with turned axes.
+    ///
+    /// # Panics
+    /// It is an orbit or a path, which are given in the frame of the scene, or rides on another one.
+    #[must_use]
+    pub fn boosted(&self, velocity: DVec3, turn: DMat3) -> Self {
+        let Path::Free { accelerations, .. } = &self.path else { panic!("it has no velocity of its own") };
+        let path = Path::Free { velocity, accelerations: turned(accelerations, turn, 1.0) };
+        Self { at: turn * self.at, path, spins: turned(&self.spins, turn, 1.0) }
     }
 
     /// A random motion for a body of radius 1 about `middle`. `speed`: the largest at own time 0.

@@ -6,7 +6,7 @@ use glam::{DMat3, DVec3};
 use ugscene::{Anchor, MotionOptions};
 
 use super::spacetime::{Change, Event, boost, rest_place};
-use crate::world_lines::Statement;
+use crate::world_lines::{Path, Statement};
 
 /// Bodies, lamps and a camera. All rest frames have the same origin: the event at place and time 0.
 #[derive(Clone, Debug)]
@@ -123,14 +123,14 @@ impl Camera {
 
 impl World {
     /// The same world in another frame. Lights that rest with what they light are left out of it,
-    /// except ambient light; of motions only those that [`Statement::boosted`] can change, and their
-    /// origin has to stay.
+    /// except ambient light; of motions only those with a velocity, and their own
+    /// time has to stay.
     #[must_use]
     pub fn changed(&self, change: &Change) -> Self {
         let mut world = self.clone();
         for body in &mut world.bodies {
             if let Some(motion) = &mut body.motion {
-                let turn = motion.boosted(change);
+                let turn = boosted(motion, change);
                 body.vertices.iter_mut().for_each(|place| *place = turn * *place);
                 continue;
             }
@@ -140,7 +140,7 @@ impl World {
         }
         for lamp in &mut world.lamps {
             if let (Some(motion), LampPlace::At(place)) = (&mut lamp.motion, &mut lamp.place) {
-                *place = motion.boosted(change) * *place;
+                *place = boosted(motion, change) * *place;
                 continue;
             }
             let Some(velocity) = &mut lamp.velocity else { continue };
@@ -312,6 +312,15 @@ impl Camera {
         let [eye, center, up] = [eye, center, self.up].map(numbers);
         format!("cam -ep {eye} -vc {center} -ud {up} -va {}{moving};\n", self.angle)
     }
+}
+
+/// Changes the frame of a motion; returns the turn of the coordinates of its body.
+fn boosted(motion: &mut Statement, change: &Change) -> DMat3 {
+    assert_eq!(change.shift, Event::ZERO, "own times stay");
+    let Path::Free { velocity, .. } = motion.path else { panic!("a motion of the frame of the scene") };
+    let (velocity, rest) = change.of_frame(velocity);
+    *motion = motion.boosted(velocity, rest.turn);
+    rest.turn
 }
 
 fn paint(name: &str, [red, green, blue, translucency]: &[f64; 4]) -> String {
