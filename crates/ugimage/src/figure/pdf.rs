@@ -1,16 +1,21 @@
 //! Figures as PDF.
 
 use pdf_writer::writers::StreamShadingType;
-use pdf_writer::{Content, Filter, Name, Pdf, Ref};
+use pdf_writer::{Content, Filter, Name, Pdf, Ref, Str};
 
-use super::{Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, paint_ops};
+use super::pdf_font::{FONT_NAME, PdfFont};
+use super::{
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Text, paint_ops, texts,
+};
 use crate::Metadata;
 use crate::pdf::{FIRST, deflate, document};
 
 /// The figure as a PDF file, one pixel per point.
 pub fn pdf(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
     let [width, height] = figure.size.map(|side| side as f32);
-    let mut page = Page { content: Content::new(), meshes: Vec::new(), color: None, width: None };
+    let font = PdfFont::of(texts(figure));
+    let mut page =
+        Page { content: Content::new(), meshes: Vec::new(), font: &font, color: None, width: None };
     page.content.transform([1.0, 0.0, 0.0, -1.0, 0.0, height]);
     if let Some(background) = figure.background {
         page.set_color(background);
@@ -28,7 +33,14 @@ pub fn pdf(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
         shading.bits_per_coordinate(MESH_BITS as i32).bits_per_component(8).bits_per_flag(8);
         shading.decode(Mesh::decode().map(|number| number as f32));
     }
+    let font_id = Ref::new(FIRST + meshes.len() as i32);
+    if !font.is_empty() {
+        font.write(&mut pdf, font_id);
+    }
     document(pdf, figure.size, metadata, content.finish().as_slice(), |resources| {
+        if !font.is_empty() {
+            resources.fonts().pair(Name(FONT_NAME), font_id);
+        }
         if !meshes.is_empty() {
             let mut shadings = resources.shadings();
             for number in 0..meshes.len() {
@@ -43,14 +55,15 @@ fn mesh_name(number: usize) -> String {
 }
 
 /// The page content so far, and the current colour and line width.
-struct Page {
+struct Page<'a> {
     content: Content,
     meshes: Vec<Mesh>,
+    font: &'a PdfFont,
     color: Option<Rgb>,
     width: Option<f64>,
 }
 
-impl Page {
+impl Page<'_> {
     fn draw(&mut self, figure: &Figure<GouraudTriangle>) {
         for op in paint_ops(figure) {
             match op {
@@ -68,6 +81,7 @@ impl Page {
                     self.content.shading(Name(mesh_name(self.meshes.len()).as_bytes()));
                     self.meshes.push(mesh);
                 }
+                PaintOp::Text(text) => self.show(text),
                 PaintOp::ClipRows(rows) => self.clip_rows(figure.size[0], rows),
             }
         }
@@ -111,6 +125,25 @@ impl Page {
             self.content.move_to(ax, ay).line_to(bx, by);
         }
         self.content.stroke();
+    }
+
+    fn show(&mut self, text: &Text) {
+        self.set_color(text.color);
+        let [x, y] = rounded(&text.origin);
+        // Rows of the page count downwards, letters stand upright.
+        self.content.begin_text().set_font(Name(FONT_NAME), text.size as f32);
+        self.content.set_text_matrix([1.0, 0.0, 0.0, -1.0, x, y]);
+        let mut line = self.content.show_positioned();
+        let mut items = line.items();
+        for (bytes, adjustment) in self.font.runs(text) {
+            items.show(Str(&bytes));
+            if adjustment != 0.0 {
+                items.adjust(adjustment);
+            }
+        }
+        drop(items);
+        drop(line);
+        self.content.end_text();
     }
 
     fn set_color(&mut self, color: Rgb) {
