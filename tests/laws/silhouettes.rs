@@ -165,8 +165,11 @@ fn outlines_are_the_parts_of_silhouettes_that_nothing_hides() {
                 let [from, to] = ends.map(|corner| torus.0[corner] - eye);
                 let pixels = [from, to].map(|end| pinhole.pixel(end).unwrap());
                 let length = (pixels[1] - pixels[0]).length();
+                let is_outside = |pixel: &DVec2| {
+                    pixel.min_element() < 0.0 || pixel.x > f64::from(SIZE[0]) || pixel.y > f64::from(SIZE[1])
+                };
                 // Parts of up to 3 pixels may be left out.
-                if length < 4.0 {
+                if length < 4.0 || pixels.iter().any(is_outside) {
                     continue;
                 }
                 let parts = drawn_parts(pixels, &lines);
