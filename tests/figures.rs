@@ -11,7 +11,8 @@ use std::process::Command;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::Format;
-use ugrainbow::Output;
+
+use ugrainbow::{Output, TextForm};
 use ugtests::picture::{Picture, assert_same, decode, read};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::{scenes, tools};
@@ -184,6 +185,8 @@ fn vector_figures_show_the_same_as_the_png() {
         outline: true,
         grid: true,
     };
+    let mut searchable = annotated.clone();
+    searchable.rainbow.picture.text = TextForm::Text;
     let cubes = Pipe::new(0.3 * DVec3::X, SIZE).in_place();
     let street = Pipe::new(-0.5 * DVec3::Y, SIZE);
     let lattice = Pipe::new(0.9 * DVec3::X, SIZE);
@@ -208,6 +211,7 @@ fn vector_figures_show_the_same_as_the_png() {
         ("ship", scenes::text("ship"), ship()),
         ("white", scenes::text("ship"), white),
         ("annotated", scenes::text("ship"), annotated),
+        ("text", scenes::text("ship"), searchable),
         ("cubes", scenes::text("cubes"), cubes),
         ("street", scenes::text("street"), street),
         ("lattice", scenes::text("lattice"), lattice),
@@ -241,6 +245,92 @@ fn vector_figures_show_the_same_as_the_png() {
             assert!(part <= 0.02, "{name} {} {tool:?}: {part} of the pixels differ", format.name());
         }
     });
+}
+
+/// Each word is found in the file, at the place where its outline is.
+#[test]
+fn text_in_figures_can_be_searched() {
+    if !tools::has(&TOOLS) {
+        return;
+    }
+    const CAPTION: &str = "AVE: β = 0.2, γ < 1.021 & D → λ";
+    let mut pipe = ship();
+    pipe.rainbow.picture.annotations = ugrainbow::AnnotationOptions {
+        caption: CAPTION.into(),
+        legend: true,
+        grid: true,
+        ..ugrainbow::AnnotationOptions::default()
+    };
+    let colored = pipe.run(&scenes::text("ship")).colored;
+    let draw = |format, text| {
+        let output = Output::Vector(format);
+        let picture = ugrainbow::PictureOptions { output, text, ..pipe.rainbow.picture.clone() };
+        rainbow(&colored, &ugrainbow::Config { picture, ..pipe.rainbow.clone() })
+    };
+    let words = |file: &[u8]| {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("in.pdf");
+        std::fs::write(&path, file).unwrap();
+        let run = Command::new("pdftotext").arg(path).arg("-").output().unwrap();
+        assert!(run.status.success() && run.stderr.is_empty(), "{run:?}");
+        String::from_utf8(run.stdout).unwrap()
+    };
+    let found = words(&draw(Format::Pdf, TextForm::Text));
+    assert!([CAPTION, "γ = 1.021", "700 nm", "x = −8"].iter().all(|text| found.contains(text)), "{found}");
+    assert_eq!(words(&draw(Format::Pdf, TextForm::Outlines)).trim(), "");
+    let svg = String::from_utf8(draw(Format::Svg, TextForm::Text)).unwrap();
+    assert!(svg.contains(">AVE: β = 0.2, γ &lt; 1.021 &amp; D → λ</text>"), "{svg}");
+}
+
+/// Each figure of a sheet is drawn as it is alone.
+#[test]
+fn figures_on_a_sheet_look_as_they_do_alone() {
+    if !tools::has(&TOOLS) {
+        return;
+    }
+    let pipes = [ship(), Pipe::new(0.9 * DVec3::X, SIZE).in_place()];
+    for (format, tool) in
+        DRAWN_BY.into_iter().filter(|(format, _)| matches!(format, Format::Svg | Format::Pdf))
+    {
+        // With smooth areas and text, which refer to other parts of the file.
+        let file = |pipe: &Pipe| {
+            let mut pipe = pipe.clone();
+            pipe.rainbow.picture.output = Output::Vector(format);
+            pipe.rainbow.picture.annotations.legend = true;
+            pipe.rainbow.picture.text = TextForm::Text;
+            pipe.run(&scenes::text("ship")).file
+        };
+        let files = pipes.each_ref().map(file);
+        let mut figures = ugsheet::Figures::none(format);
+        let described = files.iter().map(|file| ugsheet::Picture {
+            name: String::new(),
+            size: figures.add(file).unwrap(),
+            motion: ugsheet::Motion::default(),
+            history: ugimage::Metadata::default(),
+        });
+        let described: Vec<_> = described.collect();
+        let config = ugsheet::Config {
+            labels: ugsheet::Labels::None,
+            gap: Some([8, 4]),
+            columns: Some(2),
+            ..ugsheet::Config::default()
+        };
+        let metadata = ugsheet::history(&described, None);
+        let sheet =
+            ugsheet::figure_sheet(&config, &described, &figures, TextForm::Outlines, &metadata).unwrap();
+        let sheet = match tool {
+            // A browser has a window of the size of one figure.
+            Tool::Chromium => continue,
+            tool => on_paper(drawn(tool, format, &sheet)),
+        };
+        assert_eq!(sheet.dimensions(), (2 * SIZE[0] + 16, SIZE[1] + 8));
+        for (file, left) in files.iter().zip([4, 12 + SIZE[0]]) {
+            let alone = on_paper(drawn(tool, format, file));
+            let part = image::imageops::crop_imm(&sheet, left, 4, SIZE[0], SIZE[1]).to_image();
+            let different = fraction_different(&alone, &part);
+            assert!(different <= 0.001, "{} {tool:?}: {different} of the pixels differ", format.name());
+        }
+    }
 }
 
 /// A vector figure must be smaller than a picture at print resolution.

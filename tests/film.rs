@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use std::time::Duration;
 
-use ugtests::{programs, scenes};
+use ugtests::{programs, scenes, tools};
 
 /// A folder with scenes, and the programs on the path.
 struct Shell {
@@ -591,4 +591,28 @@ fn a_camera_follows_what_moves() {
     }
     let (status, messages) = shell.fail(&format!("{film} -follow -vc 0..1 9 0 -fo g_%d.png pass.ug"));
     assert!(status == Some(2) && messages.contains("leave out -vc"), "{messages}");
+}
+
+/// ffprobe reads that a film of panoramas is one, and decodes all of its frames.
+#[test]
+fn films_of_panoramas_are_marked() {
+    if !tools::has(&[tools::FFMPEG]) {
+        return;
+    }
+    let shell = Shell::new();
+    let check = |options: &str, expected: &[&str]| {
+        let probe = "ffprobe -v error -count_frames -of flat -show_entries stream=nb_read_frames:stream_side_data_list";
+        shell.run(&format!("ugfilm -qt -rays -frames 3 -cv '0 0 0 .. 0 .9 0' {options} -fo a.mp4 street.ug"));
+        let [found, messages] = shell.run(&format!("{probe} a.mp4"));
+        assert_eq!(messages, "", "{options}");
+        assert!(found.contains("nb_read_frames=\"3\""), "{options}: {found}");
+        for text in ["equirectangular", "top and bottom"] {
+            assert_eq!(found.contains(text), expected.contains(&text), "{options}: {found}");
+        }
+    };
+    check("-pan -sz 32 16", &["equirectangular"]);
+    check("-pan -stereo .06 -sz 32 32", &["equirectangular", "top and bottom"]);
+    for other in ["-sz 32 16", "-pan -sz 32 18", "-pan -sz 30 15", "-fish 180 -sz 32 16"] {
+        check(other, &[]);
+    }
 }

@@ -167,6 +167,7 @@ fn examples_in_help_work() {
     prepare(folder.path(), &programs);
     let pictures = Page::of_commands("pictures", &[
         "ugrainbow -sz 90 60 ship.ug -fo rest.png; for name in fast 0.5c 0.9c 0.99c; do cp rest.png $name.png; done; \
+         ugrainbow -vec -sz 90 60 ship.ug -fo rest.pdf; cp rest.pdf fast.pdf; \
          for y in 0 8; do ugphoton -sz 16 16 -crop 0 $y 16 8 ship.ug > tile_$y.png; done".to_owned(),
     ]);
     pictures.run(&pictures.commands[0], folder.path(), &programs).unwrap();

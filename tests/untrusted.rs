@@ -294,6 +294,21 @@ fn labels_and_histories_of_pictures() {
     }
 }
 
+#[test]
+fn figures_of_sheets() {
+    let svg = "<?xml version='1.0'?><!DOCTYPE svg><svg id='i' width='9' height='9' viewBox='0 0 9 9'><desc>d</desc>\
+               <g fill='url(#i)'><a href='#i'>text</a></g></svg>";
+    let fields =
+        ["version='1.0'", "<!DOCTYPE svg>", "'i'", "'9'", "viewBox", "<desc>", "url(#i)", "</a>", "text"];
+    let damaged = fields.map(|field| svg.replacen(field, "@", 1));
+    check_files(&["ugsheet", "a.svg"], "a.svg", &[], &damaged.each_ref().map(String::as_str));
+    let pdf = "%PDF-1.4\n1 0 obj<</Pages 2 0 R>>endobj 2 0 obj<</Kids[3 0 R]>>endobj 3 0 obj<</MediaBox[0 0 9 9]>>endobj\n\
+               xref\n0 1\n0 65535 f\ntrailer<</Root 1 0 R>>startxref 109\n";
+    let fields = ["%PDF-1.4", "/Pages", "/Kids", "obj<<", "xref\n0", "/Root", "109"];
+    let damaged = fields.map(|field| pdf.replacen(field, "@", 1));
+    check_files(&["ugsheet", "a.pdf"], "a.pdf", &[], &damaged.each_ref().map(String::as_str));
+}
+
 /// Tags are closed in order, and `<` and `&` occur only in markup.
 #[track_caller]
 fn assert_well_formed(xml: &str) {

@@ -16,6 +16,7 @@ mod moving_camera;
 mod notice;
 mod outlines;
 mod rest;
+mod silhouettes;
 mod switches;
 mod unseen;
 

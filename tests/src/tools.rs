@@ -54,6 +54,14 @@ pub const CHROMIUM: Tool = Tool {
     checks: "SVG figures look the same in a browser",
 };
 
+/// Encodes films.
+pub const FFMPEG: Tool = Tool {
+    program: "ffprobe",
+    option: "-version",
+    package: "ffmpeg",
+    checks: "films are marked as others expect it",
+};
+
 /// Reads EXR, HDR and PFM.
 pub const OIIOTOOL: Tool = Tool {
     program: "oiiotool",
@@ -95,8 +103,8 @@ pub const FISH: Tool =
     Tool { program: "fish", option: "--version", package: "fish", checks: "fish completes options" };
 
 /// Tools for the checks in `cargo test`: all but [`QEMU`].
-pub const TOOLS: [Tool; 10] =
-    [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
+pub const TOOLS: [Tool; 11] =
+    [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, FFMPEG, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
 
 /// Needs a release build.
 pub const PROFILES: &str = "debug and release builds write the same bytes";

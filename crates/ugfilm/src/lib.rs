@@ -82,6 +82,8 @@ mod script;
 #[cfg(feature = "cli")]
 mod sight;
 #[cfg(feature = "cli")]
+mod spherical;
+#[cfg(feature = "cli")]
 mod timeline;
 #[cfg(feature = "cli")]
 mod work;

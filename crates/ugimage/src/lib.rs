@@ -68,6 +68,7 @@ mod read_hdr;
 mod read_light;
 mod read_pfm;
 mod svg;
+mod typeface;
 
 pub use develop::{Development, DevelopmentSteps, Tone, auto_exposure};
 pub use filter::Filter;

@@ -33,7 +33,7 @@ pub fn document([width, height]: [u32; 2], metadata: &Metadata, drawing: &str) -
 }
 
 /// Escapes text for XML. Most control characters are not allowed in XML and become `?`.
-fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -6,6 +6,7 @@ mod words;
 use std::path::Path;
 
 use clap::{ArgAction, ArgMatches, Args};
+use ugimage::label::TextForm;
 use ugimage::{Filter, Format, Tone};
 use ugparse::Diagnostics;
 use ugphysics::Hsv;
@@ -130,6 +131,7 @@ impl PictureArgs {
             channels: self.ch.clone().unwrap_or_default().0,
             small: self.pz,
             annotations,
+            text: TextForm::default(),
         })
     }
 

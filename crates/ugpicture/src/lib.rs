@@ -78,4 +78,5 @@ pub use options::{AnnotationOptions, PictureOptions};
 pub use output::Output;
 pub use picture_file::PictureFile;
 pub use rendering::{Rendering, VectorFigure};
+pub use ugimage::label::TextForm;
 pub use ugimage::{Filter, Tone};

@@ -2,6 +2,7 @@
 
 use std::borrow::Borrow;
 
+use ugimage::label::TextForm;
 use ugimage::{Compression, Development, Filter, Format, LinearFrame, Tone, auto_exposure};
 use ugphysics::Hsv;
 use ugscene::CameraOptions;
@@ -38,6 +39,8 @@ pub struct PictureOptions {
     pub small: bool,
     /// Caption, legend, grid, outlines.
     pub annotations: AnnotationOptions,
+    /// The form of the text of annotations in vector figures.
+    pub text: TextForm,
 }
 
 impl Default for PictureOptions {
@@ -56,6 +59,7 @@ impl Default for PictureOptions {
             channels: Vec::new(),
             small: false,
             annotations: AnnotationOptions::default(),
+            text: TextForm::default(),
         }
     }
 }

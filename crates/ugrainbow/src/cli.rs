@@ -8,11 +8,11 @@ use clap::{Arg, ArgAction, ArgMatches, Parser};
 use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugphysics::Hsv;
-use ugpicture::Output;
 use ugpicture::cli::{
     AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_part, kind_named, kinds, picture_format,
     pixel, refuse_terminal, report_format, with_format, write_picture, write_report,
 };
+use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
     CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, numbers,
     one_of,
@@ -74,6 +74,13 @@ pub struct Args {
     /// deviate by at most 2 levels of 255.
     #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
     vec: bool,
+
+    /// Text of captions, legends and grids as text in vector graphics, instead of outlines
+    ///
+    /// It can be searched, copied, and changed in an editor. The font, DejaVu Sans, is embedded in
+    /// the file; editors of SVG need it installed.
+    #[arg(long, visible_alias = "text", requires = "vec")]
+    txt: bool,
 
     #[command(flatten)]
     picture: PictureArgs,
@@ -202,7 +209,10 @@ impl Args {
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
     pub fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
         Ok(Config {
-            picture: self.picture.options(self.output(output)?, self.annotations.options())?,
+            picture: PictureOptions {
+                text: if self.txt { TextForm::Text } else { TextForm::Outlines },
+                ..self.picture.options(self.output(output)?, self.annotations.options())?
+            },
             interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
             reading: pipe::options(&self.common)?,

@@ -112,6 +112,6 @@ pub use render::{PROVENANCE, Prepared, light, render, render_with, run, run_with
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Note, Output,
-    PictureFile, PictureOptions, Rendering, Tone, VectorFigure, metadata,
+    PictureFile, PictureOptions, Rendering, TextForm, Tone, VectorFigure, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions, HueScale, Provenance};

@@ -4,18 +4,23 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header};
+use ugimage::figure::PartError;
+use ugimage::label::TextForm;
+use ugimage::{Format, Metadata, PictureLimits, ReadError, read_history, read_png, read_png_header};
 use ugphysics::Hsv;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
 };
 
 use crate::recipe::{Recipe, recipes};
-use crate::{Config, Error, Labels, Motion, Picture, history, join, sheet};
+use crate::{
+    Config, Error, Figures, Labels, Motion, Picture, figure_format, figure_sheet, history, join, sheet,
+};
 
 /// Arranges several pictures on one sheet, with labels
 ///
-/// Reads PNG files and arranges them in a grid without resampling them. By default the labels are
+/// Reads PNG files and arranges them in a grid without resampling them; or vector figures, all SVG or
+/// all PDF, and writes one figure of that format. By default the labels are
 /// the speeds and times recorded in the history of the pictures, if these differ; otherwise the
 /// file names.
 #[derive(Parser, Debug)]
@@ -54,12 +59,19 @@ pub struct Args {
           value_parser = whole(0..=10_000))]
     gap: Option<Vec<u32>>,
 
+    /// Text of labels on sheets of SVG and PDF files as text, instead of outlines
+    ///
+    /// It can be searched, copied, and changed in an editor.
+    #[arg(long, visible_alias = "text")]
+    txt: bool,
+
     /// Background colour: lightness, hue in degrees, saturation [default: white]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "background")]
     bg: Option<Vec<f64>>,
 
-    /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
+    /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png, or
+    /// that of the files if they are SVG or PDF]
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(FORMATS, format_named))]
     dt: Option<Format>,
 
@@ -67,14 +79,14 @@ pub struct Args {
     ///
     /// For files in png, exr, hdr, ppm, pdf, svg, eps and ps, in the folder where the pipe was run.
     /// A comment has the SHA-256 of the scene, and a warning says whether the scene has changed.
-    #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
+    #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "txt", "gap", "bg", "dt"])]
     history: bool,
 
     /// Join the tiles of a picture, drawn with -crop, to the whole picture
     ///
     /// Tiles are PNG files that were drawn by one command but for their -crop. The result is the
     /// file that the command without -crop writes. Their order does not matter.
-    #[arg(long, conflicts_with_all = ["history", "cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
+    #[arg(long, conflicts_with_all = ["history", "cols", "label", "lb", "lt", "title", "cap", "ts", "txt", "gap", "bg", "dt"])]
     tiles: bool,
 
     #[command(flatten)]
@@ -88,6 +100,7 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
   ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png
+  ugsheet -lt rest.pdf fast.pdf > sheet.pdf
   ugsheet --tiles tile_*.png > whole.png
   ugsheet --history rest.png";
 
@@ -186,9 +199,81 @@ impl Args {
 /// The picture of an input, without its pixels. `path` is its file, `None` for standard input.
 fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
     let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
+    Ok(described(path, size, history))
+}
+
+/// The picture of a file with a size and a history.
+fn described(path: Option<&Path>, size: [u32; 2], history: Metadata) -> Picture {
     let name = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
     let motion = Motion::recorded(&history);
-    Ok(Picture { name: name.unwrap_or_default(), size, motion, history })
+    Picture { name: name.unwrap_or_default(), size, motion, history }
+}
+
+/// The format of the vector figures; `None` for pictures.
+fn common_format(inputs: &[Input]) -> Result<Option<Format>, Failure> {
+    let formats: Vec<Option<Format>> = inputs.iter().map(|input| figure_format(&input.text)).collect();
+    let Some(other) = formats.iter().position(|format| *format != formats[0]) else { return Ok(formats[0]) };
+    let described = |idx: usize| {
+        let kind = formats[idx].map_or("a picture", Format::name);
+        format!("`{}` is {kind}", inputs[idx].name)
+    };
+    Err(Failure::failed(format!(
+        "the files of a sheet are all PNG, all SVG or all PDF: {}, {}",
+        described(0),
+        described(other)
+    )))
+}
+
+/// Arranges vector figures.
+fn print_figures(
+    args: &Args,
+    inputs: &[Input],
+    format: Format,
+    context: &mut Context,
+) -> Result<(), Failure> {
+    if args.dt.is_some() || context.output_name().is_some_and(|file| file.extension().is_some()) {
+        let given = args.format(context.output_name())?;
+        if given != format {
+            return Err(Failure::Usage(format!(
+                "a sheet of {0} files is a file of the format {0}, not {1}",
+                format.name(),
+                given.name()
+            )));
+        }
+    }
+    let mut figures = Figures::none(format);
+    let mut pictures = Vec::new();
+    let paths =
+        std::iter::once(args.common.input()).chain(args.files.iter().map(|path| Some(path.as_path())));
+    for (path, input) in paths.zip(inputs) {
+        let size = figures
+            .add(&input.text)
+            .map_err(|error| Failure::failed(format!("`{}`: {error}{}", input.name, remedy(&error))))?;
+        let comment = read_history(&input.text).unwrap_or_default();
+        pictures.push(described(path, size, Metadata { comment, ..Metadata::default() }));
+    }
+    let text = if args.txt { TextForm::Text } else { TextForm::Outlines };
+    let metadata = history(&pictures, Some(context.command_line()));
+    let file = figure_sheet(&args.config()?, &pictures, &figures, text, &metadata).map_err(refused)?;
+    context.detail(&format!("{} figures", pictures.len()));
+    context.write(&file)
+}
+
+/// How to make a figure that can be read.
+fn remedy(error: &PartError) -> &'static str {
+    match error {
+        PartError::Compressed => "; write it again with `qpdf --object-streams=disable IN.pdf OUT.pdf`",
+        PartError::Encrypted => "; write it again with `qpdf --decrypt IN.pdf OUT.pdf`",
+        PartError::Pages(_) => "; extract one with `qpdf IN.pdf --pages . 1 -- OUT.pdf`",
+        _ => "",
+    }
+}
+
+fn refused(error: Error) -> Failure {
+    match error {
+        Error::Count { .. } | Error::Text { .. } => Failure::usage(error.words()),
+        error => Failure::failed(error.words()),
+    }
 }
 
 /// Joins tiles to a whole picture.
@@ -230,7 +315,7 @@ impl Words for Error {
             Self::Text { .. } => "; change the text, or use -label or -lb none",
             Self::NoPart { .. } => " (-crop)",
             Self::NoWholeSize { .. } => ": draw all tiles with -sz W H",
-            Self::Empty | Self::Size | Self::Picture(_) => "",
+            Self::Empty | Self::Size | Self::Figure(_) | Self::Picture(_) => "",
         };
         format!("{self}{remedy}")
     }
@@ -304,21 +389,27 @@ pub fn main() -> ExitCode {
             return Err(Failure::usage(NO_TERMINAL));
         }
         let mut inputs = vec![context.input()?];
-        let mut pictures = vec![picture(args.common.input(), &inputs[0])?];
         for path in &args.files {
-            let input = context.input_file(path)?;
-            pictures.push(picture(Some(path), &input)?);
-            inputs.push(input);
+            inputs.push(context.input_file(path)?);
         }
+        if let Some(format) = common_format(&inputs)? {
+            return print_figures(args, &inputs, format, context);
+        }
+        if args.txt {
+            return Err(Failure::usage(
+                "-txt is for sheets of SVG and PDF files: labels of pictures are pixels",
+            ));
+        }
+        let paths =
+            std::iter::once(args.common.input()).chain(args.files.iter().map(|path| Some(path.as_path())));
+        let pictures =
+            paths.zip(&inputs).map(|(path, input)| picture(path, input)).collect::<Result<Vec<_>, _>>()?;
         // The pixels of a picture need much more memory than its file.
         let frame_of = |idx: usize| {
             let input: &Input = &inputs[idx];
             read_png(&input.text, &limits).map(|(frame, _)| frame).map_err(|error| unreadable(input, &error))
         };
-        let frame = sheet(&config, &pictures, frame_of).map_err(|error| match error {
-            Error::Count { .. } | Error::Text { .. } => Failure::usage(error.words()),
-            error => Failure::failed(error.words()),
-        })?;
+        let frame = sheet(&config, &pictures, frame_of).map_err(refused)?;
         context.detail(&format!(
             "{} pictures on {} x {} pixels",
             pictures.len(),

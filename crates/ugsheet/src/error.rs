@@ -1,6 +1,7 @@
 //! The errors of making a sheet.
 
 use thiserror::Error;
+use ugimage::figure::PartError;
 use ugimage::label::MissingCharacter;
 
 /// Largest number of pixels of a sheet.
@@ -46,6 +47,9 @@ pub enum Error {
         /// The name of the tile.
         name: String,
     },
+    /// A vector figure cannot be copied to the sheet.
+    #[error("{0}")]
+    Figure(PartError),
     /// A picture cannot be read or joined to others; the message names it.
     #[error("{0}")]
     Picture(String),

@@ -1,7 +1,7 @@
 //! The layout of a sheet: positions of pictures and lines of text.
 
 use ugimage::figure::{Point, Rgb};
-use ugimage::label::{ASCENT, DESCENT, Line, SPACING, ink_on, wrapped};
+use ugimage::label::{ASCENT, DESCENT, Drawing, Line, SPACING, ink_on, wrapped};
 
 use crate::error::{Error, MAX_PIXELS};
 use crate::{Config, Picture};
@@ -83,6 +83,15 @@ impl Layout {
             return Err(Error::Size);
         }
         Ok(Self { size, pictures: places, lines: page.lines, ink: ink_on(config.background) })
+    }
+
+    /// The text of the sheet.
+    pub fn drawing(&self) -> Drawing {
+        let mut drawing = Drawing::default();
+        for (line, origin) in &self.lines {
+            drawing.text(line, *origin, self.ink);
+        }
+        drawing
     }
 }
 

@@ -5,6 +5,8 @@
 //! these are the labels, otherwise the file names ([`Labels`]). Opaque pixels are copied unchanged;
 //! transparent ones are composited over the background.
 //!
+//! Vector figures, SVG or PDF, are arranged in the same way, and stay vectors ([`figure_sheet`]).
+//!
 //! It also joins the tiles of a large picture to the whole ([`join`]).
 //!
 //! # Example
@@ -28,6 +30,7 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod error;
+mod figures;
 mod labels;
 mod layout;
 #[cfg(feature = "cli")]
@@ -35,12 +38,12 @@ mod recipe;
 mod shell_words;
 mod tiles;
 
-use ugimage::label::Drawing;
 use ugimage::{Frame, Metadata};
 
 #[cfg(feature = "cli")]
 pub use cli::{main, manual};
 pub use error::Error;
+pub use figures::{Figures, figure_format, figure_sheet};
 pub use labels::{Labels, Motion};
 use layout::Layout;
 pub use tiles::join;
@@ -123,11 +126,7 @@ pub fn sheet(
             alpha => over(pixel, f64::from(alpha) / 255.0, under, &quantizer),
         });
     }
-    let mut drawing = Drawing::default();
-    for (line, origin) in &layout.lines {
-        drawing.text(line, *origin, layout.ink);
-    }
-    drawing.paint(&mut frame);
+    layout.drawing().paint(&mut frame);
     Ok(frame)
 }
 

@@ -5,7 +5,7 @@ use ugimage::{Filter, Format, Tone};
 use ugphysics::{Brightness, Hsv, Velocity};
 use ugrainbow::{
     AnnotationOptions, Background, CameraOptions, Channel, ColorShift, DepthCue, Exposure, HueScale,
-    Interpolation, Output, PictureOptions, SpectralShift, Wireframe,
+    Interpolation, Output, PictureOptions, SpectralShift, TextForm, Wireframe,
 };
 use ugtesting::Random;
 use ugwarp::{Basis, Lens};
@@ -186,5 +186,6 @@ fn picture(random: &mut Random) -> PictureOptions {
             outline: random.one_in(4),
             grid: random.one_in(4),
         },
+        text: *random.pick(&[TextForm::Outlines, TextForm::Text]),
     }
 }

@@ -18,15 +18,24 @@
 //! An edge is shared only between areas on opposite sides of it. This is decided by the direction
 //! of the edge, so all outlines must have the same orientation (clockwise, say).
 
+mod part_error;
 mod pdf;
+mod pdf_font;
+mod pdf_object;
+mod pdf_part;
 mod postscript;
+mod postscript_font;
 mod svg;
+mod svg_part;
 
 use std::collections::HashMap;
 
-pub use pdf::pdf;
+pub use part_error::PartError;
+pub use pdf::{pdf, pdf_sheet};
+pub use pdf_part::PdfPart;
 pub use postscript::{eps, ps};
-pub use svg::svg;
+pub use svg::{svg, svg_sheet};
+pub use svg_part::SvgPart;
 
 /// Display-encoded (sRGB) red, green, blue.
 pub type Rgb = [u8; 3];
@@ -70,9 +79,26 @@ pub enum Element<S> {
         /// Its colour.
         color: Rgb,
     },
+    /// A line of text.
+    Text(Text),
     /// Clips the following elements to the given number of pixel rows from the top; `None` ends the
     /// clipping.
     ClipRows(Option<u32>),
+}
+
+/// A line of text in the embedded font, DejaVu Sans, which has all of its characters.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Text {
+    /// Its characters.
+    pub text: String,
+    /// The distance of the origin of each character from that of the first, in pixels.
+    pub places: Vec<f64>,
+    /// The beginning of the baseline.
+    pub origin: Point,
+    /// The em size in pixels.
+    pub size: f64,
+    /// Its colour.
+    pub color: Rgb,
 }
 
 /// A triangle with a colour at each corner, interpolated linearly between them in display encoding.
@@ -164,10 +190,20 @@ enum PaintOp<'a> {
     Area { contours: &'a [Vec<Point>], color: Rgb, seams: Vec<[Point; 2]> },
     /// A line.
     Line { ends: [Point; 2], width: f64, color: Rgb },
+    /// See [`Element::Text`].
+    Text(&'a Text),
     /// All consecutive triangles.
     Mesh(Mesh),
     /// See [`Element::ClipRows`].
     ClipRows(Option<u32>),
+}
+
+/// The lines of text of a figure.
+fn texts<S>(figure: &Figure<S>) -> impl Iterator<Item = &Text> {
+    figure.elements.iter().filter_map(|element| match element {
+        Element::Text(text) => Some(text),
+        _ => None,
+    })
 }
 
 /// The painting operations of a figure.
@@ -184,6 +220,7 @@ fn paint_ops(figure: &Figure<GouraudTriangle>) -> impl Iterator<Item = PaintOp<'
             Element::Line { ends, width, color } => {
                 PaintOp::Line { ends: *ends, width: *width, color: *color }
             }
+            Element::Text(text) => PaintOp::Text(text),
             Element::ClipRows(rows) => PaintOp::ClipRows(*rows),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();

@@ -1,6 +1,9 @@
 //! Figures as PostScript level 3.
 
-use super::{Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, number, paint_ops};
+use super::postscript_font::{definition, show};
+use super::{
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, number, paint_ops, texts,
+};
 use crate::pdf::deflate;
 use crate::postscript::Ascii85;
 use crate::{Metadata, eps as eps_file, ps as ps_file};
@@ -39,6 +42,7 @@ fn prologue([width, height]: [u32; 2]) -> String {
 
 fn drawing(figure: &Figure<GouraudTriangle>) -> Vec<u8> {
     let mut page = Page { out: prologue(figure.size).into_bytes(), color: None, width: None };
+    definition(texts(figure), &mut page.out);
     if let Some(background) = figure.background {
         let [width, height] = figure.size;
         page.set_color(background);
@@ -65,6 +69,10 @@ fn drawing(figure: &Figure<GouraudTriangle>) -> Vec<u8> {
             PaintOp::Mesh(mesh) => {
                 page.add("UgMesh\n");
                 Ascii85::encode(&deflate(&mesh.0), &mut page.out);
+            }
+            PaintOp::Text(text) => {
+                page.set_color(text.color);
+                page.add(&show(text));
             }
             PaintOp::ClipRows(rows) => page.clip_rows(figure.size[0], rows),
         }

@@ -1,16 +1,33 @@
 //! Figures as SVG.
 
-use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, number, seams};
-use crate::Metadata;
-use crate::svg::document;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::svg_part::SvgPart;
+use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, Text, number, seams, texts};
+use crate::svg::{document, escaped};
+use crate::{Metadata, typeface};
 
 /// The figure as an SVG file, one pixel per user unit.
 pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
+    svg_sheet(figure, &[], metadata)
+}
+
+/// As [`svg`], with parts over the background, each with its upper left corner at a place.
+pub fn svg_sheet(figure: &Figure<Gradient>, parts: &[(Point, SvgPart)], metadata: &Metadata) -> Vec<u8> {
     let mut out = String::new();
     if let Some(background) = figure.background {
         out += &format!("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", hex(background));
     }
-    out += &format!("<g fill-rule=\"evenodd\" stroke-width=\"{SEAM_WIDTH}\">\n");
+    out.extend(parts.iter().map(|(place, part)| part.element(*place)));
+    let mut font = String::new();
+    if texts(figure).next().is_some() {
+        out += &font_face();
+        let family = typeface::FAMILY;
+        // A line may begin with a space.
+        font = format!(" font-family=\"{family}, Verdana, sans-serif\" xml:space=\"preserve\"");
+    }
+    out += &format!("<g fill-rule=\"evenodd\" stroke-width=\"{SEAM_WIDTH}\"{font}>\n");
     let seams = seams(figure.elements.iter().map(|element| match element {
         Element::Area { contours, is_inside: false, .. } => Some(&contours[..]),
         Element::Smooth(gradient) if !gradient.is_inside => Some(&gradient.contours[..]),
@@ -35,6 +52,7 @@ pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
                 let (path, width) = (lines(&[*ends]), number(*width));
                 out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
             }
+            Element::Text(text) => out += &text_element(text),
             Element::ClipRows(Some(rows)) => {
                 out +=
                     &format!("<clipPath id=\"c\"><path d=\"M0 0H{}V{rows}H0z\"/></clipPath>", figure.size[0]);
@@ -45,6 +63,25 @@ pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
     }
     out += "</g>\n";
     document(figure.size, metadata, &out)
+}
+
+/// The embedded font as a style sheet, so that viewers need not have it.
+fn font_face() -> String {
+    format!(
+        "<style>@font-face{{font-family:\"{}\";src:url(data:font/ttf;base64,{})}}</style>\n",
+        typeface::FAMILY,
+        STANDARD.encode(typeface::FILE)
+    )
+}
+
+/// A line of text. Viewers apply the kerning of the font, as [`Text::places`] do.
+fn text_element(Text { text, origin, size, color, .. }: &Text) -> String {
+    let ([x, y], size) = (origin.map(number), number(*size));
+    format!(
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\">{}</text>\n",
+        hex(*color),
+        escaped(text)
+    )
 }
 
 /// An area, and the lines that extend it along shared edges.

@@ -4,6 +4,7 @@ use crate::figure::Point;
 use tiny_skia::{FillRule, Mask, Path, PathBuilder, Transform};
 
 use crate::label::drawing::Shape;
+use crate::label::text::contours;
 
 /// Mask cells per pixel, along each axis; tiny-skia takes 4 × 4 samples per cell.
 const CELLS_PER_PIXEL: u32 = 4;
@@ -38,6 +39,7 @@ impl Tile {
                 // union.
                 (self.path(strips.iter().map(Vec::as_slice)), FillRule::Winding)
             }
+            Shape::Text(text) => (self.path(contours(text).iter().map(Vec::as_slice)), FillRule::EvenOdd),
         };
         let path = path?;
         let [width, height] = self.size;

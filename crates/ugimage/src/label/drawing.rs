@@ -1,8 +1,10 @@
 //! Shapes of one colour each, in painting order.
 
-use crate::figure::{Element, Point, Rgb};
+use std::borrow::Cow;
 
-use crate::label::text::Line;
+use crate::figure::{Element, Point, Rgb, Text};
+
+use crate::label::text::{Line, contours};
 
 /// A list of shapes to be painted over an image.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,6 +32,35 @@ pub enum Shape {
         /// Their colour.
         color: Rgb,
     },
+    /// A line of text.
+    Text(Text),
+}
+
+impl Shape {
+    /// Its colour.
+    pub fn color(&self) -> Rgb {
+        match self {
+            Self::Area { color, .. } | Self::Lines { color, .. } | Self::Text(Text { color, .. }) => *color,
+        }
+    }
+
+    /// The same shape with text as areas, the outlines of its letters.
+    pub fn outlined(&self) -> Cow<'_, Self> {
+        match self {
+            Self::Text(text) => Cow::Owned(Self::Area { contours: contours(text), color: text.color }),
+            Self::Area { .. } | Self::Lines { .. } => Cow::Borrowed(self),
+        }
+    }
+}
+
+/// The form of text in vector figures.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TextForm {
+    /// Areas, the outlines of its letters.
+    #[default]
+    Outlines,
+    /// Text, which can be searched and edited, in an embedded font.
+    Text,
 }
 
 impl Drawing {
@@ -52,10 +83,7 @@ impl Drawing {
 
     /// Adds a line of text whose baseline begins at `origin`.
     pub fn text(&mut self, line: &Line, origin: Point, color: Rgb) {
-        let contours = line.contours(origin);
-        if !contours.is_empty() {
-            self.shapes.push(Shape::Area { contours, color });
-        }
+        self.shapes.push(Shape::Text(line.at(origin, color)));
     }
 
     /// Adds an arrow from one point to another; `width` is the width of its shaft.
@@ -76,10 +104,17 @@ impl Drawing {
     }
 
     /// The shapes as elements of a vector figure.
-    pub fn elements<S>(&self) -> Vec<Element<S>> {
+    pub fn elements<S>(&self, form: TextForm) -> Vec<Element<S>> {
         let mut elements = Vec::new();
         for shape in &self.shapes {
             match shape {
+                Shape::Text(text) if text.text.trim().is_empty() => {}
+                Shape::Text(text) => elements.push(match form {
+                    TextForm::Outlines => {
+                        Element::Area { contours: contours(text), color: text.color, is_inside: false }
+                    }
+                    TextForm::Text => Element::Text(text.clone()),
+                }),
                 Shape::Area { contours, color } => {
                     elements.push(Element::Area {
                         contours: contours.clone(),

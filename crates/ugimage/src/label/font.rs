@@ -3,10 +3,8 @@
 use std::fmt;
 
 use crate::figure::Point;
+use crate::typeface;
 use ab_glyph::{Font, FontRef, GlyphId, OutlineCurve};
-
-/// DejaVu Sans; its licence is in the same folder.
-const FONT: &[u8] = include_bytes!("../../font/DejaVuSans.ttf");
 
 /// Largest distance in pixels between a Bézier curve and its flattened outline.
 const TOLERANCE: f64 = 0.01;
@@ -44,9 +42,9 @@ pub struct Glyph(GlyphId);
 impl SizedFont {
     /// The font at em size `size`, in pixels.
     pub fn new(size: f64) -> Self {
-        let font = FontRef::try_from_slice(FONT).expect("the embedded font is valid");
-        let units = font.units_per_em().expect("the embedded font has units per em");
-        Self { font, scale: size / f64::from(units) }
+        let font = typeface::font();
+        let scale = size / typeface::units_per_em(&font);
+        Self { font, scale }
     }
 
     /// The glyph of a character.

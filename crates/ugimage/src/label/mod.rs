@@ -5,10 +5,11 @@
 //! [`Drawing::paint_light`]), or converted to elements of a vector figure ([`Drawing::elements`]);
 //! both look the same.
 //!
-//! Text ([`Line`], [`wrapped`]) consists of areas, too: the glyph outlines of an embedded font,
-//! DejaVu Sans with Latin and Greek letters, superscript and subscript digits, arrows and
-//! mathematical signs. A character that the font lacks is an error ([`MissingCharacter`]); no
-//! placeholder box is drawn. Text runs from left to right, with one glyph per character.
+//! Text ([`Line`], [`wrapped`]) is drawn as areas: the glyph outlines of an embedded font. In vector
+//! figures it can stay text ([`TextForm`]). The font is DejaVu Sans with Latin and Greek letters,
+//! superscript and subscript digits, arrows and mathematical signs. A character that the font lacks
+//! is an error ([`MissingCharacter`]); no placeholder box is drawn. Text runs from left to right,
+//! with one glyph per character.
 //!
 //! The same drawing gives the same bytes on every platform: outlines consist of straight lines, and
 //! their pixel coverage is computed in integers.
@@ -34,7 +35,7 @@ pub mod number;
 mod paint;
 mod text;
 
-pub use drawing::{Drawing, Shape};
+pub use drawing::{Drawing, Shape, TextForm};
 pub use font::MissingCharacter;
 pub use ink::ink_on;
 pub use text::{ASCENT, DESCENT, Line, SPACING, wrapped};

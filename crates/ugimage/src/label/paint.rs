@@ -7,7 +7,7 @@ use crate::{Frame, LinearFrame};
 use ugphysics::{srgb_decode, srgb_encode};
 
 use crate::label::coverage::{TILE, Tile};
-use crate::label::drawing::{Drawing, Shape};
+use crate::label::drawing::Drawing;
 
 impl Drawing {
     /// Paints the drawing on a frame. Pixels that no shape covers keep their bytes.
@@ -44,16 +44,17 @@ impl Drawing {
     /// shape and the coverage, 0…1.
     fn for_each_covered(&self, [width, height]: [u32; 2], mut mix: impl FnMut(usize, [u8; 3], f32)) {
         for shape in &self.shapes {
-            let (Shape::Area { color, .. } | Shape::Lines { color, .. }) = shape;
+            let shape = shape.outlined();
+            let color = shape.color();
             for top in (0..height).step_by(TILE as usize) {
                 for left in (0..width).step_by(TILE as usize) {
                     let size = [TILE.min(width - left), TILE.min(height - top)];
                     let tile = Tile { first: [left, top], size };
-                    let Some(parts) = tile.coverage(shape) else { continue };
+                    let Some(parts) = tile.coverage(&shape) else { continue };
                     for (idx, &part) in parts.iter().enumerate().filter(|(_, part)| **part > 0.0) {
                         let (x, y) =
                             (left as usize + idx % size[0] as usize, top as usize + idx / size[0] as usize);
-                        mix(y * width as usize + x, *color, part);
+                        mix(y * width as usize + x, color, part);
                     }
                 }
             }

@@ -1,6 +1,6 @@
 //! Lines of text, and paragraphs broken into lines.
 
-use crate::figure::Point;
+use crate::figure::{Point, Rgb, Text};
 
 use crate::label::font::{Glyph, MissingCharacter, SizedFont};
 
@@ -15,9 +15,10 @@ pub const SPACING: f64 = 1.35;
 
 /// A line of text at a size.
 pub struct Line {
-    font: SizedFont,
-    /// Each glyph with the distance of its origin from the left end, in pixels.
-    glyphs: Vec<(Glyph, f64)>,
+    text: String,
+    size: f64,
+    /// The distance of each character's origin from the left end, in pixels.
+    places: Vec<f64>,
     width: f64,
 }
 
@@ -28,16 +29,17 @@ impl Line {
     /// The font lacks a character.
     pub fn new(text: &str, size: f64) -> Result<Self, MissingCharacter> {
         let font = SizedFont::new(size);
-        let glyphs = text.chars().map(|c| font.glyph(if matches!(c, '\t' | '\n' | '\r') { ' ' } else { c }));
-        let glyphs = glyphs.collect::<Result<Vec<_>, _>>()?;
+        let text: String =
+            text.chars().map(|c| if matches!(c, '\t' | '\n' | '\r') { ' ' } else { c }).collect();
+        let glyphs = text.chars().map(|c| font.glyph(c)).collect::<Result<Vec<Glyph>, _>>()?;
         let mut width = 0.0;
         let places = glyphs.iter().enumerate().map(|(idx, &glyph)| {
             let place = width;
             width += font.advance(glyph, glyphs.get(idx + 1).copied());
-            (glyph, place)
+            place
         });
-        let glyphs = places.collect();
-        Ok(Self { font, glyphs, width })
+        let places = places.collect();
+        Ok(Self { text, size, places, width })
     }
 
     /// Its width in pixels.
@@ -45,11 +47,17 @@ impl Line {
         self.width
     }
 
-    /// The outlines of all characters, for a baseline that begins at `[x, y]`.
-    pub fn contours(&self, [x, y]: Point) -> Vec<Vec<Point>> {
-        let contours = |&(glyph, place): &(Glyph, f64)| self.font.contours(glyph, [x + place, y]);
-        self.glyphs.iter().flat_map(contours).collect()
+    /// The line with a baseline that begins at `origin`.
+    pub fn at(&self, origin: Point, color: Rgb) -> Text {
+        Text { text: self.text.clone(), places: self.places.clone(), origin, size: self.size, color }
     }
+}
+
+/// The outlines of all characters of a line.
+pub fn contours(Text { text, places, origin: [x, y], size, .. }: &Text) -> Vec<Vec<Point>> {
+    let font = SizedFont::new(*size);
+    let glyphs = text.chars().zip(places).filter_map(|(c, place)| Some((font.glyph(c).ok()?, place)));
+    glyphs.flat_map(|(glyph, place)| font.contours(glyph, [x + place, *y])).collect()
 }
 
 /// Text broken into lines of at most `width` pixels: at line breaks, between words, and inside a
@@ -105,10 +113,10 @@ mod tests {
         for width in [60.0, 100.0, 250.0, 5000.0] {
             let lines = wrapped(text, 12.0, width).unwrap();
             assert!(lines.iter().all(|line| line.width() <= width));
-            let glyphs: usize = lines.iter().map(|line| line.glyphs.len()).sum();
+            let glyphs: usize = lines.iter().map(|line| line.places.len()).sum();
             // At least, because spaces within lines also count.
             assert!(glyphs >= whole, "{width}");
-            assert!(lines.iter().any(|line| line.glyphs.is_empty()), "the empty line stays");
+            assert!(lines.iter().any(|line| line.places.is_empty()), "the empty line stays");
         }
         assert_eq!(wrapped(text, 12.0, 5000.0).unwrap().len(), 3);
     }
@@ -123,7 +131,7 @@ mod tests {
     #[test]
     fn letters_stay_within_ascent_and_descent() {
         for text in ["Éßgjpqy|ﬁ", "(γ = 2,29)²", "ÀÂÅ Ωβ∫"] {
-            let contours = Line::new(text, 100.0).unwrap().contours([0.0, 0.0]);
+            let contours = contours(&Line::new(text, 100.0).unwrap().at([0.0, 0.0], [0; 3]));
             let rows: Vec<f64> = contours.iter().flatten().map(|place| place[1]).collect();
             // Accents on capitals reach higher than ASCENT.
             assert!(

@@ -1,7 +1,7 @@
 //! Annotations drawn over pixels, or added to a vector figure.
 
 use ugimage::figure::{Element, Figure, Rgb};
-use ugimage::label::Drawing;
+use ugimage::label::{Drawing, TextForm};
 use ugimage::{Frame, LinearFrame, Quantizer};
 
 use crate::image::Image;
@@ -20,6 +20,8 @@ pub struct Annotations {
     pub over: Drawing,
     /// Drawn on the strips.
     pub strips: Drawing,
+    /// The form of their text in vector figures.
+    pub text: TextForm,
     /// Notes for the user.
     pub notes: Vec<Note>,
 }
@@ -87,13 +89,13 @@ impl Annotations {
     /// Adds the annotations to the vector figure of a scene.
     fn complete<S>(&self, mut figure: Figure<S>) -> Figure<S> {
         figure.size = self.size;
-        figure.elements.extend(self.over.elements());
+        figure.elements.extend(self.over.elements(self.text));
         if self.has_strips() {
             // Faces and lines may extend beyond the picture of the scene.
             figure.elements.insert(0, Element::ClipRows(Some(self.scene_rows)));
             figure.elements.push(Element::ClipRows(None));
         }
-        figure.elements.extend(self.strips.elements());
+        figure.elements.extend(self.strips.elements(self.text));
         figure
     }
 

@@ -141,6 +141,7 @@ impl Layout {
             background,
             over: Drawing::default(),
             strips: Drawing::default(),
+            text: options.text,
             notes: Vec::new(),
         };
         let AnnotationOptions { legend, outline, grid, .. } = options.annotations;

@@ -36,6 +36,9 @@ const ASIDE: f64 = 1.6;
 /// as in the plane.
 const FLAT: f64 = 3e-3;
 
+/// As [`BEHIND`], of faces that are connected with the edge, so that they are placed as exactly.
+const JUST_BEHIND: f64 = 1e-6;
+
 /// Points further than this behind the plane of a face, relative to their distance from the eye,
 /// are behind it: a tenth of a pixel of a face that is seen at 45 degrees.
 const BEHIND: f64 = 1e-4;
@@ -171,13 +174,28 @@ impl<'a> Faces<'a> {
         Self { scene, places, view, surfaces: surfaces(scene) }
     }
 
-    /// True if the face in the pixel of a point of an edge hides it.
+    /// True if a face in the pixels around a point of an edge hides it.
     ///
     /// [`VisibleLines`] tolerates what is a little nearer, and what is beside the point, since
-    /// faces of the surface that ends at an edge are seen so. Nothing of that is needed of other
-    /// surfaces, which the point is in front of or behind, nor where the surface turns away on both
-    /// sides of the edge and does not end.
+    /// faces of the surface that ends at an edge are seen so. A silhouette continues behind its own
+    /// surface, nearer to it than that tolerance, so each of these faces is tested exactly.
     fn hide(&self, visible: &VisibleLines<'_>, edge: &Edge, place: DepthPoint) -> bool {
+        let point = visible.point(place);
+        let is_own = |face: usize| edge.faces.iter().any(|&(own, _)| own == face);
+        let is_connected =
+            |face: usize| edge.faces.iter().any(|&(own, _)| self.surfaces[own] == self.surfaces[face]);
+        let behind = |face: usize| if is_connected(face) { JUST_BEHIND } else { BEHIND };
+        self.hides_by_plane(visible, edge, place)
+            || visible.faces_around([place[0], place[1]]).any(|face| {
+                !is_own(face)
+                    && self.is_behind(face, point, behind(face))
+                    && self.covers(visible, face, place)
+            })
+    }
+
+    /// True if the face in the pixel of a point of an edge is part of another surface, or the edge
+    /// is not where its surface ends, and the point is behind the plane of the face.
+    fn hides_by_plane(&self, visible: &VisibleLines<'_>, edge: &Edge, place: DepthPoint) -> bool {
         let Some(face) = visible.face_at([place[0], place[1]]) else { return false };
         let is_own = edge.faces.iter().any(|&(own, _)| own == face);
         let is_of_surface = edge.faces.iter().any(|&(own, _)| self.surfaces[own] == self.surfaces[face]);
@@ -185,12 +203,38 @@ impl<'a> Faces<'a> {
         if is_own || (is_of_surface && !is_turned_away) {
             return false;
         }
+        self.is_behind(face, visible.point(place), BEHIND)
+    }
+
+    /// True if a point, relative to the eye, is behind the plane of a face, by more than `least` of
+    /// its distance.
+    fn is_behind(&self, face: usize, point: DVec3, least: f64) -> bool {
         let outline = self.scene.face_contours(&self.scene.faces[face]).next();
         let Some(corner) = outline.and_then(<[VertexId]>::first) else { return false };
         let (normal, is_front) = self.normal(face);
-        let point = visible.point(place);
         let height = normal.dot(point - self.places[corner.index()]);
-        (if is_front { height } else { -height }) < -BEHIND * point.length()
+        (if is_front { height } else { -height }) < -least * point.length()
+    }
+
+    /// True if a face covers a point of the picture; false if a part of it is behind the eye.
+    fn covers(&self, visible: &VisibleLines<'_>, face: usize, [x, y, _]: DepthPoint) -> bool {
+        let mut is_inside = false;
+        for contour in self.scene.face_contours(&self.scene.faces[face]) {
+            let Some(last) = contour.last() else { continue };
+            let mut from = visible.depth_point(self.places[last.index()]);
+            for corner in contour {
+                let to = visible.depth_point(self.places[corner.index()]);
+                if self.view.is_perspective && to[2] <= 0.0 {
+                    return false;
+                }
+                let crosses = (from[1] <= y) != (to[1] <= y);
+                if crosses && from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1]) > x {
+                    is_inside = !is_inside;
+                }
+                from = to;
+            }
+        }
+        is_inside
     }
 
     /// The normal of a face, and whether the eye is on its side.

@@ -72,7 +72,7 @@ impl VisibleLines<'_> {
     }
 
     /// Projects a point, relative to the eye.
-    fn depth_point(&self, point: DVec3) -> DepthPoint {
+    pub fn depth_point(&self, point: DVec3) -> DepthPoint {
         let place = self.view.place(point);
         if self.view.is_perspective {
             [place.x / place.z, place.y / place.z, 1.0 / place.z]
@@ -89,6 +89,15 @@ impl VisibleLines<'_> {
     /// The face visible at a point of the picture.
     pub fn face_at(&self, [x, y]: Point) -> Option<usize> {
         self.depths.get(x.floor() as i64, y.floor() as i64).map(|seen| seen.item as usize)
+    }
+
+    /// The faces visible in the nine pixels around a point of the picture, some more than once.
+    pub fn faces_around(&self, [x, y]: Point) -> impl Iterator<Item = usize> {
+        let [column, row] = [x, y].map(|coordinate| coordinate.floor() as i64);
+        let pixels = (-1..=1).flat_map(move |down| {
+            (-1..=1).map(move |right| (column.saturating_add(right), row.saturating_add(down)))
+        });
+        pixels.filter_map(|(column, row)| self.depths.get(column, row)).map(|seen| seen.item as usize)
     }
 
     /// True unless all nine pixels around the point show something nearer.
