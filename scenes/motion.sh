@@ -58,7 +58,7 @@ film departure 60 -rays -aa 2 -ti 4..64 -ease smooth -ex 1 departure.ug
 film orbit 60 -li -ti 30..92.8 -ex 3 orbit.ug
 
 # A spinning sphere before a mirror, and a disc.
-film spinning 60 -rays -aa 3 -look shape -ti 8..14.2832 -loop spinning.ug
+film spinning 60 -rays -aa 2 -look shape -ti 8..14.2832 -loop spinning.ug
 film disc 50 -look 1988 -ti 9..15.6139 -loop disc.ug
 
 # Slalom on a path from a table.

@@ -233,15 +233,15 @@ fn cameras_come_from_scenes() {
     let check = |scene: &[&str], plain: &[&str]| {
         let [seen, expected] = [scene, plain].map(|args| numbers(bytes(args)));
         for (seen, expected) in seen.iter().zip(&expected) {
-            assert!((seen - expected).abs() < 1e-4 * expected.abs().max(0.01), "{scene:?}: {seen} {expected}");
+            assert!(
+                (seen - expected).abs() < 1e-4 * expected.abs().max(0.01),
+                "{scene:?}: {seen} {expected}"
+            );
         }
     };
     let base = ["--scene", &scene, "--time", "3"];
     check(&base, &["-cv", "0", ".5", "0", "-vc", "1", "0", "0"]);
-    check(
-        &[&base[..], &["-cam", "ahead"]].concat(),
-        &["-cv", "0", ".5", "0", "-va", "70"],
-    );
+    check(&[&base[..], &["-cam", "ahead"]].concat(), &["-cv", "0", ".5", "0", "-va", "70"]);
     check(
         &[&base[..], &["-cam", "ahead", "-vc", "0", "0", "1", "-ud", "1", "0", "0", "-va", "30"]].concat(),
         &["-cv", "0", ".5", "0", "-vc", "0", "0", "1", "-ud", "1", "0", "0", "-va", "30"],
