@@ -18,7 +18,7 @@ pub struct Config {
     /// Velocity of the camera in the frame of the panorama.
     pub velocity: Velocity,
     /// The camera of a scene, in its own frame; options of [`picture`](Self::picture) override it.
-    pub camera: Camera,
+    pub camera: Box<Camera>,
     /// Time of the picture on the clock of the camera of a scene, see
     /// [`with_camera_of`](Self::with_camera_of).
     pub time: f64,
@@ -42,7 +42,7 @@ impl Default for Config {
     fn default() -> Self {
         Self {
             velocity: Velocity::ZERO,
-            camera: Camera::default(),
+            camera: Box::default(),
             time: 0.0,
             shift: ColorShift::default(),
             basis: Basis::Mixture,
@@ -76,7 +76,7 @@ impl Config {
         // They are in the camera now, turned with it.
         let own = &mut config.picture.camera;
         (own.name, own.eye, own.center, own.up) = (None, None, None, None);
-        Ok(Self { camera, velocity, ..config })
+        Ok(Self { camera: camera.into(), velocity, ..config })
     }
 
     /// Refuses options that exclude each other, and pictures that do not fit in memory.

@@ -83,7 +83,7 @@ pub fn warp(random: &mut Random) -> ugwarp::Config {
     let velocity = |random: &mut Random| Velocity::from_beta(beta(random)).ok();
     ugwarp::Config {
         velocity: velocity(random).unwrap_or(Velocity::ZERO),
-        camera: ugscene::Camera::default(),
+        camera: Box::default(),
         time: number(random),
         shift: shift(random),
         basis: match random.below(4) {
