@@ -246,7 +246,7 @@ fn cameras_come_from_scenes() {
         &[&base[..], &["-cam", "ahead", "-vc", "0", "0", "1", "-ud", "1", "0", "0", "-va", "30"]].concat(),
         &["-cv", "0", ".5", "0", "-vc", "0", "0", "1", "-ud", "1", "0", "0", "-va", "30"],
     );
-    refused(&["--scene", &scene, "-cv", "0", "0", "0"], &sky(), 2, "cannot be used with");
+    refused(&["--scene", &scene, "-cv", "0", "0", "0"], &sky(), 2, "cannot be given together");
     refused(&["-ti", "2"], &sky(), 2, "--scene");
     refused(&["-cam", "ahead"], &sky(), 2, "name the scene of the camera with --scene");
     refused(&["--scene", &scene, "--allow-outside", "-cam", "astern"], &sky(), 1, "astern");
