@@ -854,6 +854,289 @@ def t36():
         ask(f"retarded {text(p)} {text(v)}", [w] + where, OURS)
 
 
+# ---------------------------------------------------------------- world lines
+
+HOME = vec(0, 0, 0)
+
+
+def turned(v, w, tau):
+    """The vector v, turned with the angular velocity w for a time tau (Rodrigues)."""
+    rate = norm(w)
+    if not rate:
+        return list(v)
+    n, phi = [x / rate for x in w], rate * tau
+    cross = [n[1] * v[2] - n[2] * v[1], n[2] * v[0] - n[0] * v[2], n[0] * v[1] - n[1] * v[0]]
+    along = dot(n, v) * (1 - mp.cos(phi))
+    return [mp.cos(phi) * v[i] + mp.sin(phi) * cross[i] + along * n[i] for i in range(3)]
+
+
+def rocket(a, duration=None):
+    """Event and velocity of a point with constant proper acceleration a from rest at the origin, from its own time 0 on."""
+    size = norm(a)
+    n = [x / size for x in a]
+
+    def at(tau):
+        burnt = min(max(tau, mpf(0)), duration) if duration is not None else max(tau, mpf(0))
+        t, way, v = mp.sinh(size * burnt) / size, (mp.cosh(size * burnt) - 1) / size, mp.tanh(size * burnt)
+        v = [v * x for x in n]
+        rest = tau - burnt
+        g = gamma(v)
+        return [t + g * rest] + [way * n[i] + g * rest * v[i] for i in range(3)], v
+
+    return at
+
+
+def circle(rho, omega):
+    g = 1 / mp.sqrt(1 - (rho * omega) ** 2)
+
+    def at(tau):
+        phi = omega * g * tau
+        event = [g * tau, rho * mp.cos(phi), rho * mp.sin(phi), mpf(0)]
+        return event, [-rho * omega * mp.sin(phi), rho * omega * mp.cos(phi), mpf(0)]
+
+    return at
+
+
+def carried(rho, omega, tau):
+    """The axes of a camera on the circle: a single boost, after a turn by Thomas' angle. `check_axes` has the definition."""
+    g = 1 / mp.sqrt(1 - (rho * omega) ** 2)
+    return vec(0, 0, 1), -g * (g - 1) * omega * tau
+
+
+def check_axes():
+    """Axes carried without turning: de/dtau = (a.e) u, a = du/dtau, by differences."""
+    rho, omega = mpf(3), mpf("0.3")
+    at = circle(rho, omega)
+
+    def axis(i, tau):
+        n, lag = carried(rho, omega, tau)
+        e = [mpf(int(i == k)) for k in range(3)]
+        return from_frame(at(tau)[1], [mpf(0)] + turned(e, n, lag))
+
+    def proper(tau):
+        v = at(tau)[1]
+        return [gamma(v)] + [gamma(v) * x for x in v]
+
+    slope = lambda f, tau: [mp.diff(lambda s: f(s)[k], tau) for k in range(4)]
+    for tau in (mpf(0), mpf("1.7"), mpf("-5.3")):
+        u, a = proper(tau), slope(proper, tau)
+        for i in range(3):
+            e = axis(i, tau)
+            ae = dot(a[1:], e[1:]) - a[0] * e[0]
+            assert norm([x - ae * y for x, y in zip(slope(lambda s: axis(i, s), tau), u)]) < mpf(10) ** -15
+
+
+def point_of(at, xi):
+    """X(tau) of the point with body coordinates xi(tau) relative to the reference point, in axes that are a single boost."""
+
+    def event(tau):
+        z, v = at(tau)
+        return plus(z, 1, from_frame(v, [mpf(0)] + xi(tau)))
+
+    return event
+
+
+def root(f):
+    """The zero of a decreasing function, by bracketing."""
+    low, high = -mpf(1), mpf(1)
+    while f(low) < 0:
+        low *= 2
+    while f(high) > 0:
+        high *= 2
+    return mp.findroot(f, (low, high), solver="anderson", tol=mpf(10) ** -80, maxsteps=500)
+
+
+def leaving(event, eye):
+    """The own time at which light leaves for the eye."""
+    return root(lambda tau: eye[0] - event(tau)[0] - norm(plus(eye[1:], -1, event(tau)[1:])))
+
+
+def rates(event, tau):
+    return [mp.diff(lambda s: event(s)[k], tau) for k in range(4)]
+
+
+def looks(event, tau, eye, moving_at=None):
+    """What is seen of X(tau): position relative to the eye, velocity, D. By two flashes: the point's own time between
+    them over the time between their arrivals. `moving_at`: another own time, at which the velocity is taken."""
+    place = plus(event(tau)[1:], -1, eye[1:])
+    rate = rates(event, tau if moving_at is None else moving_at)
+    clock = mp.sqrt(rate[0] ** 2 - dot(rate[1:], rate[1:]))
+    arrivals = rate[0] + dot(unit(place), rate[1:])
+    return place + [x / rate[0] for x in rate[1:]] + [clock / arrivals]
+
+
+def ask_seen(kind, given, event, eye, source, printed=None, **wrong):
+    """A point of a body on a world line. `wrong`: events by other laws, with mistakes."""
+    tau = leaving(event, eye)
+    right = [tau] + looks(event, tau, eye)
+    now = root(lambda s: eye[0] - event(s)[0])
+    mistakes = {"M17": [tau] + looks(event, tau, eye, now)}
+    for name, other in wrong.items():
+        if callable(other):
+            s = leaving(other, eye)
+            mistakes[name] = [s] + looks(other, s, eye)
+        else:
+            # Light leaves all points at one own time.
+            mistakes[name] = [other] + looks(event, other, eye)
+    # Some are faster than light.
+    is_real = lambda values: all(isinstance(x, mpf) for x in values)
+    far = lambda values: max(abs(x - y) for x, y in zip(values, right)) > mpf("0.001")
+    mistakes = {name: values for name, values in mistakes.items() if is_real(values) and far(values)}
+    ask(f"{kind} {given}", right, source, "1e-11", printed, **mistakes)
+
+
+def middle(at, eye):
+    """The own time at which light of the reference point leaves for the eye."""
+    return leaving(lambda tau: at(tau)[0], eye)
+
+
+def shown(text_of_numbers, *sizes):
+    """The numbers of a question, as vectors and single numbers."""
+    values, out = vec(*text_of_numbers.split()), []
+    for size in sizes:
+        out.append(values[0] if size == 1 else values[:size])
+        values = values[size:]
+    assert not values
+    return out
+
+
+def t37():
+    topic("T37", "Bodies that accelerate, spin, orbit and ride on others")
+    BORN = "Born 1909; Rindler 1966"
+    check_axes()
+    for given, printed in [
+        ("0.5 0 0 4 0 1 0 3 0 0 0", "1.60943791243 0.683281573 1 0 0.66666666667 0 0 0.5416407865"),
+        ("0.5 0 0 4 0 1 0 8 0 0 0", "3.18741054194 3.1251237606 1 0 0.92071551061 0 0 0.207912717125"),
+        ("0.5 0 0 4 1 1 0.5 40 0 0 0", "6.67963515099 19.00524971 1 0.5 0.96402758008 0 0 0.135450026816"),
+        ("0.3 0.2 -0.1 5 -0.5 0.25 1 12 6 -2 1", None),
+        ("-0.8 0 0 3 0.5 0 0.5 2 3 1 0", None),
+        ("0 0 1.5 1 0 0.2 -0.3 6 0 -4 0.5", None),
+        ("0.0001 0 0 1000 1 2 3 900 0 -5 0", None),
+    ]:
+        a, d, p, eye = shown(given, 3, 1, 3, 4)
+        at = rocket(a, d)
+        event = point_of(at, lambda tau: p)
+        ask_seen("accelerated", given, event, eye, BORN, printed, M19=middle(at, eye))
+    for given, printed in [
+        ("0 0 0 0 0 0.25 3 0 0 10 0 -8 1", "0.836657596078 2.9346142877 8.6229277507 -1 -0.15573193768 0.73365357192 0 0.403189933584"),
+        ("0.8 0 0 0 1.25 0 0 0 0.54 0 0 -4 0.5", None),
+        ("0.8 0 0 0 1.25 0 0.5 0 -0.3 2 0 -4 0.5", None),
+        ("0 0 0 0 1.3 0 0.7 0 0 0 0 -6 0", None),
+        ("0 0 0 0 1.3 0 -0.5 0 0.5 20 3 -6 0", None),
+        ("0.3 0.4 -0.2 0.5 0.2 0.6 0.4 -0.6 0.3 5 1 -6 2", None),
+        ("-0.95 0 0 0 0 2 0.3 0.2 0 -3 0 5 1", None),
+    ]:
+        v, w, p, eye = shown(given, 3, 3, 3, 4)
+        at = lambda tau: (from_frame(v, [tau, 0, 0, 0]), v)
+        spun = lambda tau: turned(p, w, tau)
+        late = spun(eye[0] / gamma(v))
+        ask_seen(
+            "spinning",
+            given,
+            point_of(at, spun),
+            eye,
+            OURS,
+            printed,
+            M11=point_of(at, lambda tau: turned(p, w, gamma(v) * tau)),
+            M18=point_of(at, lambda tau: late),
+            M19=middle(at, eye),
+        )
+    for given, printed in [
+        ("3 0.2 0.5 0 0.1 7 0 -8 1", "-0.999132766545 3.4154152082 7.3268269037 -0.9 0.14831633107 0.58137962291 0 0.504418784358"),
+        ("3 0.3 0 0.4 0 -25 10 0 2", "-16.1136769843 -10.598130244 2.947707225 -2 -0.8959742816 0.085029916619 0 0.232884164834"),
+        ("3 0.3 0.4 0 0 5 -6 1 0.5", None),
+        ("1 -0.8 0.1 0.1 0.2 11 0 -5 3", None),
+        ("5 0.1 -0.6 0.3 0 52 0 -15 7", None),
+        ("2 0.49 0.05 0 0 -9 0 0 4", None),
+    ]:
+        rho, omega, p, eye = shown(given, 1, 1, 3, 4)
+        at = circle(rho, omega)
+        axes = lambda tau: turned(p, *carried(rho, omega, tau))
+        ask_seen(
+            "orbiting",
+            given,
+            point_of(at, axes),
+            eye,
+            "Thomas 1926",
+            printed,
+            M19=middle(at, eye),
+            M20=point_of(at, lambda tau: p),
+        )
+    for given in [
+        "0.2 0 0 1 0 -0.5 0 1.2 0 1.4 0 -0.5 9 0 -7 1",
+        "0.2 0 0 1 0 -0.5 0 1.2 0 1 0 0 15 4 -7 1",
+        "0.4 0.1 0 -0.5 0.5 0 0 0 0.8 -0.5 1.1 0.3 5 2 3 -6",
+        "0 0 0.3 0 0 1 0.6 0 0.3 0.5 0.4 1 12 -3 2 9",
+    ]:
+        a, b, w, p, eye = shown(given, 3, 3, 3, 3, 4)
+        at = rocket(a)
+        arm = lambda tau: plus(b, 1, turned(plus(p, -1, b), w, tau))
+        now = root(lambda tau: eye[0] - at(tau)[0][0])
+        ask_seen(
+            "riding",
+            given,
+            point_of(at, arm),
+            eye,
+            OURS,
+            M11=point_of(at, lambda tau: plus(b, 1, turned(plus(p, -1, b), w, at(tau)[0][0]))),
+            M18=point_of(at, lambda tau: arm(now)),
+            M19=middle(at, eye),
+        )
+
+
+def sees(at, axes, p, tau):
+    """Position, in the axes of a camera, of a point at rest, and D: the time between two flashes of the point over the
+    camera's own time between their arrivals."""
+    z, v = at(tau)
+    away = plus(p, -1, z[1:])
+    n, lag = axes(tau)
+    place = turned(to_frame(v, [-norm(away)] + away)[1:], n, -lag)
+    left = lambda s: at(s)[0][0] - norm(plus(p, -1, at(s)[0][1:]))
+    return place + [mp.diff(left, tau)]
+
+
+def t38():
+    topic("T38", "Cameras that accelerate and orbit")
+    straight = lambda tau: (vec(0, 0, 1), mpf(0))
+    for given, printed in [
+        ("0 0.2 0 2 1 30 2", "1 44.1846609207 2 1.4906572448"),
+        ("0 0.2 0 10 1 30 2", "1 120.17902252 2 7.35494707534"),
+        ("0.3 0 0 5 -4 0 1", None),
+        ("0.1 -0.2 0.2 3 5 5 -5", None),
+        ("1.0322952755535964817 0 0 2 100 3 0", None),
+    ]:
+        a, tau, p = shown(given, 3, 1, 3)
+        at = rocket(a)
+        # The camera's own time taken for the time of the scene.
+        late = mp.asinh(norm(a) * tau) / norm(a)
+        here, d = sees(at, straight, p, tau)[:3], sees(at, straight, p, tau)[3]
+        ask(
+            f"accelerated_camera {given}",
+            here + [d],
+            "Misner, Thorne & Wheeler 1973, sec. 6.2",
+            "1e-12",
+            printed,
+            M1=plus(p, -1, at(tau)[0][1:]) + [d],
+            M11=sees(at, straight, p, late),
+        )
+    for given in ["3 0.3 2 0 8 1", "3 0.3 -7 0 8 1", "4 0.2 6.5 10 0 2", "1 -0.6 40 -3 -3 0", "2 0.4 0 5 1 1"]:
+        rho, omega, tau, p = shown(given, 1, 1, 1, 3)
+        at = circle(rho, omega)
+        axes = lambda s: carried(rho, omega, s)
+        right = sees(at, axes, p, tau)
+        g = 1 / mp.sqrt(1 - (rho * omega) ** 2)
+        wrong = {"M1": turned(plus(p, -1, at(tau)[0][1:]), *[(n, -lag) for n, lag in [axes(tau)]][0]) + right[3:]}
+        if tau:
+            wrong["M11"] = sees(at, axes, p, tau / g)
+            wrong["M20"] = sees(at, straight, p, tau)
+        ask(f"orbiting_camera {given}", right, "Thomas 1926", "1e-12", **wrong)
+    for rho, omega in [("3", "0.3"), ("1", "0.8"), ("4", "-0.2"), ("0.001", "1"), ("2", "0.4999")]:
+        r, w = vec(rho, omega)
+        g = 1 / mp.sqrt(1 - (r * w) ** 2)
+        turn = mp.degrees(carried(r, w, 2 * mp.pi / (abs(w) * g))[1])
+        ask(f"thomas {rho} {omega}", [turn], "Thomas 1926", "1e-9" if rho == "0.001" else "1e-12", M20=[mpf(0)])
+
+
 def random_in_ball(rng, top):
     while True:
         v = [rng.uniform(-top, top) for _ in range(3)]

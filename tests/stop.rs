@@ -94,6 +94,7 @@ fn panoramas_are_stopped() {
         panorama: Some(sky),
         bands: Vec::new(),
         stars: Vec::new(),
+        scene: None,
         highlights: None,
         notes: Vec::new(),
     };

@@ -116,3 +116,34 @@ fn spectra_are_those_of_a_moving_camera() {
     // At edges between temperatures a pixel is a mixture, which is no black body.
     check("c_bb one 5900 0.3; c_bb two 5900 0.2; c_bb three 5900 0.1;", shift, Basis::BlackBody);
 }
+
+/// A camera that runs on a circle through the room and spins, at several of its own times: rays of
+/// the room against the panorama at rest of the place where the camera is then.
+#[test]
+fn cameras_on_world_lines_see_the_same() {
+    const CAROUSEL: &str = "motion carousel -orbit 0 1 0 0 0 1 .7 -spin .3 0 0;
+                            cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100 <carousel>;";
+    let scene = room(&format!("{HUES} {CAROUSEL}"));
+    let size = [1024, 512];
+    let own = |size, samples| PictureOptions { size, samples, ..PictureOptions::default() };
+    let gamma = 1.0 / libm::sqrt(0.51);
+    for time in [0.0, 1.5, 5.0] {
+        // Around (0, 1, 0) from the origin.
+        let (sin, cos) = libm::sincos(0.7 * gamma * time);
+        let place = DVec3::new(sin, 1.0 - cos, 0.0);
+        let camera = CameraOptions { eye: Some(place), center: Some(place + DVec3::Y), ..camera() };
+        let motion = MotionOptions { camera_velocity: Some(DVec3::ZERO), ..MotionOptions::default() };
+        let picture = PictureOptions { camera, ..picture(size, 3) };
+        let sky = ugphoton::Config { picture, motion, lens: Lens::Panorama, ..Default::default() };
+        let sky = traced(&scene, sky).pixels().to_vec();
+        let sky = Panorama::new(size, Texels::Light(sky), Extent::FULL).unwrap();
+        let motion = MotionOptions { time, ..MotionOptions::default() };
+        let by_rays = ugphoton::Config { picture: own([96, 72], 6), motion, ..Default::default() };
+        let by_rays = traced(&scene, by_rays);
+        let config = ugwarp::Config { time, picture: own([96, 72], 4), ..Default::default() };
+        let warped = ugwarp::light(&sky, &config.with_camera_of(&scene).unwrap()).unwrap();
+        let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+        let found = psnr(&by_rays, &warped, f64::from(peak));
+        assert!(found > 40.0, "{time}: {found} dB");
+    }
+}

@@ -1,7 +1,7 @@
 //! Known mistakes of relativistic renderers.
 
 /// Number and description of each.
-pub const MISTAKES: [(&str, &str); 16] = [
+pub const MISTAKES: [(&str, &str); 20] = [
     ("M1", "direction in the wrong frame, or the present position instead of the retarded one"),
     ("M2", "gamma without its square root"),
     ("M3", "velocities composed with the wrong sign or in the wrong order"),
@@ -18,6 +18,10 @@ pub const MISTAKES: [(&str, &str); 16] = [
     ("M14", "linear light displayed without encoding, or the wrong white point"),
     ("M15", "small speeds ignored"),
     ("M16", "single precision, or too few digits printed"),
+    ("M17", "the velocity of a body when its light arrives instead of when it left"),
+    ("M18", "the turn of a body when its light arrives instead of when it left"),
+    ("M19", "light of all points of a body leaves when that of its reference point does"),
+    ("M20", "axes that are those of a single boost, without Thomas precession"),
 ];
 
 /// The description of a mistake; empty if the name is unknown.

@@ -133,6 +133,10 @@ fn intermediate(kind: &str, given: &[f64], expected: &[f64]) -> f64 {
             let speed = (x * x + y * y + z * z).sqrt();
             (1.0 + speed) / (1.0 - speed)
         }
+        // Times and places of which the position relative to the eye is the difference.
+        ("accelerated" | "spinning" | "orbiting" | "riding", &[.., t, x, y, z]) => {
+            2.0 * (largest + [t, x, y, z].map(f64::abs).into_iter().sum::<f64>())
+        }
         _ => {
             let angles = angles(kind).iter().filter_map(|&idx| expected.get(idx));
             largest + angles.map(|&degrees| arc_cosine(degrees)).fold(0.0, f64::max)

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// One file for each topic, T01 to T36.
-const FILES: [&str; 36] = [
+/// One file for each topic, T01 to T38.
+const FILES: [&str; 38] = [
     include_str!("../cases/T01.tsv"),
     include_str!("../cases/T02.tsv"),
     include_str!("../cases/T03.tsv"),
@@ -40,6 +40,8 @@ const FILES: [&str; 36] = [
     include_str!("../cases/T34.tsv"),
     include_str!("../cases/T35.tsv"),
     include_str!("../cases/T36.tsv"),
+    include_str!("../cases/T37.tsv"),
+    include_str!("../cases/T38.tsv"),
 ];
 
 /// A topic of the suite and its cases.

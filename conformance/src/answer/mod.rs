@@ -7,6 +7,7 @@ mod light;
 mod numbers;
 mod outlines;
 mod positions;
+mod world_lines;
 
 use numbers::Answer;
 
@@ -17,8 +18,10 @@ struct Kind {
 }
 
 fn kinds() -> impl Iterator<Item = Kind> {
-    [positions::KINDS, outlines::KINDS, frames::KINDS, light::KINDS, glass::KINDS, colour::KINDS]
+    let geometry = [positions::KINDS, outlines::KINDS, frames::KINDS, world_lines::KINDS];
+    geometry
         .into_iter()
+        .chain([light::KINDS, glass::KINDS, colour::KINDS])
         .flatten()
         .map(|&(name, answer)| Kind { name, answer })
 }

@@ -240,8 +240,8 @@ mod tests {
     /// A new option with numbers is in the list `numbers!` of its arguments.
     #[test]
     fn numbers_of_all_options_can_change() {
-        const WORDS: [&str; 10] =
-            ["br", "cam", "cap", "ch", "fl", "from", "infrared", "stars", "tc", "ultraviolet"];
+        const WORDS: [&str; 11] =
+            ["br", "cam", "cap", "ch", "fl", "from", "infrared", "scene", "stars", "tc", "ultraviolet"];
         let mut n_options = 0;
         for tool in TOOLS {
             let typed = (tool.parse)(&[tool.name().to_owned()]).unwrap();

@@ -139,7 +139,7 @@ impl Program {
             (Self::Rainbow(config), Item::Scene(scene)) => ugrainbow::render_with(&scene, config, progress)?,
             (Self::Photon(config), Item::Scene(scene)) => ugphoton::render_with(*scene, config, progress)?,
             (Self::Warp(config), Item::Panorama(panorama)) => {
-                ugwarp::render_with(panorama, config, progress)?
+                ugwarp::render_opened(panorama, config, progress)?
             }
             _ => return Ok(None),
         };

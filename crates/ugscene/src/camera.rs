@@ -94,9 +94,13 @@ impl View {
     ///
     /// # Errors
     /// See [`View::new`].
-    pub fn without_scene(options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
-        let ends = [options.eye, options.center].map(Option::unwrap_or_default);
-        Self::between(ends, &Camera::default(), options, samples)
+    pub fn without_scene(
+        camera: &Camera,
+        options: &CameraOptions,
+        samples: [u32; 2],
+    ) -> Result<Self, CameraError> {
+        let ends = [options.eye.or(camera.eye), options.center.or(camera.center)];
+        Self::between(ends.map(Option::unwrap_or_default), camera, options, samples)
     }
 
     /// The view from an eye point to a view centre, with the rest of a camera.

@@ -76,7 +76,7 @@ pub use geometry::{Geometry, rest_positions, world_line_points};
 pub use half_space::HalfSpace;
 pub use measurement::{Measurement, measure};
 pub use mixing::{mixing_vertices, n_mixing_vertices, repeat_vertices, separate_wires};
-pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera};
+pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera, moving_camera};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use note::Note;
 pub use polygon::{Triangle, face_triangles, is_convex, triangulate};

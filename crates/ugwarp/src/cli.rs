@@ -9,19 +9,19 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::{Format, PictureLimits};
 use uglight::ColorShift;
-use ugparse::{Foreign, foreign_data};
+use ugparse::{Foreign, Source, foreign_data, pipe};
 use ugphysics::Velocity;
-use ugpicture::Output;
 use ugpicture::cli::{
     AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
     write_picture,
 };
+use ugpicture::{Output, PictureOptions};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
     numbers, one_of, remedies, sha256, vector,
 };
-use ugscene::Provenance;
 use ugscene::cli::ShiftArgs;
+use ugscene::{Provenance, Scene};
 use ugsky::{Arrangement, Band, Basis, Extent, Star, StarOptions, VISIBLE_NM, is_star_list};
 
 use crate::config::Config;
@@ -49,6 +49,18 @@ pub struct Args {
     #[arg(long, visible_alias = "camera-velocity", value_names = ["X", "Y", "Z"], num_args = 3,
           action = ArgAction::Set, allow_hyphen_values = true, value_parser = finite)]
     cv: Option<Vec<f64>>,
+
+    /// Scene whose camera takes the picture
+    ///
+    /// Where the camera looks, its view angle, its velocity and its motion are those of the scene,
+    /// at the time -ti. The scene is in the axes of the panorama, which is infinitely far away.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["velocity", "cv"], help_heading = CAMERA)]
+    scene: Option<PathBuf>,
+
+    /// Time of the picture on the clock of the camera of --scene [default: 0]
+    #[arg(long, visible_alias = "time", value_name = "T", requires = "scene", allow_hyphen_values = true,
+          value_parser = finite, help_heading = CAMERA)]
+    ti: Option<f64>,
 
     /// Arrangement of directions: panorama, strip, cross, sides [default: panorama]
     ///
@@ -160,7 +172,7 @@ pub struct Args {
 }
 
 numbers!(Args {
-    "vel" => velocity, "cv" => cv, "part" => part, "basis" => basis: |kelvin: f64| Ok(kelvin.to_string()),
+    "vel" => velocity, "cv" => cv, "ti" => ti, "part" => part, "basis" => basis: |kelvin: f64| Ok(kelvin.to_string()),
     "highlights" => highlights: stops, "infrared-to" => infrared_to: infrared_end, "ultraviolet-from" => ultraviolet_from: ultraviolet_end,
     "star-width" => star_width, "white" => white
 } picture lens);
@@ -169,6 +181,7 @@ numbers!(Args {
 const INFRARED_TO: f64 = 1400.0;
 const ULTRAVIOLET_FROM: f64 = 200.0;
 
+const CAMERA: &str = "Camera";
 const COLOR: &str = "Colour";
 const STARS: &str = "Stars";
 
@@ -206,12 +219,17 @@ impl Args {
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
     pub fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
-        let output = Output::Color(format_for(self.dt, output)?);
+        let mut picture = self.picture_options(output)?;
+        if self.scene.is_some() {
+            // It chose the camera when the scene was read.
+            picture.camera.name = None;
+        }
         Ok(Config {
             velocity: self.velocity()?,
+            time: self.ti.unwrap_or(0.0),
             shift: self.color_shift(),
             basis: self.basis.as_deref().map_or(Ok(Basis::Mixture), basis)?,
-            picture: self.picture.options(output, self.annotations.options())?,
+            picture,
             lens: self.lens.lens(),
             stars: StarOptions {
                 width: self.star_width.unwrap_or(StarOptions::default().width),
@@ -219,6 +237,11 @@ impl Args {
             },
             ..Config::default()
         })
+    }
+
+    fn picture_options(&self, output: Option<&Path>) -> Result<PictureOptions, Failure> {
+        let output = Output::Color(format_for(self.dt, output)?);
+        self.picture.options(output, self.annotations.options())
     }
 
     /// The velocity of the camera.
@@ -249,6 +272,7 @@ impl Args {
                 panorama: None,
                 bands: Vec::new(),
                 stars: stars(input)?,
+                scene: None,
                 highlights: None,
                 notes: Vec::new(),
             }
@@ -258,10 +282,24 @@ impl Args {
         if let Some(path) = &self.stars {
             opened.stars.extend(stars(&context.input_file(path)?)?);
         }
+        opened.scene = self.scene.as_ref().map(|path| self.scene(path, context)).transpose()?.map(Box::new);
         if opened.panorama.is_none() && opened.stars.is_empty() {
             opened.notes.push("the list has no stars".to_owned());
         }
         Ok(opened)
+    }
+
+    /// Reads the scene of the camera.
+    fn scene(&self, path: &Path, context: &Context) -> Result<Scene, Failure> {
+        let options = pipe::options(&self.common)?;
+        let Input { name, text } = context.input_file(path)?;
+        let source = pipe::follow(Source::new(name, text), &options, context).map_err(pipe::refused)?;
+        let camera = self.picture_options(None)?.camera.name;
+        let parsed = ugparse::read(&source, &options, camera.as_deref()).map_err(pipe::refused)?;
+        if !parsed.warnings.is_empty() {
+            context.report(&parsed.warnings.report());
+        }
+        Ok(parsed.scene)
     }
 
     /// Refuses options of panoramas, if a list of stars is read instead.

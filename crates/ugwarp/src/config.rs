@@ -7,6 +7,7 @@ use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::lens::Lens;
 use ugpicture::{Channel, PictureOptions};
+use ugscene::{Camera, MotionOptions, Projection, Scene};
 use ugsky::{ALL_NM, Basis, StarOptions};
 
 use crate::error::Error;
@@ -16,6 +17,11 @@ use crate::error::Error;
 pub struct Config {
     /// Velocity of the camera in the frame of the panorama.
     pub velocity: Velocity,
+    /// The camera of a scene, in its own frame; options of [`picture`](Self::picture) override it.
+    pub camera: Box<Camera>,
+    /// Time of the picture on the clock of the camera of a scene, see
+    /// [`with_camera_of`](Self::with_camera_of).
+    pub time: f64,
     /// How motion changes colours.
     pub shift: ColorShift,
     /// The spectra of colours, if spectra are shifted.
@@ -36,6 +42,8 @@ impl Default for Config {
     fn default() -> Self {
         Self {
             velocity: Velocity::ZERO,
+            camera: Box::default(),
+            time: 0.0,
             shift: ColorShift::default(),
             basis: Basis::Mixture,
             picture: PictureOptions { samples: 1, ..PictureOptions::default() },
@@ -53,13 +61,32 @@ impl Config {
         self.lens.panorama(&self.picture, false, None)
     }
 
+    /// The same with the camera of a scene at [`time`](Self::time) instead of the velocity: where
+    /// it looks, how it moves then, and how its motion has turned it. The scene is in the frame and
+    /// the axes of the panorama. A panorama is infinitely far away, so the place of the camera has no
+    /// effect.
+    ///
+    /// # Errors
+    /// The scene has no camera, or an invalid one.
+    pub fn with_camera_of(&self, scene: &Scene) -> Result<Self, Error> {
+        let mut config = self.clone();
+        let options = &self.picture.camera;
+        let motion = MotionOptions { time: self.time, ..MotionOptions::default() };
+        let (camera, velocity) = ugscene::moving_camera(scene, &motion, options)?.ok_or(Error::NoCamera)?;
+        // They are in the camera now, turned with it.
+        let own = &mut config.picture.camera;
+        (own.name, own.eye, own.center, own.up) = (None, None, None, None);
+        Ok(Self { camera: camera.into(), velocity, ..config })
+    }
+
     /// Refuses options that exclude each other, and pictures that do not fit in memory.
     ///
     /// # Errors
     /// See [`Error`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         let picture = &self.picture;
-        if picture.camera.is_orthographic {
+        let is_orthographic = self.camera.projection == Some(Projection::Orthographic);
+        if picture.camera.is_orthographic || is_orthographic {
             return Err(Error::Orthographic);
         }
         if picture.camera.name.is_some() {

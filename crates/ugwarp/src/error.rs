@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 use ugimage::ReadError;
-use ugscene::CameraError;
+use ugscene::{CameraError, MotionError};
 use ugsky::{BasisError, PanoramaError};
 
 /// Why there is no picture.
@@ -25,6 +25,12 @@ pub enum Error {
     /// The basis of colours.
     #[error(transparent)]
     Basis(#[from] BasisError),
+    /// The camera of a scene is invalid, or the scene is not at rest.
+    #[error(transparent)]
+    Motion(#[from] MotionError),
+    /// A scene without a camera.
+    #[error("the scene has no camera")]
+    NoCamera,
     /// Orthographic projection.
     #[error("light from all directions meets at one point, so there is no orthographic projection")]
     Orthographic,

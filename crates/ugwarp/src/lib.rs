@@ -58,7 +58,7 @@ pub use cli::{Args, draw, manual};
 pub use config::Config;
 pub use error::Error;
 pub use open::{Opened, open, read_stars};
-pub use render::{PROVENANCE, light, metadata, render, render_with, run};
+pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{

@@ -2,6 +2,7 @@
 
 use ugimage::{PictureLimits, Pixels, read_picture};
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
+use ugscene::Scene;
 use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
 use crate::error::Error;
@@ -14,6 +15,8 @@ pub struct Opened {
     pub bands: Vec<Band>,
     /// The stars.
     pub stars: Vec<Star>,
+    /// The scene whose camera takes the picture, if there is one.
+    pub scene: Option<Box<Scene>>,
     /// How many times as bright as white clipped highlights of the panorama are.
     pub highlights: Option<f32>,
     /// Notes for the user, one sentence each.
@@ -62,7 +65,14 @@ pub fn open(
     }
     let panorama = Panorama::arranged(pictures, arrangement, extent)?;
     let highlights = highlights.filter(|_| is_clipped);
-    Ok(Opened { panorama: Some(panorama), bands: Vec::new(), stars: Vec::new(), highlights, notes })
+    Ok(Opened {
+        panorama: Some(panorama),
+        bands: Vec::new(),
+        stars: Vec::new(),
+        scene: None,
+        highlights,
+        notes,
+    })
 }
 
 /// The note on highlights that are not clipped.

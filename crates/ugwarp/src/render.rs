@@ -1,21 +1,23 @@
 //! From a panorama to a picture.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 use ugimage::{Format, LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
-    Annotated, Canvas, Drawn, DrawnContent, Error as PictureError, Note, Output, PictureFile, PictureOptions,
-    Rendering, Subject, channel_planes,
+    Annotated, Canvas, Drawn, DrawnContent, Error as PictureError, Note, Output, PictureFile, Rendering,
+    Subject, channel_planes,
 };
 use ugpipe::Progress;
-use ugscene::{Provenance, Remarks, View};
+use ugscene::{Provenance, Remarks, Scene};
 use ugsky::{Layer, Sky};
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::open::Opened;
 use crate::stars::StarField;
-use crate::warp::{Statistics, Warp, camera};
+use crate::warp::{Statistics, Warp, view};
 
 /// Makes a picture of a panorama, of stars or of both.
 ///
@@ -88,6 +90,20 @@ pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
     ugpicture::metadata(&remarks, provenance)
 }
 
+/// Like [`render_with`], with the camera of the scene that was read with the sky, if there is one.
+///
+/// # Errors
+/// See [`Error`].
+pub fn render_opened(opened: &Opened, config: &Config, progress: &dyn Progress) -> Result<Rendering, Error> {
+    render_with(opened, &*seen_from(opened, config)?, progress)
+}
+
+/// The options with the camera of a scene.
+fn seen_from<'c>(opened: &Opened, config: &'c Config) -> Result<Cow<'c, Config>, Error> {
+    let carried = |scene: &Scene| config.with_camera_of(scene).map(Cow::Owned);
+    opened.scene.as_deref().map_or(Ok(Cow::Borrowed(config)), carried)
+}
+
 /// Makes a picture of a panorama and packs it into a file, which says if it is a panorama itself.
 ///
 /// # Errors
@@ -99,6 +115,7 @@ pub fn run(
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
     let sky = opened.into();
+    let config = &*seen_from(opened, config)?;
     let metadata = &Metadata { panorama: config.panorama(), ..metadata.clone() };
     let prepared = Prepared::new(sky, config, progress)?;
     let warnings = Diagnostics::new(&Source::new("", ""), Vec::new());
@@ -164,10 +181,10 @@ impl<'s> Prepared<'s> {
                 (DrawnContent::Light { frame, is_clipped: !warp.is_uncut() }, statistics)
             }
         };
-        let PictureOptions { size, camera: options, .. } = &config.picture;
+        let size = config.picture.size;
         let n_pixels = size[0] as usize * size[1] as usize;
         let items = || (0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect();
-        let view = View::without_scene(&camera(options), *size).map_err(PictureError::from)?;
+        let view = view(config, size)?;
         let subject = Subject::Items { view: &view, items: &items, scene: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, notes) = (statistics.max_light, notes(warp, &statistics));

@@ -9,7 +9,7 @@ use uglight::ColorShift;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
-use ugscene::{CameraOptions, View};
+use ugscene::{CameraError, CameraOptions, View};
 use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
 
 use crate::config::Config;
@@ -88,15 +88,14 @@ impl Statistics {
     }
 }
 
-/// The camera of a picture: in the middle of the sky, looking along +y unless options say
+/// The view of a picture: from the middle of the sky along +y, unless the camera or options say
 /// otherwise.
-pub(crate) fn camera(options: &CameraOptions) -> CameraOptions {
-    let eye = options.eye.unwrap_or(DVec3::ZERO);
-    CameraOptions {
-        eye: Some(eye),
-        center: Some(options.center.unwrap_or(eye + DVec3::Y)),
-        ..options.clone()
-    }
+pub(crate) fn view(config: &Config, samples: [u32; 2]) -> Result<View, CameraError> {
+    let (camera, options) = (&config.camera, &config.picture.camera);
+    let eye = options.eye.or(camera.eye).unwrap_or_default();
+    let center = options.center.or(camera.center).unwrap_or(eye + DVec3::Y);
+    let options = CameraOptions { eye: Some(eye), center: Some(center), ..options.clone() };
+    View::without_scene(camera, &options, samples)
 }
 
 /// How colours change by the options of a picture.
@@ -115,7 +114,7 @@ pub(crate) fn film(config: &Config, samples: u32) -> Result<(Film, bool), Error>
     let [across, down] = config.lens.frames(false);
     let [width, height] = config.picture.size;
     let frame = [width / across * samples, height / down * samples];
-    let view = View::without_scene(&camera(&config.picture.camera), frame)?;
+    let view = view(config, frame)?;
     Ok((Film::new(config.lens, None, &view, frame), view.is_up_replaced))
 }
 

@@ -202,6 +202,59 @@ fn lists_of_stars_are_drawn() {
     refused(&["--stars", "no-such-list.csv"], &sky(), 1, "No such file");
 }
 
+/// The camera of a scene, by name and with a path from a table beside it, looks where it is told.
+#[test]
+fn cameras_come_from_scenes() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    file("flight.csv", "t,x,y,z\n0,0,0,0\n10,0,5,0\n20,0,10,0\n");
+    let scene = file(
+        "flight.ug",
+        "motion ship -path flight.csv; cam -ep 0 0 0 -vc 1 0 0 <ship>;
+         cam ahead -ep 0 0 0 -vc 0 1 0 -va 70 <ship>;",
+    );
+    let bare = file("bare.ug", "v a 0 0 0;");
+    let broken = file("broken.ug", "v a 0 0;");
+    let bytes = |args: &[&str]| {
+        let base = ["-sz", "40", "30", "-dt", "pfm", "-sp", "--allow-outside"];
+        let output = fed(&[&base, args].concat(), &sky());
+        assert_eq!((output.status.code(), messages(&output)), (Some(0), String::new()), "{args:?}");
+        output.stdout
+    };
+    let numbers = |bytes: Vec<u8>| {
+        let data = &bytes[bytes.len() - 40 * 30 * 12..];
+        let words = data.chunks(4).map(|word| f32::from_le_bytes(word.try_into().unwrap()));
+        words.collect::<Vec<f32>>()
+    };
+    let check = |scene: &[&str], plain: &[&str]| {
+        let [seen, expected] = [scene, plain].map(|args| numbers(bytes(args)));
+        for (seen, expected) in seen.iter().zip(&expected) {
+            assert!(
+                (seen - expected).abs() < 1e-4 * expected.abs().max(0.01),
+                "{scene:?}: {seen} {expected}"
+            );
+        }
+    };
+    let base = ["--scene", &scene, "--time", "3"];
+    check(&base, &["-cv", "0", ".5", "0", "-vc", "1", "0", "0"]);
+    check(&[&base[..], &["-cam", "ahead"]].concat(), &["-cv", "0", ".5", "0", "-va", "70"]);
+    check(
+        &[&base[..], &["-cam", "ahead", "-vc", "0", "0", "1", "-ud", "1", "0", "0", "-va", "30"]].concat(),
+        &["-cv", "0", ".5", "0", "-vc", "0", "0", "1", "-ud", "1", "0", "0", "-va", "30"],
+    );
+    refused(&["--scene", &scene, "-cv", "0", "0", "0"], &sky(), 2, "cannot be given together");
+    refused(&["-ti", "2"], &sky(), 2, "--scene");
+    refused(&["-cam", "ahead"], &sky(), 2, "name the scene of the camera with --scene");
+    refused(&["--scene", &scene, "--allow-outside", "-cam", "astern"], &sky(), 1, "astern");
+    refused(&["--scene", &scene, "--allow-outside", "-og"], &sky(), 2, "leave it out");
+    refused(&["--scene", &bare], &sky(), 1, "the scene has no camera: add a `cam` statement");
+    refused(&["--scene", &broken], &sky(), 1, "broken.ug:1");
+}
+
 /// Infrared light is a file of its own, and white infrared light brightens what is ahead.
 #[test]
 fn infrared_light_is_a_second_file() {

@@ -355,6 +355,7 @@ fn files_are_those_of_whole_pictures() {
         panorama: Some(panorama(256, colors)),
         bands: Vec::new(),
         stars: Vec::new(),
+        scene: None,
         highlights: None,
         notes: Vec::new(),
     };

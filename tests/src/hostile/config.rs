@@ -83,6 +83,8 @@ pub fn warp(random: &mut Random) -> ugwarp::Config {
     let velocity = |random: &mut Random| Velocity::from_beta(beta(random)).ok();
     ugwarp::Config {
         velocity: velocity(random).unwrap_or(Velocity::ZERO),
+        camera: Box::default(),
+        time: number(random),
         shift: shift(random),
         basis: match random.below(4) {
             0 => Basis::Planck([number(random), number(random), number(random)]),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ugpipe::{Context, Failure, one_of};
 
 /// Names of files and texts.
-const FILES: [(&str, &str); 32] = [
+const FILES: [(&str, &str); 37] = [
     ("house.ug", include_str!("../../../../scenes/house.ug")),
     ("houses.ug", include_str!("../../../../scenes/houses.ug")),
     ("ship.ug", include_str!("../../../../scenes/ship.ug")),
@@ -26,6 +26,11 @@ const FILES: [(&str, &str); 32] = [
     ("orbit.ug", include_str!("../../../../scenes/orbit.ug")),
     ("ticks.ug", include_str!("../../../../scenes/ticks.ug")),
     ("lanterns.ug", include_str!("../../../../scenes/lanterns.ug")),
+    ("carousel.ug", include_str!("../../../../scenes/carousel.ug")),
+    ("departure.ug", include_str!("../../../../scenes/departure.ug")),
+    ("spinning.ug", include_str!("../../../../scenes/spinning.ug")),
+    ("disc.ug", include_str!("../../../../scenes/disc.ug")),
+    ("slalom.ug", include_str!("../../../../scenes/slalom.ug")),
     ("dice.ug", include_str!("../../../../scenes/dice.ug")),
     ("traffic.ug", include_str!("../../../../scenes/traffic.ug")),
     ("lamp.ug", include_str!("../../../../scenes/lamp.ug")),

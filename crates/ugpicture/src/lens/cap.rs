@@ -296,7 +296,7 @@ fn clipped(range: &Range<i64>, n: i64) -> Range<i64> {
 mod tests {
     use super::*;
     use crate::lens::tests::film;
-    use ugscene::{CameraOptions, View};
+    use ugscene::{Camera, CameraOptions, View};
 
     const LENSES: [(Lens, [u32; 2]); 6] = [
         (Lens::Pinhole, [40, 20]),
@@ -399,7 +399,9 @@ mod tests {
         for view_angle in [(2.0, Some(2e-6)), (2e-6, Some(2.0)), (2.0, Some(2.0))] {
             let center = Some(DVec3::Y);
             let options = CameraOptions { center, view_angle: Some(view_angle), ..CameraOptions::default() };
-            let Ok(view) = View::without_scene(&options, [9, 9]) else { panic!("a camera") };
+            let Ok(view) = View::without_scene(&Camera::default(), &options, [9, 9]) else {
+                panic!("a camera")
+            };
             let film = Film::new(Lens::Pinhole, None, &view, [9, 9]);
             let direction = film.sight([4.7, 4.4]).map_or(DVec3::ZERO, |sight| sight.direction.normalize());
             let deviation = 4.0 * film.pixel_side(direction);

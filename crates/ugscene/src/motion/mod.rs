@@ -248,6 +248,30 @@ pub fn common_camera(
     DefaultCamera::new(scene, options, size, motions)
 }
 
+/// The camera of a scene when the picture is taken, in its own frame, and its velocity in the frame
+/// of the scene; for pictures of a sky, of which nothing else is needed. `None` if the scene has no
+/// camera.
+///
+/// # Errors
+/// See [`MotionError`]: that of the camera alone.
+pub fn moving_camera(
+    scene: &Scene,
+    options: &MotionOptions,
+    camera: &CameraOptions,
+) -> Result<Option<(Camera, Velocity)>, MotionError> {
+    crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
+    let Some(row) = scene.camera_row() else { return Ok(None) };
+    let middle = crate::camera::middle(scene);
+    let (cameras, bodies) = (scene.cameras.clone(), scene.bodies.clone());
+    let mut scene = Scene { cameras, bodies, ..Scene::default() };
+    let observer = Observer::take(&mut scene, options, camera.eye)?;
+    let eye = crate::eye(&scene, camera.eye);
+    camera.check_up().map_err(MotionError::Camera)?;
+    set_camera(&mut scene, eye, Some(middle), camera).map_err(MotionError::Camera)?;
+    turn_camera(&mut scene, eye, &observer);
+    Ok(Some((scene.cameras.swap_remove(row), observer.velocity)))
+}
+
 /// Turns the view with a camera that spins, or whose axes a path has turned.
 fn turn_camera(scene: &mut Scene, eye: DVec3, observer: &Observer) {
     if observer.turn == glam::DQuat::IDENTITY {

@@ -9,6 +9,8 @@ impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
             Self::Picture(error) => return error.words(),
+            Self::Motion(error) => return error.words(),
+            Self::NoCamera => "{}: add a `cam` statement to it, or leave out --scene",
             Self::Panorama(PanoramaError::Shape { arrangement: Arrangement::Equirectangular, .. }) => {
                 "{}: give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it \
                  shows all; a cube map needs -from strip or -from cross"
@@ -25,7 +27,9 @@ impl Words for Error {
             Self::Orthographic => {
                 "light from all directions meets at one point, so there is no -og: leave it out"
             }
-            Self::NamedCamera => "{}: leave out -cam, and give -vc and -va",
+            Self::NamedCamera => {
+                "{}: leave out -cam and give -vc and -va, or name the scene of the camera with --scene"
+            }
             Self::OutlineOrGrid => "outline and grid (-dl, -gr) are for scenes: leave them out",
             Self::Channels => {
                 "a sky has no time, distance, Z or id (-ch): the channels of a panorama are D, direction and velocity"
@@ -51,8 +55,9 @@ impl Words for Error {
     fn is_usage(&self) -> bool {
         match self {
             Self::Picture(error) => error.is_usage(),
+            Self::Motion(error) => error.is_usage(),
             Self::Panorama(error) => matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. }),
-            Self::Read { .. } => false,
+            Self::Read { .. } | Self::NoCamera => false,
             _ => true,
         }
     }
