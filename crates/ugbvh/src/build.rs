@@ -28,6 +28,8 @@ const RANGE: usize = 1 << 14;
 /// Most triangles used: the number of blocks stays below [`IS_BLOCK`].
 const MAX_TRIANGLES: usize = 1 << 31;
 
+type Positions = [[f64; 3]];
+
 /// A box as least x, y, z and −(greatest x, y, z), so that the union is eight minima. Lanes 3 and 7
 /// are not used.
 #[derive(Clone, Copy, Debug)]
@@ -41,6 +43,11 @@ impl Bounds {
         Self(std::array::from_fn(
             |lane| if self.0[lane] < other.0[lane] { self.0[lane] } else { other.0[lane] },
         ))
+    }
+
+    #[inline(always)]
+    fn grown(self, margin: f32) -> Self {
+        Self(self.0.map(|x| x - margin))
     }
 
     #[inline(always)]
@@ -66,6 +73,7 @@ impl Bounds {
 #[derive(Clone, Copy, Debug)]
 struct Item {
     bounds: Bounds,
+    margin: f32,
     triangle: u32,
 }
 
@@ -93,22 +101,37 @@ struct Leaf {
 pub fn build(positions: &[DVec3], triangles: &[[u32; 3]]) -> Bvh {
     let triangles = &triangles[..triangles.len().min(MAX_TRIANGLES)];
     let positions: Vec<[f64; 3]> = positions.iter().map(|position| position.to_array()).collect();
-    let Some((low, high)) = bounds(&positions, triangles) else {
-        return Bvh {
-            level: Level::new(),
-            frame: Frame { center: [0.0; 3], scale: 1.0, unit: 1.0 },
-            bounds: None,
-            positions: Vec::new(),
-            triangles: Vec::new(),
-            nodes: Vec::new(),
-            blocks: Vec::new(),
-        };
-    };
+    let margin = |positions: &Positions, row: usize| is_regular(positions, triangles[row]).then_some(0.0);
+    let Some((low, high)) = bounds(&positions, triangles, margin) else { return Bvh::empty() };
+    with_margins(positions, triangles, [low, high], margin)
+}
+
+/// The triangles of a hierarchy with other corners, which need not be regular. `margins`: how far
+/// the surface of each is from its plane triangle, at most.
+pub fn displaced(bvh: &Bvh, positions: &[DVec3], margins: &[f64]) -> Bvh {
+    let triangles: Vec<[u32; 3]> = bvh.triangles.iter().map(|triangle| triangle.corners).collect();
+    let positions: Vec<[f64; 3]> = positions.iter().map(|position| position.to_array()).collect();
+    let margin = |_: &Positions, row: usize| Some(margins[bvh.triangles[row].index as usize]);
+    let Some((low, high)) = bounds(&positions, &triangles, margin) else { return Bvh::empty() };
+    let mut displaced = with_margins(positions, &triangles, [low, high], margin);
+    for triangle in &mut displaced.triangles {
+        triangle.index = bvh.triangles[triangle.index as usize].index;
+    }
+    displaced
+}
+
+/// `bounds`: of all triangles that have a margin, with it. The others are left out.
+fn with_margins(
+    positions: Vec<[f64; 3]>,
+    triangles: &[[u32; 3]],
+    [low, high]: [[f64; 3]; 2],
+    margin: impl Fn(&Positions, usize) -> Option<f64> + Sync,
+) -> Bvh {
     let frame = Frame::new(low, high);
     let corners =
         ugparallel::map(positions.len(), RANGE, |row| frame.to_box(positions[row]).map(|x| x as f32));
     let mesh = Mesh { triangles, corners };
-    let mut items = mesh.items(|triangle| is_regular(&positions, triangles[triangle]));
+    let mut items = mesh.items(|triangle| Some((margin(&positions, triangle)? * frame.scale) as f32));
     let mut tree = Subtree::default();
     build_node(&mut items, 0, 0, &mut tree);
     let Subtree { nodes, leaves } = tree;
@@ -132,8 +155,12 @@ pub fn build(positions: &[DVec3], triangles: &[[u32; 3]]) -> Bvh {
     }
 }
 
-/// The bounds of all regular triangles.
-fn bounds(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Option<([f64; 3], [f64; 3])> {
+/// The bounds of all triangles that have a margin, with it.
+fn bounds(
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+    margin: impl Fn(&Positions, usize) -> Option<f64> + Sync,
+) -> Option<([f64; 3], [f64; 3])> {
     let union = |[low, high]: [[f64; 3]; 2], [other_low, other_high]: [[f64; 3]; 2]| {
         [
             std::array::from_fn(|axis| f64::min(low[axis], other_low[axis])),
@@ -145,12 +172,12 @@ fn bounds(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Option<([f64; 3], [
     let parts = ugparallel::map(ranges, 1, |range| {
         let first = range * RANGE;
         let mut bounds = empty;
-        for &triangle in &triangles[first..triangles.len().min(first + RANGE)] {
-            if is_regular(positions, triangle) {
-                for row in triangle {
-                    let position = positions[row as usize];
-                    bounds = union(bounds, [position, position]);
-                }
+        for (row, triangle) in triangles.iter().enumerate().skip(first).take(RANGE) {
+            let Some(margin) = margin(positions, row) else { continue };
+            for &corner in triangle {
+                let [low, high] =
+                    [-margin, margin].map(|margin| positions[corner as usize].map(|x| x + margin));
+                bounds = union(bounds, [low, high]);
             }
         }
         bounds
@@ -185,12 +212,13 @@ pub fn is_regular(positions: &[[f64; 3]], triangle: [u32; 3]) -> bool {
 }
 
 impl Mesh<'_> {
-    /// All triangles that `is_regular`, with their bounds.
-    fn items(&self, is_regular: impl Fn(usize) -> bool + Sync) -> Vec<Item> {
-        let mut items = vec![Item { bounds: Bounds::EMPTY, triangle: 0 }; self.triangles.len()];
+    /// All triangles that have a margin, in box coordinates, with their bounds.
+    fn items(&self, margin: impl Fn(usize) -> Option<f32> + Sync) -> Vec<Item> {
+        let mut items = vec![Item { bounds: Bounds::EMPTY, margin: 0.0, triangle: 0 }; self.triangles.len()];
         ugparallel::for_each_mut(&mut items, RANGE, |triangle, item| {
-            let bounds = if is_regular(triangle) { self.bounds(triangle) } else { Bounds::EMPTY };
-            *item = Item { bounds, triangle: triangle as u32 };
+            let margin = margin(triangle);
+            let bounds = margin.map_or(Bounds::EMPTY, |margin| self.bounds(triangle).grown(margin));
+            *item = Item { bounds, margin: margin.unwrap_or(0.0), triangle: triangle as u32 };
         });
         items.retain(|item| item.bounds.0[0] < f32::INFINITY);
         items
@@ -207,7 +235,8 @@ impl Mesh<'_> {
         let items = &items[leaf.first as usize..][..leaf.n as usize];
         let bounds = bounds_of(items);
         let extent = bounds.size(0).max(bounds.size(1)).max(bounds.size(2));
-        let mut block = Block { first: leaf.first, n: leaf.n, extent, ..Block::EMPTY };
+        let margin = items.iter().map(|item| item.margin).fold(0.0, f32::max);
+        let mut block = Block { first: leaf.first, n: leaf.n, extent, margin, ..Block::EMPTY };
         for (lane, item) in items.iter().enumerate() {
             for (corner, row) in self.triangles[item.triangle as usize].into_iter().enumerate() {
                 for axis in 0..3 {

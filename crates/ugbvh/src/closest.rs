@@ -30,11 +30,11 @@ fn keep_nearest_in(range: &Range<f64>, hit: &mut Option<Hit>, crossing: &Crossin
 /// A ray ready for a search. It is prepared where it is made, in registers: loading it again right
 /// after it was stored, in other pieces, took a quarter of that time.
 pub struct Prepared {
-    shear: Shear,
-    box_ray: BoxRay,
-    range: Range<f64>,
+    pub shear: Shear,
+    pub box_ray: BoxRay,
+    pub range: Range<f64>,
     /// The range of τ.
-    depths: Range<f32>,
+    pub depths: Range<f32>,
 }
 
 impl Prepared {

@@ -68,6 +68,14 @@ const LEAST_DEVIATION: f32 = power_of_two(-24) as f32;
 /// chord for a test hit nothing: of curves that run around the mesh thousands of times.
 const MOST_SECTIONS: usize = 1 << 16;
 
+/// Most halvings of a section for one triangle, so that every search ends. A curve that touches a
+/// plane takes some hundred of them. One that runs in the plane is found otherwise, unless rounding
+/// errors hide it.
+const MOST_HALVINGS_AT_A_TRIANGLE: u32 = 1 << 11;
+
+/// A section that could leave a plane by so many rounding errors, but does not, is in it.
+const MANY_ROUNDINGS: f64 = power_of_two(20);
+
 /// Distance of tangents from the curve, in box coordinates.
 const TANGENT_ERROR: f64 = power_of_two(-44);
 
@@ -80,8 +88,34 @@ pub fn visit<C: Curve>(bvh: &Bvh, curve: &C, range: Range<f64>, visit: impl FnMu
     }
     let end = range.end;
     let (sections, stack) = (Vec::with_capacity(32), Vec::with_capacity(64));
-    let mut search = Search { bvh, curve, range, end, sections, stack, visit };
+    let mut search = Search { bvh, curve, range, end, sections, stack, halvings_left: 0, visit };
     dispatch!(bvh.level, simd => search.run(simd));
+}
+
+/// Calls `visit` with crossings of a curve and a triangle; see [`visit`]. `step`: between parameters
+/// of tangents, see [`tangent_step`].
+pub fn visit_triangle<C: Curve>(
+    bvh: &Bvh,
+    curve: &C,
+    triangle: &Triangle,
+    range: Range<f64>,
+    step: f64,
+    visit: impl FnMut(Crossing, u32) -> f64,
+) {
+    let ends = [range.start, range.end].map(|parameter| (parameter, curve.at(parameter).0));
+    let bend = curve.bend(ends);
+    let end = range.end;
+    let (sections, stack) = (Vec::new(), Vec::new());
+    let mut search = Search { bvh, curve, range, end, sections, stack, halvings_left: 0, visit };
+    search.cross(&Arc { ends, bend, halvings: 0, step }, triangle);
+}
+
+/// The step between parameters of tangents to curves whose second derivative is no longer than
+/// `bend`: a power of two.
+pub fn tangent_step(bvh: &Bvh, bend: f64) -> f64 {
+    // At half a step from where it touches, a tangent is M step²/8 from the curve.
+    let longest = (8.0 * TANGENT_ERROR / (bend * bvh.frame.scale)).sqrt();
+    power_of_two(exponent(longest).clamp(-1000, 1000))
 }
 
 struct Search<'a, C, V> {
@@ -92,6 +126,8 @@ struct Search<'a, C, V> {
     end: f64,
     sections: Vec<Section>,
     stack: Vec<Entry>,
+    /// For the current triangle.
+    halvings_left: u32,
     visit: V,
 }
 
@@ -316,8 +352,11 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
     fn cross(&mut self, section: &Arc, triangle: &Triangle) {
         let [a, b, c] = self.bvh.corners(triangle).map(|corner| DVec3::from_array(*corner));
         let normal = (b - a).cross(c - a);
-        let plane = Plane { point: a, normal, bend: section.bend * normal.length() };
+        let length = normal.length();
+        let rounding = TANGENT_ERROR * self.bvh.frame.unit * length;
+        let plane = Plane { point: a, normal, bend: section.bend * length, rounding };
         let ends = section.ends.map(|(parameter, point)| (parameter, plane.height(point)));
+        self.halvings_left = MOST_HALVINGS_AT_A_TRIANGLE;
         self.cross_plane(section, &plane, triangle, ends, section.halvings);
     }
 
@@ -348,11 +387,30 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
             return;
         }
         let parameter = from + 0.5 * (to - from);
-        if from < parameter && parameter < to {
+        if low.abs().max(high.abs()) <= plane.rounding
+            && reach > MANY_ROUNDINGS * plane.rounding
+            && self.is_in_plane(plane, [from, parameter, to])
+        {
+            // The triangle is seen edge-on, so not at all.
+            return;
+        }
+        if from < parameter && parameter < to && self.halvings_left > 0 {
+            self.halvings_left -= 1;
             let middle = (parameter, plane.height(self.curve.at(parameter).0));
             self.cross_plane(section, plane, triangle, [ends[0], middle], halvings + 1);
             self.cross_plane(section, plane, triangle, [middle, ends[1]], halvings + 1);
         }
+    }
+
+    /// True if heights and slopes of the curve are 0 at three parameters, up to rounding.
+    #[cold]
+    fn is_in_plane(&self, plane: &Plane, parameters: [f64; 3]) -> bool {
+        let [from, _, to] = parameters;
+        parameters.into_iter().all(|parameter| {
+            let (point, derivative) = self.curve.at(parameter);
+            let rise = plane.normal.dot(derivative) * (to - from);
+            plane.height(point).abs().max(rise.abs()) <= plane.rounding
+        })
     }
 
     /// The crossing of a plane between two parameters, by Newton's method within a bracket, if it
@@ -423,6 +481,8 @@ struct Plane {
     normal: DVec3,
     /// A bound of the second derivative of the height.
     bend: f64,
+    /// Heights below it are 0.
+    rounding: f64,
 }
 
 impl Plane {

@@ -49,6 +49,7 @@ mod box_ray;
 mod build;
 mod closest;
 mod curve;
+mod displaced;
 mod frame;
 mod nodes;
 mod packet;
@@ -64,6 +65,7 @@ use glam::DVec3;
 
 use closest::Prepared;
 pub use curve::Curve;
+pub use displaced::{Candidate, DisplacedBvh};
 use frame::Frame;
 use nodes::{Block, Node};
 
@@ -118,6 +120,18 @@ impl Bvh {
     /// At most the first 2³¹ triangles are used.
     pub fn new(positions: &[DVec3], triangles: &[[u32; 3]]) -> Self {
         build::build(positions, triangles)
+    }
+
+    fn empty() -> Self {
+        Self {
+            level: Level::new(),
+            frame: Frame { center: [0.0; 3], scale: 1.0, unit: 1.0 },
+            bounds: None,
+            positions: Vec::new(),
+            triangles: Vec::new(),
+            nodes: Vec::new(),
+            blocks: Vec::new(),
+        }
     }
 
     /// The least and the greatest coordinates of the triangles that can be hit.

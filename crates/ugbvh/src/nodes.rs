@@ -147,10 +147,13 @@ pub struct Block {
     pub n: u32,
     /// Greatest extent of the box of all triangles in any axis.
     pub extent: f32,
+    /// Greatest distance of a surface from its plane triangle.
+    pub margin: f32,
 }
 
 impl Block {
-    pub const EMPTY: Self = Self { corners: [[[0.0; WIDTH]; 3]; 3], first: 0, n: 0, extent: 0.0 };
+    pub const EMPTY: Self =
+        Self { corners: [[[0.0; WIDTH]; 3]; 3], first: 0, n: 0, extent: 0.0, margin: 0.0 };
 
     /// A mask of triangles that the ray may hit; it misses the others, or the box of all.
     ///
@@ -176,7 +179,8 @@ impl Block {
     }
 
     /// [`Block::candidates`] for a curve that is within `margin` of the ray in x and y of the
-    /// projection. The ray is one of [`crate::box_ray::BoxRay::with_margin`].
+    /// projection, or for surfaces that are so close to their plane triangles. The margin is part of
+    /// the padding of the ray.
     ///
     /// A point that the curve and a triangle have in common is projected to a point of the
     /// triangle with coordinates up to the margin. Moved there, a ray changes the weight of an edge

@@ -366,7 +366,7 @@ impl Part {
         let bvh = Bvh::new(&places, &corners);
         let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
-        let motion = line.and_then(|line| WorldLineMotion::new(line, &places));
+        let motion = line.and_then(|line| WorldLineMotion::new(line, &bvh, &places, &corners));
         Self { frame, motion, bvh, triangles, clearance: CLEARANCE * reach, outline }
     }
 

@@ -5,8 +5,9 @@ use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugbvh::{Bvh, Curve};
-use ugphysics::{Event, Passage, RayStretch, WorldLine, WorldTube};
+use rayon::prelude::*;
+use ugbvh::{Bvh, Curve, DisplacedBvh};
+use ugphysics::{Event, Passage, RayStretch, SeenTriangle, WorldLine, WorldTube};
 
 use crate::path::{Ray, Start, along};
 
@@ -19,6 +20,62 @@ pub struct WorldLineMotion {
     tube: WorldTube,
     /// What light that arrives at the eye shares; none if the body is beyond the horizon.
     seen_by_eye: Vec<Passage>,
+    /// The triangles where the eye sees them; `None` if light leaves a triangle at very different
+    /// own times.
+    pub seen: Option<Seen>,
+}
+
+/// The triangles of a body where the eye sees them. There light runs straight.
+#[derive(Debug)]
+pub struct Seen {
+    triangles: DisplacedBvh,
+    /// When light leaves each triangle.
+    own_times: Vec<Range<f64>>,
+    /// Of rays in the coordinates of the body.
+    bend: f64,
+}
+
+const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
+
+impl Seen {
+    /// Triangles that are far from flat, besides an eighth of all. With more, rays are faster as
+    /// curves.
+    const MOST_CURVED: usize = 16;
+
+    /// How often these are divided for closer bounds.
+    const LEVELS: u32 = 3;
+
+    fn new(
+        line: &WorldLine,
+        tube: &WorldTube,
+        passages: &[Passage],
+        bvh: &Bvh,
+        points: &[DVec3],
+        corners: &[[u32; 3]],
+    ) -> Option<Self> {
+        let seen = |point: &DVec3| line.emission(*point, EYE).ok().map(|seen| (*point, seen));
+        let n_triangles = corners.len();
+        let seen: Vec<_> = points.par_iter().map(seen).collect::<Option<_>>()?;
+        let corners = |row: usize| corners[row].map(|row| seen[row as usize]);
+        let triangle = |row: usize, levels| line.seen_triangle(tube, passages, &corners(row), EYE, levels);
+        let rows = 0..n_triangles;
+        let mut triangles: Vec<SeenTriangle> =
+            rows.into_par_iter().map(|row| triangle(row, 0)).collect::<Option<_>>()?;
+        let curved: Vec<usize> =
+            (0..n_triangles).filter(|&row| !triangles[row].is_flat(&corners(row))).collect();
+        if curved.len() > Self::MOST_CURVED + n_triangles / 8 {
+            return None;
+        }
+        let finer = curved.par_iter().map(|&row| triangle(row, Self::LEVELS));
+        for (row, finer) in curved.iter().zip(finer.collect::<Option<Vec<_>>>()?) {
+            triangles[*row] = finer;
+        }
+        let places: Vec<DVec3> = seen.iter().map(|(_, seen)| seen.event.x).collect();
+        let deviations: Vec<f64> = triangles.iter().map(|triangle| triangle.deviation).collect();
+        let own_times = triangles.into_iter().map(|triangle| triangle.own_times).collect();
+        let triangles = DisplacedBvh::new(bvh, &places, &deviations);
+        Some(Self { triangles, own_times, bend: line.bend(tube, passages) })
+    }
 }
 
 /// Where a ray meets a triangle of such a body.
@@ -33,12 +90,13 @@ pub struct CurveHit {
 }
 
 impl WorldLineMotion {
-    /// `points`: those of the body. `None` if the motion is inertial.
-    pub fn new(line: &Arc<WorldLine>, points: &[DVec3]) -> Option<Self> {
+    /// `points`: those of the body; `corners`: of the triangles of the hierarchy. `None` if the
+    /// motion is inertial.
+    pub fn new(line: &Arc<WorldLine>, bvh: &Bvh, points: &[DVec3], corners: &[[u32; 3]]) -> Option<Self> {
         let tube = line.tube(points.iter().copied())?;
-        let eye = Event { t: 0.0, x: DVec3::ZERO };
-        let seen_by_eye = line.passages(&tube, eye).unwrap_or_default();
-        Some(Self { line: line.clone(), tube, seen_by_eye })
+        let seen_by_eye = line.passages(&tube, EYE).unwrap_or_default();
+        let seen = Seen::new(line, &tube, &seen_by_eye, bvh, points, corners);
+        Some(Self { line: line.clone(), tube, seen_by_eye, seen })
     }
 
     /// Calls `visit` with the hits of a ray at parameters in a range. `visit` returns false for a
@@ -54,30 +112,33 @@ impl WorldLineMotion {
         clearance: f64,
         mut visit: impl FnMut(CurveHit) -> Next,
     ) {
+        let mut visit_hit = |stretch: &RayStretch<'_>, hit: ugbvh::Hit| {
+            let at = stretch.at(-hit.t);
+            // The own time that passed since the ray left its origin.
+            let passed = at.s / at.rate.abs();
+            if at.s >= range.end {
+                return (Next::Nearer, range.end);
+            }
+            if at.s <= range.start || passed <= clearance {
+                return (Next::Everything, range.end);
+            }
+            (visit(CurveHit { s: at.s, own_time: -hit.t, hit }), at.s)
+        };
+        if matches!(ray.start, Start::Eye)
+            && let Some(seen) = &self.seen
+        {
+            return self.visit_seen(seen, bvh, ray, range.clone(), visit_hit);
+        }
         let visit_stretch = |stretch: &RayStretch<'_>, own_times: Range<f64>| {
             let mut is_over = false;
             let parameters = -own_times.end..-own_times.start;
             bvh.visit_on_curve(&StretchCurve(stretch), parameters.clone(), |hit| {
-                let at = stretch.at(-hit.t);
-                // The own time that passed since the ray left its origin.
-                let passed = at.s / at.rate.abs();
-                if at.s >= range.end {
-                    is_over = true;
-                    return hit.t;
-                }
-                if at.s <= range.start || passed <= clearance {
-                    return parameters.end;
-                }
-                match visit(CurveHit { s: at.s, own_time: -hit.t, hit }) {
+                let next = visit_hit(stretch, hit).0;
+                is_over |= next != Next::Everything;
+                match next {
                     Next::Everything => parameters.end,
-                    Next::Nearer => {
-                        is_over = true;
-                        hit.t
-                    }
-                    Next::Nothing => {
-                        is_over = true;
-                        f64::NEG_INFINITY
-                    }
+                    Next::Nearer => hit.t,
+                    Next::Nothing => f64::NEG_INFINITY,
                 }
             });
             if is_over { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
@@ -89,6 +150,39 @@ impl WorldLineMotion {
         let end = ends_before(ray, range.end);
         // A body beyond the horizon of its motion has no events, so no ray meets it.
         let _ = self.line.visit_ray(&self.tube, ray.origin, ray.step, end, visit_stretch);
+    }
+
+    /// [`WorldLineMotion::visit`] for a ray to the eye. `visit_hit` returns its parameter, too.
+    fn visit_seen(
+        &self,
+        seen: &Seen,
+        bvh: &Bvh,
+        ray: &Ray,
+        range: Range<f64>,
+        mut visit_hit: impl FnMut(&RayStretch<'_>, ugbvh::Hit) -> (Next, f64),
+    ) {
+        let mut end = range.end;
+        let line = ugbvh::Ray { origin: DVec3::ZERO, direction: ray.step.x };
+        seen.triangles.visit(bvh, &line, range, |candidate| {
+            let own_times = &seen.own_times[candidate.index() as usize];
+            for passage in &self.seen_by_eye {
+                let Some((stretch, of_passage)) = self.line.stretch(passage, ray.step) else { break };
+                let parameters = -own_times.end.min(of_passage.end)..-own_times.start.max(of_passage.start);
+                if parameters.start >= parameters.end {
+                    continue;
+                }
+                candidate.visit_on_curve(&StretchCurve(&stretch), parameters.clone(), seen.bend, |hit| {
+                    match visit_hit(&stretch, hit) {
+                        (Next::Everything, _) => {}
+                        // Triangles at the same place are visited, too.
+                        (Next::Nearer, s) => end = end.min(s.next_up()),
+                        (Next::Nothing, _) => end = f64::NEG_INFINITY,
+                    }
+                    parameters.end
+                });
+            }
+            end
+        });
     }
 }
 

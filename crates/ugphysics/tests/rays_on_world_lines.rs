@@ -146,3 +146,52 @@ fn check_curve(stretch: &ugphysics::RayStretch<'_>, range: std::ops::Range<f64>)
         assert!((point - chord).length() <= bound * 1.001 + 1e-9, "{point} {chord} {bound}");
     }
 }
+
+/// Own times and places of light from random points of random triangles, of many sizes, against
+/// their bounds, which are to be close for small triangles.
+#[test]
+fn light_of_triangles_is_within_its_bounds() {
+    let mut random = Random(34);
+    let (mut n_small, mut n_close, mut n_none, mut closest) = (0, 0, 0, 0.0_f64);
+    for kind in 0..600 {
+        let (world_line, at) = motion(&mut random, kind);
+        let middle = at + random.in_ball(0.7);
+        let observer = Event { t: random.between(-9.0, 9.0), x: random.in_ball(9.0) };
+        let tube = world_line.tube([at - DVec3::splat(0.5), at + DVec3::splat(0.5)].into_iter()).unwrap();
+        let passages = world_line.passages(&tube, observer).unwrap();
+        for size in [1e-4, 1e-3, 1e-2, 0.05, 0.2] {
+            let corners = [(); 3].map(|()| middle + random.in_ball(size));
+            let seen = corners.map(|point| (point, world_line.emission(point, observer).unwrap()));
+            let Some(bounds) = world_line.seen_triangle(&tube, &passages, &seen, observer, kind as u32 % 3)
+            else {
+                n_none += 1;
+                continue;
+            };
+            let mut most = 0.0_f64;
+            for _ in 0..60 {
+                let (u, v) = (random.unit(), random.unit());
+                let weights = if u + v < 1.0 { [1.0 - u - v, u, v] } else { [u + v - 1.0, 1.0 - u, 1.0 - v] };
+                let mean = |of: [DVec3; 3]| weights[0] * of[0] + weights[1] * of[1] + weights[2] * of[2];
+                let light = world_line.emission(mean(corners), observer).unwrap();
+                let deviation = (light.event.x - mean(seen.map(|(_, seen)| seen.event.x))).length();
+                assert!(bounds.own_times.contains(&light.own_time), "{kind} {size}: {bounds:?} {light:?}");
+                assert!(deviation <= bounds.deviation, "{kind} {size}: {bounds:?} {deviation}");
+                most = most.max(deviation / bounds.deviation);
+            }
+            closest = closest.max(most);
+            if size == 1e-2 {
+                let [a, b, c] = seen.map(|(_, seen)| seen.event.x);
+                let edges = (b - a).length() + (c - b).length() + (a - c).length();
+                n_small += 1;
+                n_close += u32::from(bounds.deviation < 0.1 * edges);
+                println!(
+                    "{} dev {:.2e} of edge {:.2e}, sampled share {most:.2}",
+                    kind % 7,
+                    bounds.deviation,
+                    edges / 3.0
+                );
+            }
+        }
+    }
+    println!("{n_none} none, {n_close} of {n_small}, closest {closest}");
+}

@@ -250,3 +250,41 @@ fn curves_of_any_numbers_end() {
         }
     }
 }
+
+/// Counts how often a curve is evaluated.
+struct Counted<'c>(&'c Turning, std::cell::Cell<u64>);
+
+impl Curve for Counted<'_> {
+    fn at(&self, parameter: f64) -> (DVec3, DVec3) {
+        self.1.set(self.1.get() + 1);
+        self.0.at(parameter)
+    }
+
+    fn bend(&self, ends: [(f64, DVec3); 2]) -> f64 {
+        self.0.bend(ends)
+    }
+}
+
+/// A curve in the plane of triangles, which are seen edge-on, is not halved without an end.
+#[test]
+fn curves_in_the_plane_of_a_triangle_end() {
+    let corners = [dvec3(1.0, 0.0, 0.0), dvec3(0.0, 1.0, 0.0), dvec3(-1.0, 0.0, 0.0), dvec3(0.0, -1.0, 0.0)];
+    let triangles = [[0, 1, 2], [0, 2, 3]];
+    // The same with rounding errors.
+    let tilt = DQuat::from_axis_angle(dvec3(0.6, 0.0, 0.8), 0.7);
+    for turn in [DQuat::IDENTITY, tilt] {
+        let bvh = Bvh::new(&corners.map(|corner| turn * corner), &triangles);
+        for rate in [0.0, 0.8, 2.0] {
+            let curve = Turning {
+                origin: turn * dvec3(0.1, -3.0, 0.0),
+                direction: turn * DVec3::Y,
+                push: turn * dvec3(0.3, 0.2, 0.0),
+                axis: turn * DVec3::Z,
+                rate,
+            };
+            let counted = Counted(&curve, std::cell::Cell::new(0));
+            bvh.visit_on_curve(&counted, 0.0..9.0, |_| 9.0);
+            assert!(counted.1.get() < 5_000, "{rate}: {}", counted.1.get());
+        }
+    }
+}

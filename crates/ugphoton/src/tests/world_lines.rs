@@ -307,3 +307,51 @@ fn closed_bodies_do_not_leak() {
     }
     assert!(n_met > 8000 && n_inside > 20, "{n_met} {n_inside}");
 }
+
+/// Rays to the eye, for which triangles are searched where they are seen, hit what a search along
+/// the curve hits that the ray is in the coordinates of the body, and do not leak.
+#[test]
+fn rays_to_the_eye_hit_what_curves_hit() {
+    let mut random = Random(43);
+    let (mut n_met, mut n_seen) = (0, 0);
+    for kind in 0..24 {
+        let DVec3 { x, y, z } = random.between(1.5, 6.0) * random.direction();
+        let text = format!(
+            "l 1; motion m {};\n{}cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;",
+            motion(&mut random, kind),
+            ball("<m>", *random.pick(&[6, 20, 60]))
+        );
+        let scenery = scenery_at(&text, random.between(-3.0, 3.0));
+        let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
+        n_seen +=
+            u32::from(scenery.world.parts[0].motion.as_ref().is_some_and(|motion| motion.seen.is_some()));
+        let eye = Event { t: 0.0, x: DVec3::ZERO };
+        for idx in 0..if cfg!(debug_assertions) { 400 } else { 10_000 } {
+            let face = random.pick(&scenery.scene.faces);
+            let corners = scenery.scene.contours.corners(face.contours.clone());
+            let [a, b, c] = [0, 1, 2].map(|at| scenery.scene.rest[corners[at].index()]);
+            let target = match idx % 4 {
+                0 => a,
+                1 => 0.5 * (a + b),
+                2 => a + random.unit() * (b - a),
+                _ => (a + b + c) / 3.0 + random.in_ball(0.1),
+            };
+            let direction = line.emission(target, eye).unwrap().event.x;
+            let step = Event { t: -direction.length(), x: direction };
+            let [seen, curved] =
+                [Start::Eye, Start::Event].map(|start| all_hits(&scenery, &ray(eye, step, start)));
+            assert!(seen.len().is_multiple_of(2), "{kind}: {direction} {seen:?}");
+            n_met += usize::from(!seen.is_empty());
+            // Through an edge, either of its triangles may be hit, or none of the silhouette.
+            if idx % 4 < 3 {
+                continue;
+            }
+            let faces = |hits: &[Intersection]| hits.iter().map(|hit| hit.triangle.face).collect::<Vec<_>>();
+            assert_eq!(faces(&seen), faces(&curved), "{kind}: {direction} {seen:?} {curved:?}");
+            assert!(seen.iter().zip(&curved).all(|(a, b)| (a.s - b.s).abs() < 1e-9));
+            let first = scenery.closest(&ray(eye, step, Start::Eye), 0.0..f64::INFINITY);
+            assert_eq!(first.map(|first| first.s.to_bits()), seen.first().map(|first| first.s.to_bits()));
+        }
+    }
+    assert!(n_met > 5000 && n_seen > 8, "{n_met} {n_seen}");
+}

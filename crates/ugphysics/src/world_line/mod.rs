@@ -10,6 +10,7 @@ mod orbit;
 mod pieces;
 mod range_maximum;
 mod ray;
+mod seen;
 mod spline;
 mod table;
 
@@ -19,6 +20,7 @@ pub use moving::ElementFrame;
 pub use orbit::Orbit;
 pub use pieces::Piece;
 pub use ray::{Passage, RayPoint, RayStretch, WorldTube};
+pub use seen::{SeenPoint, SeenTriangle};
 pub use table::SampledPath;
 
 use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};

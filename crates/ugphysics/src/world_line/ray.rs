@@ -165,6 +165,33 @@ impl WorldLine {
         Ok(moving.passages(tube, origin, None)?.collect())
     }
 
+    /// An upper bound of the length of the second derivative of all rays in the tube.
+    #[must_use]
+    pub fn bend(&self, tube: &WorldTube, passages: &[Passage]) -> f64 {
+        let Kind::Moving(moving) = &self.0 else { return 0.0 };
+        let of_passage = |passage: &Passage| {
+            let Passage { acceleration: a, jerk, known_at, .. } = passage;
+            let pace = 1.0 + a * tube.reach();
+            let rates = moving.turns.iter().map(|turn| turn.spin.rate(*known_at).length());
+            rates
+                .fold((pace, pace * a + jerk * tube.reach()), |bounds, rate| {
+                    turn_bounds(bounds, rate, tube.radius)
+                })
+                .1
+        };
+        passages.iter().map(of_passage).fold(0.0, f64::max)
+    }
+
+    /// The stretch of a ray of light that arrives at the event of a passage, and the own times of the
+    /// passage.
+    ///
+    /// `None` for an inertial motion.
+    #[must_use]
+    pub fn stretch<'a>(&'a self, passage: &'a Passage, step: Event) -> Option<(RayStretch<'a>, Range<f64>)> {
+        let Kind::Moving(moving) = &self.0 else { return None };
+        Some((moving.stretch(passage, step), passage.own_times.clone()))
+    }
+
     /// [`WorldLine::visit_ray`] for light that arrives at the event of these passages.
     pub fn visit_light(
         &self,
@@ -179,7 +206,39 @@ impl WorldLine {
     }
 }
 
+impl Passage {
+    /// The own times of A.
+    pub(super) fn own_times(&self) -> &Range<f64> {
+        &self.own_times
+    }
+
+    /// An own time in it.
+    pub(super) fn known_at(&self) -> f64 {
+        self.known_at
+    }
+
+    /// A bound of |a|.
+    pub(super) fn acceleration(&self) -> f64 {
+        self.acceleration
+    }
+
+    /// A bound of |da/dτ|.
+    pub(super) fn jerk(&self) -> f64 {
+        self.jerk
+    }
+}
+
 impl WorldTube {
+    /// A bound of |ξ|.
+    pub(super) fn reach(&self) -> f64 {
+        self.offset.length() + self.radius
+    }
+
+    /// A lower bound of 1 + a·ξ.
+    pub(super) fn least_pace(&self) -> f64 {
+        self.least_pace
+    }
+
     /// The own time at which the centre is seen from an event.
     fn seen_at(&self, observer: Event) -> Result<f64, WorldLineError> {
         if let Path::Accelerated(acceleration) = &self.carried.path
@@ -356,6 +415,12 @@ impl Moving {
     }
 }
 
+/// Bounds of the first and second derivative after a turn, whose terms of Coriolis and of the
+/// centrifugal force add to them: with the arm r, v + ωr and b + 2ωv + ω²r.
+pub(super) fn turn_bounds((speed, bend): (f64, f64), rate: f64, arm: f64) -> (f64, f64) {
+    (speed + rate * arm, bend + rate * (2.0 * speed + rate * arm))
+}
+
 /// How far a point of a body can be from the last pivot, however the body has turned.
 fn reach(turns: &[Turn], point: DVec3) -> f64 {
     let step = |(reach, from): (f64, DVec3), turn: &Turn| (reach + (turn.pivot - from).length(), turn.pivot);
@@ -415,9 +480,6 @@ impl RayStretch<'_> {
 
     /// An upper bound of the length of the second derivative of the point between two own times,
     /// whose points are passed as well; infinite if they are too far apart.
-    ///
-    /// Each turn adds the terms of Coriolis and of the centrifugal force: with the arm r and the
-    /// bounds v and b before it, v + ωr and b + 2ωv + ω²r.
     #[must_use]
     pub fn bend(&self, [(from, start), (to, end)]: [(f64, DVec3); 2]) -> f64 {
         let a = self.passage.acceleration;
@@ -444,17 +506,16 @@ impl RayStretch<'_> {
         let pace = 1.0 + a * xi;
         let carried = pace * a + self.passage.jerk * xi;
         if self.turns.is_empty() {
-            return carried + self.passage.rate * (2.0 * pace + self.passage.rate * arm);
+            return turn_bounds((pace, carried), self.passage.rate, arm).1;
         }
-        let (mut speed, mut bend, mut arm, mut from) = (pace, carried, xi, self.moving.at);
+        let (mut bounds, mut arm, mut from) = ((pace, carried), xi, self.moving.at);
         for Turn { pivot, spin } in self.turns.iter().rev() {
             let rate = spin.rate(self.passage.known_at).length();
             arm += (from - *pivot).length();
-            bend += rate * (2.0 * speed + rate * arm);
-            speed += rate * arm;
+            bounds = turn_bounds(bounds, rate, arm);
             from = *pivot;
         }
-        bend
+        bounds.1
     }
 
     /// The part of a range of own times in which the ray may be in a tube.
