@@ -312,3 +312,32 @@ fn constant_tables_are_plain_colours() {
         }
     }
 }
+
+/// A legend states the own times of the light that is seen, (P42): t − r at the axis of a spin.
+#[test]
+fn legends_state_own_times() {
+    let clock = |motion: &str| {
+        format!(
+            "motion m {motion};\nv a 1e-4 0 0; v b 0 0 1e-4; v c -1e-4 0 -1e-4; f (a b c) <m>;\nl 1;\n\
+             cam -ep 0 -6 0 -vc 0 0 0 -ud 0 0 1 -va .004;"
+        )
+    };
+    for (motion, expected) in [
+        ("-spin 0 .5 0", Some("τ = 4")),
+        // asinh(a t)/a, at the time 4 of the eye minus 6.
+        ("-acc 0 1e-9 0", Some("τ = 4")),
+        ("-vel 0 0 0", None),
+    ] {
+        let mut pipe = pipe::Pipe::new(DVec3::ZERO, [400, 300]);
+
+        pipe.lorentz = options(DVec3::new(0.0, -6.0, 0.0), 10.0);
+        pipe.rainbow.picture.annotations.legend = true;
+        pipe.rainbow.picture.text = ugrainbow::TextForm::Text;
+        pipe.rainbow.picture.output = Output::Vector(ugimage::Format::Svg);
+        let svg = String::from_utf8(pipe.run(clock(motion).as_bytes()).file).unwrap();
+        match expected {
+            Some(words) => assert!(svg.contains(&format!("{words}<")), "{motion}: {svg}"),
+            None => assert!(!svg.contains("τ"), "{motion}: {svg}"),
+        }
+    }
+}

@@ -84,6 +84,7 @@ impl<'a> Middles<'a> {
             depth: s,
             time: ray.origin.t + s * ray.step.t,
             velocity: on_line.map_or(frames.velocity(body), |at| at.velocity),
+            own_time: on_line.map(|at| at.own_time),
             scene_from_axes: frames.of(body).scene_from_boosted(),
             in_medium: self.in_medium(&ray, body, on_line),
         };

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
-use ugscene::{BodyId, Geometry, RestFrames, Scene, View, WorldLinePoint};
+use ugscene::{BodyId, Geometry, RestFrames, Scene, View};
 
 use crate::depth_buffer::SurfaceSample;
 
@@ -17,6 +17,8 @@ pub struct Emission {
     pub time: f64,
     /// Velocity of the body.
     pub velocity: Velocity,
+    /// Own time of a body on a world line.
+    pub own_time: Option<f64>,
     /// Turns rest coordinates of the body into the axes of the scene, see
     /// [`ugphysics::RestFrame::scene_from_boosted`].  Eq. (P25)
     pub scene_from_axes: DQuat,
@@ -72,16 +74,16 @@ impl<'a> Emissions<'a> {
         let body = self.body(seen.item);
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
-        let velocity = self.frames.velocity_at(body, place);
-        let scene_from_axes = self.frames.of(body).scene_from_boosted();
-        Emission { place, depth, time, velocity, scene_from_axes, in_medium: None }
-    }
-
-    /// The own time of a body that is not inertial at the emission of light from its surface
-    /// `item`, see [`SurfaceSample::item`].
-    pub fn own_time(&self, item: u32, emission: &Emission) -> Option<f64> {
-        let line = self.frames.world_line(self.body(item))?;
-        Some(WorldLinePoint::new(line, emission.place)?.own_time)
+        let on_line = self.frames.body_event(body, place);
+        Emission {
+            place,
+            depth,
+            time,
+            velocity: on_line.map_or(self.frames.velocity(body), |at| at.velocity),
+            own_time: on_line.map(|at| at.own_time),
+            scene_from_axes: self.frames.of(body).scene_from_boosted(),
+            in_medium: None,
+        }
     }
 
     fn body(&self, item: u32) -> BodyId {

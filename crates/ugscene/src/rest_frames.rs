@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{RestFrame, Velocity, WorldLine};
+use ugphysics::{BodyEvent, RestFrame, Velocity, WorldLine};
 
 use crate::{BodyId, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
 
@@ -54,15 +54,18 @@ impl RestFrames {
         !self.world_lines.is_empty()
     }
 
+    /// Own time and velocity, in the frame of the camera, of the point of a body on a world line
+    /// that is seen at `seen` relative to the eye. `None` for an inertial body, and where no point
+    /// of the body can be seen.
+    pub fn body_event(&self, body: BodyId, seen: DVec3) -> Option<BodyEvent> {
+        self.world_line(body)?.at_event(crate::seen_event(seen)).ok()
+    }
+
     /// The velocity, in the frame of the camera, of the point of a body that is seen at `seen`
     /// relative to the eye. On a world line it is that at emission; where no point of the body can
     /// be seen, that at own time 0.
     pub fn velocity_at(&self, body: BodyId, seen: DVec3) -> Velocity {
-        let at_event = |line: &Arc<WorldLine>| line.at_event(crate::seen_event(seen)).ok();
-        match self.world_line(body).and_then(at_event) {
-            Some(event) => event.velocity,
-            None => self.velocity(body),
-        }
+        self.body_event(body, seen).map_or(self.velocity(body), |event| event.velocity)
     }
 
     /// The rest frame of a body.

@@ -265,6 +265,7 @@ impl<'s> Warp<'s> {
             depth: f64::INFINITY,
             time: f64::NEG_INFINITY,
             velocity: -self.view.observer.velocity(),
+            own_time: None,
             // The axes of the panorama are those of a single boost to the observer.
             scene_from_axes: DQuat::IDENTITY,
             in_medium: None,

@@ -261,13 +261,17 @@ impl Legend<'_> {
         let left = left + 4.4 * size;
         let room = width - 4.4 * size;
         let velocities = &self.motion.velocities;
-        let doppler = match self.motion.doppler {
-            Some(ends) => {
-                let ends = ends.map(|end| significant(end, 3));
-                format!("D = {}", range(&ends[0], &ends[1]))
-            }
+        let between = |ends: [f64; 2]| {
+            let ends = ends.map(|end| significant(end, 3));
+            range(&ends[0], &ends[1])
+        };
+        let mut doppler = match self.motion.doppler {
+            Some(ends) => format!("D = {}", between(ends)),
             None => "nothing is seen".to_owned(),
         };
+        if let Some(ends) = self.motion.own_time {
+            doppler += &format!(",  τ = {}", between(ends));
+        }
         let beta = format!("β = {}", list_or_range(velocities.iter().map(|&v| speed(v)).collect()));
         let gamma =
             format!("γ = {}", list_or_range(velocities.iter().map(|v| significant(v.gamma(), 4)).collect()));

@@ -18,6 +18,8 @@ pub struct MotionSummary {
     /// Least and greatest Doppler factor at the middles of pixels; `None` if nothing is visible.
     /// Eq. (P10)
     pub doppler: Option<[f64; 2]>,
+    /// Least and greatest own time at emission of visible bodies on world lines, likewise.
+    pub own_time: Option<[f64; 2]>,
     /// True if wavelengths in the picture are Doppler shifted.
     pub is_shifted: bool,
 }
@@ -34,7 +36,10 @@ impl MotionSummary {
         let mut velocities: Vec<Velocity> = Vec::new();
         // The slowest and the fastest of a body whose points all differ.
         let mut ends: Option<[Velocity; 2]> = None;
-        let mut doppler: Option<[f64; 2]> = None;
+        let [mut doppler, mut own_time]: [Option<[f64; 2]>; 2] = [None; 2];
+        let extend = |ends: &mut Option<[f64; 2]>, value: f64| {
+            *ends = Some(ends.map_or([value; 2], |[low, high]| [low.min(value), high.max(value)]));
+        };
         for (_, emission) in items.flatten() {
             let velocity = emission.velocity;
             if velocities.len() < MOST_DISTINCT && !velocities.contains(&velocity) {
@@ -45,8 +50,8 @@ impl MotionSummary {
                 if velocity.rapidity() < slowest.rapidity() { velocity } else { slowest },
                 if velocity.rapidity() > fastest.rapidity() { velocity } else { fastest },
             ]);
-            let factor = emission.doppler();
-            doppler = Some(doppler.map_or([factor; 2], |[low, high]| [low.min(factor), high.max(factor)]));
+            extend(&mut doppler, emission.doppler());
+            emission.own_time.into_iter().for_each(|time| extend(&mut own_time, time));
         }
         if velocities.len() == MOST_DISTINCT {
             velocities.extend(ends.into_iter().flatten());
@@ -64,7 +69,7 @@ impl MotionSummary {
             }
         };
         let directions = velocities.iter().map(direction).collect();
-        Self { velocities, directions, doppler, is_shifted }
+        Self { velocities, directions, doppler, own_time, is_shifted }
     }
 
     /// True if everything visible is at rest.

@@ -225,7 +225,7 @@ impl Teller<'_> {
             item: self.item(seen.item),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
-            own_time: emissions.own_time(seen.item, &emission),
+            own_time: emission.own_time,
             emission: (emission.time, place),
             rest: (rest_time, emission.scene_from_axes * rest),
             angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),
