@@ -260,6 +260,49 @@ fn parts_stay_on_inertial_bodies() {
     }
 }
 
+/// A camera that has stopped sees what a camera sees that rests at its place, at the time there.
+#[test]
+fn a_camera_that_has_stopped_is_where_it_stopped() {
+    let (sinh, cosh) = (1.0_f64.sinh(), 1.0_f64.cosh());
+    let way = 2.0 * (cosh - 1.0) / 0.25 + 4.0 * sinh;
+    let time = 2.0 * sinh / 0.25 + 4.0 * cosh;
+    for of_cube in ["", "<.3 .2 0>", "<m>"] {
+        let text = format!("motion m -spin 0 .1 .3;{}", CUBE.replace("MOTION", of_cube));
+        let drives = format!(
+            "{text} motion car -at {} -6 1 -acc .25 0 0 0 4 -acc -.25 0 0 8 12;
+            cam -ep {} -6 1 -vc {} 0 0 -va 50 40 <car>;",
+            2.0 - way,
+            2.0 - way,
+            -way
+        );
+        let stands = format!("{text} cam -ep 2 -6 1 -vc 0 0 0 -va 50 40;");
+        let config = |time: f64| uglorentz::Config {
+            time,
+            anchor: Some(Anchor::Origin),
+            ..uglorentz::Config::default()
+        };
+        for after in [0.0, 1.5] {
+            let [driven, stood] =
+                [(&drives, 12.0), (&stands, time)].map(|(text, time)| seen(text, &config(time + after)));
+            assert_eq!(driven.vertices.len(), stood.vertices.len());
+            let shift = ugscene::eye(&driven, None) - ugscene::eye(&stood, None);
+            for (a, b) in driven.vertices.iter().zip(&stood.vertices) {
+                assert!((a.position - b.position - shift).length() < 1e-11, "{of_cube}: {a:?} {b:?}");
+            }
+            let [driven, stood] = [(&drives, 12.0), (&stands, time)].map(|(text, time)| {
+                let mut config = ugphoton::Config::default();
+                (config.motion.time, config.motion.anchor) = (time + after, Some(Anchor::Origin));
+                config.picture.size = [80, 60];
+                ugphoton::light(parse(text.as_bytes()), &config).unwrap()
+            });
+            let pixels = driven.pixels().iter().flatten().zip(stood.pixels().iter().flatten());
+            let n_off = pixels.filter(|(a, b)| (*a - *b).abs() > 1e-5).count();
+            // At edges the rounding of places decides.
+            assert!(n_off <= 4, "{of_cube}: {n_off}");
+        }
+    }
+}
+
 /// A camera and a body on the same path see each other at rest.
 #[test]
 fn a_camera_sees_its_own_body_as_it_is() {

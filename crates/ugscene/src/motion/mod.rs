@@ -112,7 +112,7 @@ pub struct PlacedBodies {
     /// For each body, what has to be added to its rest coordinates, in the axes of
     /// [`RelativeMotion::turned`].
     pub shifts: Vec<DVec3>,
-    /// True if a body, a light or the camera moves, or a colour changes with own time.
+    /// True if a body, a light or the camera moves or has moved, or a colour changes with own time.
     pub has_motion: bool,
     /// The velocity of the camera in the frame of the scene.
     camera: Velocity,
@@ -163,6 +163,7 @@ impl PlacedBodies {
         world_lines::place(scene, (&bodies, &roots), &mut motions, (eye, &observer), options)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
+            || observer.has_left()
             || crate::has_moving_bodies(scene)
             || crate::has_moving_lights(scene)
             || !scene.color_tables.is_empty();

@@ -65,6 +65,11 @@ impl Observer {
         self.event.unwrap_or_else(of_velocity)
     }
 
+    /// True if a world line has carried the eye away from its place at time 0.
+    pub(super) fn has_left(&self) -> bool {
+        self.event.is_some_and(|event| event.x != DVec3::ZERO)
+    }
+
     /// Turns a direction of view with the camera.
     pub(super) fn turned(&self, direction: DVec3) -> DVec3 {
         if self.turn == DQuat::IDENTITY { direction } else { self.turn * direction }
