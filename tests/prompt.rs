@@ -19,7 +19,8 @@ fn answer(folder: &Path, programs: &Path, command: &str) -> String {
 }
 
 /// A lamp in a tetrahedron, which is closed.
-const ENCLOSED_LAMP: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; v d 0 0 1; f (a c b); f (a b d); f (b c d); f (c a d);
+const ENCLOSED_LAMP: &str =
+    "v a 0 0 0; v b 1 0 0; v c 0 1 0; v d 0 0 1; f (a c b); f (a b d); f (b c d); f (c a d);
     l bulb 1 .2 .2 .2 1; cam -ep 3 3 3 -vc 0 0 0;";
 
 /// A folder with scenes, and files that are none.
@@ -167,7 +168,10 @@ fn nothing_is_black_in_silence() {
     check("uglorentz -vel .9 0 0 -fo x.ug ship.ug", when);
     check("ugphoton -vel .9 0 0 -sz 40 30 -fo x.png ship.ug", when);
     let film = "ugfilm -frames 2 -vel .9 0 0 -ti 0..1 -sz 40 30 -fo x_%d.png ship.ug";
-    check(film, "nothing will be in the picture in 2 of 2 frames, 1..2: what moves is in it with -ti from 3.6");
+    check(
+        film,
+        "nothing will be in the picture in 2 of 2 frames, 1..2: what moves is in it with -ti from 3.6",
+    );
     let enclosed = "the light of lamp `bulb` does not leave the closed body that it is in: move it out";
     check("ugphoton -sz 40 30 -fo x.png boxed.ug", enclosed);
 }
