@@ -82,8 +82,8 @@ fn a_picture_without_visible_wavelengths_says_so() {
     let check = |saturation: f64, speed: &str, expected: &str| {
         let pipe = format!("uglorentz -in -vel {speed} 0 0 | ugdoppler | ugrainbow -sz 64 48 -aa 2");
         let found = messages(&folder, &pipe, &scene(saturation));
-        let remedy = "its wavelengths are outside 380-780 nm; try a lower speed, or \
-                      `ugdoppler --no-doppler --no-flux` to see the shape";
+        let remedy = "its wavelengths are outside 380-780 nm; give ugdoppler and \
+                      ugrainbow -look light, or -look shape to see the shape";
         let expected = match expected {
             "" => String::new(),
             share => format!("ugrainbow: note: {share}: {remedy}\n"),

@@ -18,6 +18,11 @@ fn answer(folder: &Path, programs: &Path, command: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
+/// A lamp in a tetrahedron, which is closed.
+const ENCLOSED_LAMP: &str =
+    "v a 0 0 0; v b 1 0 0; v c 0 1 0; v d 0 0 1; f (a c b); f (a b d); f (b c d); f (c a d);
+    l bulb 1 .2 .2 .2 1; cam -ep 3 3 3 -vc 0 0 0;";
+
 /// A folder with scenes, and files that are none.
 fn prepare(folder: &Path) {
     for name in ["ship.ug", "stars.csv"] {
@@ -31,6 +36,8 @@ fn prepare(folder: &Path) {
         ("comment.ug", format!("# comment\n{triangle}f (a b c);\n")),
         ("slashes.ug", format!("// comment\n{triangle}f (a b c);\n")),
         ("capital.ug", format!("{triangle}F (a b c);\n")),
+        ("broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n".to_owned()),
+        ("boxed.ug", ENCLOSED_LAMP.to_owned()),
     ] {
         std::fs::write(folder.join(name), text).unwrap();
     }
@@ -127,6 +134,7 @@ fn mistakes_are_answered() {
     check("ugmesh ship.fbx", "`ship.fbx` is not a mesh but a model in a format that is not read; export it");
     check("ugrainbow stars.csv", "help: `ugwarp stars.csv` draws a list of stars");
     check("ugwarp ship.ug", "scenes are drawn by ugrainbow, and by ugphoton");
+    check("ugwarp photo.jpg stars.csv", "a list of stars is added with --stars FILE");
     check("ugwarp stars.csv photo.jpg", "name the panorama first, and add stars with --stars FILE");
     check(
         "ugrainbow comment.ug",
@@ -134,9 +142,38 @@ fn mistakes_are_answered() {
     );
     check("ugrainbow slashes.ug", "help: comments are in braces: `{ like this }`");
     check("ugrainbow capital.ug", "help: keywords are lower case: `f`");
+    check("ugrainbow broken.obj", "--> broken.obj:3:1");
+    check("ugmesh -fo x.stl ship.ug", "`x.stl` is none of the formats ug, obj, ply, gltf, glb and vtp");
+    check("ugparse example dragon", "dragon");
     for program in ["ugrainbow -fo", "ugphoton -fo", "ugfilm -ti 0..1 -ex auto -fo"] {
         check(&format!("{program} none/x_%d.png no-such.ug"), "there is no folder `none`");
     }
+}
+
+/// What is black, or outside the picture, is not drawn without a word.
+#[test]
+fn nothing_is_black_in_silence() {
+    let folder = tempfile::tempdir().unwrap();
+    let programs = programs::of_this_profile();
+    prepare(folder.path());
+    let check = |command: &str, expected: &str| {
+        let shown = answer(folder.path(), &programs, command);
+        assert!(shown.contains(expected), "$ {command}\n{shown}\n  instead of\n{expected}");
+    };
+    check(
+        "uglorentz -vel .9 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 40 30 -fo x.png",
+        "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
+    );
+    let when = "nothing that moves is in the picture at -ti 0; it is with -ti from 3.6 to 25.6, best at 12.5";
+    check("uglorentz -vel .9 0 0 -fo x.ug ship.ug", when);
+    check("ugphoton -vel .9 0 0 -sz 40 30 -fo x.png ship.ug", when);
+    let film = "ugfilm -frames 2 -vel .9 0 0 -ti 0..1 -sz 40 30 -fo x_%d.png ship.ug";
+    check(
+        film,
+        "nothing will be in the picture in 2 of 2 frames, 1..2: what moves is in it with -ti from 3.6",
+    );
+    let enclosed = "the light of lamp `bulb` does not leave the closed body that it is in: move it out";
+    check("ugphoton -sz 40 30 -fo x.png boxed.ug", enclosed);
 }
 
 /// A mesh of another program is a scene to every program that reads one.

@@ -186,7 +186,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let measured = exposure(&film, names, args.print.is_some(), context)?;
         let stops = measured.stops.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
-        tell_wrong(&measured.wrong, &format!("{} frames that were measured", measured.n_frames), context);
+        tell_wrong(&measured.wrong, measured.n_frames, "measured", context);
         script.set("ex", vec![stops]);
     }
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
@@ -281,19 +281,25 @@ fn tell_unseen(unseen: &Unseen, context: &Context) {
         .note(&format!("nothing will be in the picture in {count} of {n_frames} frames, {list}: {remedy}"));
 }
 
-/// Says which frames of `n_frames` that were or will be drawn are nearly black or overexposed.
-fn tell_wrong(wrong: &WrongBrightness, n_frames: &str, context: &Context) {
+/// Says which of `n_frames` frames that were measured or drawn are nearly black or overexposed.
+fn tell_wrong(wrong: &WrongBrightness, n_frames: usize, what_was_done: &str, context: &Context) {
     let findings = [
         (&wrong.nearly_black, "hardly anything is bright enough to be seen", DARK_REMEDY),
         (&wrong.overexposed, "more than a tenth of what is in the picture is white", BRIGHT_REMEDY),
     ];
     for (frames, finding, remedy) in findings.into_iter().filter(|(frames, ..)| !frames.is_empty()) {
-        let (count, list) = (frames.len(), ranges_of(frames));
-        context.note(&format!("{finding} in {count} of {n_frames}, {list}: {remedy}"));
+        // Measured frames are spread over the film, so a list of all of them is long.
+        let which = match frames.len() {
+            count if count == n_frames => format!("all {n_frames} frames that were {what_was_done}"),
+            count => {
+                format!("{count} of {n_frames} frames that were {what_was_done}, {}", ranges_of(frames))
+            }
+        };
+        context.note(&format!("{finding} in {which}: {remedy}"));
     }
 }
 
-const DARK_REMEDY: &str = "give -ex more stops, or try -look light or -look shape";
+const DARK_REMEDY: &str = "give -ex more stops, or try -look shape";
 
 const BRIGHT_REMEDY: &str = "give -ex fewer stops";
 
@@ -316,7 +322,7 @@ fn tell(summary: &Summary, context: &Context) {
         let (count, list) = (frames.len(), ranges_of(frames));
         context.note(&format!("{finding} in {count} of {n_drawn} frames that were drawn, {list}: {remedy}"));
     }
-    tell_wrong(wrong, &format!("{n_drawn} frames that were drawn"), context);
+    tell_wrong(wrong, *n_drawn as usize, "drawn", context);
     if *n_done + *n_elsewhere > 0 {
         let elsewhere = match n_elsewhere {
             0 => String::new(),

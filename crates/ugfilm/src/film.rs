@@ -211,7 +211,7 @@ impl Film<'_> {
         Ok(pictures)
     }
 
-    /// The exposure at which 99 of 100 lit pixels of the film are at or below white, in stops.
+    /// The automatic exposure of all lit pixels of the film, in stops.
     ///
     /// # Errors
     /// A frame cannot be drawn.

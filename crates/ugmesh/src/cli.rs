@@ -174,7 +174,7 @@ impl Args {
             (None, Some(path)) if path.extension().is_some() && is_file_or_new(path) => {
                 Target::by_ending(path).ok_or_else(|| {
                     Failure::usage(format!(
-                        "`{}` has an unknown extension; choose a format with -dt",
+                        "the extension of `{}` is none of the formats ug, obj, ply, gltf, glb and vtp; name one with -dt",
                         path.display()
                     ))
                 })?

@@ -104,7 +104,10 @@ fn bad_usage_is_status_2() {
         (&["-scale", "nan"][..], "not a finite number"),
         (&["-dt", "stl"][..], "`-dt` takes "),
         (&["-ascii"][..], "-ascii applies only to PLY; add -dt ply"),
-        (&["-fo", "x.stl"][..], "`x.stl` has an unknown extension; choose a format with -dt"),
+        (
+            &["-fo", "x.stl"][..],
+            "the extension of `x.stl` is none of the formats ug, obj, ply, gltf, glb and vtp; name one with -dt",
+        ),
         (&["-name", "a b"][..], "a name consists of letters, digits and _, and begins with a letter"),
         (&["-up", "w"][..], "`-up` takes "),
         (&["-if", "ug"][..], "the input is already a UniGrafix scene; choose an output format with -dt"),

@@ -52,7 +52,7 @@ pub const NOTHING_IN_PICTURE: &str = "{}; try `uglorentz --keep-in-view`, anothe
 
 /// Most or everything is shifted out of the visible range.
 pub const OUT_OF_RANGE: &str =
-    "{}; try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape";
+    "{}; give ugdoppler and ugrainbow -look light, or -look shape to see the shape";
 
 /// Vertices have colours as seen, so they cannot be repeated for the colours of faces.
 pub const REPEAT_EARLIER: &str =

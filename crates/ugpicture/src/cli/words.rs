@@ -63,9 +63,7 @@ impl Words for Note {
             Self::EdgeOn => "{}; try another -ep or a narrower -va",
             Self::BlackLines => "{}: choose another colour with -lc or -bg",
             Self::OutOfRange { .. } => remedies::OUT_OF_RANGE,
-            Self::BlackFaces | Self::BlackPanorama => {
-                "{}; try a lower speed, or --no-doppler --no-flux to see the shape"
-            }
+            Self::BlackFaces | Self::BlackPanorama => "{}; try -look light, or -look shape to see the shape",
             Self::EnclosedLamp(_) => "{}: move it out, or give --no-shadows",
             Self::TooDeep { .. } => "{}: a larger -rd shows it",
             Self::CutShort => "{}: give a smaller -rd or a larger -rc",

@@ -118,10 +118,8 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     check(
         &format!("{square} far; cam -ep 1 0 20;"),
         &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
-        &[
-            "all that is in the picture is black: its wavelengths are outside 380-780 nm; try a lower speed, or \
-           `ugdoppler --no-doppler --no-flux` to see the shape",
-        ],
+        &["all that is in the picture is black: its wavelengths are outside 380-780 nm; give ugdoppler \
+             and ugrainbow -look light, or -look shape to see the shape"],
     );
     // The white part of a pale colour stays visible.
     let moved = "c far .5 900 .8; v e 30 0 0; v f 31 0 0; v g 30 1 0; f (e f g) far";
@@ -129,8 +127,8 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         &format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"),
         &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
         &[
-            "all that is in the picture is black or grey: its wavelengths are outside 380-780 nm; try a lower \
-           speed, or `ugdoppler --no-doppler --no-flux` to see the shape",
+            "all that is in the picture is black or grey: its wavelengths are outside 380-780 nm; give ugdoppler \
+             and ugrainbow -look light, or -look shape to see the shape",
         ],
     );
     // The picture is 40 tan 2.5° = 1.746 wide, so 1.373 / 1.746 of it is out of range, then 0.373.
@@ -146,7 +144,8 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         &parts(0.5),
         &wavelengths,
         &["78 percent of what is in the picture is black or grey: its wavelengths are outside 380-780 nm; \
-           try a lower speed, or `ugdoppler --no-doppler --no-flux` to see the shape"],
+           give ugdoppler \
+             and ugrainbow -look light, or -look shape to see the shape"],
     );
     check(&parts(-0.5), &wavelengths, &[]);
     check(

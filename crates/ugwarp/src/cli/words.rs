@@ -21,7 +21,7 @@ impl Words for Error {
             Self::Panorama(PanoramaError::Sides { n_files }) => {
                 return format!(
                     "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and \
-                     others one"
+                     others one; a list of stars is added with --stars FILE"
                 );
             }
             Self::Orthographic => {
