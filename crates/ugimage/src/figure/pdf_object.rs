@@ -8,7 +8,7 @@ use super::part_error::PartError;
 const MAX_DEPTH: u32 = 64;
 
 /// Greatest number of objects within an object.
-const MAX_PARTS: u32 = 1 << 20;
+const MAX_PARTS: u32 = 1 << 18;
 
 /// An object. Streams are found by their dictionary.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,7 +140,13 @@ impl<'f> Objects<'f> {
                 }
                 Ok(Object::Array(items))
             }
-            [b'0'..=b'9' | b'+' | b'-' | b'.', ..] => self.number_or_ref().ok_or(INVALID),
+            [b'0'..=b'9' | b'+' | b'-' | b'.', ..] => match self.number_or_ref().ok_or(INVALID)? {
+                // Numbers are written in single precision, and PDF has no infinity.
+                Object::Number(number) if number.abs() > f64::from(f32::MAX) => {
+                    Err(PartError::Pdf("a number that is too large"))
+                }
+                other => Ok(other),
+            },
             _ if self.has("true") => Ok(Object::Bool(true)),
             _ if self.has("false") => Ok(Object::Bool(false)),
             _ if self.has("null") => Ok(Object::Null),
