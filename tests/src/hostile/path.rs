@@ -71,9 +71,9 @@ fn table(random: &mut Random) -> String {
                     "\u{202e}",
                 ])
                 .to_string(),
-            "t" => t.to_string(),
-            "x" => (step * x).to_string(),
-            "y" => (step * y).to_string(),
+            "t" => format!("{t:e}"),
+            "x" => format!("{:e}", step * x),
+            "y" => format!("{:e}", step * y),
             _ => "0".to_owned(),
         });
         let fields: Vec<String> = fields.collect();
