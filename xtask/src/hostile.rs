@@ -23,6 +23,9 @@ pub struct Args {
     /// Only scenes with bodies that accelerate, spin and orbit
     #[arg(long)]
     motions: bool,
+    /// Only vector figures on sheets, and with text
+    #[arg(long, conflicts_with = "motions")]
+    figures: bool,
     /// Write the files of the first case into this folder, and run nothing
     #[arg(long, value_name = "FOLDER")]
     extract: Option<PathBuf>,
@@ -34,7 +37,11 @@ pub struct Args {
 /// Runs the cases and writes what was found; progress goes to standard error. Fails if anything was
 /// found.
 pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
-    let case_of = if args.motions { Case::with_motions } else { Case::new };
+    let case_of = match args {
+        Args { motions: true, .. } => Case::with_motions,
+        Args { figures: true, .. } => Case::with_figures,
+        _ => Case::new,
+    };
     if let Some(folder) = &args.extract {
         let case = case_of(args.first);
         case.write_to(folder)?;

@@ -24,6 +24,7 @@
 mod bytes;
 pub mod config;
 mod edge;
+mod figure;
 mod film;
 mod line;
 pub mod memory;
@@ -32,6 +33,7 @@ mod mild;
 mod motion;
 mod options;
 mod panorama;
+mod path;
 mod picture;
 pub mod renderers;
 mod run;
@@ -67,24 +69,48 @@ pub struct Case {
 impl Case {
     /// The case of this number.
     pub fn new(seed: u64) -> Self {
+        match seed % 16 {
+            7 => return Self::with_motions(seed),
+            15 => return Self::with_figures(seed),
+            _ => {}
+        }
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
         let (files, stages) = if random.one_in(3) { wild(&mut random) } else { mild::pipe(&mut random) };
-        let is_repeated = random.one_in(4);
-        let edge = Edge::new(&mut random);
-        Self { seed, files, stages, edge, is_repeated }
+        Self::finished(seed, random, files, stages)
     }
 
     /// The case of this number among scenes with motions alone.
     pub fn with_motions(seed: u64) -> Self {
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        let (files, stages) = if random.one_in(2) {
-            let files = scene::named(motion::wild(&mut random).into_bytes());
-            let stages = options::stages(&mut random, "scene", &files);
-            (files, stages)
-        } else {
-            let stages = mild::stages(&mut random);
-            (scene::named(motion::sane(&mut random).into_bytes()), stages)
+        let (files, stages) = match random.below(6) {
+            0 | 1 => {
+                let files = scene::named(motion::wild(&mut random).into_bytes());
+                let stages = options::stages(&mut random, "scene", &files);
+                (files, stages)
+            }
+            2 | 3 => {
+                let stages = mild::stages(&mut random);
+                (scene::named(motion::sane(&mut random).into_bytes()), stages)
+            }
+            4 => path::path(&mut random),
+            _ => path::warp(&mut random),
         };
+        Self::finished(seed, random, files, stages)
+    }
+
+    /// The case of this number among vector figures: joined on sheets, or drawn with text.
+    pub fn with_figures(seed: u64) -> Self {
+        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
+        let (files, stages) = if random.one_in(4) {
+            path::vector(&mut random)
+        } else {
+            let (files, line) = figure::sheet(&mut random);
+            (files, vec![line])
+        };
+        Self::finished(seed, random, files, stages)
+    }
+
+    fn finished(seed: u64, mut random: Random, files: Files, stages: Vec<Vec<String>>) -> Self {
         let is_repeated = random.one_in(4);
         let edge = Edge::new(&mut random);
         Self { seed, files, stages, edge, is_repeated }
@@ -140,6 +166,8 @@ pub enum File {
     Stars,
     /// A picture of any format, with its history.
     History,
+    /// A vector figure, SVG or PDF.
+    Figure(ugimage::Format),
 }
 
 impl File {
@@ -152,6 +180,7 @@ impl File {
             Self::Panorama => panorama::file(random),
             Self::Stars => panorama::stars(random).into_bytes(),
             Self::History => picture::with_history(random),
+            Self::Figure(format) => return figure::of(format, random),
         };
         if random.one_in(2) {
             damage(random, &mut bytes);
@@ -171,6 +200,7 @@ impl File {
             Self::Panorama => memory::panorama(seed_of(bytes), bytes),
             Self::Stars => memory::stars(seed_of(bytes), bytes),
             Self::History => memory::history(bytes),
+            Self::Figure(format) => memory::figure(format, bytes),
         }
     }
 }

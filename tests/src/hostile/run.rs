@@ -140,8 +140,13 @@ fn pipe(
             for reader in readers(&words) {
                 let read = stage(programs, &reader, &input, folder, Edge::Plain, MEMORY_LIMIT)?;
                 let messages = String::from_utf8_lossy(&read.messages).into_owned();
-                // A valid scene may be empty, or have an eye that its camera's motion cannot carry.
-                let excuses = ["there is nothing to draw", "the eye cannot move with the motion"];
+                // A valid scene may be empty, or have an eye that its camera's motion cannot carry; a
+                // sheet on a sheet has more pixels.
+                let excuses = [
+                    "there is nothing to draw",
+                    "the eye cannot move with the motion",
+                    "the sheet has more than",
+                ];
                 let is_excused = excuses.iter().any(|excuse| messages.contains(excuse));
                 if read.status.code() != Some(0) && !is_excused {
                     let reader = reader.join(" ");
@@ -246,6 +251,8 @@ fn is_lax(words: &[String]) -> bool {
 fn readers(words: &[String]) -> Vec<Vec<String>> {
     let format = words.iter().position(|word| word == "-dt").map(|at| words[at + 1].as_str());
     let has = |word: &str| words.iter().any(|other| other == word);
+    // A sheet has the format of its figures.
+    let is_figure = |word: &String| word.ends_with(".svg") || word.ends_with(".pdf");
     const CHECK: &[&str] = &["ugparse", "check", "-lax"];
     const LORENTZ: &[&str] = &["uglorentz", "-lax", "-se", "100", "-sc", "off"];
     const DOPPLER: &[&str] = &["ugdoppler", "-lax"];
@@ -260,6 +267,10 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
         ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
         ("ugfilm", Some("apng")) if !has("--print") => &[&["ugsheet", "/dev/stdin"]],
+        ("ugsheet", _) if words.iter().any(is_figure) && !has("--history") => &[&["ugsheet", "/dev/stdin"]],
+        ("ugrainbow", Some("svg" | "pdf")) if has("-vec") && !has("--explain") => {
+            &[&["ugsheet", "/dev/stdin"]]
+        }
         ("ugwarp", None) => &[&["ugsheet", "/dev/stdin"]],
         ("ugphoton", None) if !has("--explain") => &[&["ugsheet", "/dev/stdin"]],
         ("ugrainbow", None) if !["--explain", "-dp", "-vec"].iter().any(|option| has(option)) => {

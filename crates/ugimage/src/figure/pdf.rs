@@ -5,6 +5,7 @@ use pdf_writer::{Chunk, Content, Filter, Name, Pdf, Ref, Str};
 
 use super::part_error::PartError;
 use super::pdf_font::{FONT_NAME, PdfFont};
+use super::pdf_object::single;
 use super::pdf_part::PdfPart;
 use super::{
     Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Text, paint_ops, texts,
@@ -37,7 +38,7 @@ pub fn pdf_sheet(
         let ([left, bottom], unit) = part.frame();
         let matrix =
             [unit, 0.0, 0.0, -unit, place[0] - unit * left, place[1] + part.size()[1] + unit * bottom];
-        forms.placed.push((id, matrix.map(|number| number as f32)));
+        forms.placed.push((id, matrix.map(single)));
     }
     Ok(written(figure, metadata, &forms))
 }

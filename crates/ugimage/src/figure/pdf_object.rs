@@ -8,7 +8,7 @@ use super::part_error::PartError;
 const MAX_DEPTH: u32 = 64;
 
 /// Greatest number of objects within an object.
-const MAX_PARTS: u32 = 1 << 20;
+const MAX_PARTS: u32 = 1 << 18;
 
 /// An object. Streams are found by their dictionary.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +39,7 @@ impl Object {
             Self::Null => out.primitive(Null),
             Self::Bool(value) => out.primitive(*value),
             Self::Number(value) if value.fract() == 0.0 && value.abs() < 2e9 => out.primitive(*value as i32),
-            Self::Number(value) => out.primitive(*value as f32),
+            Self::Number(value) => out.primitive(single(*value)),
             Self::Name(name) => out.primitive(Name(name)),
             Self::Text(text) => out.primitive(Str(text)),
             Self::Ref(number) => out.primitive(map(*number)),
@@ -50,6 +50,14 @@ impl Object {
             Self::Dict(entries) => write_entries(entries, &mut out.dict(), map),
         }
     }
+}
+
+/// The number in single precision, which PDF files have. pdf-writer would write −2³¹ as an integer
+/// and overflow when it negates it, so its neighbour is returned.
+pub fn single(value: f64) -> f32 {
+    const LEAST: f32 = i32::MIN as f32;
+    let value = value as f32;
+    if value == LEAST { LEAST.next_up() } else { value }
 }
 
 /// Writes the entries of a dictionary; `map` maps the numbers of objects.
@@ -140,7 +148,13 @@ impl<'f> Objects<'f> {
                 }
                 Ok(Object::Array(items))
             }
-            [b'0'..=b'9' | b'+' | b'-' | b'.', ..] => self.number_or_ref().ok_or(INVALID),
+            [b'0'..=b'9' | b'+' | b'-' | b'.', ..] => match self.number_or_ref().ok_or(INVALID)? {
+                // Numbers are written in single precision, and PDF has no infinity.
+                Object::Number(number) if number.abs() > f64::from(f32::MAX) => {
+                    Err(PartError::Pdf("a number that is too large"))
+                }
+                other => Ok(other),
+            },
             _ if self.has("true") => Ok(Object::Bool(true)),
             _ if self.has("false") => Ok(Object::Bool(false)),
             _ if self.has("null") => Ok(Object::Null),

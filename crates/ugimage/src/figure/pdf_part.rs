@@ -3,18 +3,26 @@
 //! A page becomes a form: its content is copied as it is, without decompression, so memory and time
 //! are proportional to the file.
 
+use std::cell::Cell;
 use std::collections::HashMap;
 
 use pdf_writer::{Chunk, Name, Rect, Ref};
 
 use super::part_error::PartError;
-use super::pdf_object::{Entries, Object, Objects, entry, write_entries};
+use super::pdf_object::{Entries, Object, Objects, entry, single, write_entries};
 
 /// Most sections of the table of objects, one for each time that the file was changed.
 const MAX_SECTIONS: usize = 256;
 
 /// Greatest depth of the tree of pages, and most references from one object to the next.
 const MAX_LEVELS: usize = 32;
+
+/// Bytes of objects and tables that are read, in units of the file: those of a valid file are read
+/// about twice. Objects within each other, and tables and pages in a circle, would be read often.
+const MAX_READS: usize = 4;
+
+/// The entries of pages that are used.
+const OF_PAGES: [&str; 7] = ["CropBox", "MediaBox", "Rotate", "UserUnit", "Contents", "Resources", "Group"];
 
 /// A PDF file as a form of another one.
 #[derive(Clone, Debug)]
@@ -43,11 +51,11 @@ impl<'f> PdfPart<'f> {
         let bounds = bounds.into_iter().find_map(|object| file.numbers(object)).ok_or(PartError::NoSize)?;
         let [x0, y0, x1, y1] = bounds;
         let bounds = [x0.min(x1), y0.min(y1), x0.max(x1), y0.max(y1)];
-        let rotation = match file.resolved(page.inherited("Rotate"))? {
+        let rotation = match file.resolved(page.inherited("Rotate").clone())? {
             Object::Number(degrees) => degrees % 360.0,
             _ => 0.0,
         };
-        let unit = match file.resolved(entry(page.own(), "UserUnit"))? {
+        let unit = match file.resolved(entry(page.own(), "UserUnit").clone())? {
             Object::Number(unit) => unit,
             _ => 1.0,
         };
@@ -104,7 +112,7 @@ impl<'f> PdfPart<'f> {
         let mut form = chunk.stream(id, data);
         write_entries(&encoding(entries), &mut form, &mut |number| map(number, &mut waiting));
         form.pair(Name(b"Type"), Name(b"XObject")).pair(Name(b"Subtype"), Name(b"Form"));
-        let [left, bottom, right, top] = self.bounds.map(|side| side as f32);
+        let [left, bottom, right, top] = self.bounds.map(single);
         form.pair(Name(b"BBox"), Rect::new(left, bottom, right, top));
         for (key, object) in [("Resources", &self.resources), ("Group", &self.group)] {
             if *object != Object::Null {
@@ -150,6 +158,8 @@ struct File<'f> {
     /// Where each object begins.
     places: HashMap<u32, usize>,
     root: Object,
+    /// Bytes that may still be read.
+    left: Cell<usize>,
 }
 
 /// An object with a number.
@@ -184,7 +194,8 @@ impl<'f> File<'f> {
         let at = at.ok_or(PartError::Pdf("no `startxref` at its end"))?;
         let place = Objects::new(bytes, tail + at + MARK.len()).count();
         let mut next = Some(place.ok_or(PartError::Pdf("the place of its table"))? as usize);
-        let mut file = Self { bytes, places: HashMap::new(), root: Object::Null };
+        let left = Cell::new(bytes.len().saturating_mul(MAX_READS));
+        let mut file = Self { bytes, places: HashMap::new(), root: Object::Null, left };
         let mut n_sections = 0;
         while let Some(place) = next {
             n_sections += 1;
@@ -229,10 +240,19 @@ impl<'f> File<'f> {
                 }
             }
         }
-        match objects.object()? {
+        let trailer = objects.object()?;
+        self.count(objects.at - place)?;
+        match trailer {
             Object::Dict(trailer) => Ok(trailer),
             _ => Err(INVALID),
         }
+    }
+
+    /// Counts bytes that were read.
+    fn count(&self, n_bytes: usize) -> Result<(), PartError> {
+        const CIRCLE: PartError = PartError::Pdf("objects or tables within each other or in a circle");
+        self.left.set(self.left.get().checked_sub(n_bytes).ok_or(CIRCLE)?);
+        Ok(())
     }
 
     /// An object by its number; null if there is none.
@@ -248,6 +268,7 @@ impl<'f> File<'f> {
             return Err(INVALID);
         }
         let object = objects.object()?;
+        self.count(objects.at - place)?;
         if !objects.has("stream") {
             return Ok(Indirect::Object(object));
         }
@@ -270,12 +291,12 @@ impl<'f> File<'f> {
         if !is_whole {
             return Err(PartError::Pdf("the length of a stream"));
         }
+        self.count(length)?;
         Ok(Indirect::Stream(entries, &data[..length]))
     }
 
     /// An object in place of references to it.
-    fn resolved(&self, object: &Object) -> Result<Object, PartError> {
-        let mut object = object.clone();
+    fn resolved(&self, mut object: Object) -> Result<Object, PartError> {
         for _ in 0..MAX_LEVELS {
             let Object::Ref(number) = object else { return Ok(object) };
             object = match self.object(number)? {
@@ -286,7 +307,7 @@ impl<'f> File<'f> {
         Err(PartError::Pdf("references in a circle"))
     }
 
-    fn dict(&self, object: &Object) -> Result<Entries, PartError> {
+    fn dict(&self, object: Object) -> Result<Entries, PartError> {
         match self.resolved(object)? {
             Object::Dict(entries) => Ok(entries),
             _ => Err(PartError::Pdf("its tree of pages")),
@@ -295,22 +316,26 @@ impl<'f> File<'f> {
 
     /// The only page.
     fn page(&self) -> Result<Page, PartError> {
-        let catalog = self.dict(&self.root)?;
-        let mut nodes = vec![self.dict(entry(&catalog, "Pages"))?];
+        let catalog = self.dict(self.root.clone())?;
+        let mut next = entry(&catalog, "Pages").clone();
+        let mut nodes = Vec::new();
         while nodes.len() < MAX_LEVELS {
-            let node = nodes.last().ok_or(PartError::Pages(0))?;
-            let Object::Array(kids) = self.resolved(entry(node, "Kids"))? else { return Ok(Page(nodes)) };
-            match kids.as_slice() {
-                [kid] => nodes.push(self.dict(kid)?),
-                kids => return Err(PartError::Pages(kids.len())),
-            }
+            let mut node = self.dict(next)?;
+            let kids = node.iter().position(|(key, _)| key == b"Kids");
+            let kids = kids.map_or(Object::Null, |idx| node.swap_remove(idx).1);
+            // Other entries may be as large as the file, at each level.
+            node.retain(|(key, _)| OF_PAGES.iter().any(|used| key == used.as_bytes()));
+            nodes.push(node);
+            let Object::Array(kids) = self.resolved(kids)? else { return Ok(Page(nodes)) };
+            let [kid] = <[Object; 1]>::try_from(kids).map_err(|kids| PartError::Pages(kids.len()))?;
+            next = kid;
         }
         Err(PartError::Pdf("its tree of pages"))
     }
 
     fn numbers(&self, object: &Object) -> Option<[f64; 4]> {
-        let Object::Array(items) = self.resolved(object).ok()? else { return None };
-        let number = |item: &Object| match self.resolved(item) {
+        let Object::Array(items) = self.resolved(object.clone()).ok()? else { return None };
+        let number = |item: &Object| match self.resolved(item.clone()) {
             Ok(Object::Number(number)) => Some(number),
             _ => None,
         };

@@ -1,5 +1,7 @@
 //! SVG files as parts of a sheet.
 
+use std::collections::HashMap;
+
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use quick_xml::Reader;
@@ -36,7 +38,7 @@ impl SvgPart {
     pub fn read(file: &[u8], prefix: &str) -> Result<Self, PartError> {
         let text = std::str::from_utf8(file).map_err(|_| PartError::NotText)?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        if text.contains(|c: char| c.is_control() && !matches!(c, '\n' | '\r' | '\t')) {
+        if text.contains(|c: char| c.is_control() && !is_blank(c) || !is_character(c)) {
             return Err(xml("a control character"));
         }
         let mut reader = Reader::from_str(text);
@@ -50,7 +52,10 @@ impl SvgPart {
             return Err(PartError::NoSvg);
         }
         let size = size(start)?;
-        let mut rewriter = Rewriter { prefix, out: String::new(), needs_isolation: false };
+        let mut rewriter =
+            Rewriter { prefix, out: String::new(), needs_isolation: false, spaces: HashMap::new() };
+        rewriter.declare(start)?;
+        rewriter.check_name(start.name().as_ref())?;
         rewriter.attributes(start, |key| matches!(key, "x" | "y" | "width" | "height"))?;
         let attributes = std::mem::take(&mut rewriter.out);
         let name = start.name().as_ref().to_owned();
@@ -123,6 +128,8 @@ struct Rewriter<'p> {
     prefix: &'p str,
     out: String,
     needs_isolation: bool,
+    /// Prefixes of namespaces, and how many elements that are open declare each.
+    spaces: HashMap<String, usize>,
 }
 
 impl Rewriter<'_> {
@@ -131,27 +138,33 @@ impl Rewriter<'_> {
         let mut depth = 1;
         // The text of the style sheet that is being read.
         let mut style: Option<String> = None;
+        // The prefixes that each open element declares.
+        let mut declared = Vec::new();
         while depth > 0 {
             let event = reader.read_event().map_err(xml)?;
             match event {
                 Event::Start(tag) => {
                     depth += 1;
+                    declared.push(self.declare(&tag)?);
                     self.tag(&tag, ">")?;
                     style = is_style(&tag).then(String::new);
                 }
-                Event::Empty(tag) => self.tag(&tag, "/>")?,
+                Event::Empty(tag) => {
+                    let declared = self.declare(&tag)?;
+                    self.tag(&tag, "/>")?;
+                    self.forget(&declared);
+                }
                 Event::End(tag) => {
                     depth -= 1;
                     self.out += &format!("</{}>", tag.name().as_ref());
+                    self.forget(&declared.pop().unwrap_or_default());
                     self.needs_isolation |= style.take().is_some_and(|text| !has_only_fonts(&text));
                 }
+                Event::Text(text) if text.contains("]]>") => return Err(xml("`]]>` in text")),
                 Event::Text(text) => self.text(&text, "", "", &mut style),
                 Event::CData(text) => self.text(&text, "<![CDATA[", "]]>", &mut style),
                 Event::GeneralRef(name) => {
-                    let is_known = ["lt", "gt", "amp", "quot", "apos"].contains(&&*name);
-                    if !is_known && !name.is_char_ref() {
-                        return Err(PartError::Entities);
-                    }
+                    check_reference(&name)?;
                     self.text(&name, "&", ";", &mut style);
                 }
                 // Viewers may be told to load style sheets by them.
@@ -162,6 +175,39 @@ impl Rewriter<'_> {
             }
         }
         Ok(())
+    }
+
+    /// Adds the prefixes that an element declares, and returns them.
+    fn declare(&mut self, tag: &BytesStart<'_>) -> Result<Vec<String>, PartError> {
+        let mut declared = Vec::new();
+        for attribute in tag.attributes().with_checks(false) {
+            if let Some(prefix) = attribute.map_err(xml)?.key.as_ref().strip_prefix("xmlns:") {
+                *self.spaces.entry(prefix.to_owned()).or_default() += 1;
+                declared.push(prefix.to_owned());
+            }
+        }
+        Ok(declared)
+    }
+
+    /// Removes the prefixes of an element that ends.
+    fn forget(&mut self, declared: &[String]) {
+        for prefix in declared {
+            if let Some(count) = self.spaces.get_mut(prefix) {
+                *count -= 1;
+            }
+        }
+    }
+
+    /// Fails if this is no name, or its prefix is not declared: then nothing of the sheet would be
+    /// shown.
+    fn check_name(&self, name: &str) -> Result<(), PartError> {
+        let (prefix, local) = name.split_once(':').unwrap_or(("xml", name));
+        if !is_name(prefix) || !is_name(local) {
+            return Err(xml("an invalid name"));
+        }
+        let is_declared =
+            ["xml", "xmlns"].contains(&prefix) || self.spaces.get(prefix).is_some_and(|&n| n > 0);
+        if is_declared { Ok(()) } else { Err(xml("a prefix of a name is not declared")) }
     }
 
     fn text(&mut self, text: &str, before: &str, after: &str, style: &mut Option<String>) {
@@ -178,6 +224,7 @@ impl Rewriter<'_> {
         const ACTIVE: [&str; 6] =
             ["script", "animate", "set", "animateMotion", "animateTransform", "foreignObject"];
         self.needs_isolation |= ACTIVE.contains(&tag.local_name().as_ref());
+        self.check_name(tag.name().as_ref())?;
         self.out += &format!("<{}", tag.name().as_ref());
         self.attributes(tag, |_| false)?;
         self.out += end;
@@ -193,6 +240,8 @@ impl Rewriter<'_> {
         for attribute in tag.attributes() {
             let attribute = attribute.map_err(xml)?;
             let (key, value) = (attribute.key.as_ref(), &*attribute.value);
+            self.check_name(key)?;
+            check_value(value)?;
             if is_left_out(key) {
                 continue;
             }
@@ -210,6 +259,61 @@ impl Rewriter<'_> {
         }
         Ok(())
     }
+}
+
+/// Line ends and tabs: control characters that XML has.
+fn is_blank(c: char) -> bool {
+    matches!(c, '\n' | '\r' | '\t')
+}
+
+/// True for the characters that XML 1.0 has.
+fn is_character(c: char) -> bool {
+    is_blank(c) || c >= ' ' && !matches!(c, '\u{fffe}' | '\u{ffff}')
+}
+
+/// True for a name without prefix (XML 1.0, productions 4 and 5).
+fn is_name(name: &str) -> bool {
+    let is_start = |c: char| {
+        matches!(c,
+            'A'..='Z' | '_' | 'a'..='z' | '\u{c0}'..='\u{d6}' | '\u{d8}'..='\u{f6}' | '\u{f8}'..='\u{2ff}'
+            | '\u{370}'..='\u{37d}' | '\u{37f}'..='\u{1fff}' | '\u{200c}' | '\u{200d}'
+            | '\u{2070}'..='\u{218f}' | '\u{2c00}'..='\u{2fef}' | '\u{3001}'..='\u{d7ff}'
+            | '\u{f900}'..='\u{fdcf}' | '\u{fdf0}'..='\u{fffd}' | '\u{10000}'..='\u{effff}')
+    };
+    let is_inner = |c: char| {
+        is_start(c)
+            || matches!(c, '-' | '.' | '0'..='9' | '\u{b7}' | '\u{300}'..='\u{36f}' | '\u{203f}' | '\u{2040}')
+    };
+    name.starts_with(is_start) && name.chars().all(is_inner)
+}
+
+/// Fails if a reference `&name;` is not one that every XML file has.
+fn check_reference(name: &str) -> Result<(), PartError> {
+    let code = |digits: &str| match digits.strip_prefix('x') {
+        Some(digits) => u32::from_str_radix(digits, 16),
+        None => digits.parse(),
+    };
+    match name.strip_prefix('#') {
+        Some(digits) if digits.contains('+') => Err(xml("an invalid character reference")),
+        Some(digits) => match code(digits).ok().and_then(char::from_u32) {
+            Some(c) if is_character(c) => Ok(()),
+            _ => Err(xml("an invalid character reference")),
+        },
+        None if ["lt", "gt", "amp", "quot", "apos"].contains(&name) => Ok(()),
+        None => Err(PartError::Entities),
+    }
+}
+
+/// Fails if the value of an attribute has what would end it for another reader.
+fn check_value(value: &str) -> Result<(), PartError> {
+    if value.contains('<') {
+        return Err(xml("`<` in an attribute"));
+    }
+    for part in value.split('&').skip(1) {
+        let (name, _) = part.split_once(';').ok_or_else(|| xml("`&` without `;` in an attribute"))?;
+        check_reference(name)?;
+    }
+    Ok(())
 }
 
 /// A value in which each id of `url(#id)` has a prefix.
@@ -251,7 +355,11 @@ fn has_only_fonts(style: &str) -> bool {
 /// Width and height in user units: the attributes, otherwise the sides of the `viewBox`.
 fn size(root: &BytesStart<'_>) -> Result<[f64; 2], PartError> {
     let value = |key: &str| {
-        let found = root.attributes().filter_map(Result::ok).find(|attribute| attribute.key.as_ref() == key);
+        let found = root
+            .attributes()
+            .with_checks(false)
+            .filter_map(Result::ok)
+            .find(|attribute| attribute.key.as_ref() == key);
         found.map(|attribute| attribute.value.into_owned())
     };
     let view = value("viewBox").and_then(|text| {
@@ -336,6 +444,7 @@ mod tests {
         for (file, expected) in [
             (bomb, PartError::Entities),
             ("<svg width='1' height='1'>&a;</svg>", PartError::Entities),
+            ("<svg width='1' height='1'><g a='&a;'/></svg>", PartError::Entities),
             ("<html/>", PartError::NoSvg),
             ("", PartError::NoSvg),
             ("text", PartError::NoSvg),
@@ -346,6 +455,16 @@ mod tests {
             "<svg width='1' height='1'>",
             "<svg width='1' height='1'><g></svg>",
             "<svg width='1' height='1'/>x",
+            "<svg width='1' height='1'><g a='<'/></svg>",
+            "<svg width='1' height='1'><g a='1 & 2'/></svg>",
+            "<svg width='1' height='1'><g a='1' a='2'/></svg>",
+            "<svg width='1' height='1'><a\"b/></svg>",
+            "<svg width='1' height='1'><g a,b='1'/></svg>",
+            "<svg width='1' height='1'>&#0;</svg>",
+            "<svg width='1' height='1'>]]></svg>",
+            "<svg width='1' height='1'>\u{ffff}</svg>",
+            "<svg width='1' height='1'><x:g/></svg>",
+            "<svg width='1' height='1'><g xmlns:x='y'/><g x:a='1'/></svg>",
         ] {
             assert!(matches!(element(file), Err(PartError::Xml(_))), "{file}");
         }
