@@ -69,8 +69,8 @@ const LEAST_DEVIATION: f32 = power_of_two(-24) as f32;
 const MOST_SECTIONS: usize = 1 << 16;
 
 /// Most halvings of a section for one triangle, so that every search ends. A curve that touches a
-/// plane takes some hundred of them. One that runs in the plane is found otherwise, unless rounding
-/// errors hide it.
+/// plane takes some hundred of them. A curve in the plane is detected before, unless rounding errors
+/// hide it.
 const MOST_HALVINGS_AT_A_TRIANGLE: u32 = 1 << 11;
 
 /// A section that could leave a plane by so many rounding errors, but does not, is in it.
@@ -113,9 +113,12 @@ pub fn visit_triangle<C: Curve>(
 /// The step between parameters of tangents to curves whose second derivative is no longer than
 /// `bend`: a power of two.
 pub fn tangent_step(bvh: &Bvh, bend: f64) -> f64 {
-    // At half a step from where it touches, a tangent is M step²/8 from the curve.
-    let longest = (8.0 * TANGENT_ERROR / (bend * bvh.frame.scale)).sqrt();
-    power_of_two(exponent(longest).clamp(-1000, 1000))
+    power_of_two(exponent(longest_step(bvh, bend)).clamp(-1000, 1000))
+}
+
+/// At half a step from where it touches, a tangent is M step²/8 from the curve.
+fn longest_step(bvh: &Bvh, bend: f64) -> f64 {
+    (8.0 * TANGENT_ERROR / (bend * bvh.frame.scale)).sqrt()
 }
 
 struct Search<'a, C, V> {
@@ -456,8 +459,7 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         if bend == f64::INFINITY {
             return f64::NAN;
         }
-        // At half a step from where it touches, a tangent is M step²/8 from the curve.
-        let longest = (8.0 * TANGENT_ERROR / (bend * self.bvh.frame.scale)).sqrt();
+        let longest = longest_step(self.bvh, bend);
         let least = from.abs().max(to.abs()) * power_of_two(-50);
         power_of_two(exponent(longest.min(0.25 * (to - from)).max(least)).clamp(-1000, 1000))
     }

@@ -5,6 +5,7 @@
 pub enum Exposure {
     /// 2 to this power.
     Stops(f64),
-    /// Chosen so that hardly any pixel is white, and the median is not bright, see [`ugimage::auto_exposure`].
+    /// Chosen so that hardly any pixel is white, and the median is not bright; see
+    /// [`ugimage::auto_exposure`].
     Auto,
 }

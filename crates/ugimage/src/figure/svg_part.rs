@@ -128,7 +128,7 @@ struct Rewriter<'p> {
     prefix: &'p str,
     out: String,
     needs_isolation: bool,
-    /// Prefixes of namespaces, and how many elements that are open declare each.
+    /// Namespace prefixes, each with the number of open elements that declare it.
     spaces: HashMap<String, usize>,
 }
 

@@ -94,9 +94,8 @@ impl WorldLine {
     /// `levels`: how often a triangle is divided into four for closer bounds, at most, where it
     /// deviates by more than a quarter of its edges.
     ///
-    /// `None` for an inertial motion, or if nothing useful is known: of a triangle so large that
-    /// the body moves at very different velocities while its parts are seen, or one close to the
-    /// observer.
+    /// `None` for an inertial motion, and without a useful bound: if a triangle is so large that its
+    /// parts are seen at very different velocities, or close to the observer.
     #[must_use]
     pub fn seen_triangle(
         &self,
@@ -107,7 +106,7 @@ impl WorldLine {
         levels: u32,
     ) -> Option<SeenTriangle> {
         let Kind::Moving(moving) = &self.0 else { return None };
-        moving.seen_in_parts(tube, passages, corners, observer, levels)
+        Sight { moving, tube, passages, observer }.triangle(corners, levels)
     }
 }
 
@@ -122,31 +121,33 @@ impl SeenTriangle {
     }
 }
 
-impl Moving {
-    /// A part is no farther from the flat triangle than from its own corners, and these from the
-    /// points of the triangle that they are.
-    fn seen_in_parts(
-        &self,
-        tube: &WorldTube,
-        passages: &[Passage],
-        corners: &[SeenPoint; 3],
-        observer: Event,
-        levels: u32,
-    ) -> Option<SeenTriangle> {
-        let whole = self.seen_triangle(tube, passages, corners, observer);
+/// A body as it is seen from an event.
+struct Sight<'a> {
+    moving: &'a Moving,
+    tube: &'a WorldTube,
+    /// Those of the observer.
+    passages: &'a [Passage],
+    observer: Event,
+}
+
+impl Sight<'_> {
+    /// See [`WorldLine::seen_triangle`]. The deviation of a divided triangle is at most the greatest
+    /// of its parts, from their corners, plus the distance of these corners from the middles of the
+    /// edges as seen.
+    fn triangle(&self, corners: &[SeenPoint; 3], levels: u32) -> Option<SeenTriangle> {
+        let whole = self.whole(corners);
         if levels == 0 || whole.as_ref().is_some_and(|whole| whole.is_flat(corners)) {
             return whole;
         }
         let [a, b, c] = *corners;
         let middle = |(p, seen): SeenPoint, (q, other): SeenPoint| {
             let point = p.midpoint(q);
-            let light = self.emission(point, observer).ok()?;
+            let light = self.moving.emission(point, self.observer).ok()?;
             let deviation = (light.event.x - seen.event.x.midpoint(other.event.x)).length();
             Some(((point, light), deviation))
         };
         let [(ab, of_ab), (bc, of_bc), (ca, of_ca)] = [middle(a, b)?, middle(b, c)?, middle(c, a)?];
-        let part =
-            |corners: [SeenPoint; 3]| self.seen_in_parts(tube, passages, &corners, observer, levels - 1);
+        let part = |corners: [SeenPoint; 3]| self.triangle(&corners, levels - 1);
         let [first, second, third, last] =
             [part([a, ab, ca])?, part([b, bc, ab])?, part([c, ca, bc])?, part([ab, bc, ca])?];
         let parts = [&first, &second, &third, &last];
@@ -156,17 +157,13 @@ impl Moving {
         Some(SeenTriangle { own_times: low..high, deviation: deviation + of_ab.max(of_bc).max(of_ca) })
     }
 
-    fn seen_triangle(
-        &self,
-        tube: &WorldTube,
-        passages: &[Passage],
-        corners: &[SeenPoint; 3],
-        observer: Event,
-    ) -> Option<SeenTriangle> {
+    /// The triangle as a whole.
+    fn whole(&self, corners: &[SeenPoint; 3]) -> Option<SeenTriangle> {
+        let &Self { moving, tube, passages, observer } = self;
         let [(a, first), (b, _), (c, _)] = corners;
         let edge = (*b - *a).length().max((*c - *b).length()).max((*a - *c).length());
         let own_time = first.own_time;
-        let (pose, acceleration) = self.carried_with_acceleration(own_time);
+        let (pose, acceleration) = moving.carried_with_acceleration(own_time);
         let Event { x: way, .. } = pose.scene_from_axes.inverse().apply(first.event - observer);
         let distance = way.length();
         let Event { t: gamma, x: proper } = pose.scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO });
@@ -175,8 +172,8 @@ impl Moving {
 
         let smooth = || {
             let passage = passages.iter().find(|passage| passage.own_times().contains(&own_time))?;
-            let bounds = self.bounds(*a, edge, core::slice::from_ref(passage));
-            let offset = self.offset(*a, own_time);
+            let bounds = moving.bounds(*a, edge, core::slice::from_ref(passage));
+            let offset = moving.offset(*a, own_time);
             let q = 1.0 + acceleration.dot(offset.xi) + unit_or_zero(way).dot(offset.swing);
             let least = |slopes: Slopes| {
                 let nearest = distance - slopes.place * edge;
@@ -208,7 +205,7 @@ impl Moving {
             Some(SeenTriangle { own_times: low - margin..high + margin, deviation })
         };
         let rough = || {
-            let bounds = self.bounds(*a, edge, passages);
+            let bounds = moving.bounds(*a, edge, passages);
             let least = (tube.least_pace() - bounds.speed) / MOST_GROWTH;
             let slopes = (least > 0.0).then(|| bounds.slopes(least, edge)).flatten()?;
             let Range { start, end } = around(slopes.time * edge + rounding);
@@ -219,7 +216,9 @@ impl Moving {
         let deviation = deviation + rounding * (gamma + proper.length());
         deviation.is_finite().then_some(SeenTriangle { own_times, deviation })
     }
+}
 
+impl Moving {
     /// Bounds for points no farther than `margin` from one, during passages.
     fn bounds(&self, point: DVec3, margin: f64, passages: &[Passage]) -> Bounds {
         let most = |value: &dyn Fn(&Passage) -> f64| passages.iter().map(value).fold(0.0, f64::max);
