@@ -1,6 +1,7 @@
 //! Malformed and extreme inputs break nothing: see [`ugtests::hostile`]. Cases follow from their
 //! numbers; `cargo xtask hostile` runs others, for as long as it is left to.
 
+use std::fs;
 use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -9,7 +10,7 @@ use ugimage::Format;
 use ugmesh::MeshFormat;
 use ugtesting::Random;
 use ugtests::hostile::{Case, Edge, File, renderers};
-use ugtests::programs;
+use ugtests::{programs, scenes};
 
 /// Fails with all findings at once.
 #[track_caller]
@@ -86,7 +87,10 @@ fn motions_hold() {
         let rider = |k: i32| format!("motion n{k} -on m ;\nf (a b c) <n{k}> ;\n");
         (0..n).map(rider).collect::<String>()
     };
-    let rows: [(&str, String, &[&str]); 10] = [
+    let orbit = fs::read_to_string(scenes::root().join("scenes/orbit.ug")).expect("a scene");
+    let rows: [(&str, String, &[&str]); 12] = [
+        ("turns that are not known", orbit.clone(), &["uglorentz", "-ti", "-1e300"]),
+        ("turns that are hardly known", orbit, &["uglorentz", "-ti", "-1e12"]),
         (
             "no own time resolves it",
             format!("motion m -at 1e300 0 0 -orbit 0 0 0 0 0 1 1e-301 ;\n{body}"),

@@ -10,6 +10,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
+use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
 use ugtests::{programs, scenes};
 
 /// Address space for rows whose need is small, in KiB.
@@ -190,15 +191,29 @@ fn lack_of_memory_is_an_error() {
     let line = "ugparse flatten in/array.ug";
     check(at, LITTLE, line, 1, "memory allocation of ");
     assert!(fs::read_dir(at).expect("a folder").count() < 6);
+    // A sheet is as large as its text.
+    let title = "word ".repeat(8);
+    let line = format!("ugrainbow ship.ug -sz 40 30 -qt > a.png; ugsheet a.png -ts 1000 -title '{title}'");
+    for format in ["png", "svg", "pdf"] {
+        check(at, LEAST, &format!("{line} -dt {format}"), 1, "there is not enough memory for ");
+    }
     // Threads for which there is no address space are not started.
     check(at, LITTLE, "ugparse flatten ship.ug -nt 1024", 0, "");
     check(at, LITTLE, "ulimit -s 200000; ugparse flatten ship.ug", 0, "");
 }
 
-/// A header of 8 million pixels, and bytes that could be runs of so many, but are one pixel each.
+/// A header of 8 million pixels, and bytes that could be runs of so many, but are one pixel each;
+/// another with so many, but a wrong number of blocks.
 #[test]
 fn pixels_take_memory_as_they_are_read() {
     let folder = folder();
+    let frame = LinearFrame::from(&Frame::opaque(4000, 2000));
+    let mut file = Format::Exr.encode_linear(&frame, &Metadata::default(), Compression::Fast);
+    let name = b"chunkCount\0int\0\x04\0\0\0";
+    let at = file.windows(name.len()).position(|bytes| bytes == name).expect("the attribute") + name.len();
+    file[at] ^= 1;
+    fs::write(folder.path().join("in/lie.exr"), file).expect("a file is written");
+    check(folder.path(), LEAST, "ugwarp in/lie.exr -sz 8 8", 1, "chunk count");
     let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000 +X 4000\n".as_slice();
     let file = [header, &[99; 600_000]].concat();
     fs::write(folder.path().join("in/lie.hdr"), file).expect("a file is written");

@@ -27,8 +27,8 @@ const MASK: Ref = Ref::new(FIRST + 1);
 pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     let size = [frame.width(), frame.height()];
     let mut pdf = Pdf::new();
-    let colors: Vec<u8> = frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
-    image(&mut pdf, IMAGE, size, Channels::Colors, &colors, !frame.is_opaque());
+    let colors: Vec<[u8; 3]> = frame.pixels().iter().map(|&[r, g, b, _]| [r, g, b]).collect();
+    image(&mut pdf, IMAGE, size, Channels::Colors, colors.as_flattened(), !frame.is_opaque());
     if !frame.is_opaque() {
         let alphas: Vec<u8> = frame.pixels().iter().map(|pixel| pixel[3]).collect();
         image(&mut pdf, MASK, size, Channels::Grey, &alphas, false);

@@ -14,7 +14,9 @@ pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
         file.extend_from_slice(format!("# {line}\n").as_bytes());
     }
     file.extend_from_slice(format!("{} {}\n255\n", frame.width(), frame.height()).as_bytes());
-    file.extend_from_slice(over_white(frame).as_flattened());
+    let pixels = over_white(frame);
+    file.reserve_exact(pixels.as_flattened().len());
+    file.extend_from_slice(pixels.as_flattened());
     file
 }
 

@@ -134,8 +134,10 @@ fn packed(file: &[u8]) -> Option<Packed> {
 }
 
 fn exr(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
+    /// Of headers, as the decoder of pixels checks them.
+    const PEDANTIC: bool = true;
     let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
-    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), false);
+    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), PEDANTIC);
     let headers = headers.map_err(|error| broken(&error))?;
     // The first layer with these channels is read, so none may be too large.
     for header in headers.headers.iter().filter(|header| !header.deep) {

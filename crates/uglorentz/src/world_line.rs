@@ -18,6 +18,9 @@ const MARGIN: f64 = 1.5;
 /// The factor on the errors at the middles of edges, for [`is_surely_right`].
 const SURE_MARGIN: f64 = 4.0;
 
+/// The error of own times after several operations, over that of their rounding.
+const ROUNDINGS: f64 = 8.0;
+
 /// Of larger pieces, [`is_surely_right`] says nothing: they have many diagonals.
 const MOST_CORNERS: usize = 4;
 
@@ -53,6 +56,7 @@ pub(crate) fn is_surely_right<'a>(
 pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation) -> bool {
     let is_short = tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= bounds.tan_half;
     let bounds = if is_short { Deviation { color: f64::INFINITY, ..bounds } } else { bounds };
+    let bounds = bounds.above_rounding(a).above_rounding(b);
     SAMPLES.into_iter().any(|s| deviation(a, b, &between(a, b, line, s)).exceeds(bounds, MARGIN))
         && !is_within_rounding(a, b)
 }
@@ -91,6 +95,13 @@ pub(crate) struct Deviation {
 }
 
 impl Deviation {
+    /// The same bounds, at least as large as the errors of places by which own times are rounded.
+    fn above_rounding(self, point: &Point) -> Self {
+        let shift = 1.0_f64.max(1.0 / point.inverse_doppler);
+        let error = ROUNDINGS * f64::EPSILON * point.own_time.abs() * shift / point.seen_distance;
+        Self { tan_half: self.tan_half.max(error), offset: self.offset.max(error), ..self }
+    }
+
     /// True if one of them times `margin` is above its bound; NaN is not.
     fn exceeds(self, bounds: Self, margin: f64) -> bool {
         margin * self.tan_half > bounds.tan_half

@@ -292,6 +292,13 @@ fn impossible_motions_are_refused() {
     assert!(matches!(ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }), Err(Error::Horizon { .. })));
     assert!(matches!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::Z, 1.0), Err(Error::Velocity(_))));
     assert_eq!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.5), Err(Error::NoAxis));
+    // Times whose rounding error is a visible angle.
+    assert_eq!(disc.check_turn(-1.9e12), Ok(()));
+    assert_eq!(disc.check_turn(-2.1e12), Err(Error::ManyTurns { own_time: -2.1e12 }));
+    assert!(disc.check_turn(f64::NAN).is_err());
+    let far = Event { t: 3e12, x: DVec3::ZERO };
+    assert!(matches!(disc.check_turn_seen(far), Err(Error::ManyTurns { .. })));
+    assert_eq!(ship.check_turn_seen(far), Ok(()));
     // Finite numbers whose products overflow.
     assert_eq!(Orbit::new(DVec3::X * 1e308, -1e308 * DVec3::X, DVec3::Z, 2.0), Err(Error::NotFinite));
     assert_eq!(refused(&[piece([1e308, 0.0, 0.0], [-3.0, -1.0])], &[]), Error::NotFinite);

@@ -315,6 +315,7 @@ impl Words for Error {
             Self::Text { .. } => "; change the text, or use -label or -lb none",
             Self::NoPart { .. } => " (-crop)",
             Self::NoWholeSize { .. } => ": draw all tiles with -sz W H",
+            Self::Memory { .. } => "; make it smaller with -ts, fewer pictures or smaller ones",
             Self::Empty | Self::Size | Self::Figure(_) | Self::Picture(_) => "",
         };
         format!("{self}{remedy}")

@@ -35,6 +35,14 @@ pub enum Error {
     /// The sheet has more than 2²⁸ pixels, or the pictures are too narrow for text.
     #[error("the sheet has more than {MAX_PIXELS} pixels; draw smaller pictures")]
     Size,
+    /// The system has not enough memory for the sheet.
+    #[error("there is not enough memory for {} x {} pixels, {bytes} bytes", size[0], size[1])]
+    Memory {
+        /// Pixels across and down.
+        size: [u32; 2],
+        /// Bytes that it needs, with the file.
+        bytes: u64,
+    },
     /// A tile whose history has no part of a picture.
     #[error("`{name}`: its history does not state which part of a picture it is")]
     NoPart {

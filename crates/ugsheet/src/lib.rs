@@ -104,7 +104,7 @@ impl Default for Config {
 ///
 /// # Errors
 /// There are no pictures, the number of labels is wrong, the font lacks a character, the sheet is
-/// too large, or a picture cannot be read or has another size.
+/// too large for its limit or the memory, or a picture cannot be read or has another size.
 pub fn sheet(
     config: &Config,
     pictures: &[Picture],
@@ -112,7 +112,7 @@ pub fn sheet(
 ) -> Result<Frame, Error> {
     let labels = config.labels.checked(pictures)?;
     let layout = Layout::new(config, pictures, &labels)?;
-    let mut frame = Frame::opaque(layout.size[0], layout.size[1]);
+    let mut frame = blank(layout.size)?;
     let [red, green, blue] = config.background;
     frame.pixels_mut().fill([red, green, blue, 255]);
     let quantizer = ugimage::Quantizer::new();
@@ -139,6 +139,16 @@ pub fn history(pictures: &[Picture], command: Option<&str>) -> Metadata {
         comment: lines.join("\n"),
         panorama: None,
     }
+}
+
+/// A black sheet, if there is memory for it, for its colours and for its file.
+fn blank(size: [u32; 2]) -> Result<Frame, Error> {
+    const BYTES_PER_PIXEL: u64 = 12;
+    let bytes = BYTES_PER_PIXEL * u64::from(size[0]) * u64::from(size[1]);
+    let refused = |_| Error::Memory { size, bytes };
+    let n_bytes = usize::try_from(bytes).unwrap_or(usize::MAX);
+    Vec::<u8>::new().try_reserve_exact(n_bytes).map_err(refused)?;
+    Ok(Frame::opaque(size[0], size[1]))
 }
 
 /// Copies a picture to a frame, with its upper left corner at `[left, top]`. `composed`: a pixel of

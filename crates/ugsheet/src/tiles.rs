@@ -4,7 +4,7 @@ use ugimage::{Frame, Metadata, PanoramaArea};
 
 use crate::error::Error;
 use crate::shell_words::split;
-use crate::{Picture, copy};
+use crate::{Picture, blank, copy};
 
 /// The words that a renderer records of the part that it drew, before its left column, upper row,
 /// width and height.
@@ -49,7 +49,7 @@ pub fn join(
     if all > crate::error::MAX_PIXELS {
         return Err(Error::Size);
     }
-    let mut frame = Frame::opaque(size[0], size[1]);
+    let mut frame = blank(size)?;
     let mut is_opaque = true;
     for (idx, (tile, &[left, top, width, height])) in tiles.iter().zip(&places).enumerate() {
         let pixels = frame_of(idx)?;

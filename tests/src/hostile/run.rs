@@ -194,7 +194,7 @@ fn within_memory(
     Ok(whole)
 }
 
-/// The pixels of a PNG or PDF file: sheets have a limit of their own, and a large one that is
+/// The pixels of a PNG, SVG or PDF file: sheets have a limit of their own, and a large one that is
 /// nearly empty is packed into few bytes.
 fn n_pixels(file: &[u8]) -> u64 {
     if let Some(&[a, b, c, d, e, f, g, h]) =
@@ -203,11 +203,18 @@ fn n_pixels(file: &[u8]) -> u64 {
         return u64::from(u32::from_be_bytes([a, b, c, d])) * u64::from(u32::from_be_bytes([e, f, g, h]));
     }
     let text = String::from_utf8_lossy(file);
-    let sides = |name: &str| {
-        let numbers = text.split(name).skip(1).map(|rest| rest.split(|c: char| !c.is_ascii_digit()).next());
-        numbers.map(|digits| digits.and_then(|digits| digits.parse().ok()).unwrap_or(0)).collect::<Vec<u64>>()
+    let number = |rest: &str| -> u64 {
+        let digits = rest.split(|c: char| !c.is_ascii_digit()).next();
+        digits.and_then(|digits| digits.parse().ok()).unwrap_or(0)
     };
-    sides("/Width ").iter().zip(sides("/Height ")).map(|(width, height)| width * height).sum()
+    let pixels = |before_width: &str, before_height: &str| -> u64 {
+        let sides = |rest: &str| {
+            let height = rest.split(before_height).nth(1).map_or(0, number);
+            number(rest) * height
+        };
+        text.split(before_width).skip(1).map(sides).sum()
+    };
+    pixels("<image width=\"", "height=\"") + pixels("/Width ", "/Height ")
 }
 
 /// The threads of a program: those that it is told to start, and those of the machine.

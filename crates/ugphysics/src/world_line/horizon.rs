@@ -47,6 +47,21 @@ impl Moving {
         })
     }
 
+    /// See [`super::WorldLine::check_turn`].
+    pub(super) fn check_turn(&self, own_time: f64) -> Result<(), WorldLineError> {
+        let of_path = match &self.path {
+            Path::Orbit(orbit) => orbit.turn_rate(),
+            Path::Accelerated(_) | Path::Along(_) => 0.0,
+        };
+        let spins = self.turns.iter().map(|turn| turn.spin.rate(own_time).length());
+        let turned = (of_path + spins.sum::<f64>()) * own_time.abs();
+        if turned <= super::WorldLine::MOST_TURN {
+            Ok(())
+        } else {
+            Err(WorldLineError::ManyTurns { own_time })
+        }
+    }
+
     /// Own times at which acceleration or a spin changes.
     fn changes(&self) -> Vec<f64> {
         let of_path: Vec<f64> = match &self.path {

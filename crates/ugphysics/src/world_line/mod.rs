@@ -141,6 +141,11 @@ pub enum WorldLineError {
         /// The own time at which this happens first.
         own_time: f64,
     },
+    /// The body has turned by more than [`WorldLine::MOST_TURN`].
+    ManyTurns {
+        /// The own time at which it is asked for.
+        own_time: f64,
+    },
 }
 
 impl core::fmt::Display for WorldLineError {
@@ -167,6 +172,11 @@ impl core::fmt::Display for WorldLineError {
             Self::Horizon { own_time } => {
                 write!(f, "at own time {own_time} the point would move at the speed of light or faster")
             }
+            Self::ManyTurns { own_time } => write!(
+                f,
+                "at own time {own_time:e} it has turned by more than {:e} radians, after which its place is not known to 1e-4 radians",
+                WorldLine::MOST_TURN
+            ),
         }
     }
 }
@@ -184,6 +194,10 @@ impl WorldLine {
     /// The greatest rapidity that one piece of acceleration adds; a piece without an end ends
     /// there. At 1 g it is reached after 48 years, at a distance of 10²¹ light years.
     pub const MOST_RAPIDITY: f64 = 50.0;
+
+    /// The greatest angle in radians, of an orbit and all spins together, after which a body can be
+    /// seen. A time of that size is rounded so that the angle has an error of 1e-4 radians.
+    pub const MOST_TURN: f64 = 1e12;
 
     /// At rest in the scene.
     pub const REST: Self = Self(Kind::Inertial(Velocity::ZERO));
@@ -540,6 +554,29 @@ impl WorldLine {
         match &self.0 {
             Kind::Inertial(_) => Ok(()),
             Kind::Moving(moving) => moving.check(point),
+        }
+    }
+
+    /// Checks that the place of the body is known at an own time, in spite of rounding.
+    ///
+    /// # Errors
+    /// [`WorldLineError::ManyTurns`] if the body has turned by more than [`WorldLine::MOST_TURN`].
+    pub fn check_turn(&self, own_time: f64) -> Result<(), WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(_) => Ok(()),
+            Kind::Moving(moving) => moving.check_turn(own_time),
+        }
+    }
+
+    /// Checks that the place of the body is known when `observer`, an event in the frame of the
+    /// scene, sees its reference point.
+    ///
+    /// # Errors
+    /// See [`WorldLine::check_turn`] and [`WorldLine::emission`].
+    pub fn check_turn_seen(&self, observer: Event) -> Result<(), WorldLineError> {
+        match &self.0 {
+            Kind::Inertial(_) => Ok(()),
+            Kind::Moving(moving) => moving.check_turn(moving.emission(moving.at, observer)?.own_time),
         }
     }
 

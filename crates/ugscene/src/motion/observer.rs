@@ -50,6 +50,7 @@ impl Observer {
         };
         let failed = |error| MotionError::Eye { error };
         line.check(eye).map_err(failed)?;
+        line.check_turn(options.time).map_err(failed)?;
         let line = line.anchored(anchor);
         let event = line.event(eye, options.time).map_err(failed)?;
         let frame = line.frame(eye, options.time);
