@@ -1,7 +1,7 @@
 //! Colours as spectra, as seen in motion.
 
 use glam::DVec3;
-use ugphysics::spectrum::{DopplerGrid, DopplerTable, LightSpectrum, Spectrum, integrate};
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, LightSpectrum, SmoothCurve, Spectrum};
 use ugscene::{ColorId, Scene};
 
 use crate::{Irradiance, Lamp, spectrum};
@@ -48,29 +48,23 @@ impl SpectralShift {
     ) -> DVec3 {
         let shift = |doppler: f64| if self.doppler { doppler } else { 1.0 };
         let flux = |factor: f64| if self.flux { factor } else { 1.0 };
-        let through = |nm: f64| {
-            let part = |filter: &SpectralFilter<'_>| filter.color.transmittance(nm * shift(filter.doppler));
-            filters.iter().map(part).product::<f64>()
-        };
         let square = doppler * doppler;
         let (own, gain) = (shift(doppler), flux(square * square * doppler));
+        if !surface.is_surface() && filters.is_empty() {
+            return gain * DVec3::from(surface.shifted(own));
+        }
+        // Surfaces reflect, and all else emits.
+        let curve = SmoothCurve::new(|nm| {
+            let part = |filter: &SpectralFilter<'_>| filter.color.transmittance(nm * shift(filter.doppler));
+            filters.iter().map(part).product::<f64>() * surface.transmittance(nm * own)
+        });
         if !surface.is_surface() {
-            if filters.is_empty() {
-                return gain * DVec3::from(surface.shifted(own));
-            }
-            let emitted = LightSpectrum::new(surface);
-            return gain * DVec3::from(integrate(|nm| emitted.at(nm * own) * through(nm)));
+            return gain * DVec3::from(LightSpectrum::new(surface).seen_through(&curve, own));
         }
         let mut sum = DVec3::ZERO;
         for part in light {
             let lamp = &lamps[part.lamp as usize];
-            let (spectrum, of_lamp) = (lamp.spectrum(), shift(part.doppler));
-            let xyz = match filters {
-                [] => surface.under(spectrum, own, of_lamp).unwrap_or_default(),
-                _ => integrate(|nm| {
-                    surface.transmittance(nm * own) * spectrum.at(nm * own * of_lamp) * through(nm)
-                }),
-            };
+            let xyz = lamp.spectrum().seen_through(&curve, own * shift(part.doppler));
             let received = part.level * lamp.intensity * flux(part.doppler * part.doppler * part.doppler);
             sum += received * gain * DVec3::from(xyz);
         }

@@ -142,15 +142,15 @@ impl DopplerTable {
 }
 
 /// The cell of a table in which a ln D lies.
-struct Cell {
+pub(crate) struct Cell {
     /// Index of the point at the cell's start.
-    idx: usize,
+    pub idx: usize,
     /// Position within the cell, 0 to 1.
-    fraction: f64,
+    pub fraction: f64,
 }
 
 impl Cell {
-    fn new(first: i32, n_points: usize, ln_doppler: f64) -> Self {
+    pub fn new(first: i32, n_points: usize, ln_doppler: f64) -> Self {
         let last_cell = n_points - 1 - MARGIN as usize;
         let at = (ln_doppler / LN_STEP - f64::from(first)).clamp(1.0, last_cell as f64 + 1.0);
         let idx = (at as usize).min(last_cell);
@@ -159,7 +159,7 @@ impl Cell {
 
     /// X, Y, Z interpolated from the logarithms at the point before the cell, its two ends, and the
     /// point after it.
-    fn interpolate(&self, [before, from, to, behind]: [[f64; 3]; 4]) -> [f64; 3] {
+    pub fn interpolate(&self, [before, from, to, behind]: [[f64; 3]; 4]) -> [f64; 3] {
         std::array::from_fn(|i| {
             let ends = [before[i], from[i], to[i], behind[i]];
             if ends.iter().all(|ln| ln.is_finite()) {

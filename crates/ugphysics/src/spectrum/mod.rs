@@ -11,7 +11,8 @@
 //!   daylight (P20), which reproduces the same red, green and blue at rest.
 //!
 //! Each evaluation at a D is a sum over 471 wavelengths. For many values of D, a [`DopplerGrid`]
-//! tabulates X, Y, Z over ln D.
+//! tabulates X, Y, Z over ln D. Surfaces under lamps, whose D differ, are sums over the nodes of a
+//! [`SmoothCurve`].
 //!
 //! ```
 //! use ugphysics::spectrum::Spectrum;
@@ -39,6 +40,7 @@ mod quadrature;
 mod radiance;
 mod reflectance;
 mod samples;
+mod smooth_curve;
 mod upsampling;
 mod weighted_daylight;
 
@@ -49,3 +51,4 @@ pub use light_spectrum::LightSpectrum;
 pub use observer::{integrate, observer};
 pub use radiance::Spectrum;
 pub use reflectance::Reflectance;
+pub use smooth_curve::SmoothCurve;

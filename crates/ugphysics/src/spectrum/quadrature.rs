@@ -7,7 +7,7 @@ use crate::spectrum::weighted_daylight::WeightedDaylight;
 pub(crate) const N_NODES: usize = 101;
 
 /// Number of nodes that each interpolation polynomial passes through.
-const N_POINTS: usize = 6;
+pub(crate) const N_POINTS: usize = 6;
 
 /// Evenly spaced nodes from 380 to 780 nm, each with a weight for X, Y and Z (or for red, green and
 /// blue): the contribution of a reflectance of 1 at that node.
@@ -86,7 +86,7 @@ impl<const N: usize> Quadrature<N> {
 
 /// Lagrange interpolation at `at`, in steps from the first node: the first node used, and the
 /// weights of it and the ones after it.
-fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
+pub(crate) fn polynomial(at: f64, n_nodes: usize) -> (usize, [f64; N_POINTS]) {
     let row = (at as usize).saturating_sub(N_POINTS / 2 - 1).min(n_nodes - N_POINTS);
     let at = at - row as f64;
     let weight = |own: usize| {
