@@ -303,7 +303,8 @@ fn full_daylight_shows_colours_as_they_are() {
         scene.vertices.iter().map(of).collect()
     };
     for (lit, plain) in colors(true).into_iter().flatten().zip(colors(false).into_iter().flatten()) {
-        assert!((lit - plain).abs() < 1e-6 * plain, "{lit} {plain}");
+        // Reflectances are interpolated between nodes.
+        assert!((lit - plain).abs() < 3e-6 * plain, "{lit} {plain}");
     }
 }
 

@@ -62,6 +62,17 @@ pub struct IncidentLamp {
     pub part: f64,
 }
 
+impl IncidentLamp {
+    /// Calls `visit` with the light of each colour, when a lamp has a mixture of two. `colors`: their
+    /// rows, with their shares.
+    fn of_colors(self, colors: &[(u32, f64); 2], mut visit: impl FnMut(IncidentLamp)) {
+        for &(lamp, share) in colors.iter().filter(|(_, share)| *share > 0.0) {
+            let irradiance = Irradiance { lamp, level: share * self.irradiance.level, ..self.irradiance };
+            visit(Self { irradiance, part: share * self.part, ..self });
+        }
+    }
+}
+
 impl SurfaceElement {
     /// The contribution of each lamp, in their order; none of those behind the surface.
     #[must_use]
@@ -93,17 +104,14 @@ impl SurfaceElement {
                 None => None,
             };
             let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
-                let mut of_color = |lamp: u32, share: f64| {
-                    let irradiance = Irradiance { lamp, level: share * level, doppler };
-                    visit(IncidentLamp { irradiance, toward, part: share * part });
-                };
-                match colors {
-                    _ if level <= 0.0 => {}
-                    None => of_color(row as u32, 1.0),
-                    Some(colors) => {
-                        let lit = colors.into_iter().filter(|&(_, share)| share > 0.0);
-                        lit.for_each(|(lamp, share)| of_color(lamp, share));
-                    }
+                if level <= 0.0 {
+                    return;
+                }
+                let lamp = row as u32;
+                let whole = IncidentLamp { irradiance: Irradiance { lamp, level, doppler }, toward, part };
+                match &colors {
+                    None => visit(whole),
+                    Some(colors) => whole.of_colors(colors, &mut visit),
                 }
             };
             match self.moving_body(lamp, frames) {

@@ -146,8 +146,11 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     report.warnings().iter().for_each(|warning| context.warn(warning));
     report.notes().iter().for_each(|note| context.note(note));
-    let out_of_view = boxes.note(&scene, &config.motion(), &config.camera, config.size);
-    out_of_view.iter().for_each(|note| context.note(&note.words()));
+    if !context.is_quiet()
+        && let Some(note) = boxes.note(&scene, &config.motion(), &config.camera, config.size)
+    {
+        context.note(&note.words());
+    }
     report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {
         context.steps().step("measuring", 0);

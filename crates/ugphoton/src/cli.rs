@@ -265,6 +265,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let steps = context.steps();
     let (drawing, warnings) =
         PreparedScene::read(&config, &source, provenance, &steps).map_err(Failure::of)?;
+    let drawing = if context.is_quiet() { drawing.quiet() } else { drawing };
     if let Some(file) = preview {
         for side in PreparedScene::PREVIEWS {
             let preview = drawing.preview(side, &steps).map_err(Failure::of)?;

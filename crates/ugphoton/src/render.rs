@@ -77,8 +77,8 @@ pub struct PreparedScene {
     canvas: Canvas,
     scenery: Scenery<'static>,
     metadata: Metadata,
-    /// The note on bodies that are outside the picture, of a scene that was read.
-    out_of_view: Option<ugscene::Note>,
+    /// Of a scene that was read, for the note on bodies that are outside the picture.
+    boxes: Option<BodyBoxes>,
 }
 
 impl PreparedScene {
@@ -100,9 +100,15 @@ impl PreparedScene {
         progress.step("reading", 0);
         let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
         let boxes = BodyBoxes::new(&parsed.scene);
-        let mut drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
-        drawing.out_of_view = drawing.out_of_view_note(&boxes);
-        Ok((drawing, parsed.warnings))
+        let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
+        Ok((Self { boxes: Some(boxes), ..drawing }, parsed.warnings))
+    }
+
+    /// The same without the note on bodies that are outside the picture: the times at which they
+    /// are in it take longer to find than a small picture takes to draw.
+    #[must_use]
+    pub fn quiet(self) -> Self {
+        Self { boxes: None, ..self }
     }
 
     /// Prepares a scene. `canvas`: of these options.
@@ -117,14 +123,15 @@ impl PreparedScene {
         let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
         let config = config.on(&canvas);
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
-        Ok(Self { config, canvas, scenery, metadata, out_of_view: None })
+        Ok(Self { config, canvas, scenery, metadata, boxes: None })
     }
 
     /// The note on bodies that are outside a flat picture, with the times at which they are in it.
-    fn out_of_view_note(&self, boxes: &BodyBoxes) -> Option<ugscene::Note> {
+    fn out_of_view(&self) -> Option<ugscene::Note> {
         let Config { lens, stereo, picture, motion, .. } = &self.config;
         let is_flat = *lens == Lens::Pinhole && stereo.is_none();
-        is_flat.then(|| boxes.note(&self.scenery.scene, motion, &picture.camera, picture.size)).flatten()
+        let boxes = self.boxes.as_ref().filter(|_| is_flat)?;
+        boxes.note(&self.scenery.scene, motion, &picture.camera, picture.size)
     }
 
     /// Draws a preview: of the size of the picture, in squares of `side` pixels with one sample
@@ -144,7 +151,7 @@ impl PreparedScene {
     pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
         let mut notes = notes(&self.scenery, &self.config, &statistics);
-        notes.extend(self.out_of_view.clone().map(Note::Scene));
+        notes.extend(self.out_of_view().map(Note::Scene));
         self.finish(frame, notes, statistics.max_light as f32, progress)
     }
 

@@ -11,7 +11,7 @@ use crate::world::Intersection;
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct SurfacePoint {
     /// Row of the part of the world.
     pub part: usize,
@@ -21,8 +21,8 @@ pub struct SurfacePoint {
     pub event: Event,
     /// Place, relative to the eye; on a world line, in the coordinates of the body.
     pub place: DVec3,
-    /// The surface element of a body on a world line.
-    pub element: Option<Element>,
+    /// The surface element of a body on a world line. Boxed, since points are moved often.
+    pub element: Option<Box<Element>>,
     /// How much later the light leaves than where the eye sees the place directly; see
     /// [`SurfaceElement::delay`](uglight::SurfaceElement::delay).
     pub delay: f64,
@@ -112,7 +112,7 @@ impl SurfacePoint {
             face: found.triangle.face,
             event: along(ray.origin, ray.step, found.s),
             place,
-            element: Some(Element { frame, own_time, body_normal }),
+            element: Some(Box::new(Element { frame, own_time, body_normal })),
             delay: 0.0,
             lift: if lift.is_finite() { lift } else { DVec3::ZERO },
             plane_normal,

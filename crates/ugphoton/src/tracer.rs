@@ -260,7 +260,7 @@ impl<'a> Tracer<'a> {
     fn visit(&mut self, path: &Path<'_>, point: &SurfacePoint, light: DVec3, left: f64) -> usize {
         let Some(visits) = &mut self.visits else { return 0 };
         visits.push(Visit {
-            point: *point,
+            point: point.clone(),
             way: path.way,
             depth: path.depth,
             weight: path.weight,

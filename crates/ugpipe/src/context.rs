@@ -280,6 +280,11 @@ impl Context {
         self.output.set_path(path.as_ref());
     }
 
+    /// True if `-qt` is given: notes and warnings are not printed.
+    pub fn is_quiet(&self) -> bool {
+        self.messages.is_quiet()
+    }
+
     /// Prints a note, unless `-qt` is given.
     pub fn note(&self, text: &str) {
         self.messages.note(text);

@@ -232,7 +232,7 @@ impl Teller<'_> {
             medium: visit.medium.map(|(solid, left)| self.medium(solid, left)),
             beta: velocity.beta(),
             gamma: velocity.gamma(),
-            own_time: point.element.map(|element| element.own_time),
+            own_time: point.element.as_ref().map(|element| element.own_time),
             emission: (point.event.t, point.event.x - sample.ray.origin.x),
             rest: (at_rest.t, rest),
             angles_deg,
