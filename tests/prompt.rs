@@ -164,6 +164,38 @@ fn nothing_is_black_in_silence() {
         "uglorentz -vel .9 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 40 30 -fo x.png",
         "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
     );
+    // One program of the pipe has no look.
+    check(
+        "uglorentz -qt -cv 0 -.9 0 -in ship.ug | ugdoppler -look light | ugrainbow -sz 40 30 -fo x.png",
+        "hardly anything is bright enough to be seen: try -ex auto, or -look light, which every program of a pipe \
+         needs",
+    );
+    check(
+        "uglorentz -qt -cv 0 -.9 0 -in ship.ug | ugdoppler | ugrainbow -look light -sz 40 30 -fo x.png",
+        "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
+    );
+    check(
+        "uglorentz -look light -vel .1 0 0 -fo x.ug ship.ug",
+        "-look light has no effect on positions: give it to ugdoppler and ugrainbow",
+    );
+    check(
+        "ugphoton -ex -9 -sz 40 30 -fo x.png ship.ug",
+        "hardly anything is bright enough to be seen: give -ex more stops, or try -look shape",
+    );
+    let dark = ugimage::Frame::new([32, 16], true, vec![[3, 3, 3, 255]; 32 * 16]);
+    let dark = ugimage::Format::Png.encode(&dark, &ugimage::Metadata::default());
+    std::fs::write(folder.path().join("dark.png"), dark).unwrap();
+    // The first is packed while it is drawn.
+    for options in ["-sz 40 20", "-sz 400 200 -cap dark", "-sz 40 20 -dt png16"] {
+        check(
+            &format!("ugwarp -look 1988 {options} -fo x.png dark.png"),
+            "ugwarp: note: hardly anything is bright enough to be seen: try -ex auto, or -look light",
+        );
+    }
+    check(
+        "ugphoton -ex 9 -sz 40 30 -fo x.png ship.ug",
+        "more than a tenth of what is in the picture is white: give -ex fewer stops",
+    );
     let when = "nothing that moves is in the picture at -ti 0; it is with -ti from 3.6 to 25.6, best at 12.5";
     check("uglorentz -vel .9 0 0 -fo x.ug ship.ug", when);
     check("ugphoton -vel .9 0 0 -sz 40 30 -fo x.png ship.ug", when);

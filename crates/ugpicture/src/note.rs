@@ -75,6 +75,13 @@ pub enum Note {
     Adaptive(f64),
     /// Automatic exposure, in stops.
     Exposure(f64),
+    /// Hardly any pixel is bright enough to be visible.
+    NearlyBlack {
+        /// An exposure was given.
+        is_exposed: bool,
+    },
+    /// Many pixels are white, where details may be lost.
+    Overexposed,
     /// Brightness up to this was clipped.
     ClippedIntensity {
         /// The largest one.
@@ -126,6 +133,11 @@ impl Note {
                 | Self::BlackFaces
                 | Self::BlackPanorama
         )
+    }
+
+    /// True if it says that the picture is nearly black or overexposed.
+    pub fn is_of_levels(&self) -> bool {
+        matches!(self, Self::NearlyBlack { .. } | Self::Overexposed)
     }
 }
 
@@ -196,6 +208,8 @@ impl fmt::Display for Note {
             Self::CutShort => "some paths branch at too many mirrors and solids, and are cut short",
             Self::Adaptive(percent) => return write!(f, "traced {percent:.0} percent of the samples"),
             Self::Exposure(stops) => return write!(f, "exposure is {stops} stops"),
+            Self::NearlyBlack { .. } => "hardly anything is bright enough to be seen",
+            Self::Overexposed => "more than a tenth of what is in the picture is white",
             Self::ClippedIntensity { most, .. } => {
                 return write!(f, "max intensity is {}, clip to 1.0", decimal(*most));
             }

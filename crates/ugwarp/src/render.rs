@@ -164,8 +164,13 @@ impl<'s> Prepared<'s> {
 
     /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
     fn png(&self, layer: &Layer<'s>, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
-        let (file, statistics) = self.warp.png(layer, progress, metadata, self.config.picture.compression());
-        (file, notes(&self.warp, &statistics))
+        let picture = &self.config.picture;
+        let (file, statistics, levels) = self.warp.png(layer, progress, metadata, picture.compression());
+        let mut notes = notes(&self.warp, &statistics);
+        if !notes.iter().any(|note| note.is_of_empty() || note.is_of_black()) {
+            notes.extend(levels.note(picture));
+        }
+        (file, notes)
     }
 
     fn render(&self, sky: Sky<'_>, metadata: &Metadata, progress: &dyn Progress) -> Result<Rendering, Error> {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
 use uglight::ColorShift;
 use ugpicture::lens::{Film, Lens};
-use ugpicture::{Backdrop, Background, Emission, SeenItem};
+use ugpicture::{Backdrop, Background, Emission, LevelCounts, SeenItem};
 use ugpipe::Progress;
 use ugscene::{CameraError, CameraOptions, View};
 use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
@@ -212,11 +212,18 @@ impl<'s> Warp<'s> {
         progress: &dyn Progress,
         metadata: &Metadata,
         compression: Compression,
-    ) -> (Vec<u8>, Statistics) {
+    ) -> (Vec<u8>, Statistics, LevelCounts) {
         let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
-        let draw = |band: usize, pixels: &mut [[u8; 4]]| drawing.band(band, pixels);
+        let (levels, background) = (Mutex::new(LevelCounts::default()), self.backdrop.light());
+        let draw = |band: usize, pixels: &mut [[u8; 4]]| {
+            drawing.band(band, pixels);
+            let counts = LevelCounts::of_pixels(pixels, background);
+            let mut levels = lock(&levels);
+            *levels = levels.plus(counts);
+        };
         let file = draw_png(self.size, self.backdrop.is_opaque(), BAND, metadata, compression, draw);
-        (file, drawing.statistics())
+        let levels = *lock(&levels);
+        (file, drawing.statistics(), levels)
     }
 
     /// From light to 8-bit pixels.
