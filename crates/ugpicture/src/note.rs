@@ -56,6 +56,12 @@ pub enum Note {
     BlackFaces,
     /// The wavelengths of a panorama are shifted out of the visible range.
     BlackPanorama,
+    /// The light of a panorama is a sum of black bodies, some of a negative amount, and is negative
+    /// in this part of what is in the picture.
+    NegativeLight {
+        /// In percent.
+        percent: f64,
+    },
     /// A solid is open, or its outlines run clockwise.
     OpenSolid,
     /// Light of lamps may cross a refracting solid.
@@ -186,6 +192,13 @@ impl fmt::Display for Note {
             }
             Self::BlackPanorama => {
                 "all that is in the picture is black: its wavelengths are outside 380-780 nm"
+            }
+            Self::NegativeLight { percent } => {
+                return write!(
+                    f,
+                    "{percent:.1} percent of what is in the picture is black: there the three temperatures of the \
+                     basis add up to negative light"
+                );
             }
             Self::OpenSolid => {
                 "light leaves a transparent solid that it did not enter: the solid is open, or its outlines run \

@@ -197,6 +197,9 @@ impl<'s> Prepared<'s> {
     }
 }
 
+/// One in so many pixels is not visible.
+const FEW: u64 = 1000;
+
 /// The notes on a picture.
 fn notes(warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
     let mut notes = Vec::new();
@@ -207,6 +210,9 @@ fn notes(warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
         notes.push(Note::NoPanorama);
     } else if statistics.max_light == 0.0 {
         notes.push(Note::BlackPanorama);
+    } else if statistics.n_negative > statistics.n_covered / FEW {
+        let percent = 100.0 * statistics.n_negative as f64 / statistics.n_covered as f64;
+        notes.push(Note::NegativeLight { percent });
     }
     notes
 }

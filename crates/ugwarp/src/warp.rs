@@ -6,6 +6,7 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
 use uglight::ColorShift;
+use ugphysics::luminance;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Background, Emission, LevelCounts, SeenItem};
 use ugpipe::Progress;
@@ -57,6 +58,9 @@ pub struct Statistics {
     pub max_light: f32,
     /// Pixels that show some of the panorama.
     pub n_covered: u64,
+    /// Pixels of negative luminance, which has light with a negative amount of a black body. They
+    /// are shown as black.
+    pub n_negative: u64,
 }
 
 /// [`Statistics`] of a part of a picture. The maximum is kept for each index of [`Light`] apart, so
@@ -65,6 +69,7 @@ pub struct Statistics {
 struct Found {
     max_light: [f32; Seen::N],
     n_covered: u64,
+    n_negative: u64,
 }
 
 impl Found {
@@ -75,6 +80,8 @@ impl Found {
             // One instruction; `f32::max` takes several, because of NaN.
             let max = |one: f32, other: f32| if one > other { one } else { other };
             self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
+            self.n_negative +=
+                u64::from(luminance([reds, greens, blues].map(|channel| channel[idx].into())) < 0.0);
         }
         self.n_covered += covered.iter().map(|part| u64::from(*part > 0.0)).sum::<u64>();
     }
@@ -85,6 +92,7 @@ impl Statistics {
     fn add(&mut self, found: &Found) {
         self.max_light = found.max_light.into_iter().fold(self.max_light, f32::max);
         self.n_covered += found.n_covered;
+        self.n_negative += found.n_negative;
     }
 }
 
@@ -256,7 +264,7 @@ impl<'s> Warp<'s> {
         let pixel = |idx: usize| self.backdrop.pixel([0.0; 3], covered(idx));
         let pixels: Vec<[f32; 4]> = (0..n_pixels).into_par_iter().map(pixel).collect();
         let n_covered = pixels.par_iter().filter(|pixel| pixel[3] > 0.0).count() as u64;
-        let statistics = Statistics { max_light: 0.0, n_covered };
+        let statistics = Statistics { max_light: 0.0, n_covered, n_negative: 0 };
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 

@@ -70,6 +70,7 @@ impl Words for Note {
             Self::BlackLines => "{}: choose another colour with -lc or -bg",
             Self::OutOfRange { .. } => remedies::OUT_OF_RANGE,
             Self::BlackFaces | Self::BlackPanorama => "{}; try -look light, or -look shape to see the shape",
+            Self::NegativeLight { .. } => "{}; --basis mixture has none",
             Self::EnclosedLamp(_) => "{}: move it out, or give --no-shadows",
             Self::TooDeep { .. } => "{}: a larger -rd shows it",
             Self::CutShort => "{}: give a smaller -rd or a larger -rc",
