@@ -619,12 +619,16 @@ fn films_of_panoramas_are_marked() {
     let shell = Shell::new();
     let check = |options: &str, expected: &[&str]| {
         let probe = "ffprobe -v error -count_frames -of flat -show_entries stream=nb_read_frames:stream_side_data_list";
-        shell.run(&format!("ugfilm -qt -rays -frames 3 -cv '0 0 0 .. 0 .9 0' {options} -fo a.mp4 street.ug"));
-        let [found, messages] = shell.run(&format!("{probe} a.mp4"));
-        assert_eq!(messages, "", "{options}");
-        assert!(found.contains("nb_read_frames=\"3\""), "{options}: {found}");
-        for text in ["equirectangular", "top and bottom"] {
-            assert_eq!(found.contains(text), expected.contains(&text), "{options}: {found}");
+        for file in ["a.mp4", "a.webm"] {
+            let film =
+                format!("ugfilm -qt -rays -frames 3 -cv '0 0 0 .. 0 .9 0' {options} -fo {file} street.ug");
+            shell.run(&film);
+            let [found, messages] = shell.run(&format!("{probe} {file}"));
+            assert_eq!(messages, "", "{film}");
+            assert!(found.contains("nb_read_frames=\"3\""), "{film}: {found}");
+            for text in ["equirectangular", "top and bottom"] {
+                assert_eq!(found.contains(text), expected.contains(&text), "{film}: {found}");
+            }
         }
     };
     check("-pan -sz 32 16", &["equirectangular"]);

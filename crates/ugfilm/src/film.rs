@@ -378,14 +378,16 @@ impl Film<'_> {
                 let mut ffmpeg = Ffmpeg::new(kind, shape, path)?;
                 summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
                 ffmpeg.finish()?;
-                match self.spherical()?.filter(|_| kind == Kind::Mp4) {
-                    Some(spherical) => spherical.insert(path).map_err(|error| {
-                        Failure::failed(format!(
-                            "ffmpeg has written a film that cannot be marked as 360°: {error}"
-                        ))
-                    }),
-                    None => Ok(()),
-                }
+                let Some(spherical) = self.spherical()? else { return Ok(()) };
+                let marked = match kind {
+                    Kind::Webm => spherical.mark_webm(path),
+                    _ => spherical.mark_mp4(path),
+                };
+                marked.map_err(|error| {
+                    Failure::failed(format!(
+                        "ffmpeg has written a film that cannot be marked as 360°: {error}"
+                    ))
+                })
             })?;
             return Ok(summary);
         }
