@@ -196,8 +196,8 @@ impl fmt::Display for Note {
             Self::NegativeLight { percent } => {
                 return write!(
                     f,
-                    "{percent:.1} percent of what is in the picture is black: there the three temperatures of the \
-                     basis add up to negative light"
+                    "the three temperatures of the basis add up to negative light, drawn as black, in {percent:.1} \
+                     percent of what is in the picture"
                 );
             }
             Self::OpenSolid => {

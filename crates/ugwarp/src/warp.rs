@@ -23,6 +23,9 @@ const BAND: usize = 32;
 /// in the cache.
 const TILE: usize = 64;
 
+/// Light of which no 8-bit level is made: rounding leaves less than that of black, also below 0.
+const DARK: f64 = 1e-4;
+
 /// The light of neighbouring pixels: red, green and blue, and alpha or the covered part.
 type Light = [[f32; Seen::N]; 4];
 
@@ -80,8 +83,8 @@ impl Found {
             // One instruction; `f32::max` takes several, because of NaN.
             let max = |one: f32, other: f32| if one > other { one } else { other };
             self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
-            self.n_negative +=
-                u64::from(luminance([reds, greens, blues].map(|channel| channel[idx].into())) < 0.0);
+            let luminance = luminance([reds, greens, blues].map(|channel| channel[idx].into()));
+            self.n_negative += u64::from(luminance < -DARK);
         }
         self.n_covered += covered.iter().map(|part| u64::from(*part > 0.0)).sum::<u64>();
     }
