@@ -59,7 +59,7 @@ impl Spherical {
         let mut file = OpenOptions::new().read(true).write(true).open(path)?;
         let mut head = Vec::new();
         Read::by_ref(&mut file).take(HEAD).read_to_end(&mut head)?;
-        let changed = with_projection(&head, self)
+        let changed = with_projection(&head, self == Self::TopBottom)
             .ok_or_else(|| io::Error::other("it has no video track with space before it, or is invalid"))?;
         file.seek(SeekFrom::Start(0))?;
         file.write_all(&changed)

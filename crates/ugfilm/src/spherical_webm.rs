@@ -6,8 +6,6 @@
 
 use std::ops::Range;
 
-use crate::spherical::Spherical;
-
 /// As many bytes as the elements before the first frames of a film have at most.
 pub const HEAD: u64 = 1 << 16;
 
@@ -59,12 +57,10 @@ const PROJECTION: [u8; 30] = [
 const TOP_BOTTOM: [u8; 4] = [0x53, 0xb8, 0x81, 3];
 
 /// The first bytes of a film with the projection in its first track; `None` if they are not those of
-/// a WebM film with space for it.
-pub fn with_projection(head: &[u8], spherical: Spherical) -> Option<Vec<u8>> {
-    let inserted = match spherical {
-        Spherical::Mono => PROJECTION.to_vec(),
-        Spherical::TopBottom => [&PROJECTION[..], &TOP_BOTTOM].concat(),
-    };
+/// a WebM film with space for it. `is_top_bottom`: frames have a picture for each eye.
+pub fn with_projection(head: &[u8], is_top_bottom: bool) -> Option<Vec<u8>> {
+    let stereo = if is_top_bottom { &TOP_BOTTOM[..] } else { &[] };
+    let inserted = [&PROJECTION[..], stereo].concat();
     let by = inserted.len() as u64;
     let segment = find(head, 0..head.len(), SEGMENT)?.content;
     let void = find(head, segment.clone(), VOID)?;
@@ -173,10 +169,10 @@ mod tests {
 
     #[test]
     fn the_track_grows_into_the_space_before_it() {
-        for (spherical, n_more) in [(Spherical::Mono, 30), (Spherical::TopBottom, 34)] {
+        for (is_top_bottom, n_more) in [(false, 30), (true, 34)] {
             for space in [n_more, 90] {
                 let before = head(space);
-                let after = with_projection(&before, spherical).unwrap();
+                let after = with_projection(&before, is_top_bottom).unwrap();
                 assert_eq!(after.len(), before.len());
                 let segment = find(&after, 0..after.len(), SEGMENT).unwrap().content;
                 let ids = |bytes: &[u8]| {
@@ -204,7 +200,7 @@ mod tests {
     #[test]
     fn other_files_are_refused() {
         for bytes in [vec![], b"no film, but text".to_vec(), head(29), head(90)[..90].to_vec()] {
-            assert_eq!(with_projection(&bytes, Spherical::Mono), None);
+            assert_eq!(with_projection(&bytes, false), None);
         }
     }
 }
