@@ -540,17 +540,13 @@ fn a_film_says_which_frames_are_empty_or_black() {
     // The eye sees the middle at x = .5 (t − √(81 + x²)), which is −2.66 at t = 4, 0 at 9, 2.34 at
     // 14 and 4.46 at 19. It is in view while |x| is less than about 9 tan 10° + 1 = 2.59.
     let found = film("-look shape", "l 1;");
-    assert!(
-        found.contains("nothing is in the picture in 7 of 9 frames that were drawn, 1..4, 7..9: "),
-        "{found}"
-    );
-    assert!(!found.contains("is black in"), "{found}");
-    // The same before a frame is drawn, and when it would be: from x = −2.59 on.
+    // Before a frame is drawn, and when it would be: from x = −2.59 on.
     let before =
         "nothing will be in the picture in 7 of 9 frames, 1..4, 7..9: what moves is in it with -ti from";
     let times = found.split_once(before).unwrap().1.split_whitespace().next().unwrap();
     assert!((times.parse::<f64>().unwrap() - (-2.59 / 0.5 + libm::hypot(9.0, 2.59))).abs() < 0.2, "{times}");
-    assert!(found.find("will be") < found.find("nothing is"), "{found}");
+    // Once: at the end there is nothing to add.
+    assert!(!found.contains("nothing is in") && !found.contains("is black in"), "{found}");
     assert!(!film("-look shape -ti 9..10", "l 1;").contains("nothing"));
     // Too dark, and too bright.
     let found = film("-look shape -ti 8..10 -ex -9", "l 1;");
@@ -566,7 +562,31 @@ fn a_film_says_which_frames_are_empty_or_black() {
     );
     // Of a part of the film.
     let found = film("-look shape -only 5..7", "l 1;");
-    assert!(found.contains("nothing is in the picture in 1 of 3 frames that were drawn, 7: "), "{found}");
+    assert!(found.contains("nothing will be in the picture in 1 of 3 frames, 7: "), "{found}");
+    assert!(!found.contains("nothing is in"), "{found}");
+    // What cannot be said before is said at the end: of a fisheye picture it is not known.
+    let found = film("-look shape -rays -fish 20", "l 1;");
+    assert!(!found.contains("will be"), "{found}");
+    assert!(
+        found.contains("nothing is in the picture in 7 of 9 frames that were drawn, 1..4, 7..9: "),
+        "{found}"
+    );
+    // Measured frames are named once, before; frames between them are not measured.
+    let half = "c_rgb grey .5 .5 .5; v a -9 9 -9; v b 9 9 -9; v c 9 9 9; v d -9 9 9; f (a b c d) grey;
+                cam -ep 0 0 0 -vc 0 9 0 -va 20; l 1;";
+    fs::write(shell.folder.path().join("fade.ug"), half).unwrap();
+    let fade = |frames: &str| {
+        let command =
+            format!("ugfilm {frames} -vel 0 0..0.9 0 -in -va 90 -sz 32 24 -dt apng fade.ug > film.png");
+        shell.run(&command)[1].clone()
+    };
+    let dark = "hardly anything is bright enough to be seen";
+    let found = fade("-frames 9");
+    assert_eq!(found.matches(dark).count(), 1, "{found}");
+    assert!(found.contains("of 9 frames that were measured, "), "{found}");
+    let found = fade("-frames 99");
+    assert!(found.contains("of 48 frames that were measured, "), "{found}");
+    assert!(found.contains("of 99 frames that were drawn, "), "{found}");
 }
 
 /// A camera that follows has what moves in the middle of every frame.
@@ -599,12 +619,16 @@ fn films_of_panoramas_are_marked() {
     let shell = Shell::new();
     let check = |options: &str, expected: &[&str]| {
         let probe = "ffprobe -v error -count_frames -of flat -show_entries stream=nb_read_frames:stream_side_data_list";
-        shell.run(&format!("ugfilm -qt -rays -frames 3 -cv '0 0 0 .. 0 .9 0' {options} -fo a.mp4 street.ug"));
-        let [found, messages] = shell.run(&format!("{probe} a.mp4"));
-        assert_eq!(messages, "", "{options}");
-        assert!(found.contains("nb_read_frames=\"3\""), "{options}: {found}");
-        for text in ["equirectangular", "top and bottom"] {
-            assert_eq!(found.contains(text), expected.contains(&text), "{options}: {found}");
+        for file in ["a.mp4", "a.webm"] {
+            let film =
+                format!("ugfilm -qt -rays -frames 3 -cv '0 0 0 .. 0 .9 0' {options} -fo {file} street.ug");
+            shell.run(&film);
+            let [found, messages] = shell.run(&format!("{probe} {file}"));
+            assert_eq!(messages, "", "{film}");
+            assert!(found.contains("nb_read_frames=\"3\""), "{film}: {found}");
+            for text in ["equirectangular", "top and bottom"] {
+                assert_eq!(found.contains(text), expected.contains(&text), "{film}: {found}");
+            }
         }
     };
     check("-pan -sz 32 16", &["equirectangular"]);

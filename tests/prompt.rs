@@ -164,6 +164,44 @@ fn nothing_is_black_in_silence() {
         "uglorentz -vel .9 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 40 30 -fo x.png",
         "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
     );
+    // One program of the pipe has no look.
+    check(
+        "uglorentz -qt -cv 0 -.9 0 -in ship.ug | ugdoppler -look light | ugrainbow -sz 40 30 -fo x.png",
+        "hardly anything is bright enough to be seen: try -ex auto, or -look light, which every program of a pipe \
+         needs",
+    );
+    check(
+        "uglorentz -qt -cv 0 -.9 0 -in ship.ug | ugdoppler | ugrainbow -look light -sz 40 30 -fo x.png",
+        "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
+    );
+    check(
+        "uglorentz -look light -vel .1 0 0 -fo x.ug ship.ug",
+        "-look light has no effect on positions: give it to ugdoppler and ugrainbow",
+    );
+    check(
+        "ugphoton -ex -9 -sz 40 30 -fo x.png ship.ug",
+        "hardly anything is bright enough to be seen: give -ex more stops, or try -look shape",
+    );
+    let dark = ugimage::Frame::new([32, 16], true, vec![[3, 3, 3, 255]; 32 * 16]);
+    let dark = ugimage::Format::Png.encode(&dark, &ugimage::Metadata::default());
+    std::fs::write(folder.path().join("dark.png"), dark).unwrap();
+    // The first is packed while it is drawn.
+    for options in ["-sz 40 20", "-sz 400 200 -cap dark", "-sz 40 20 -dt png16"] {
+        check(
+            &format!("ugwarp -look 1988 {options} -fo x.png dark.png"),
+            "ugwarp: note: hardly anything is bright enough to be seen: try -ex auto, or -look light",
+        );
+    }
+    check(
+        "ugphoton -ex 9 -sz 40 30 -fo x.png ship.ug",
+        "more than a tenth of what is in the picture is white: give -ex fewer stops",
+    );
+    // The exposure of a film is kept beside its frames; the number shows that it is read.
+    check(
+        "ugfilm -qt -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug; sed -i 's/ .*/ 9.125/' .k_1.png.exposure; \
+         ugfilm -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug",
+        "ugfilm: note: one exposure for all frames: -ex 9.125",
+    );
     let when = "nothing that moves is in the picture at -ti 0; it is with -ti from 3.6 to 25.6, best at 12.5";
     check("uglorentz -vel .9 0 0 -fo x.ug ship.ug", when);
     check("ugphoton -vel .9 0 0 -sz 40 30 -fo x.png ship.ug", when);
@@ -174,6 +212,57 @@ fn nothing_is_black_in_silence() {
     );
     let enclosed = "the light of lamp `bulb` does not leave the closed body that it is in: move it out";
     check("ugphoton -sz 40 30 -fo x.png boxed.ug", enclosed);
+}
+
+/// A photograph: a blue sky with the sun on the horizon, above a meadow.
+fn photograph() -> Vec<u8> {
+    let pixel = |idx: usize| match [idx % 64, idx / 64] {
+        [29..35, 12..16] => [255; 4],
+        [_, 0..16] => [40, 90, 200, 255],
+        _ => [90, 110, 60, 255],
+    };
+    let frame = ugimage::Frame::new([64, 32], true, (0..64 * 32).map(pixel).collect());
+    ugimage::Format::Png.encode(&frame, &ugimage::Metadata::default())
+}
+
+/// The sun of a photograph is no brighter than white, unless `--highlights` says so, and three black
+/// bodies may add up to negative light.
+#[test]
+fn what_a_photograph_does_not_hold_is_chosen_or_noted() {
+    let folder = tempfile::tempdir().unwrap();
+    let programs = programs::of_this_profile();
+    std::fs::write(folder.path().join("sky.png"), photograph()).unwrap();
+    let shown = |options: &str| {
+        let command = format!("ugwarp -cv 0 .5 0 -va 90 -sz 96 72 -fo x.png {options} sky.png");
+        let messages = answer(folder.path(), &programs, &command);
+        let file = std::fs::read(folder.path().join("x.png")).unwrap();
+        let frame = ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap().0;
+        (messages, frame.pixels().to_vec())
+    };
+    // In the middle of the column: sky, sun, meadow.
+    let at = |pixels: &[[u8; 4]], row: usize| pixels[96 * row + 48];
+    // A quarter of the light shows the colour of the sun: blue, as of a white wall ahead.
+    let (_, pixels) = shown("-ex -2");
+    let [red, green, blue, _] = at(&pixels, 29);
+    assert!(red + 10 < green && green + 20 < blue, "{:?}", at(&pixels, 29));
+    let (_, pixels) = shown("-ex -2 --highlights 6");
+    assert_eq!(at(&pixels, 29), [255; 4]);
+    // With the exposure of the look the sun is white, and the meadow is lit.
+    let (messages, pixels) = shown("");
+    assert_eq!(at(&pixels, 29), [255; 4]);
+    assert!(!messages.contains("negative"), "{messages}");
+    assert!(at(&pixels, 48)[..3].iter().all(|&level| level > 60), "{:?}", at(&pixels, 48));
+    let (messages, pixels) = shown("--basis 3500 5900 10000");
+    // The meadow is the lower half.
+    let note =
+        "ugwarp: note: the three temperatures of the basis add up to negative light, drawn as black, in ";
+    let percent = messages.split_once(note).unwrap().1.split_once(' ').unwrap().0;
+    assert!((percent.parse::<f64>().unwrap() - 50.0).abs() < 1.0, "{messages}");
+    assert!(messages.contains(" percent of what is in the picture; --basis mixture has none"), "{messages}");
+    assert_eq!(at(&pixels, 48), [0, 0, 0, 255]);
+    // At rest every colour is kept.
+    let (messages, _) = shown("--basis 3500 5900 10000 --no-doppler --no-flux");
+    assert!(!messages.contains("negative"), "{messages}");
 }
 
 /// A mesh of another program is a scene to every program that reads one.

@@ -7,7 +7,7 @@ use std::path::Path;
 use clap::{ArgMatches, Parser};
 use ugimage::Format;
 use ugparse::{Foreign, Source, pipe};
-use ugpicture::cli::PictureArgs;
+use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
     one_of, parse_words, sha256, shell_os_word, whole,
@@ -170,12 +170,15 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut script = args.script(context)?;
     let frames = args.numbers()?;
     let read = Read::new(args, &mut script, context)?;
+    let mut forecast = Forecast::default();
     if let Read::Scene(scene, _) = &read {
         if args.follow {
             follow(scene, &mut script)?;
         }
         if args.print.is_none() {
-            tell_unseen(&Sight::new(scene, &script).unseen(&frames), context);
+            let unseen = Sight::new(scene, &script).unseen(&frames);
+            tell_unseen(&unseen, context);
+            forecast.empty = unseen.frames;
         }
     }
     let (subject, format) = (read.subject(), output.frame_format());
@@ -187,6 +190,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let stops = measured.stops.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
         tell_wrong(&measured.wrong, measured.n_frames, "measured", context);
+        forecast.wrong = measured.wrong;
         script.set("ex", vec![stops]);
     }
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
@@ -229,7 +233,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             return context.write(&Format::Png.encode(&sheet, &history));
         }
     };
-    tell(&summary, context);
+    tell(&summary, &forecast, context);
     Ok(())
 }
 
@@ -284,8 +288,8 @@ fn tell_unseen(unseen: &Unseen, context: &Context) {
 /// Says which of `n_frames` frames that were measured or drawn are nearly black or overexposed.
 fn tell_wrong(wrong: &WrongBrightness, n_frames: usize, what_was_done: &str, context: &Context) {
     let findings = [
-        (&wrong.nearly_black, "hardly anything is bright enough to be seen", DARK_REMEDY),
-        (&wrong.overexposed, "more than a tenth of what is in the picture is white", BRIGHT_REMEDY),
+        (&wrong.nearly_black, ugpicture::Note::NearlyBlack { is_exposed: true }, DARK_REMEDY),
+        (&wrong.overexposed, ugpicture::Note::Overexposed, BRIGHT_REMEDY),
     ];
     for (frames, finding, remedy) in findings.into_iter().filter(|(frames, ..)| !frames.is_empty()) {
         // Measured frames are spread over the film, so a list of all of them is long.
@@ -299,10 +303,6 @@ fn tell_wrong(wrong: &WrongBrightness, n_frames: usize, what_was_done: &str, con
     }
 }
 
-const DARK_REMEDY: &str = "give -ex more stops, or try -look shape";
-
-const BRIGHT_REMEDY: &str = "give -ex fewer stops";
-
 /// A path as a word of a command line, which is not an option.
 fn shell_path(path: &Path) -> String {
     let is_option = path.as_os_str().as_encoded_bytes().starts_with(b"-");
@@ -310,10 +310,27 @@ fn shell_path(path: &Path) -> String {
     shell_os_word(path.as_os_str())
 }
 
-fn tell(summary: &Summary, context: &Context) {
-    let notes = summary.notes.iter().flat_map(crate::note::Note::words);
+/// The findings about frames that were printed before the film is drawn.
+#[derive(Default)]
+struct Forecast {
+    /// Frames in which nothing will be in the picture.
+    empty: Vec<u32>,
+    /// Frames whose brightness will be wrong.
+    wrong: WrongBrightness,
+}
+
+/// Says after a film is drawn what its forecast does not name.
+fn tell(summary: &Summary, forecast: &Forecast, context: &Context) {
+    let is_of_levels =
+        |note: &crate::note::Note| note.of_picture().is_some_and(ugpicture::Note::is_of_levels);
+    let notes = summary.notes.iter().filter(|note| !is_of_levels(note)).flat_map(crate::note::Note::words);
     notes.for_each(|note| context.note(&format!("first frame: {note}")));
     let Summary { n_drawn, n_done, n_elsewhere, empty, black, wrong, .. } = summary;
+    let empty = &unless_all_are_in(&forecast.empty, empty);
+    let wrong = WrongBrightness {
+        nearly_black: unless_all_are_in(&forecast.wrong.nearly_black, &wrong.nearly_black),
+        overexposed: unless_all_are_in(&forecast.wrong.overexposed, &wrong.overexposed),
+    };
     let shares = [
         (empty, "nothing is in the picture", "try other times -ti, -in, another -vc or a wider -va"),
         (black, "all that is in the picture is black", "try -look light, or -look shape"),
@@ -322,7 +339,7 @@ fn tell(summary: &Summary, context: &Context) {
         let (count, list) = (frames.len(), ranges_of(frames));
         context.note(&format!("{finding} in {count} of {n_drawn} frames that were drawn, {list}: {remedy}"));
     }
-    tell_wrong(wrong, *n_drawn as usize, "drawn", context);
+    tell_wrong(&wrong, *n_drawn as usize, "drawn", context);
     if *n_done + *n_elsewhere > 0 {
         let elsewhere = match n_elsewhere {
             0 => String::new(),
@@ -330,6 +347,12 @@ fn tell(summary: &Summary, context: &Context) {
         };
         context.note(&format!("{n_drawn} frames drawn, {n_done} were there already{elsewhere}"));
     }
+}
+
+/// Frames, unless all of them are among those of a forecast. Both increase.
+fn unless_all_are_in(forecast: &[u32], frames: &[u32]) -> Vec<u32> {
+    let is_told = frames.iter().all(|frame| forecast.binary_search(frame).is_ok());
+    if is_told { Vec::new() } else { frames.to_vec() }
 }
 
 /// Increasing numbers as ranges: `1..12, 17, 20..40`.

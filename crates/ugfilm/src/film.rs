@@ -6,7 +6,7 @@ use std::time::SystemTime;
 use ugimage::{
     Format, Frame, LinearFrame, Metadata, PictureLimits, auto_exposure, read_png, read_png_header,
 };
-use ugpicture::{PictureOptions, Rendering};
+use ugpicture::{Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::{Motion, Picture};
 
@@ -15,7 +15,7 @@ use crate::blur::{MotionBlur, Shot};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
 use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
-use crate::levels::{Brightness, WrongBrightness};
+use crate::levels::WrongBrightness;
 use crate::note::Note;
 use crate::pipe::{FilmSubject, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
@@ -77,7 +77,7 @@ pub struct MeasuredExposure {
 
 /// The outcome of a frame.
 enum Outcome {
-    Drawn(Vec<Note>, Option<Brightness>),
+    Drawn(Vec<Note>),
     Done,
     Elsewhere,
 }
@@ -85,16 +85,14 @@ enum Outcome {
 impl Summary {
     fn add(&mut self, frame: u32, outcome: Outcome) {
         match outcome {
-            Outcome::Drawn(notes, brightness) => {
-                let has = |is_it: fn(&ugpicture::Note) -> bool| {
-                    notes.iter().any(|note| matches!(note, Note::Picture(_, note) if is_it(note)))
-                };
-                if has(ugpicture::Note::is_of_empty) {
-                    self.empty.push(frame);
-                } else if has(ugpicture::Note::is_of_black) {
-                    self.black.push(frame);
-                } else {
-                    self.wrong.add(frame, brightness);
+            Outcome::Drawn(notes) => {
+                for note in notes.iter().filter_map(Note::of_picture) {
+                    if note.is_of_empty() {
+                        self.empty.push(frame);
+                    } else if note.is_of_black() {
+                        self.black.push(frame);
+                    }
+                    self.wrong.add(frame, note);
                 }
                 if self.n_drawn == 0 {
                     self.notes = notes;
@@ -216,13 +214,14 @@ impl Film<'_> {
     /// # Errors
     /// A frame cannot be drawn.
     pub fn exposure(&self, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
-        let picture = about(1, self.pipe(1))?.picture;
+        let mut picture = about(1, self.pipe(1))?.picture;
         let frames = self.small(("measuring", steps), |pipe| pipe.light(self.subject))?;
         let pixels: Vec<[f32; 4]> = frames.iter().flat_map(LinearFrame::pixels).copied().collect();
         let stops = auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), picture.tone);
+        picture.exposure = Some(Exposure::Stops(stops));
         let mut wrong = WrongBrightness::default();
         for (number, frame) in self.spread(MOST_MEASURED).into_iter().zip(&frames) {
-            wrong.add(number, Brightness::of_light(frame, &picture, stops));
+            levels_note(frame, &picture).iter().for_each(|note| wrong.add(number, note));
         }
         Ok(MeasuredExposure { stops, n_frames: frames.len(), wrong })
     }
@@ -282,11 +281,9 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let options = shot.frame.picture.clone();
         let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
-        let brightness = brightness(&picture, &options);
         Context::write_now(path, &picture.into_file())?;
-        Ok(Outcome::Drawn(notes, brightness))
+        Ok(Outcome::Drawn(notes))
     }
 
     /// Draws all frames of a film and gives them to `consume` in order. Frames kept in files are
@@ -328,13 +325,11 @@ impl Film<'_> {
                 Outcome::Done,
             ));
         }
-        let options = shot.frame.picture.clone();
         let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
         if let Some((path, _)) = &kept {
             Context::write_now(path, &picture.clone().into_file())?;
         }
-        let brightness = brightness(&picture, &options);
-        Ok((pixels(picture).map_err(Failure::of)?, Outcome::Drawn(notes, brightness)))
+        Ok((pixels(picture).map_err(Failure::of)?, Outcome::Drawn(notes)))
     }
 
     /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
@@ -383,14 +378,16 @@ impl Film<'_> {
                 let mut ffmpeg = Ffmpeg::new(kind, shape, path)?;
                 summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
                 ffmpeg.finish()?;
-                match self.spherical()?.filter(|_| kind == Kind::Mp4) {
-                    Some(spherical) => spherical.insert(path).map_err(|error| {
-                        Failure::failed(format!(
-                            "ffmpeg has written a film that cannot be marked as 360°: {error}"
-                        ))
-                    }),
-                    None => Ok(()),
-                }
+                let Some(spherical) = self.spherical()? else { return Ok(()) };
+                let marked = match kind {
+                    Kind::Webm => spherical.mark_webm(path),
+                    _ => spherical.mark_mp4(path),
+                };
+                marked.map_err(|error| {
+                    Failure::failed(format!(
+                        "ffmpeg has written a film that cannot be marked as 360°: {error}"
+                    ))
+                })
             })?;
             return Ok(summary);
         }
@@ -420,10 +417,6 @@ impl Film<'_> {
         })?;
         Ok(summary)
     }
-}
-
-fn brightness(picture: &Rendering, options: &PictureOptions) -> Option<Brightness> {
-    Brightness::of(picture.pixels()?, options)
 }
 
 fn pixels(picture: Rendering) -> Result<Frame, Error> {

@@ -11,6 +11,16 @@ pub enum Note {
     Picture(&'static str, ugpicture::Note),
 }
 
+impl Note {
+    /// The note of the program that drew the picture.
+    pub fn of_picture(&self) -> Option<&ugpicture::Note> {
+        match self {
+            Self::Picture(_, note) => Some(note),
+            Self::Lorentz(_) | Self::Doppler(_) => None,
+        }
+    }
+}
+
 #[cfg(feature = "cli")]
 impl Note {
     /// Sentences that begin with the name of the program.

@@ -1,5 +1,5 @@
-//! What players read of a 360° film in an MP4 file: Spherical Video V1, a box of XML in the video
-//! track.
+//! What players read of a 360° film: in an MP4 file Spherical Video V1, a box of XML in the video
+//! track; in a WebM file see [`crate::spherical_webm`].
 //!
 //! ffmpeg cannot write it, so it is inserted into the finished file.
 
@@ -7,6 +7,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::Path;
+
+use crate::spherical_webm::{HEAD, with_projection};
 
 /// A film of all directions, equirectangular.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,11 +51,25 @@ impl Spherical {
         [&size.to_be_bytes()[..], b"uuid", &UUID, text.as_bytes()].concat()
     }
 
+    /// Marks a WebM file.
+    ///
+    /// # Errors
+    /// The file cannot be read or written, or is no WebM file with a video track and space before it.
+    pub fn mark_webm(self, path: &Path) -> io::Result<()> {
+        let mut file = OpenOptions::new().read(true).write(true).open(path)?;
+        let mut head = Vec::new();
+        Read::by_ref(&mut file).take(HEAD).read_to_end(&mut head)?;
+        let changed = with_projection(&head, self == Self::TopBottom)
+            .ok_or_else(|| io::Error::other("it has no video track with space before it, or is invalid"))?;
+        file.seek(SeekFrom::Start(0))?;
+        file.write_all(&changed)
+    }
+
     /// Inserts the box into an MP4 file.
     ///
     /// # Errors
     /// The file cannot be read or written, or is no MP4 file with a video track.
-    pub fn insert(self, path: &Path) -> io::Result<()> {
+    pub fn mark_mp4(self, path: &Path) -> io::Result<()> {
         let mut file = OpenOptions::new().read(true).write(true).open(path)?;
         let table = find_table(&mut file)?.ok_or_else(|| io::Error::other("it has no `moov` box"))?;
         if table.end - table.start > MAX_TABLE {
@@ -229,7 +245,7 @@ mod tests {
                 let before = film(is_table_first, is_long);
                 let file = tempfile::NamedTempFile::new().unwrap();
                 std::fs::write(file.path(), &before).unwrap();
-                Spherical::Mono.insert(file.path()).unwrap();
+                Spherical::Mono.mark_mp4(file.path()).unwrap();
                 let after = std::fs::read(file.path()).unwrap();
                 assert_eq!(after.len(), before.len() + Spherical::Mono.bytes().len());
                 assert_eq!(samples(&after, is_long), samples(&before, is_long));
@@ -256,7 +272,7 @@ mod tests {
         ] {
             let file = tempfile::NamedTempFile::new().unwrap();
             std::fs::write(file.path(), &bytes).unwrap();
-            assert!(Spherical::TopBottom.insert(file.path()).is_err());
+            assert!(Spherical::TopBottom.mark_mp4(file.path()).is_err());
             assert_eq!(std::fs::read(file.path()).unwrap(), bytes);
         }
     }

@@ -8,7 +8,8 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, LookArgs, Manual, Progress, ToolArgs, Words, count, finite, numbers, whole,
+    CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, count, finite, numbers,
+    remedies, whole,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, Provenance};
@@ -143,6 +144,10 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
+    }
+    if let Some(look @ (Look::Light | Look::Shape)) = args.look.given() {
+        let option = format!("-look {}", look.name());
+        context.note(&remedies::LOOK_DOWNSTREAM.replacen("{}", &option, 1));
     }
     report.warnings().iter().for_each(|warning| context.warn(warning));
     report.notes().iter().for_each(|note| context.note(note));

@@ -7,6 +7,7 @@ use crate::annotations::{Annotated, Layout};
 use crate::error::Error;
 use crate::exposure::Exposure;
 use crate::image::Image;
+use crate::levels;
 use crate::note::Note;
 use crate::options::PictureOptions;
 use crate::rendering::{Content, Rendering, VectorFigure};
@@ -90,6 +91,7 @@ impl Canvas {
         progress.check().map_err(Error::from)?;
         let (content, development) = self.developed(content);
         notes.extend(self.light_note(brightest, development));
+        notes.extend(self.levels_note(&content, development, &notes));
         progress.step("annotating", 0);
         let annotations = self.layout.annotate(&annotated, &self.options, development)?;
         let content = annotations.add_to(content);
@@ -122,5 +124,18 @@ impl Canvas {
         // Light beyond the largest number is shown as that number.
         let (most, has_light) = (brightest.min(f32::MAX), development.is_some());
         (most > CLIPPED && !is_chosen).then_some(Note::ClippedIntensity { most, has_light })
+    }
+
+    /// Whether the picture is nearly black or overexposed, unless its other `notes` say why nothing
+    /// is visible.
+    fn levels_note(
+        &self,
+        content: &Content,
+        development: Option<Development>,
+        notes: &[Note],
+    ) -> Option<Note> {
+        let Content::Image(image) = content else { return None };
+        let is_explained = notes.iter().any(|note| note.is_of_empty() || note.is_of_black());
+        if is_explained { None } else { levels::of_image(image, development, &self.options) }
     }
 }

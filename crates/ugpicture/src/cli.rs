@@ -3,6 +3,8 @@
 
 mod words;
 
+pub use words::{BRIGHT_REMEDY, DARK_REMEDY};
+
 use std::path::Path;
 
 use clap::{ArgAction, ArgMatches, Args};

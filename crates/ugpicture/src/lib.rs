@@ -7,7 +7,8 @@
 //!   format, and annotations; [`cli`] has them as options of the command line;
 //! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
-//! - [`Exposure`]: how light is brought into the range of a display;
+//! - [`Exposure`]: how light is brought into the range of a display; [`LevelCounts`]: whether a picture
+//!   is nearly black or overexposed;
 //! - [`Canvas`]: the shell, which checks options, develops and annotates what a renderer draws,
 //!   and notes what the user should know;
 //! - [`Rendering`]: the picture or vector figure that a renderer returns, and its file
@@ -53,6 +54,7 @@ pub mod explain;
 mod exposure;
 mod image;
 pub mod lens;
+mod levels;
 mod limits;
 mod line;
 mod metadata;
@@ -70,6 +72,7 @@ pub use depth_buffer::{DepthBuffer, SurfaceSample};
 pub use emission::{Emission, Emissions, MediumLight, SeenItem};
 pub use error::Error;
 pub use exposure::Exposure;
+pub use levels::{LevelCounts, levels_note};
 pub use limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
 pub use line::{clip_line, visible_runs};
 pub use metadata::metadata;

@@ -56,6 +56,12 @@ pub enum Note {
     BlackFaces,
     /// The wavelengths of a panorama are shifted out of the visible range.
     BlackPanorama,
+    /// The light of a panorama is a sum of black bodies, some of a negative amount, and is negative
+    /// in this part of what is in the picture.
+    NegativeLight {
+        /// In percent.
+        percent: f64,
+    },
     /// A solid is open, or its outlines run clockwise.
     OpenSolid,
     /// Light of lamps may cross a refracting solid.
@@ -75,6 +81,13 @@ pub enum Note {
     Adaptive(f64),
     /// Automatic exposure, in stops.
     Exposure(f64),
+    /// Hardly any pixel is bright enough to be visible.
+    NearlyBlack {
+        /// An exposure was given.
+        is_exposed: bool,
+    },
+    /// Many pixels are white, where details may be lost.
+    Overexposed,
     /// Brightness up to this was clipped.
     ClippedIntensity {
         /// The largest one.
@@ -127,6 +140,11 @@ impl Note {
                 | Self::BlackPanorama
         )
     }
+
+    /// True if it says that the picture is nearly black or overexposed.
+    pub fn is_of_levels(&self) -> bool {
+        matches!(self, Self::NearlyBlack { .. } | Self::Overexposed)
+    }
 }
 
 impl fmt::Display for Note {
@@ -175,6 +193,13 @@ impl fmt::Display for Note {
             Self::BlackPanorama => {
                 "all that is in the picture is black: its wavelengths are outside 380-780 nm"
             }
+            Self::NegativeLight { percent } => {
+                return write!(
+                    f,
+                    "the three temperatures of the basis add up to negative light, drawn as black, in {percent:.1} \
+                     percent of what is in the picture"
+                );
+            }
             Self::OpenSolid => {
                 "light leaves a transparent solid that it did not enter: the solid is open, or its outlines run \
                  clockwise seen from outside; it is drawn as if it were not refracted there"
@@ -196,6 +221,8 @@ impl fmt::Display for Note {
             Self::CutShort => "some paths branch at too many mirrors and solids, and are cut short",
             Self::Adaptive(percent) => return write!(f, "traced {percent:.0} percent of the samples"),
             Self::Exposure(stops) => return write!(f, "exposure is {stops} stops"),
+            Self::NearlyBlack { .. } => "hardly anything is bright enough to be seen",
+            Self::Overexposed => "more than a tenth of what is in the picture is white",
             Self::ClippedIntensity { most, .. } => {
                 return write!(f, "max intensity is {}, clip to 1.0", decimal(*most));
             }

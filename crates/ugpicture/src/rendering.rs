@@ -87,14 +87,6 @@ impl Rendering {
         }
     }
 
-    /// 8-bit pixels; `None` for a vector figure, and for light of more than 8 bits.
-    pub fn pixels(&self) -> Option<&Frame> {
-        match &self.content {
-            Content::Image(Image::Display(frame)) => Some(frame),
-            _ => None,
-        }
-    }
-
     /// The light of a picture whose format holds light; `None` for others.
     pub fn into_light(self) -> Option<LinearFrame> {
         match self.content {

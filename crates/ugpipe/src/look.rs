@@ -16,7 +16,14 @@ pub struct LookArgs {
     /// camera does. shape: the colours at rest. The word stands for options of this program, all
     /// listed in docs/pipeline.md; an option that is given itself comes before those of the look.
     #[arg(id = LOOK, long = LOOK, value_name = "LOOK", value_parser = one_of(Look::ALL.map(Look::name), look))]
-    _look: Option<Look>,
+    look: Option<Look>,
+}
+
+impl LookArgs {
+    /// The look that the command line names; `None` for the default.
+    pub fn given(&self) -> Option<Look> {
+        self.look
+    }
 }
 
 /// Id and name of the option.

@@ -54,6 +54,9 @@ pub const NOTHING_IN_PICTURE: &str = "{}; try `uglorentz --keep-in-view`, anothe
 pub const OUT_OF_RANGE: &str =
     "{}; give ugdoppler and ugrainbow -look light, or -look shape to see the shape";
 
+/// A look is given to a program without colours.
+pub const LOOK_DOWNSTREAM: &str = "{} has no effect on positions: give it to ugdoppler and ugrainbow";
+
 /// Vertices have colours as seen, so they cannot be repeated for the colours of faces.
 pub const REPEAT_EARLIER: &str =
     "-vr has no effect on colours as seen, which every vertex has: give it to ugdoppler";

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use rayon::prelude::*;
 use ugimage::{Format, LinearFrame, Metadata};
+use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, Error as PictureError, Note, Output, PictureFile, Rendering,
@@ -11,7 +12,7 @@ use ugpicture::{
 };
 use ugpipe::Progress;
 use ugscene::{Provenance, Remarks, Scene};
-use ugsky::{Layer, Sky};
+use ugsky::{Basis, Layer, Sky};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -164,8 +165,13 @@ impl<'s> Prepared<'s> {
 
     /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
     fn png(&self, layer: &Layer<'s>, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
-        let (file, statistics) = self.warp.png(layer, progress, metadata, self.config.picture.compression());
-        (file, notes(&self.warp, &statistics))
+        let picture = &self.config.picture;
+        let (file, statistics, levels) = self.warp.png(layer, progress, metadata, picture.compression());
+        let mut notes = notes(&self.config, &self.warp, &statistics);
+        if !notes.iter().any(|note| note.is_of_empty() || note.is_of_black()) {
+            notes.extend(levels.note(picture));
+        }
+        (file, notes)
     }
 
     fn render(&self, sky: Sky<'_>, metadata: &Metadata, progress: &dyn Progress) -> Result<Rendering, Error> {
@@ -187,13 +193,18 @@ impl<'s> Prepared<'s> {
         let view = view(config, size)?;
         let subject = Subject::Items { view: &view, items: &items, scene: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let (brightest, notes) = (statistics.max_light, notes(warp, &statistics));
+        let (brightest, notes) = (statistics.max_light, notes(config, warp, &statistics));
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }
 
+/// A part of one in so many pixels may be below black beside edges, where the kernel undershoots.
+const FEW: u64 = 20;
+
 /// The notes on a picture.
-fn notes(warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
+fn notes(config: &Config, warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
+    let has_amounts =
+        matches!(config.basis, Basis::Planck(_)) && matches!(config.shift, ColorShift::Spectra(_));
     let mut notes = Vec::new();
     if warp.is_up_replaced {
         notes.push(Note::UpReplaced);
@@ -202,6 +213,9 @@ fn notes(warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
         notes.push(Note::NoPanorama);
     } else if statistics.max_light == 0.0 {
         notes.push(Note::BlackPanorama);
+    } else if has_amounts && statistics.n_negative > statistics.n_covered / FEW {
+        let percent = 100.0 * statistics.n_negative as f64 / statistics.n_covered as f64;
+        notes.push(Note::NegativeLight { percent });
     }
     notes
 }

@@ -6,8 +6,9 @@ use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
 use uglight::ColorShift;
+use ugphysics::luminance;
 use ugpicture::lens::{Film, Lens};
-use ugpicture::{Backdrop, Background, Emission, SeenItem};
+use ugpicture::{Backdrop, Background, Emission, LevelCounts, SeenItem};
 use ugpipe::Progress;
 use ugscene::{CameraError, CameraOptions, View};
 use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
@@ -21,6 +22,9 @@ const BAND: usize = 32;
 /// Columns that are computed for all rows of a task before the next ones, so that their texels stay
 /// in the cache.
 const TILE: usize = 64;
+
+/// Light of which no 8-bit level is made: rounding leaves less than that of black, also below 0.
+const DARK: f64 = 1e-4;
 
 /// The light of neighbouring pixels: red, green and blue, and alpha or the covered part.
 type Light = [[f32; Seen::N]; 4];
@@ -57,6 +61,9 @@ pub struct Statistics {
     pub max_light: f32,
     /// Pixels that show some of the panorama.
     pub n_covered: u64,
+    /// Pixels of negative luminance, which has light with a negative amount of a black body. They
+    /// are shown as black.
+    pub n_negative: u64,
 }
 
 /// [`Statistics`] of a part of a picture. The maximum is kept for each index of [`Light`] apart, so
@@ -65,6 +72,7 @@ pub struct Statistics {
 struct Found {
     max_light: [f32; Seen::N],
     n_covered: u64,
+    n_negative: u64,
 }
 
 impl Found {
@@ -75,6 +83,8 @@ impl Found {
             // One instruction; `f32::max` takes several, because of NaN.
             let max = |one: f32, other: f32| if one > other { one } else { other };
             self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
+            let luminance = luminance([reds, greens, blues].map(|channel| channel[idx].into()));
+            self.n_negative += u64::from(luminance < -DARK);
         }
         self.n_covered += covered.iter().map(|part| u64::from(*part > 0.0)).sum::<u64>();
     }
@@ -85,6 +95,7 @@ impl Statistics {
     fn add(&mut self, found: &Found) {
         self.max_light = found.max_light.into_iter().fold(self.max_light, f32::max);
         self.n_covered += found.n_covered;
+        self.n_negative += found.n_negative;
     }
 }
 
@@ -212,11 +223,18 @@ impl<'s> Warp<'s> {
         progress: &dyn Progress,
         metadata: &Metadata,
         compression: Compression,
-    ) -> (Vec<u8>, Statistics) {
+    ) -> (Vec<u8>, Statistics, LevelCounts) {
         let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
-        let draw = |band: usize, pixels: &mut [[u8; 4]]| drawing.band(band, pixels);
+        let (levels, background) = (Mutex::new(LevelCounts::default()), self.backdrop.light());
+        let draw = |band: usize, pixels: &mut [[u8; 4]]| {
+            drawing.band(band, pixels);
+            let counts = LevelCounts::of_pixels(pixels, background);
+            let mut levels = lock(&levels);
+            *levels = levels.plus(counts);
+        };
         let file = draw_png(self.size, self.backdrop.is_opaque(), BAND, metadata, compression, draw);
-        (file, drawing.statistics())
+        let levels = *lock(&levels);
+        (file, drawing.statistics(), levels)
     }
 
     /// From light to 8-bit pixels.
@@ -249,7 +267,7 @@ impl<'s> Warp<'s> {
         let pixel = |idx: usize| self.backdrop.pixel([0.0; 3], covered(idx));
         let pixels: Vec<[f32; 4]> = (0..n_pixels).into_par_iter().map(pixel).collect();
         let n_covered = pixels.par_iter().filter(|pixel| pixel[3] > 0.0).count() as u64;
-        let statistics = Statistics { max_light: 0.0, n_covered };
+        let statistics = Statistics { max_light: 0.0, n_covered, n_negative: 0 };
         (LinearFrame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
     }
 

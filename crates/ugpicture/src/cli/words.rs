@@ -45,6 +45,12 @@ impl Words for Error {
     }
 }
 
+/// What to do about a film or picture that is nearly black at its exposure.
+pub const DARK_REMEDY: &str = "give -ex more stops, or try -look shape";
+
+/// What to do about a film or picture that is overexposed.
+pub const BRIGHT_REMEDY: &str = "give -ex fewer stops";
+
 impl Words for Note {
     fn words(&self) -> String {
         let words = match self {
@@ -64,11 +70,17 @@ impl Words for Note {
             Self::BlackLines => "{}: choose another colour with -lc or -bg",
             Self::OutOfRange { .. } => remedies::OUT_OF_RANGE,
             Self::BlackFaces | Self::BlackPanorama => "{}; try -look light, or -look shape to see the shape",
+            Self::NegativeLight { .. } => "{}; --basis mixture has none",
             Self::EnclosedLamp(_) => "{}: move it out, or give --no-shadows",
             Self::TooDeep { .. } => "{}: a larger -rd shows it",
             Self::CutShort => "{}: give a smaller -rd or a larger -rc",
             Self::Adaptive(_) => "{} (-ad)",
             Self::Exposure(stops) => return format!("{self}; -ex {stops} gives the same picture"),
+            Self::NearlyBlack { is_exposed: false } => {
+                "{}: try -ex auto, or -look light, which every program of a pipe needs"
+            }
+            Self::NearlyBlack { is_exposed: true } => return format!("{self}: {DARK_REMEDY}"),
+            Self::Overexposed => return format!("{self}: {BRIGHT_REMEDY}"),
             Self::ClippedIntensity { has_light: true, .. } => "{}; -ex auto brings it into range",
             Self::DepthCue { near, far, least } => {
                 return format!("{self}; -dc {near} {far} {least} gives the same picture");
