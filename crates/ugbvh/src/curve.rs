@@ -359,6 +359,9 @@ impl<C: Curve, V: FnMut(Crossing, u32) -> f64> Search<'_, C, V> {
         let rounding = TANGENT_ERROR * self.bvh.frame.unit * length;
         let plane = Plane { point: a, normal, bend: section.bend * length, rounding };
         let ends = section.ends.map(|(parameter, point)| (parameter, plane.height(point)));
+        if plane.is_crossed_beside(section, [ends[0].1, ends[1].1], [a, b, c], self.bvh.frame.unit) {
+            return;
+        }
         self.halvings_left = MOST_HALVINGS_AT_A_TRIANGLE;
         self.cross_plane(section, &plane, triangle, ends, section.halvings);
     }
@@ -490,5 +493,32 @@ struct Plane {
 impl Plane {
     fn height(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.point)
+    }
+
+    /// True only if a section crosses the plane outside the triangle `corners`, if it does.
+    ///
+    /// Where the curve is in the plane, its chord is no farther than the deviation d from it, so
+    /// along the chord at most d/sin(angle to the plane) from where the chord crosses the plane.
+    /// `heights`: of the ends. `unit`: size of the mesh.
+    fn is_crossed_beside(&self, section: &Arc, heights: [f64; 2], corners: [DVec3; 3], unit: f64) -> bool {
+        /// More than the errors of tangents and of rounding, in sizes of the mesh.
+        const ROUNDING: f64 = power_of_two(-40);
+        let [(from, start), (to, end)] = section.ends;
+        let [low, high] = heights;
+        let chord = end - start;
+        let crossing = start + low / (low - high) * chord;
+        let deviation = section.bend * ((to - from) * (to - from)) * 0.125;
+        let length = self.normal.length();
+        let along = chord.length() * length / (high - low).abs();
+        let margin = 1.001 * deviation * (1.0 + along) + ROUNDING * unit * along.max(1.0);
+        let [a, b, c] = corners;
+        let edges = [b - a, c - b, a - c];
+        let longest = edges.map(DVec3::length_squared).into_iter().fold(0.0, f64::max).sqrt();
+        // NaN is not beside it.
+        let least = -margin * length * longest;
+        edges
+            .into_iter()
+            .zip(corners)
+            .any(|(edge, corner)| self.normal.cross(edge).dot(crossing - corner) < least)
     }
 }

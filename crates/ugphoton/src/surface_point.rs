@@ -106,7 +106,11 @@ impl SurfacePoint {
         let side = if is_outside { 1.0 } else { -1.0 };
         let (plane, plane_normal) = (side * outside, side * outside_in_frame);
         let (body_normal, body_lift) = smooth(scenery, found, (places, place), plane);
-        let lift = ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift));
+        let lift = if body_lift == DVec3::ZERO {
+            DVec3::ZERO
+        } else {
+            ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift))
+        };
         Self {
             part: found.part,
             face: found.triangle.face,

@@ -123,9 +123,12 @@ impl Velocity {
         }
         let scale = power_of_two_below(proper);
         let proper_speed = (proper / scale).length() * scale;
-        let rapidity = libm::asinh(proper_speed);
-        if rapidity > Velocity::MAX_RAPIDITY {
-            return Err(VelocityError::RapidityTooLarge { rapidity });
+        // Below it the rapidity is less than 99.8.
+        if proper_speed > 1e43 {
+            let rapidity = libm::asinh(proper_speed);
+            if rapidity > Velocity::MAX_RAPIDITY {
+                return Err(VelocityError::RapidityTooLarge { rapidity });
+            }
         }
         Velocity::along(proper, (1.0 + proper_speed * proper_speed).sqrt(), proper_speed)
     }

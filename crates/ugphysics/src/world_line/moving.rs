@@ -101,13 +101,20 @@ impl Moving {
 
     /// ξ of a point and its derivative by τ, in the carried axes.
     pub(super) fn offset(&self, point: DVec3, own_time: f64) -> Offset {
+        self.offset_and_turn(point, own_time).0
+    }
+
+    /// The same, and the turn of the body.
+    fn offset_and_turn(&self, point: DVec3, own_time: f64) -> (Offset, DQuat) {
         let mut offset = Offset { xi: point, swing: DVec3::ZERO };
+        let mut all = DQuat::IDENTITY;
         for Turn { pivot, spin } in &self.turns {
             let (turn, rate) = (spin.turn(own_time), spin.rate(own_time));
             let arm = turn * (offset.xi - *pivot);
             offset = Offset { xi: *pivot + arm, swing: rate.cross(arm) + turn * offset.swing };
+            all = turn * all;
         }
-        Offset { xi: offset.xi - self.at, ..offset }
+        (Offset { xi: offset.xi - self.at, ..offset }, all)
     }
 
     /// The proper acceleration in the carried axes.
@@ -318,8 +325,9 @@ impl Moving {
     }
 
     pub(super) fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
-        let Pose { scene_from_axes, turn, .. } = self.pose(own_time);
-        let lean = self.lean(point, own_time);
+        let (Pose { scene_from_axes, .. }, acceleration) = self.carried_with_acceleration(own_time);
+        let (Offset { xi, swing }, turn) = self.offset_and_turn(point, own_time);
+        let lean = swing / (1.0 + acceleration.dot(xi));
         let rate = scene_from_axes.apply(Event { t: 1.0, x: lean });
         let velocity = Velocity::from_proper(rate.x / ((1.0 - lean.length()) * (1.0 + lean.length())).sqrt());
         let velocity = velocity.unwrap_or_default();
