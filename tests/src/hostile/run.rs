@@ -31,8 +31,8 @@ pub const MEMORY_LIMIT: u64 = 8 << 20;
 const ALLOCATED: u64 = 64 << 10;
 const TIMES: u64 = 16;
 
-/// The same for each pixel of a sheet, in bytes: its color, twice.
-const PER_PIXEL: u64 = 8;
+/// The same for each pixel of a sheet, in bytes: its color, its color without alpha, and its file.
+const PER_PIXEL: u64 = 12;
 
 /// Memory for each thread, in KiB: its stack, and what the allocator keeps for it.
 const PER_THREAD: u64 = 4 << 10;
