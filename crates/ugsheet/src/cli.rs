@@ -241,20 +241,24 @@ fn print_figures(
             )));
         }
     }
+    let unreadable =
+        |row: usize, error| Failure::failed(format!("`{}`: {error}{}", inputs[row].name, remedy(&error)));
     let mut figures = Figures::none(format);
     let mut pictures = Vec::new();
     let paths =
         std::iter::once(args.common.input()).chain(args.files.iter().map(|path| Some(path.as_path())));
-    for (path, input) in paths.zip(inputs) {
-        let size = figures
-            .add(&input.text)
-            .map_err(|error| Failure::failed(format!("`{}`: {error}{}", input.name, remedy(&error))))?;
+    for (row, (path, input)) in paths.zip(inputs).enumerate() {
+        let size = figures.add(&input.text).map_err(|error| unreadable(row, error))?;
         let comment = read_history(&input.text).unwrap_or_default();
         pictures.push(described(path, size, Metadata { comment, ..Metadata::default() }));
     }
     let text = if args.txt { TextForm::Text } else { TextForm::Outlines };
     let metadata = history(&pictures, Some(context.command_line()));
-    let file = figure_sheet(&args.config()?, &pictures, &figures, text, &metadata).map_err(refused)?;
+    let file = figure_sheet(&args.config()?, &pictures, &figures, text, &metadata);
+    let file = file.map_err(|error| match error {
+        Error::Figure { row, error } => unreadable(row, error),
+        error => refused(error),
+    })?;
     context.detail(&format!("{} figures", pictures.len()));
     context.write(&file)
 }
@@ -316,7 +320,7 @@ impl Words for Error {
             Self::NoPart { .. } => " (-crop)",
             Self::NoWholeSize { .. } => ": draw all tiles with -sz W H",
             Self::Memory { .. } => "; make it smaller with -ts, fewer pictures or smaller ones",
-            Self::Empty | Self::Size | Self::Figure(_) | Self::Picture(_) => "",
+            Self::Empty | Self::Size | Self::Figure { .. } | Self::Picture(_) => "",
         };
         format!("{self}{remedy}")
     }

@@ -56,8 +56,13 @@ pub enum Error {
         name: String,
     },
     /// A vector figure cannot be copied to the sheet.
-    #[error("{0}")]
-    Figure(PartError),
+    #[error("figure {}: {error}", row + 1)]
+    Figure {
+        /// The row of the figure.
+        row: usize,
+        /// Why.
+        error: PartError,
+    },
     /// A picture cannot be read or joined to others; the message names it.
     #[error("{0}")]
     Picture(String),

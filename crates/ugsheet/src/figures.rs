@@ -80,7 +80,7 @@ pub fn figure_sheet(
         Figures::Pdf(parts) => {
             let parts: Vec<(Point, PdfPart<'_>)> = places.zip(parts.iter().cloned()).collect();
             figure::pdf_sheet(&labelled(&layout, config, &drawing, text), &parts, metadata)
-                .map_err(Error::Figure)
+                .map_err(|(row, error)| Error::Figure { row, error })
         }
     }
 }

@@ -21,20 +21,20 @@ pub fn pdf(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
 /// As [`pdf`], with parts over the background, each with its upper left corner at a place.
 ///
 /// # Errors
-/// A part refers to invalid objects.
+/// A part refers to invalid objects: its row, and why.
 pub fn pdf_sheet(
     figure: &Figure<GouraudTriangle>,
     parts: &[(Point, PdfPart<'_>)],
     metadata: &Metadata,
-) -> Result<Vec<u8>, PartError> {
+) -> Result<Vec<u8>, (usize, PartError)> {
     let mut forms = Forms::default();
-    for (place, part) in parts {
+    for (row, (place, part)) in parts.iter().enumerate() {
         let mut new_ref = || {
             forms.next += 1;
             Ref::new(forms.next - 1)
         };
         let id = new_ref();
-        part.write(&mut forms.chunk, id, &mut new_ref)?;
+        part.write(&mut forms.chunk, id, &mut new_ref).map_err(|error| (row, error))?;
         let ([left, bottom], unit) = part.frame();
         let matrix =
             [unit, 0.0, 0.0, -unit, place[0] - unit * left, place[1] + part.size()[1] + unit * bottom];
