@@ -86,6 +86,28 @@ fn bodies_of_all_velocities_are_culled() {
 }
 
 #[test]
+fn bodies_on_world_lines_are_culled() {
+    let views = [
+        ("orbit", 52.0, [5.0, 0.0, 0.0], 12.0),
+        ("wheels", 1.0, [1.2, 0.0, 0.5], 12.0),
+        ("departure", 30.0, [0.0, 3.0, 1.2], 20.0),
+        ("disc", 3.0, [1.0, 0.0, 0.5], 9.0),
+        ("disc", 3.0, [-1.0, 0.0, 0.5], 9.0),
+    ];
+    for (scene, time, center, angle) in views {
+        let camera = CameraOptions {
+            center: Some(DVec3::from(center)),
+            view_angle: Some((angle, None)),
+            ..CameraOptions::default()
+        };
+        let mut pipe = pipe(uglorentz::Config { time, camera, ..Default::default() });
+        pipe.rainbow.picture.camera.view_angle = Some((angle, None));
+        let n_culled = culled(&format!("{scene}-{}", center[0]), scene, &pipe);
+        assert!(n_culled > 200, "{scene}: {n_culled}");
+    }
+}
+
+#[test]
 fn teaching_switches_are_culled_right() {
     let mut n_culled = 0;
     for (contraction, flight_time) in [(true, false), (false, true), (false, false)] {

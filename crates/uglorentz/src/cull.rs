@@ -3,10 +3,11 @@
 //! A face is removed if all of it is surely outside one of the half-spaces whose intersection is
 //! the view volume. Faces are seen curved, but seen positions are linear in the rest coordinates p'
 //! and their length |p'|, so the distance from a plane has a bound that is attained at a corner,
-//! (P27).
+//! (P27). On a world line a face is within a bound from the flat one with its seen corners, (P49).
 
 use glam::DVec3;
 use rayon::prelude::*;
+use ugphysics::{Event, Passage, SeenLight, SeenPoint, WorldLine, WorldTube};
 use ugscene::{Face, HalfSpace, Item, Scene, VertexId, View, Wire};
 
 use crate::relative_motion::{Point, RelativeMotion};
@@ -23,10 +24,63 @@ impl ViewVolume {
     }
 
     /// True only if no point between these corners of a body is in the picture, neither as seen nor
-    /// as drawn.
+    /// as drawn. It is never true of bodies on world lines.
     pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
         let corners: Vec<DVec3> = corners.iter().map(|corner| corner.rest).collect();
         self.spaces.iter().any(|space| motion.is_outside(space, &corners))
+    }
+}
+
+/// A body on a world line as it is seen.
+struct SeenBody<'m> {
+    line: &'m WorldLine,
+    tube: WorldTube,
+    passages: Vec<Passage>,
+}
+
+const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
+
+impl<'m> SeenBody<'m> {
+    /// How often faces are divided for closer bounds.
+    const LEVELS: u32 = 2;
+
+    /// `None` for an inertial motion, or without bounds.
+    fn new(motion: &'m RelativeMotion, points: &[Point], body: usize) -> Option<Self> {
+        let line: &WorldLine = motion.world_line()?;
+        let own = points.iter().filter(|point| point.body.index() == body).map(|point| point.rest);
+        let tube = line.tube(own)?;
+        let passages = line.passages(&tube, EYE).ok()?;
+        Some(Self { line, tube, passages })
+    }
+
+    /// True only if a face is outside the view. Triangles from its first corner to its edges cover
+    /// it, whatever its outline.
+    fn is_outside(&self, view_volume: &ViewVolume, corners: &[&Point]) -> bool {
+        let Some((first, others)) = corners.split_first() else { return false };
+        others.windows(2).all(|edge| self.is_triangle_outside(view_volume, [first, edge[0], edge[1]]))
+    }
+
+    fn is_triangle_outside(&self, view_volume: &ViewVolume, corners: [&Point; 3]) -> bool {
+        /// Of places, relative to the distances from the eye and from the fixed point of a motion.
+        const ROUNDING: f64 = 1e-9;
+        let outside = |space: &HalfSpace, margin: f64| {
+            corners.iter().all(|corner| space.normal.dot(corner.seen) + space.offset < -margin)
+        };
+        // The bound takes longer than the corners, most of which are in the picture.
+        if !view_volume.spaces.iter().any(|space| outside(space, 0.0)) {
+            return false;
+        }
+        let seen = corners.map(|corner| -> SeenPoint {
+            let &Point { rest, seen, seen_distance, own_time, inverse_doppler, .. } = corner;
+            (rest, SeenLight { own_time, event: Event { t: -seen_distance, x: seen }, inverse_doppler })
+        });
+        let Some(bounds) = self.line.seen_triangle(&self.tube, &self.passages, &seen, EYE, Self::LEVELS)
+        else {
+            return false;
+        };
+        let size = corners.map(|corner| corner.seen_distance + corner.own_time.abs() + corner.rest.length());
+        let margin = bounds.deviation + ROUNDING * size.into_iter().fold(0.0, f64::max);
+        view_volume.spaces.iter().any(|space| outside(space, space.normal.length() * margin))
     }
 }
 
@@ -43,11 +97,16 @@ pub(crate) fn cull(
     if view_volume.spaces.is_empty() {
         return 0;
     }
+    let seen_bodies: Vec<Option<SeenBody<'_>>> =
+        motions.iter().enumerate().map(|(body, motion)| SeenBody::new(motion, points, body)).collect();
     let may_be_seen = |face: &Face| {
         let corners = scene.contours.corners(face.contours.clone());
         let corners: Vec<&Point> = corners.iter().map(|corner| &points[corner.index()]).collect();
-        let motion = corners.first().map(|first| &motions[first.body.index()]);
-        motion.is_none_or(|motion| !view_volume.is_outside(motion, &corners))
+        let Some(body) = corners.first().map(|first| first.body.index()) else { return true };
+        match &seen_bodies[body] {
+            Some(seen) => !seen.is_outside(view_volume, &corners),
+            None => !view_volume.is_outside(&motions[body], &corners),
+        }
     };
     let seen: Vec<bool> = scene.faces.par_iter().map(may_be_seen).collect();
     let mut touched = vec![false; scene.vertices.len()];

@@ -53,7 +53,7 @@ impl Seen {
         points: &[DVec3],
         corners: &[[u32; 3]],
     ) -> Option<Self> {
-        let seen = |point: &DVec3| line.emission(*point, EYE).ok().map(|seen| (*point, seen));
+        let seen = |point: &DVec3| line.light(*point, EYE).ok().map(|seen| (*point, seen));
         let n_triangles = corners.len();
         let seen: Vec<_> = points.par_iter().map(seen).collect::<Option<_>>()?;
         let corners = |row: usize| corners[row].map(|row| seen[row as usize]);

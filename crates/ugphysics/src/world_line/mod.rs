@@ -23,8 +23,8 @@ pub use ray::{Passage, RayPoint, RayStretch, WorldTube};
 pub use seen::{SeenPoint, SeenTriangle};
 pub use table::SampledPath;
 
-use crate::{Event, Lorentz, Velocity, VelocityError, unit_or_zero};
-use moving::{Moment, Moving, Path, Turn};
+use crate::{Event, Lorentz, Velocity, VelocityError};
+use moving::{Moving, Path, Turn};
 use pieces::{Acceleration, Spin};
 use table::Along;
 
@@ -480,11 +480,7 @@ impl WorldLine {
                 let doppler = crate::doppler_at(event.x - observer.x, velocity);
                 Ok(SeenLight { own_time, event, inverse_doppler: 1.0 / doppler })
             }
-            Kind::Moving(moving) => {
-                let (own_time, Moment { event, rate, clock }) = moving.root(point, observer, guess)?;
-                let away = unit_or_zero(event.x - observer.x);
-                Ok(SeenLight { own_time, event, inverse_doppler: (rate.t + away.dot(rate.x)) / clock })
-            }
+            Kind::Moving(moving) => moving.light(point, observer, guess),
         }
     }
 

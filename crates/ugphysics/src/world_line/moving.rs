@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::orbit::Orbit;
 use super::pieces::{Acceleration, Offset, Spin};
 use super::table::Along;
-use super::{BodyEvent, EmissionEvent, Pose, WorldLineError};
+use super::{BodyEvent, EmissionEvent, Pose, SeenLight, WorldLineError};
 use crate::{Event, Lorentz, Velocity, unit_or_zero};
 
 /// A motion that is not inertial.
@@ -200,6 +200,18 @@ impl Moving {
     pub(super) fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
         let (own_time, Moment { event, rate, clock }) = self.root(point, observer, None)?;
         Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
+    }
+
+    /// See [`super::WorldLine::light_near`].
+    pub(super) fn light(
+        &self,
+        point: DVec3,
+        observer: Event,
+        guess: Option<f64>,
+    ) -> Result<SeenLight, WorldLineError> {
+        let (own_time, Moment { event, rate, clock }) = self.root(point, observer, guess)?;
+        let away = unit_or_zero(event.x - observer.x);
+        Ok(SeenLight { own_time, event, inverse_doppler: (rate.t + away.dot(rate.x)) / clock })
     }
 
     /// The own time at which light leaves a point for `observer`, and the moment there.

@@ -37,7 +37,7 @@ use glam::DVec3;
 
 use super::moving::{Moving, Turn};
 use super::ray::{Passage, WorldTube, turn_bounds};
-use super::{EmissionEvent, Kind, WorldLine};
+use super::{Kind, SeenLight, WorldLine};
 use crate::{Event, unit_or_zero};
 
 /// Rounding errors of events, relative to their distances from the observer and from the event of A
@@ -57,8 +57,8 @@ pub struct SeenTriangle {
     pub deviation: f64,
 }
 
-/// A point of a body, and the event at which it is seen.
-pub type SeenPoint = (DVec3, EmissionEvent);
+/// A point of a body, and its light at the observer.
+pub type SeenPoint = (DVec3, SeenLight);
 
 /// What bounds a motion around an own time.
 struct Bounds {
@@ -142,7 +142,7 @@ impl Sight<'_> {
         let [a, b, c] = *corners;
         let middle = |(p, seen): SeenPoint, (q, other): SeenPoint| {
             let point = p.midpoint(q);
-            let light = self.moving.emission(point, self.observer).ok()?;
+            let light = self.moving.light(point, self.observer, None).ok()?;
             let deviation = (light.event.x - seen.event.x.midpoint(other.event.x)).length();
             Some(((point, light), deviation))
         };
