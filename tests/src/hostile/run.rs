@@ -78,7 +78,7 @@ fn left_in(folder: &Path, case: &Case) -> Result<Vec<OsString>, String> {
     let is_known = |name: &OsString| {
         name == MEASURED
             || name.to_string_lossy().starts_with(FRAMES)
-            || name.to_string_lossy().ends_with(".exposure")
+            || [".exposure", ".scene"].iter().any(|kept| name.to_string_lossy().ends_with(kept))
             || case.files.iter().any(|(given, _)| name == given.as_str())
     };
     let names = fs::read_dir(folder).map_err(words)?.flatten().map(|entry| entry.file_name());
