@@ -28,6 +28,7 @@ use crate::criterion::{Bounds, Criterion, MAX_GENERATION, Marks, Verdict};
 use crate::evenness::Evenness;
 use crate::pieces::{Cut, Outcome, Piece, Polyline};
 use crate::refined_mesh::RefinedMesh;
+use crate::relative_motion::RelativeMotion;
 use crate::split::split;
 
 /// The limit of pieces of a scene: about half a gigabyte of text.
@@ -36,12 +37,18 @@ pub(crate) const MAX_PIECES: usize = 4_000_000;
 /// Pieces beyond the faces of the scene that a picture may have without pixels, and for each pixel.
 const PIECES_OF_PICTURE: [usize; 2] = [1 << 18, 64];
 
+/// Pieces beyond the faces of a scene with bodies on world lines, whose edges take much longer.
+const PIECES_ON_WORLD_LINES: usize = 1_000_000;
+
 /// The limit of pieces for a picture of this size: more than can be seen in it, and
 /// [`MAX_PIECES`] at most.
-pub(crate) fn max_pieces(n_faces: usize, [width, height]: [u32; 2]) -> usize {
+pub(crate) fn max_pieces(n_faces: usize, [width, height]: [u32; 2], motions: &[RelativeMotion]) -> usize {
     let [least, per_pixel] = PIECES_OF_PICTURE;
     let n_pixels = (width as usize).saturating_mul(height as usize);
-    per_pixel.saturating_mul(n_pixels).saturating_add(least + n_faces).min(MAX_PIECES)
+    let of_picture = per_pixel.saturating_mul(n_pixels).saturating_add(least);
+    let has_world_lines = motions.iter().any(|motion| motion.world_line().is_some());
+    let most = if has_world_lines { of_picture.min(PIECES_ON_WORLD_LINES) } else { of_picture };
+    most.saturating_add(n_faces).min(MAX_PIECES)
 }
 
 /// Subdivides faces and wires until every error is within `bounds`, or `max_pieces` would be
@@ -244,7 +251,7 @@ mod tests {
     use crate::cull::ViewVolume;
     use crate::edge::Tolerance;
     use crate::near_lamps::NearLamps;
-    use crate::relative_motion::{Point, RelativeMotion};
+    use crate::relative_motion::Point;
 
     #[test]
     fn there_are_no_cracks_when_subdivision_stops_early() {

@@ -29,7 +29,8 @@ pub struct Args {
 
     /// Largest error of edges, in milliradians seen from the eye [default: 0.1]
     ///
-    /// Edges are subdivided until they deviate by at most ERR. Subdivision stops at 4000000 pieces,
+    /// Edges are subdivided until they deviate by at most ERR. Subdivision stops at 4000000 pieces
+    /// (1000000 beyond the faces, if a body accelerates or turns),
     /// or after 32 halvings of an edge, with a warning that states the remaining errors. -vb always
     /// states them, and the vertices where they occur.
     #[arg(long = "se", visible_alias = "error", value_name = "ERR", conflicts_with = "equal",

@@ -161,7 +161,7 @@ fn light_of_triangles_is_within_its_bounds() {
         let passages = world_line.passages(&tube, observer).unwrap();
         for size in [1e-4, 1e-3, 1e-2, 0.05, 0.2] {
             let corners = [(); 3].map(|()| middle + random.in_ball(size));
-            let seen = corners.map(|point| (point, world_line.emission(point, observer).unwrap()));
+            let seen = corners.map(|point| (point, world_line.light(point, observer).unwrap()));
             let Some(bounds) = world_line.seen_triangle(&tube, &passages, &seen, observer, kind as u32 % 3)
             else {
                 n_none += 1;
