@@ -16,8 +16,9 @@ const N_PARTS: u32 = 64;
 /// Cosine of 2°: a part is halved if the direction to a body changes by more.
 const STEP: f64 = 0.999_4;
 
-/// Most moments times boxes that are looked at, beyond which parts are not halved: a fraction of a
-/// second.
+/// Most moments, and moments times boxes, that are looked at, beyond which parts are not halved: a
+/// fraction of a second.
+const MOST_MOMENTS: usize = 1 << 13;
 const MOST_SEEN: usize = 1 << 20;
 
 /// Most halvings of a part, and of the ends of an interval.
@@ -135,7 +136,7 @@ impl Search<'_> {
         let last = moments.last().unwrap_or(&next);
         let mut ways = last.directions.iter().zip(&next.directions);
         let is_close = ways.all(|(a, b)| a.dot(*b) >= STEP);
-        let is_affordable = moments.len() * next.directions.len() < MOST_SEEN;
+        let is_affordable = moments.len() < MOST_MOMENTS && moments.len() * next.directions.len() < MOST_SEEN;
         if !is_close && is_affordable && n_halvings > 0 {
             let middle = self.moment(0.5 * (last.time + next.time))?;
             self.add_between(moments, middle, n_halvings - 1)?;

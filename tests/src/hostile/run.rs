@@ -274,7 +274,10 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
         ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
         ("ugfilm", Some("apng")) if !has("--print") => &[&["ugsheet", "/dev/stdin"]],
-        ("ugsheet", _) if words.iter().any(is_figure) && !has("--history") => &[&["ugsheet", "/dev/stdin"]],
+        // Files with these names may hold pictures, of which a sheet has any format.
+        ("ugsheet", None) if words.iter().any(is_figure) && !has("--history") => {
+            &[&["ugsheet", "/dev/stdin"]]
+        }
         ("ugrainbow", Some("svg" | "pdf")) if has("-vec") && !has("--explain") => {
             &[&["ugsheet", "/dev/stdin"]]
         }

@@ -56,10 +56,10 @@ impl Moving {
         let spins = self.turns.iter().map(|turn| turn.spin.rate(own_time).length());
         let turned = (of_path + spins.sum::<f64>()) * own_time.abs();
         if turned <= super::WorldLine::MOST_TURN {
-            Ok(())
-        } else {
-            Err(WorldLineError::ManyTurns { own_time })
+            return Ok(());
         }
+        let is_finite = own_time.is_finite();
+        Err(if is_finite { WorldLineError::ManyTurns { own_time } } else { WorldLineError::NotFinite })
     }
 
     /// Own times at which acceleration or a spin changes.
