@@ -15,10 +15,7 @@ use ugscene::{BodyId, Color, ColorId, ColorTable, Mix, Scene};
 
 use crate::attributes::free_prefix;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::world_line::{between, tan_half_angle};
-
-/// The length of edges along which a colour jumps, in units of the bound of the outline.
-const BLUR: f64 = 4.0;
+use crate::world_line::{between, is_short};
 
 /// Where an edge is sampled.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -117,11 +114,6 @@ impl Clocks {
         let (ends, weights) = (corners.map(|corner| corner.own_time), [1.0 / 3.0; 3]);
         lights.iter().any(|lights| lights.is_off(ends, weights, point.own_time, self.bound))
     }
-}
-
-/// Is an edge too short to be halved for its colours?
-fn is_short(a: &Point, b: &Point, tan_half: f64) -> bool {
-    tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= BLUR * tan_half
 }
 
 impl Lights {

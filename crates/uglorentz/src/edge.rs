@@ -109,8 +109,9 @@ pub(crate) fn shows(
     if motion.is_at_rest() {
         return false;
     }
-    if let Some(line) = motion.world_line() {
-        return world_line::exceeds(a, b, line, tolerance.on_world_line());
+    // Of a curve without a closed form every error counts as visible.
+    if motion.world_line().is_some() {
+        return true;
     }
     let leaves_chord = || {
         let edge = Edge::new(a, b, motion);

@@ -24,6 +24,9 @@ const ROUNDINGS: f64 = 8.0;
 /// Of larger pieces, [`is_surely_right`] says nothing: they have many diagonals.
 const MOST_CORNERS: usize = 4;
 
+/// The length of edges along which colours jump, in units of the bound of the outline.
+const BLUR: f64 = 4.0;
+
 /// Where an edge is sampled.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 
@@ -51,14 +54,20 @@ pub(crate) fn is_surely_right<'a>(
 
 /// Is an error of an edge above its bound?
 ///
-/// Colours are not looked at on edges shorter than the bound of the outline. Where a spin begins or
-/// the acceleration of a spinning body changes, velocities jump, and no subdivision is enough.
+/// Colours are not looked at on short edges: where a spin begins or the acceleration of a spinning
+/// body changes, velocities jump, and no subdivision is enough.
 pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation) -> bool {
-    let is_short = tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= bounds.tan_half;
-    let bounds = if is_short { Deviation { color: f64::INFINITY, ..bounds } } else { bounds };
+    let color = if is_short(a, b, bounds.tan_half) { f64::INFINITY } else { bounds.color };
+    let bounds = Deviation { color, ..bounds };
     let bounds = bounds.above_rounding(a).above_rounding(b);
     SAMPLES.into_iter().any(|s| deviation(a, b, &between(a, b, line, s)).exceeds(bounds, MARGIN))
         && !is_within_rounding(a, b)
+}
+
+/// Is an edge seen so short that it is not halved for its colours? `tan_half`: of the bound of the
+/// outline.
+pub(crate) fn is_short(a: &Point, b: &Point, tan_half: f64) -> bool {
+    tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= BLUR * tan_half
 }
 
 /// True for an edge so short that its errors are those of rounding, which no subdivision reduces:
@@ -130,7 +139,7 @@ fn deviation(a: &Point, b: &Point, true_point: &Point) -> Deviation {
 
 /// The tangent of half the angle x between two vectors, sin x/(1 + cos x). `product`: of their
 /// lengths.
-pub(crate) fn tan_half_angle(p: DVec3, q: DVec3, product: f64) -> f64 {
+fn tan_half_angle(p: DVec3, q: DVec3, product: f64) -> f64 {
     p.cross(q).length() / (product + p.dot(q))
 }
 
