@@ -195,3 +195,48 @@ fn errors_of_edges_are_within_the_bound() {
     assert!(all.n_edges > 1000 && all.angle > 0.3, "{all:?}");
     assert!(all.angle <= 1.0 && all.depth <= 1.0 && all.inside <= 1.0, "{all:?}");
 }
+
+/// Where a spin begins or reverses, velocities and D jump. Edges that are seen longer than four
+/// times the bound of the outline have the Doppler factors that are drawn.
+#[test]
+fn doppler_factors_are_wrong_on_short_edges_only() {
+    let (bound, color_error) = (2e-3, 0.04);
+    let mut random = Random(29);
+    let mut longest = 0.0_f64;
+    for _ in 0..40 {
+        let mut world = World::default();
+        let middle = random.in_ball(1.0);
+        let motion = fast(&mut random, middle);
+        world.add(&mut random, motion, middle, 2);
+        let eye = random.between(2.0, 4.0) * random.direction();
+        let config = uglorentz::Config {
+            pieces: uglorentz::Pieces::UpTo(bound),
+            color_error,
+            ..options(eye, random.between(-1.0, 2.0))
+        };
+        let scene = ugtests::pipe::lorentz_scene(world.text().as_bytes(), &config);
+        let Ok((scene, _)) = scene else { continue };
+        let observer = observer(eye, DVec3::ZERO, config.time);
+        let bodies = world.bodies();
+        let pieces = pieces(&scene, &world.triangles, &bodies, eye, &observer);
+        for &(body, corners) in pieces.iter().step_by(pieces.len().div_ceil(200)) {
+            let doppler = |rest: DVec3| observer.sight(&bodies[body], rest).doppler;
+            for k in 0..3 {
+                let ([a, rest_a], [b, rest_b]) = (corners[k], corners[(k + 1) % 3]);
+                let ends = [rest_a, rest_b].map(doppler);
+                let is_off = (1..N).any(|s| {
+                    let rest = rest_a.lerp(rest_b, f64::from(s) / f64::from(N));
+                    let place = observer.sight(&bodies[body], rest);
+                    let part = (place.seen - a).dot(b - a) / (b - a).length_squared();
+                    let drawn = ends[0] + part.clamp(0.0, 1.0) * (ends[1] - ends[0]);
+                    (drawn / place.doppler - 1.0).abs() > color_error
+                });
+                if is_off {
+                    longest = longest.max(a.angle_between(b) / bound);
+                }
+            }
+        }
+    }
+    println!("{longest} times the bound");
+    assert!((1.0..=4.0).contains(&longest), "{longest}");
+}
