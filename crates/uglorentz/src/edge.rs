@@ -109,7 +109,7 @@ pub(crate) fn shows(
     if motion.is_at_rest() {
         return false;
     }
-    // Of a curve without a closed form every error counts as visible.
+    // There is no closed form of the visible part of the error: all of it counts.
     if motion.world_line().is_some() {
         return true;
     }

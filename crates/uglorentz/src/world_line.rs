@@ -24,7 +24,8 @@ const ROUNDINGS: f64 = 8.0;
 /// Of larger pieces, [`is_surely_right`] says nothing: they have many diagonals.
 const MOST_CORNERS: usize = 4;
 
-/// The length of edges along which colours jump, in units of the bound of the outline.
+/// The angle at the eye, in units of the bound of the outline, below which an edge is not halved for
+/// its colours.
 const BLUR: f64 = 4.0;
 
 /// Where an edge is sampled.
@@ -54,8 +55,8 @@ pub(crate) fn is_surely_right<'a>(
 
 /// Is an error of an edge above its bound?
 ///
-/// Colours are not looked at on short edges: where a spin begins or the acceleration of a spinning
-/// body changes, velocities jump, and no subdivision is enough.
+/// The colours of short edges are not compared: where a spin begins or the acceleration of a spinning
+/// body changes, D changes abruptly, and no subdivision makes linear interpolation right.
 pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation) -> bool {
     let color = if is_short(a, b, bounds.tan_half) { f64::INFINITY } else { bounds.color };
     let bounds = Deviation { color, ..bounds };
@@ -64,8 +65,8 @@ pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation)
         && !is_within_rounding(a, b)
 }
 
-/// Is an edge seen so short that it is not halved for its colours? `tan_half`: of the bound of the
-/// outline.
+/// Is the angle of an edge at the eye too small to halve it for its colours? `tan_half`: tangent of
+/// half the bound of the outline.
 pub(crate) fn is_short(a: &Point, b: &Point, tan_half: f64) -> bool {
     tan_half_angle(a.seen, b.seen, a.seen_distance * b.seen_distance) <= BLUR * tan_half
 }

@@ -16,8 +16,8 @@ const N_PARTS: u32 = 64;
 /// Cosine of 2°: a part is halved if the direction to a body changes by more.
 const STEP: f64 = 0.999_4;
 
-/// Most moments, and moments times boxes, that are looked at, beyond which parts are not halved: a
-/// fraction of a second.
+/// Limits of the number of moments, and of moments times boxes. Beyond them parts are not halved, so
+/// the search takes a fraction of a second.
 const MOST_MOMENTS: usize = 1 << 13;
 const MOST_SEEN: usize = 1 << 20;
 

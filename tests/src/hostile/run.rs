@@ -274,7 +274,7 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
         ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
         ("ugfilm", Some("apng")) if !has("--print") => &[&["ugsheet", "/dev/stdin"]],
-        // Files with these names may hold pictures, of which a sheet has any format.
+        // Not with `-dt`: the files may hold pictures whatever their names, and the sheet is one, too.
         ("ugsheet", None) if words.iter().any(is_figure) && !has("--history") => {
             &[&["ugsheet", "/dev/stdin"]]
         }
