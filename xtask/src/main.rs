@@ -39,6 +39,7 @@ mod mesh;
 mod photon;
 mod plot;
 mod plots;
+mod programs;
 mod raster;
 mod rays;
 mod reading;
