@@ -6,7 +6,6 @@ use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
-use ugimage::Format;
 use ugmesh::MeshFormat;
 use ugtesting::Random;
 use ugtests::hostile::{Case, Edge, File, renderers};
@@ -55,8 +54,6 @@ fn libraries_hold() {
         (File::Panorama, 500),
         (File::Stars, 500),
         (File::History, 500),
-        (File::Figure(Format::Svg), 1000),
-        (File::Figure(Format::Pdf), 1000),
     ];
     for (file, n_cases) in kinds {
         let finding = |seed: u64| {
@@ -122,83 +119,3 @@ fn motions_hold() {
 
 const PHOTON: &[&str] = &["ugphoton", "-sz", "40", "30"];
 const CHECK: &[&str] = &["ugparse", "check"];
-
-/// Figures that once took too long or too much memory, or made a sheet that other programs refuse.
-#[test]
-fn figures_hold() {
-    let page = |kids: &str, more: &str, resources: String| {
-        vec![
-            "<</Type/Catalog/Pages 2 0 R>>".to_owned(),
-            format!("<</Type/Pages/Kids[{kids}]/X<<{more}>>>>"),
-            "<</Type/Page/MediaBox[0 0 9 9]/Contents 4 0 R/Resources<</A 5 0 R>>>>".to_owned(),
-            "<</Length 3>>stream\nq Q\nendstream".to_owned(),
-            resources,
-        ]
-    };
-    let numbers = 6..3000;
-    let within: String = numbers.clone().map(|number| format!("({number} 0 obj ")).collect();
-    let refs: String = numbers.clone().map(|number| format!("{number} 0 R ")).collect();
-    let within = format!("[{refs} {within}0{}]", ")".repeat(numbers.len()));
-    let entry = "0000000000 00000 n \n";
-    let circle = pdf(&page("3 0 R", "", "0".to_owned()), &format!("0 200000\n{}", entry.repeat(200_000)));
-    let rows: [(&str, &str, String, bool); 8] = [
-        ("objects within each other", "a.pdf", pdf(&page("3 0 R", "", within), ""), false),
-        (
-            "pages in a circle",
-            "a.pdf",
-            pdf(&page("2 0 R", &"/ 1".repeat(250_000), "0".to_owned()), ""),
-            false,
-        ),
-        (
-            "tables in a circle",
-            "a.pdf",
-            circle.replace("/Root", &format!("/Prev {}/Root", table(&circle))),
-            false,
-        ),
-        ("a number without end", "a.pdf", pdf(&page("3 0 R", "", "9".repeat(400)), ""), false),
-        // Where overflow is checked, it panicked.
-        ("the least integer", "a.pdf", pdf(&page("3 0 R", "", "-2147483649".to_owned()), ""), true),
-        ("a figure", "a.pdf", pdf(&page("3 0 R", "/ 1", "9".to_owned()), ""), true),
-        ("an entity in an attribute", "a.svg", "<svg width='9' height='9' id='&a;'/>".to_owned(), false),
-        ("many attributes", "a.svg", format!("<svg width='9' height='9'{}/>", many_attributes()), true),
-    ];
-    let programs = programs::of_this_profile();
-    let run = |(name, file, text, is_drawn): (&str, &str, String, bool)| {
-        let stages = vec![["ugsheet", file, file].map(str::to_owned).to_vec()];
-        let files = vec![(file.to_owned(), text.into_bytes())];
-        let case = Case { seed: 0, files, stages, edge: Edge::Plain, is_repeated: false };
-        match case.run(&programs) {
-            Ok(drawn) if drawn == is_drawn => None,
-            Ok(drawn) => Some(format!("{name}: drawn: {drawn}")),
-            Err(finding) => Some(format!("{name}: {finding}")),
-        }
-    };
-    assert_none(&rows.into_par_iter().filter_map(run).collect::<Vec<_>>());
-}
-
-fn many_attributes() -> String {
-    (0..100_000).map(|idx| format!(" a{idx}=''")).collect()
-}
-
-/// A PDF file of objects, and of those that begin `(NUMBER 0 obj` within them. `more`: further rows
-/// of its table.
-fn pdf(objects: &[String], more: &str) -> String {
-    let mut file = "%PDF-1.4\n".to_owned();
-    let mut places = Vec::new();
-    for (idx, object) in objects.iter().enumerate() {
-        places.push(file.len());
-        file += &format!("{} 0 obj\n{object}\nendobj\n", idx + 1);
-    }
-    places.extend(file.match_indices('(').map(|(at, _)| at + 1));
-    let rows: String = places.iter().map(|place| format!("{place:010} 00000 n \n")).collect();
-    let table = file.len();
-    file + &format!(
-        "xref\n0 {}\n0000000000 65535 f \n{rows}{more}trailer\n<</Root 1 0 R>>\nstartxref\n{table}\n%%EOF\n",
-        places.len() + 1
-    )
-}
-
-/// Where the table of a PDF file is.
-fn table(file: &str) -> usize {
-    file.find("xref").expect("the file has a table")
-}

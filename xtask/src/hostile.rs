@@ -23,7 +23,7 @@ pub struct Args {
     /// Only scenes with bodies that accelerate, spin and orbit
     #[arg(long)]
     motions: bool,
-    /// Only vector figures on sheets, and with text
+    /// Only vector figures with text
     #[arg(long, conflicts_with = "motions")]
     figures: bool,
     /// Write the files of the first case into this folder, and run nothing

@@ -234,30 +234,3 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
         Err(error) => Err(format!("a sheet is refused: {error}")),
     }
 }
-
-/// A vector figure: a sheet of it and itself is no longer than the files allow, and is read again
-/// with its own size.
-///
-/// # Errors
-/// The refusal or the difference.
-pub fn figure(format: Format, bytes: &[u8]) -> Result<(), String> {
-    let mut figures = ugsheet::Figures::none(format);
-    let [Ok(size), Ok(_)] = [figures.add(bytes), figures.add(bytes)] else { return Ok(()) };
-    let (motion, history) = (ugsheet::Motion::default(), Metadata::default());
-    let picture = ugsheet::Picture { name: "a".to_owned(), size, motion, history };
-    let config = ugsheet::Config { labels: ugsheet::Labels::None, ..ugsheet::Config::default() };
-    let pictures = [picture.clone(), picture];
-    let text = ugimage::label::TextForm::Outlines;
-    let Ok(sheet) = ugsheet::figure_sheet(&config, &pictures, &figures, text, &Metadata::default()) else {
-        return Ok(());
-    };
-    let most = 40 * bytes.len() + 10_000;
-    if sheet.len() > most {
-        return Err(format!("a sheet has {} bytes, more than {most}", sheet.len()));
-    }
-    match ugsheet::Figures::none(format).add(&sheet) {
-        Ok([width, _]) if width >= size[0] => Ok(()),
-        Ok(other) => Err(format!("a sheet of figures of {size:?} pixels is read with {other:?}")),
-        Err(error) => Err(format!("a sheet is refused: {error}")),
-    }
-}

@@ -24,7 +24,6 @@
 mod bytes;
 pub mod config;
 mod edge;
-mod figure;
 mod film;
 mod line;
 pub mod memory;
@@ -98,15 +97,10 @@ impl Case {
         Self::finished(seed, random, files, stages)
     }
 
-    /// The case of this number among vector figures: joined on sheets, or drawn with text.
+    /// The case of this number among vector figures with text.
     pub fn with_figures(seed: u64) -> Self {
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        let (files, stages) = if random.one_in(4) {
-            path::vector(&mut random)
-        } else {
-            let (files, line) = figure::sheet(&mut random);
-            (files, vec![line])
-        };
+        let (files, stages) = path::vector(&mut random);
         Self::finished(seed, random, files, stages)
     }
 
@@ -166,8 +160,6 @@ pub enum File {
     Stars,
     /// A picture of any format, with its history.
     History,
-    /// A vector figure, SVG or PDF.
-    Figure(ugimage::Format),
 }
 
 impl File {
@@ -180,7 +172,6 @@ impl File {
             Self::Panorama => panorama::file(random),
             Self::Stars => panorama::stars(random).into_bytes(),
             Self::History => picture::with_history(random),
-            Self::Figure(format) => return figure::of(format, random),
         };
         if random.one_in(2) {
             damage(random, &mut bytes);
@@ -200,7 +191,6 @@ impl File {
             Self::Panorama => memory::panorama(seed_of(bytes), bytes),
             Self::Stars => memory::stars(seed_of(bytes), bytes),
             Self::History => memory::history(bytes),
-            Self::Figure(format) => memory::figure(format, bytes),
         }
     }
 }

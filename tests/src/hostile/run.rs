@@ -258,8 +258,6 @@ fn is_lax(words: &[String]) -> bool {
 fn readers(words: &[String]) -> Vec<Vec<String>> {
     let format = words.iter().position(|word| word == "-dt").map(|at| words[at + 1].as_str());
     let has = |word: &str| words.iter().any(|other| other == word);
-    // A sheet has the format of its figures.
-    let is_figure = |word: &String| word.ends_with(".svg") || word.ends_with(".pdf");
     const CHECK: &[&str] = &["ugparse", "check", "-lax"];
     const LORENTZ: &[&str] = &["uglorentz", "-lax", "-se", "100", "-sc", "off"];
     const DOPPLER: &[&str] = &["ugdoppler", "-lax"];
@@ -274,13 +272,6 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugmesh", Some("ply")) => &[&["ugmesh", "-if", "ply"]],
         ("ugmesh", Some("gltf" | "glb")) => &[&["ugmesh", "-if", "gltf"]],
         ("ugfilm", Some("apng")) if !has("--print") => &[&["ugsheet", "/dev/stdin"]],
-        // Not with `-dt`: the files may hold pictures whatever their names, and the sheet is one, too.
-        ("ugsheet", None) if words.iter().any(is_figure) && !has("--history") => {
-            &[&["ugsheet", "/dev/stdin"]]
-        }
-        ("ugrainbow", Some("svg" | "pdf")) if has("-vec") && !has("--explain") => {
-            &[&["ugsheet", "/dev/stdin"]]
-        }
         ("ugwarp", None) => &[&["ugsheet", "/dev/stdin"]],
         ("ugphoton", None) if !has("--explain") => &[&["ugsheet", "/dev/stdin"]],
         ("ugrainbow", None) if !["--explain", "-dp", "-vec"].iter().any(|option| has(option)) => {
