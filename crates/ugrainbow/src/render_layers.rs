@@ -146,7 +146,7 @@ impl Layers<'_, TRANSPARENT_VALUES> {
         }
         match &self.surfaces {
             Surfaces::Rays(faces) => faces.draw_transparent(band, writer),
-            Surfaces::Polygons(list) => list.shapes().draw_transparent(grid, band, scanner, writer),
+            Surfaces::Polygons(list) => list.shapes().draw_on(grid, band, scanner, writer),
         }
     }
 }
@@ -184,7 +184,7 @@ impl TransparentLayer for Lit<'_, '_> {
             faces.draw_transparent(grid, band, scanner, &mut target.writer(&shade, false));
         }
         let lines = PolygonLayer { lists: &self.layers.lines, corners: &NoTriangles };
-        lines.draw_transparent(grid, band, scanner, &mut target.writer(&shade, true));
+        lines.draw_on(grid, band, scanner, &mut target.writer(&shade, true));
     }
 }
 
