@@ -191,3 +191,18 @@ fn examples_in_help_work() {
         }
     }
 }
+
+/// A shell asks for completions: options with their meaning, and a slash where files are meant.
+#[test]
+fn programs_complete_command_lines() {
+    let folder = programs::of_this_profile();
+    let completed = |program: &str, words: &[&str]| {
+        let output = Command::new(folder.join(program)).arg("--complete").args(words).output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(completed("uglorentz", &["-ve"]), "-vel\tVelocity of all objects, fraction of c\n");
+    assert_eq!(completed("uglorentz", &["-vel", "-.9", ""]), "");
+    assert_eq!(completed("uglorentz", &["-vel", "-.9", "0", "0", ""]), "/\n");
+    assert!(completed("ugparse", &["ti"]).starts_with("tidy\t"));
+}
