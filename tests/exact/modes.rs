@@ -60,7 +60,7 @@ fn both_modes_show_the_same_colours() {
         assert!(n_far * 200 < n_pixels, "case {row}: {n_far} of {n_pixels}");
         // Else this would say nothing.
         let n_drawn = drawn.pixels().filter(|pixel| pixel.0[..3].iter().any(|&level| level > 20)).count();
-        assert!(n_drawn * 20 > n_pixels, "case {row}: {n_drawn}");
+        assert!(spectra.is_none() || n_drawn * 20 > n_pixels, "case {row}: {n_drawn}");
     }
 }
 
