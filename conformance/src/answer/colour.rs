@@ -1,7 +1,7 @@
 //! Questions about wavelengths and displayed colours.
 
 use ugparse::{Options, Source};
-use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio, planck};
+use ugphysics::spectrum::{Spectrum, planck};
 use ugphysics::{RED_END_NM, VIOLET_END_NM, srgb_encode, wavelength_to_hue};
 use ugscene::{ColorValue, Tint};
 
@@ -28,7 +28,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     }),
     ("blackbody_luminance_ratio", |given| {
         let [kelvin, reference_kelvin] = exactly(given)?;
-        Some(vec![blackbody_luminance_ratio(kelvin, reference_kelvin)])
+        Some(vec![Spectrum::blackbody(reference_kelvin, 1.0).seen(kelvin / reference_kelvin)[1]])
     }),
     ("wavelength_seen", |given| {
         let [wavelength_nm, doppler] = exactly(given)?;

@@ -39,7 +39,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("headlight", |given| {
         let [speed] = exactly(given)?;
         let sideways = WaveVector::in_vacuum(1.0, DVec3::Y);
-        Some(vec![angle(sideways.out_of_frame(along_x(speed)?).k, DVec3::X)])
+        Some(vec![angle(sideways.in_frame(-along_x(speed)?).k, DVec3::X)])
     }),
     ("field_of_view", |given| {
         let [speed] = exactly(given)?;
@@ -97,7 +97,8 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("flip_trip", |given| {
         let [a, distance] = exactly(given)?;
         let ship = HyperbolicMotion { acceleration: a * DVec3::X };
-        let half = ship.proper_time_to(0.5 * distance);
+        // a τ = acosh(1 + a x) = 2 asinh √(a x/2)  (P32)
+        let half = 2.0 * libm::asinh((0.25 * a * distance).sqrt()) / a;
         Some(vec![ship.velocity(half).ok()?.speed(), 2.0 * ship.event(half).t, 2.0 * half])
     }),
     ("jet_beta_cos", |given| {

@@ -10,7 +10,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("glass_speed", |given| {
         let [index, speed] = exactly(given)?;
         let glass = Medium { index, velocity: along_x(speed)? };
-        let light = WaveVector { frequency: 1.0, k: index * DVec3::X }.out_of_frame(glass.velocity);
+        let light = WaveVector { frequency: 1.0, k: index * DVec3::X }.in_frame(-glass.velocity);
         let step = glass.step(light);
         (index > 1.0).then(|| vec![step.x.x / step.t])
     }),
@@ -32,7 +32,7 @@ pub const KINDS: &[(&str, Answer)] = &[
         let v = velocity(DVec3::new(ux, uy, uz))?;
         let there = WaveVector::in_vacuum(1.0, DVec3::new(nx, ny, nz)).in_frame(v);
         let inside = behind(index, there, normal)?;
-        let out = behind(1.0, inside, normal)?.out_of_frame(v);
+        let out = behind(1.0, inside, normal)?.in_frame(-v);
         Some(list(out.k / out.frequency, &[out.frequency]))
     }),
 ];

@@ -18,7 +18,7 @@ pub const KINDS: &[(&str, Answer)] = &[
     ("doppler_in_body", |given| {
         let [n, u] = vectors(given)?;
         let sent = WaveVector::in_vacuum(1.0, n.normalize_or_zero());
-        Some(vec![sent.out_of_frame(velocity(u)?).frequency])
+        Some(vec![sent.in_frame(-velocity(u)?).frequency])
     }),
     ("doppler_now", |given| {
         let [p, u] = vectors(given)?;
@@ -119,7 +119,7 @@ pub fn behind(index: f64, light: WaveVector, normal: DVec3) -> Option<WaveVector
 fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> Option<WaveVector> {
     let there = light.in_frame(v);
     let normal = rest_normal * -there.k.dot(rest_normal).signum();
-    Some(Medium::VACUUM.wave_beside(there, normal)?.out_of_frame(v))
+    Some(Medium::VACUUM.wave_beside(there, normal)?.in_frame(-v))
 }
 
 /// Irradiance by a lamp of power `power`, seen at `distance` with the Doppler factor D.  Eq. (P33)

@@ -86,11 +86,10 @@ pub fn warp(random: &mut Random) -> ugwarp::Config {
         camera: Box::default(),
         time: number(random),
         shift: shift(random),
-        basis: match random.below(4) {
+        basis: match random.below(3) {
             0 => Basis::Planck([number(random), number(random), number(random)]),
             1 => Basis::Planck([3500.0, 5900.0, 10000.0]),
-            2 => Basis::BlackBody,
-            _ => Basis::Smooth,
+            _ => Basis::Mixture,
         },
         picture: picture(random),
         lens: match random.below(4) {

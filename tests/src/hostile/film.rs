@@ -124,7 +124,7 @@ pub fn warp(random: &mut Random, files: &[(String, Vec<u8>)]) -> Vec<String> {
     let basis = match random.below(3) {
         0 => numbers::<3>(random),
         1 => ["3500", "5900", "10000"].map(str::to_owned).to_vec(),
-        _ => word(random, &["smooth", "blackbody", "rough"]),
+        _ => word(random, &["mixture", "rough"]),
     };
     maybe(random, 4, &mut line, "--basis", basis);
     let format = word(random, &["ppm", "exr", "pfm", "hdr", "png16", "svg"]);
@@ -152,8 +152,7 @@ pub fn mild_warp(random: &mut Random) -> Vec<String> {
     let mut line = line_of("ugwarp", &["-sz", *random.pick(&["2", "30"]), "10"]);
     line.push((*random.pick(&["-vel", "-cv"])).to_owned());
     line.extend(beta);
-    let basis = word(random, &["smooth", "blackbody"]);
-    maybe(random, 4, &mut line, "--basis", basis);
+    maybe(random, 4, &mut line, "--basis", vec!["mixture".to_owned()]);
     let format = word(random, &["exr", "hdr", "png16", "pfm"]);
     maybe(random, 3, &mut line, "-dt", format);
     let lens = *random.pick(&["-pan", "-vr"]);
