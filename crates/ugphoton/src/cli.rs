@@ -255,9 +255,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (text, json) = (|| explain::text(&explanation), || explain::json(&explanation));
         return write_report(report, &warnings, text, json, context);
     }
-    if let Some(format) = config.picture.output.format() {
-        refuse_terminal(format, context)?;
-    }
+    refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());

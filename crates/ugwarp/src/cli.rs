@@ -386,9 +386,7 @@ impl Args {
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
     config.check().map_err(Failure::of)?;
-    if let Some(format) = config.picture.output.format() {
-        refuse_terminal(format, context)?;
-    }
+    refuse_terminal(config.picture.output.format(), context)?;
     let input = context.input()?;
     let opened = args.open(&input, context)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());

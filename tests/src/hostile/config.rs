@@ -156,10 +156,9 @@ fn shift(random: &mut Random) -> ColorShift {
 
 fn picture(random: &mut Random) -> PictureOptions {
     const FORMATS: [Format; 4] = [Format::Png, Format::Png16, Format::Ppm, Format::Exr];
-    let output = match random.below(12) {
-        0 => Output::Grey,
-        1 => Output::Vector(*random.pick(&[Format::Eps, Format::Pdf, Format::Svg])),
-        2 => Output::Color(*random.pick(&[Format::Pfm, Format::Hdr, Format::Svg])),
+    let output = match random.below(11) {
+        0 => Output::Vector(*random.pick(&[Format::Eps, Format::Pdf, Format::Svg])),
+        1 => Output::Color(*random.pick(&[Format::Pfm, Format::Hdr, Format::Svg])),
         _ => Output::Color(*random.pick(&FORMATS)),
     };
     let is_exr = output == Output::Color(Format::Exr);

@@ -231,7 +231,7 @@ fn rainbow(random: &mut Random) -> Vec<String> {
     maybe(random, 15, &mut line, "--explain", pixel);
     let law = word(random, &["report", "photon", "bolometric", "none"]);
     maybe(random, 15, &mut line, "-br", law);
-    flags(random, 20, &mut line, &["-pz", "-dp", "-vr", "-sp", "--no-doppler", "--no-flux"]);
+    flags(random, 20, &mut line, &["-pz", "-vr", "-sp", "--no-doppler", "--no-flux"]);
     let exposure = vec![if random.one_in(2) { "auto".to_owned() } else { text::number(random) }];
     maybe(random, 4, &mut line, "-ex", exposure);
     let samples = vec![(1 + random.below(3)).to_string()];

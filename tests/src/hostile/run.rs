@@ -274,7 +274,7 @@ fn readers(words: &[String]) -> Vec<Vec<String>> {
         ("ugfilm", Some("apng")) if !has("--print") => &[&["ugsheet", "/dev/stdin"]],
         ("ugwarp", None) => &[&["ugsheet", "/dev/stdin"]],
         ("ugphoton", None) if !has("--explain") => &[&["ugsheet", "/dev/stdin"]],
-        ("ugrainbow", None) if !["--explain", "-dp", "-vec"].iter().any(|option| has(option)) => {
+        ("ugrainbow", None) if !["--explain", "-vec"].iter().any(|option| has(option)) => {
             &[&["ugsheet", "/dev/stdin"]]
         }
         _ => &[],
