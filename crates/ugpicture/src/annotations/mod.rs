@@ -76,7 +76,7 @@ impl Layout {
     pub fn new(options: &PictureOptions) -> Result<Self, Error> {
         options.check_size()?;
         let annotations = &options.annotations;
-        if annotations.is_any() && options.output.is_linear() {
+        if annotations.is_any() && options.output.format().is_linear() {
             return Err(Error::NotAnnotated);
         }
         let style = Style::new(options.size, None, options.output);
