@@ -4,7 +4,7 @@ use ugimage::Samples;
 use ugphoton::Channel;
 use ugscene::Anchor;
 
-use crate::{DVec3, options, seen};
+use super::{DVec3, options, seen};
 
 /// A year on board with 1 g, in years: 9.80665 m/s² times 31 557 600 s, divided by c.
 const G: f64 = 9.80665 * 31_557_600.0 / 299_792_458.0;

@@ -29,6 +29,7 @@ mod install;
 mod mesh;
 mod plot;
 mod plots;
+mod programs;
 mod rays;
 mod short;
 mod sphere;

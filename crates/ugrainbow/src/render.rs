@@ -2,11 +2,11 @@
 
 use ugimage::LinearFrame;
 use ugparse::{Diagnostics, Parsed, Source};
-use ugpicture::{Canvas, Drawn, Output, PictureFile, Rendering, metadata};
+use ugpicture::{Annotated, Canvas, Drawn, Output, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
 use ugscene::{Provenance, Scene};
 
-use crate::annotate::{annotated, depths};
+use crate::annotate::{seen_items, visible_wires};
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::drawn_scene::DrawnScene;
@@ -98,8 +98,19 @@ fn draw(
     };
     let notes = notes(&drawn, config);
     let DrawnScene { setup, stats, content, .. } = drawn;
-    let depths = |scene: &_, camera: &_, state| depths(scene, camera, state, config);
-    let annotated = annotated(&setup, config, &depths);
+    let items = || seen_items(setup.scene(), config);
+    let wires = |scene: &_, camera: &_| visible_wires(scene, camera, config);
+    let is_shifted = match config.exact {
+        Some(shift) => shift.shifts_wavelengths(),
+        None => setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler),
+    };
+    let subject = Subject::Surfaces {
+        view: &setup.view,
+        items: &items,
+        scene: Some(setup.scene()),
+        wires: Some(&wires),
+    };
+    let annotated = Annotated { is_shifted, subject };
     let drawn = Drawn { content, brightest: stats.max_intensity, notes, annotated };
     canvas.finish(drawn, metadata(&scene.remarks, provenance), progress)
 }

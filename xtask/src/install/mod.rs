@@ -26,7 +26,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ugpipe::Manual;
-use ugtests::{programs, scenes};
+use ugtests::scenes;
+
+use crate::programs;
 
 use record::Record;
 

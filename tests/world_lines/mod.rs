@@ -1,8 +1,6 @@
 //! Bodies, lamps and cameras on world lines, compared with an oracle that integrates their
 //! equations of motion ([`ugtests::world_lines`]), and laws that hold for them.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
-
 mod bound;
 mod lamps;
 mod laws;

@@ -1,8 +1,6 @@
 //! Compares every sample of exact pictures (`ugrainbow -xc`) with the oracle, which uses 4×4
 //! matrices and the scene as written, and with the formulas of `ugphysics`.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
-
 mod modes;
 mod rules;
 mod samples;

@@ -2,8 +2,6 @@
 //!
 //! Numbers named T08, T11… are facts listed at the end of `docs/physics.md`.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking")]
-
 mod colours;
 mod culling;
 mod directions;
