@@ -1,6 +1,7 @@
 //! Rays from the eye into the past: surfaces, mirrors and glass along them.
 
 use glam::DVec3;
+use serde::Serialize;
 use uglight::ColorFilter;
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
@@ -75,7 +76,8 @@ pub struct Visit {
 }
 
 /// How light of a surface goes on towards the eye.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "way", content = "by", rename_all = "lowercase")]
 pub enum Way {
     /// Straight to the eye.
     Straight,

@@ -1,6 +1,6 @@
 //! From a scene to a picture.
 
-use ugimage::{Frame, LinearFrame};
+use ugimage::LinearFrame;
 use ugparse::{Diagnostics, Parsed, Source};
 use ugpicture::{Annotated, Canvas, Drawn, Output, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
@@ -13,7 +13,6 @@ use crate::drawn_scene::DrawnScene;
 use crate::error::Error;
 use crate::notes::notes;
 use crate::render_layers::RenderLayers;
-use crate::setup::Setup;
 use crate::{pixels, vector};
 
 /// This program, without a command line, for the history of what it makes.
@@ -127,27 +126,4 @@ fn draw_pixels<'a>(
     let clip_counts = layers.clip_counts();
     drop(layers);
     Ok(DrawnScene { setup, clip_counts, stats, content })
-}
-
-/// A scene prepared for drawing: its colours and lights are computed, but nothing is projected yet.
-pub struct Prepared<'a> {
-    setup: Setup<'a>,
-    config: &'a Config,
-}
-
-impl<'a> Prepared<'a> {
-    /// Prepares a scene.
-    ///
-    /// # Errors
-    /// As [`render`].
-    pub fn new(scene: &'a Scene, config: &'a Config) -> Result<Self, Error> {
-        config.picture.check()?;
-        Ok(Self { setup: prepare(scene, config)?, config })
-    }
-
-    /// Draws the scene: from vertices to 8 bits per channel, without exposure.
-    pub fn draw(&self) -> Frame {
-        let layers = RenderLayers::new(self.setup.painter(), &self.config.draw_mode());
-        pixels::display(&self.setup, &layers, self.config).0
-    }
 }
