@@ -37,6 +37,7 @@ mod teapot;
 mod worlds;
 
 use clap::{Parser, Subcommand};
+use std::error::Error;
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -129,7 +130,7 @@ fn main() -> ExitCode {
     match run(&Args::parse().task) {
         Ok(()) => ExitCode::SUCCESS,
         // The other end of the pipe was closed (`| head`): not an error.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(&*error) => ExitCode::SUCCESS,
         Err(error) => {
             // If standard error is closed, too, nothing can be reported.
             let _ = writeln!(io::stderr(), "xtask: {error}");
@@ -138,32 +139,28 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(task: &Task) -> io::Result<()> {
+fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+fn run(task: &Task) -> Result<(), Box<dyn Error>> {
     let mut out = BufWriter::new(io::stdout().lock());
     match task {
         Task::Teapot { squares } => teapot::write(&mut out, *squares)?,
         Task::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
         Task::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
-        Task::Directions { beta } => {
-            directions::write(&mut out, *beta).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Directions { beta } => directions::write(&mut out, *beta)?,
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
-        Task::Bench(args) => {
-            bench::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Bench(args) => bench::write(&mut out, args)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
-        Task::Geometry(args) => {
-            geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Geometry(args) => geometry::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,
-        Task::Plots { folder } => {
-            plots::write(folder).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Plots { folder } => plots::write(folder)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => cluster::check()?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }
-    out.flush()
+    Ok(out.flush()?)
 }
