@@ -6,6 +6,7 @@ use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
 use ugphysics::srgb_encode;
 
+use crate::fill::fill_while;
 use crate::{Frame, LinearFrame, Metadata};
 
 /// Keyword of the chunk `iTXt` with XMP metadata.
@@ -55,7 +56,7 @@ pub fn draw_png(
     let image = Image::of_8_bits([width, height], is_opaque, metadata);
     let width = width as usize;
     let mut pixels = vec![[0; 4]; width * height as usize];
-    let file = ugparallel::fill_while(&mut pixels, band_height * width, draw, |bands| {
+    let file = fill_while(&mut pixels, band_height * width, draw, |bands| {
         let rows = bands.flat_map(|band| band.chunks_exact(width));
         image.encode(compression.into(), rows, copy_row)
     });
