@@ -270,7 +270,7 @@ impl Teller<'_> {
 
     /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
-        let layout = PackedLayout::new(&self.setup.appearance.palette, &self.setup.lighting);
+        let layout = PackedLayout::new(&self.setup.appearance, &self.setup.lighting);
         let (Plain { tint, saturation, value }, level) = match layout.color(values) {
             Interpolated::Light(light) => {
                 let xyz = linear_srgb_to_xyz(light);
