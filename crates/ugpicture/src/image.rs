@@ -1,9 +1,7 @@
 //! A rendered picture.
 
 use rayon::prelude::*;
-use ugimage::{
-    Compression, Development, Frame, LinearFrame, Metadata, Quantizer, display_pixel, grey_postscript,
-};
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, Quantizer, display_pixel};
 
 use crate::options::PictureOptions;
 use crate::output::Output;
@@ -29,11 +27,11 @@ impl Image {
         options: &PictureOptions,
         is_clipped: bool,
     ) -> (Self, Option<Development>) {
-        if options.output.is_linear() {
+        if options.output.format().is_linear() {
             return (Self::Light(light), None);
         }
         let development = (!is_clipped).then(|| options.development(|| &light));
-        let is_deep = options.output.format().is_some_and(|format| format.is_deep());
+        let is_deep = options.output.format().is_deep();
         let image = match development.map(Development::converter) {
             Some(convert) if is_deep => {
                 light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
@@ -66,14 +64,9 @@ impl Image {
 
     /// The bytes of a file. Vector formats contain the pixels as an image.
     pub fn into_file(self, output: Output, metadata: &Metadata, compression: Compression) -> Vec<u8> {
-        match (output, self) {
-            (Output::Color(format) | Output::Vector(format), Self::Display(frame)) => {
-                format.encode_with(&frame, metadata, compression)
-            }
-            (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
-                format.encode_linear(&frame, metadata, compression)
-            }
-            (Output::Grey, image) => grey_postscript(&image.into_frame(), metadata),
+        match self {
+            Self::Display(frame) => output.format().encode_with(&frame, metadata, compression),
+            Self::Light(frame) => output.format().encode_linear(&frame, metadata, compression),
         }
     }
 }
