@@ -12,6 +12,7 @@
 //! cargo xtask bench-film
 //! cargo xtask bench-scale plot.svg
 //! cargo xtask bench-exact
+//! cargo xtask instructions
 //! cargo xtask geometry > tables.md
 //! cargo xtask gallery
 //! cargo xtask plots figures
@@ -35,6 +36,7 @@ mod geometry;
 mod globe;
 mod hostile;
 mod install;
+mod instructions;
 mod mesh;
 mod photon;
 mod plot;
@@ -191,6 +193,11 @@ enum Task {
         #[arg(default_value_t = 100_000, value_parser = clap::value_parser!(u32).range(36..=10_000_000))]
         triangles: u32,
     },
+    /// Count the instructions that the programs execute on fixed work, and compare with
+    /// xtask/instructions.csv, as Markdown
+    ///
+    /// Requires valgrind, the Debian package valgrind.
+    Instructions(instructions::Args),
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
@@ -306,6 +313,9 @@ fn run(task: &Task) -> io::Result<()> {
         }
         Task::BenchWorldLines { triangles } => {
             world_lines::write(&mut out, *triangles).map_err(|error| io::Error::other(error.to_string()))?;
+        }
+        Task::Instructions(args) => {
+            instructions::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
         }
         Task::Geometry(args) => {
             geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugscene::{Face, Scene, VertexId};
 
-use crate::{Appearance, SurfaceColor, SurfaceSpectrum, Swatch};
+use crate::{Appearance, SurfaceColor, Swatch};
 
 /// The common attributes of the corners of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -110,7 +110,7 @@ impl Appearance {
             return even;
         }
         let rows = std::array::from_fn(|at| (rows[at], weights[at]));
-        SurfaceColor { swatch: Swatch::mixed(swatches, weights), spectrum: SurfaceSpectrum::Corners(rows) }
+        SurfaceColor { swatch: Swatch::mixed(swatches, weights), spectrum: rows }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its

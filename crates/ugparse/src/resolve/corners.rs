@@ -15,9 +15,9 @@ pub(super) fn link_corners(scope: &mut Scope<'_>) -> bool {
     let names = std::mem::take(&mut scope.vertex_names);
     let mut rows = std::mem::take(&mut scope.vertex_rows);
     rows.resize(names.len(), NO_ROW);
-    let (corners, _) = scope.contours.parts_mut();
+    let corners = scope.contours.all_corners_mut();
     let in_order = rows.iter().enumerate().all(|(number, &row)| number == row as usize);
-    if !scope.is_linked && !in_order {
+    if !in_order {
         ugparallel::for_each_mut(corners, LEAST_ROWS, |_, corner| *corner = VertexId(rows[corner.index()]));
     }
     let is_complete = in_order || !corners.contains(&VertexId(NO_ROW));
