@@ -1,23 +1,31 @@
 #!/usr/bin/env bash
 # Draws the papers' figures, and some of our own, from the scenes in this folder.
 #
-#   scenes/figures.sh [OUTDIR [WIDTH HEIGHT]]        default: figures 640 480
+#   scenes/figures.sh [--nguyen] [OUTDIR [WIDTH HEIGHT]]        default: figures 640 480
+#
+# --nguyen: only the figures of Nguyen 1988 that the pipe draws, for which three programs are built.
 #
 # Every picture is one pipe. Without ugdoppler, only shapes change. Our scenes have z up: motion is
 # along +x, and the camera looks along +y, where the papers have y up and look along the z axis.
 set -euo pipefail
 export LC_ALL=C
 
+programs=(uglorentz ugdoppler ugrainbow) n_figures=8
+if [ "${1-}" = --nguyen ]; then
+    paper=nguyen
+    shift
+else
+    paper=all
+    programs+=(ugphoton ugwarp ugsheet xtask) n_figures=115
+fi
 out=${1:-figures}
 width=${2:-640} height=${3:-480}
 mkdir -p "$out/rows"
 out=$(cd "$out" && pwd)
 cd "$(dirname "$0")/.."
 
-n_figures=115
-printf 'Builds the programs, then draws %s figures into %s\n' "$n_figures" "$out"
-printf 'On two cores: some minutes for the first build, then about three for the figures.\n\n'
-cargo build --release -p uglorentz -p ugdoppler -p ugrainbow -p ugphoton -p ugwarp -p ugsheet -p xtask
+printf 'Builds the programs, then draws %s figures into %s\n\n' "$n_figures" "$out"
+cargo build --release "${programs[@]/#/--package=}"
 printf '\nDrawing:\n'
 export PATH="${CARGO_TARGET_DIR:-$PWD/target}/release:$PATH"
 cd scenes
@@ -107,14 +115,6 @@ warp() {
 # The functions of the gallery's page write variants of scenes.
 page() { sed -n 's/^    \([a-z_]*() {.*\)/\1/p' ../docs/gallery.md; }
 
-# Nguyen 1988, figures 3.3.1 and 3.3.2, Chang, Lai and Chen 1996, figure 1, and Howard, Dance and
-# Kitchen 1995, figures 2 and 3: plots.
-xtask plots "$out"
-for plot in nguyen-3.3.1-hues nguyen-3.3.2-attenuation chang-01-aberration \
-    howard-02-field-of-view-forward howard-03-field-of-view-backward; do
-    announce "$plot"
-done
-
 # Nguyen 1988, figure 1: the rainbow.
 draw nguyen-01-rainbow -wi rainbow.ug
 
@@ -128,6 +128,19 @@ uglorentz -in -vel .9 0 0 ship.ug | draw nguyen-02d-0.9c
 uglorentz -in -vel .6 0 0 ship.ug | ugdoppler -qt | draw nguyen-02e-0.6c-colours
 uglorentz -in -vel 0 -.2 0 ship.ug | ugdoppler -qt | draw nguyen-02f-approaching-0.2c-colours
 uglorentz -in -vel 0 .2 0 ship.ug | ugdoppler -qt | draw nguyen-02g-receding-0.2c-colours
+
+if [ $paper = nguyen ]; then
+    printf 'The pictures are in %s\n' "$out"
+    exit
+fi
+
+# Nguyen 1988, figures 3.3.1 and 3.3.2, Chang, Lai and Chen 1996, figure 1, and Howard, Dance and
+# Kitchen 1995, figures 2 and 3: plots.
+xtask plots "$out"
+for plot in nguyen-3.3.1-hues nguyen-3.3.2-attenuation chang-01-aberration \
+    howard-02-field-of-view-forward howard-03-field-of-view-backward; do
+    announce "$plot"
+done
 
 # Chang, Lai and Chen 1996, figure 9: at rest, and at 0.95c when seen at right angles.
 uglorentz teapot.ug | draw chang-09a-teapot-rest

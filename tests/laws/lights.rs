@@ -250,7 +250,9 @@ fn no_speed_breaks_it() {
     {
         let lights = with_velocity(&format!("<0 {light} 0>"));
         let velocity = Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap();
-        let config = uglorentz::Config { velocity: Some(velocity.beta()), ..uglorentz::Config::default() };
+        let pieces = uglorentz::Pieces::PerEdge(4);
+        let config =
+            uglorentz::Config { velocity: Some(velocity.beta()), pieces, ..uglorentz::Config::default() };
         for law in [Brightness::Report, Brightness::Bolometric] {
             let seen = doppler(
                 &lorentz(&room(&lights), &config),

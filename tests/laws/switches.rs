@@ -10,7 +10,7 @@ use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
 
-use crate::{color_of, named, triangles};
+use super::{color_of, named, triangles};
 
 /// Colours dark enough that no brightness law clips them, by hue.
 const COLORS: &str = "c red 0.002 10 0.9; c green 0.001 120 1; c blue 0.003 230 0.5; c grey 0.004 0 0;\n";
@@ -25,7 +25,9 @@ fn still() -> (String, HashMap<String, DVec3>) {
 }
 
 fn seen(text: &str, change: impl FnOnce(&mut uglorentz::Config)) -> Vec<u8> {
-    let mut config = uglorentz::Config { velocity: Some(BETA), eye: Some(EYE), ..Default::default() };
+    // What is divided between the points is not looked at.
+    let pieces = uglorentz::Pieces::PerEdge(1);
+    let mut config = uglorentz::Config { velocity: Some(BETA), eye: Some(EYE), pieces, ..Default::default() };
     change(&mut config);
     pipe::lorentz(text.as_bytes(), &config)
 }
@@ -143,7 +145,7 @@ fn wavelengths_are_divided_by_d() {
 #[test]
 fn a_colour_depends_on_the_direction_it_is_seen_in_only() {
     let (text, points) = still();
-    let near_by = seen(&text, |config| config.pieces = uglorentz::Pieces::PerEdge(1));
+    let near_by = seen(&text, |_| {});
     // Every vertex is moved along its ray.
     let mut random = Random(3);
     let mut scene = parse(&near_by);

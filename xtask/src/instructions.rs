@@ -6,17 +6,15 @@
 //! valgrind passes on (AVX2 and FMA, but neither AVX-512 nor the instructions for SHA-256), so the
 //! table is for x86-64 processors with AVX2. A count is not a time: waiting for memory is not in it.
 
-use std::collections::BTreeSet;
-use std::error::Error;
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 use std::process::Command;
 
 use image::{Rgb, RgbImage};
 
-use crate::bench::{build, program};
+use crate::{Outcome, programs};
 
 /// The table: name of the work, command, millions of instructions, and why the row was raised.
 /// Commands run in this order in a folder with the scenes below, and may read what an earlier one
@@ -37,13 +35,11 @@ pub struct Args {
 }
 
 /// Prints the counts as Markdown, and fails if one is too large.
-pub fn write(out: &mut impl Write, args: &Args) -> Result<(), Box<dyn Error>> {
+pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
     let table = std::fs::read_to_string(TABLE)?;
     let (head, rows) = table.split_once('\n').ok_or("the table has no rows")?;
     let rows: Vec<[&str; 4]> = rows.lines().map(cells).collect::<Option<_>>().ok_or("a row has 4 cells")?;
-    let programs: BTreeSet<&str> =
-        rows.iter().filter_map(|[_, command, ..]| command.split(' ').next()).collect();
-    build(&programs.into_iter().collect::<Vec<_>>())?;
+    let programs = programs::released();
     let folder = tempfile::tempdir()?;
     write_scenes(folder.path())?;
     writeln!(out, "| work | instructions, millions | in the table | ratio |\n| --- | ---: | ---: | ---: |")?;
@@ -53,7 +49,7 @@ pub fn write(out: &mut impl Write, args: &Args) -> Result<(), Box<dyn Error>> {
             writeln!(blessed, "{work},{command},{before},{why}")?;
             continue;
         }
-        let now = count(command, folder.path())?;
+        let now = count(&programs, command, folder.path())?;
         let ratio = now / before.parse::<f64>().unwrap_or(now);
         writeln!(out, "| {work} | {now:.1} | {before} | {ratio:.3} |")?;
         out.flush()?;
@@ -76,11 +72,11 @@ fn cells(row: &str) -> Option<[&str; 4]> {
 }
 
 /// Millions of instructions of a command.
-fn count(command: &str, folder: &Path) -> Result<f64, Box<dyn Error>> {
+fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
     let mut words = command.split(' ');
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(program(words.next().unwrap_or_default()))
+        .arg(programs.join(words.next().unwrap_or_default()))
         .args(words.chain(["-qt"]))
         .current_dir(folder)
         .env("RAYON_NUM_THREADS", "1")
@@ -94,7 +90,7 @@ fn count(command: &str, folder: &Path) -> Result<f64, Box<dyn Error>> {
     }
 }
 
-fn write_scenes(folder: &Path) -> Result<(), Box<dyn Error>> {
+fn write_scenes(folder: &Path) -> Outcome<()> {
     std::fs::write(folder.join("mesh.ug"), mesh()?)?;
     std::fs::write(folder.join("cubes.ug"), cubes()?)?;
     let pixel =

@@ -15,17 +15,17 @@ use crate::{
 /// A colour at rest at a point of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceColor {
-    /// The colour, interpolated between the corners of its face.
+    /// The colour, interpolated between the corners of its face, or that of the point itself.
     pub swatch: Swatch,
-    /// What it is where colours are spectra: rows of the colours of the corners
-    /// ([`SurfaceAttributes::row`]) with their weights in the mean.
-    pub spectrum: [(u32, f64); 3],
+    /// Where colours are spectra, the spectrum is the mean of those of the corners of its face: rows
+    /// of the colours of vertices ([`SurfaceAttributes::row`]) with their weights.
+    pub rows: [(u32, f64); 3],
 }
 
 impl SurfaceColor {
     /// A colour that is the same all around. `row`: of its spectrum.
     pub fn even(swatch: Swatch, row: u32) -> Self {
-        Self { swatch, spectrum: [(row, 1.0), (row, 0.0), (row, 0.0)] }
+        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0)] }
     }
 }
 
@@ -298,11 +298,11 @@ fn spectral_light(
     };
     if let (Some(level), []) = (of_daylight, filters) {
         let ln_doppler = libm::log(doppler);
-        return level * mean(color.spectrum, |row| spectra.light(row, ln_doppler, None));
+        return level * mean(color.rows, |row| spectra.light(row, ln_doppler, None));
     }
-    let filter = |ColorFilter { color, doppler }: &ColorFilter| SpectralFilter {
-        color: strongest(spectra, color.spectrum),
-        doppler: *doppler,
+    let filter = |filter: &ColorFilter| SpectralFilter {
+        color: strongest(spectra, filter.color.rows),
+        doppler: filter.doppler,
     };
     let filters: Vec<_> = filters.iter().map(filter).collect();
     let white = [Irradiance { lamp: 0, level: 1.0, doppler: 1.0 }];
@@ -312,7 +312,7 @@ fn spectral_light(
         (Illumination::Level(_), Some(lamp)) => (&white[..], &lamp[..]),
         (Illumination::Level(_), None) => (&[][..], &[][..]),
     };
-    mean(color.spectrum, |row| spectra.lit(row, doppler, parts, lamps, &filters))
+    mean(color.rows, |row| spectra.lit(row, doppler, parts, lamps, &filters))
 }
 
 /// The weighted mean of rows. `light`: of a row.

@@ -110,7 +110,7 @@ impl Appearance {
             return even;
         }
         let rows = std::array::from_fn(|at| (rows[at], weights[at]));
-        SurfaceColor { swatch: Swatch::mixed(swatches, weights), spectrum: rows }
+        SurfaceColor { swatch: Swatch::mixed(swatches, weights), rows }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its

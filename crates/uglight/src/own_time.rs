@@ -66,7 +66,7 @@ impl Appearance {
         let [(a, share), (b, rest)] = parts;
         let rows = [(a.index() as u32, share), (b.index() as u32, rest), (a.index() as u32, 0.0)];
         let swatch = if rest == 0.0 { of(a) } else { self.mean_swatch([(of(a), share), (of(b), rest)]) };
-        Some(SurfaceColor { swatch, spectrum: rows })
+        Some(SurfaceColor { swatch, rows })
     }
 
     /// As [`mean_color`].

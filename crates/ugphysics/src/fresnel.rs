@@ -161,7 +161,7 @@ mod tests {
                 }
                 for v in [beta(0.5, 0.0, 0.0), beta(-0.3, 0.6, 0.0)] {
                     let moving = |index| Medium { index, velocity: v };
-                    let seen = light.out_of_frame(v);
+                    let seen = light.in_frame(-v);
                     let found = reflectance(moving(before), moving(behind), seen, DVec3::Z);
                     assert!((found - expected).abs() < 1e-12, "{v:?} {found} {expected}");
                 }

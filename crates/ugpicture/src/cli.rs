@@ -17,6 +17,7 @@ use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
 use crate::channel::Channel;
+use crate::explain::{Explanation, WriteSample};
 use crate::exposure::Exposure;
 use crate::lens::Lens;
 use crate::options::{AnnotationOptions, PictureOptions};
@@ -110,11 +111,10 @@ numbers!(PictureArgs {
 
 impl PictureArgs {
     /// Exposure as a camera finds it, for the looks of a program.
-    pub const AUTO_EXPOSURE: Preset =
-        Preset::new(&["ex", "auto"], &["dp", "crop"]).with(|all| !is_linear(all));
+    pub const AUTO_EXPOSURE: Preset = Preset::new(&["ex", "auto"], &["crop"]).with(|all| !is_linear(all));
 
     /// A filmic tone curve, for the looks of a program.
-    pub const FILMIC: Preset = Preset::new(&["tc", "filmic"], &["dp"]).with(|all| !is_linear(all));
+    pub const FILMIC: Preset = Preset::new(&["tc", "filmic"], &[]).with(|all| !is_linear(all));
 
     /// The picture options that these arguments define.
     ///
@@ -333,19 +333,18 @@ pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Explana
 ///
 /// # Errors
 /// The output cannot be written.
-pub fn write_report(
+pub fn write_report<S: WriteSample>(
     report: ExplanationFormat,
+    explanation: &Explanation<S>,
     warnings: &Diagnostics,
-    text: impl FnOnce() -> String,
-    json: impl FnOnce() -> String,
     context: &mut Context,
 ) -> Result<(), Failure> {
     if !warnings.is_empty() {
         context.report(&warnings.report());
     }
     match report {
-        ExplanationFormat::Text => context.write_text(&text()),
-        ExplanationFormat::Json => context.write_json(&json()),
+        ExplanationFormat::Text => context.write_text(&explanation.text()),
+        ExplanationFormat::Json => context.write_json(&explanation.json()),
     }
 }
 

@@ -1,7 +1,7 @@
 //! A rendered picture.
 
 use rayon::prelude::*;
-use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, grey_postscript};
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
 
 use crate::options::PictureOptions;
 use crate::output::Output;
@@ -27,7 +27,7 @@ impl Image {
         options: &PictureOptions,
         is_clipped: bool,
     ) -> (Self, Option<Development>) {
-        if options.output.is_linear() {
+        if options.output.format().is_linear() {
             return (Self::Light(light), None);
         }
         let development = (!is_clipped).then(|| options.development(|| &light));
@@ -36,7 +36,7 @@ impl Image {
                 [*red, *green, *blue] = development.apply([*red, *green, *blue]);
             });
         }
-        let is_deep = options.output.format().is_some_and(|format| format.is_deep());
+        let is_deep = options.output.format().is_deep();
         (if is_deep { Self::Light(light) } else { Self::Display(light.to_display()) }, development)
     }
 
@@ -50,14 +50,9 @@ impl Image {
 
     /// The bytes of a file. Vector formats contain the pixels as an image.
     pub fn into_file(self, output: Output, metadata: &Metadata, compression: Compression) -> Vec<u8> {
-        match (output, self) {
-            (Output::Color(format) | Output::Vector(format), Self::Display(frame)) => {
-                format.encode_with(&frame, metadata, compression)
-            }
-            (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
-                format.encode_linear(&frame, metadata, compression)
-            }
-            (Output::Grey, image) => grey_postscript(&image.into_frame(), metadata),
+        match self {
+            Self::Display(frame) => output.format().encode_with(&frame, metadata, compression),
+            Self::Light(frame) => output.format().encode_linear(&frame, metadata, compression),
         }
     }
 }

@@ -110,7 +110,7 @@ fn background_level(background: Option<[f32; 3]>, quantizer: &Quantizer) -> Opti
 
 /// The note on the levels of a developed picture without annotations, see [`LevelCounts::note`].
 pub fn of_image(image: &Image, development: Option<Development>, picture: &PictureOptions) -> Option<Note> {
-    if picture.output.is_linear() {
+    if picture.output.format().is_linear() {
         return None;
     }
     let background = Backdrop::new(picture.background, 1).developed(development);

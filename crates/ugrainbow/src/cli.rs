@@ -21,14 +21,11 @@ use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
-use crate::explain::{self, explain};
+use crate::explain::explain;
 use crate::{PROVENANCE, run_with};
 
 /// Greatest width of lines in pixels.
 const MAX_LINE_WIDTH: f64 = 100.0;
-
-/// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
-const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 
 /// Draws a UniGrafix scene
 ///
@@ -53,12 +50,6 @@ pub struct Args {
     #[arg(long, visible_alias = "wavelengths", conflicts_with = "sp")]
     wi: bool,
 
-    /// Write black-and-white PostScript, as in 1988
-    ///
-    /// To the file POSTSCRIPTFILE if standard output is a terminal and there is no -fo.
-    #[arg(long, visible_alias = "grey-postscript", conflicts_with_all = ["dt", "tb"])]
-    dp: bool,
-
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
@@ -72,7 +63,7 @@ pub struct Args {
     /// They are sharp at any size. -sz is then the size in points. Faces are painted back to front,
     /// so nearer ones cover those behind; lines are drawn without their hidden parts. Colours
     /// deviate by at most 2 levels of 255.
-    #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
+    #[arg(long, visible_alias = "vector", conflicts_with_all = ["explain", "xc"])]
     vec: bool,
 
     /// Text of captions, legends and grids as text in vector graphics, instead of outlines
@@ -142,7 +133,7 @@ pub struct Args {
     ///
     /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was
     /// emitted, colour and light, and every step to the bytes of the pixel.
-    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
     explain: Option<Pixel>,
 
     #[command(flatten)]
@@ -266,18 +257,8 @@ impl Args {
     }
 
     fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
-        match self.pixels(file)? {
-            Output::Color(format) if self.vec => Ok(Output::Vector(format)),
-            output => Ok(output),
-        }
-    }
-
-    /// The output without -vec.
-    fn pixels(&self, file: Option<&Path>) -> Result<Output, Failure> {
-        if self.dp {
-            return Ok(Output::Grey);
-        }
-        picture_format(self.dt, file, self.explain.is_some()).map(Output::Color)
+        let format = picture_format(self.dt, file, self.explain.is_some())?;
+        Ok(if self.vec { Output::Vector(format) } else { Output::Color(format) })
     }
 }
 
@@ -296,16 +277,15 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         Some(pixel) => Some((pixel, report_format(args.dt, context.output_name())?)),
         None => None,
     };
-    if report.is_none() && context.output_is_terminal() {
-        redirect(config.picture.output, context)?;
+    if report.is_none() {
+        refuse_terminal(config.picture.output.format(), context)?;
     }
     let input = pipe::input(context, &config.reading)?;
     context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
     let source = pipe::follow(input, &config.reading, context).map_err(pipe::refused)?;
     if let Some((pixel, report)) = report {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
-        let (text, json) = (|| explain::text(&explanation), || explain::json(&explanation));
-        return write_report(report, &warnings, text, json, context);
+        return write_report(report, &explanation, &warnings, context);
     }
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
@@ -319,17 +299,5 @@ fn line_width(width: f64) -> Result<f64, String> {
         Ok(width)
     } else {
         Err(format!("a line is more than 0 and at most {MAX_LINE_WIDTH} pixels wide"))
-    }
-}
-
-/// Refuses binary output to a terminal; black-and-white PostScript goes to a file instead.
-fn redirect(output: Output, context: &mut Context) -> Result<(), Failure> {
-    match output {
-        Output::Color(format) | Output::Vector(format) => refuse_terminal(format, context),
-        Output::Grey => {
-            context.set_output_name(POSTSCRIPT_FILE);
-            context.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));
-            Ok(())
-        }
     }
 }

@@ -15,7 +15,7 @@ use crate::setup::Setup;
 /// Draws the scene as light, or directly as 8-bit levels if no exposure, tone curve or channel is
 /// requested.
 pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (DrawnContent, SampleStats) {
-    let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
+    let is_deep = config.picture.output.format().is_deep();
     if !is_deep && !setup.is_uncut {
         let (frame, stats) = display(setup, layers, config);
         return (DrawnContent::Display(frame), stats);
@@ -25,7 +25,7 @@ pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (D
 }
 
 /// The whole picture as 8-bit levels.
-pub fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
+fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
     let grid = &setup.grid;
     let finish = Display::new(&config.picture);
     let (pixels, stats) = layers.paint_filtered(grid, config.picture.filter, &setup.shader, &finish);

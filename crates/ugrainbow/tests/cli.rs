@@ -139,9 +139,7 @@ fn bad_usage_ends_with_2() {
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
     check("-bg .5 -tb", "cannot be given together");
     check("-ih -wi", "cannot be given together");
-    check("-dp -tb", "cannot be given together");
     check("-vec", "this format has only pixels: with -vec write -dt eps, ps, pdf or svg");
-    check("-vec -dp", "cannot be given together");
     check("-zz", "there is no option");
 }
 
@@ -218,28 +216,13 @@ fn a_png_is_not_written_to_a_terminal() {
 }
 
 #[test]
-fn grey_postscript_goes_to_its_file_of_1988() {
-    let folder = tempdir().unwrap();
-    let (output, shown) = on_terminal(&["-sz", "8", "8", "-dp"], folder.path());
-    assert!(output.status.success(), "{}", messages(&output));
-    assert_eq!(shown, b"");
-    assert_eq!(messages(&output), "ugrainbow: note: the picture goes to the file POSTSCRIPTFILE\n");
-    let file = fs::read(folder.path().join("POSTSCRIPTFILE")).unwrap();
-    assert!(file.starts_with(b"%!PS-Adobe-2.0 EPSF-2.0\n%%BoundingBox: 0 0 8 8\n"));
-    // Into a pipe it is written like every other format.
-    let output = fed(&mut ugrainbow(&["-sz", "8", "8", "-dp"]), SCENE);
-    assert!(output.stdout == file);
-}
-
-#[test]
 fn help_and_version() {
     let output = ugrainbow(&["--version"]).output().unwrap();
     assert_eq!(output.stdout, concat!("ugrainbow ", env!("CARGO_PKG_VERSION"), "\n").as_bytes());
     let output = ugrainbow(&["-help"]).output().unwrap();
     assert!(output.status.success());
     let help = String::from_utf8(output.stdout).unwrap();
-    for option in ["-ih", "-iw", "-wi", "-dp", "-dt", "-ep", "-vc", "-ud", "-va", "-og", "-sz", "-aa", "-vec"]
-    {
+    for option in ["-ih", "-iw", "-wi", "-dt", "-ep", "-vc", "-ud", "-va", "-og", "-sz", "-aa", "-vec"] {
         assert!(help.contains(&format!("\n  {option}, ")), "{option}");
     }
 }

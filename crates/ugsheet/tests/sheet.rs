@@ -195,12 +195,10 @@ fn the_program_reads_files_and_standard_input() {
 fn errors_have_messages_and_exit_status() {
     let folder = folder();
     fs::write(folder.path().join("text.png"), "no picture").unwrap();
-    let figure = Format::Pdf.encode(&picture("figure", 90, 70, 5).frame, &Metadata::default());
-    fs::write(folder.path().join("good.pdf"), &figure).unwrap();
-    // An object that is not read before the sheet is written.
-    let width = figure.windows(9).position(|bytes| bytes == b"/Width 90").unwrap();
-    let broken = [&figure[..width], b"/Width <z", &figure[width + 9..]].concat();
-    fs::write(folder.path().join("bad.pdf"), broken).unwrap();
+    for format in [Format::Pdf, Format::Svg, Format::Eps] {
+        let file = format.encode(&picture("figure", 90, 70, 5).frame, &Metadata::default());
+        fs::write(folder.path().join(format!("figure.{}", format.name())), file).unwrap();
+    }
     let check = |args: &[&str], status: i32, message: &str| {
         let output = fed(&mut ugsheet(folder.path(), args), b"");
         let talk = String::from_utf8(output.stderr).unwrap();
@@ -209,7 +207,10 @@ fn errors_have_messages_and_exit_status() {
     };
     check(&["text.png"], 1, "`text.png`: not a PNG file");
     check(&["rest.png", "none.png"], 1, "none.png");
-    check(&["good.pdf", "bad.pdf"], 1, "`bad.pdf`: invalid PDF");
+    check(&["rest.png", "figure.pdf"], 1, "`figure.pdf` is a PDF file, and a sheet consists of PNG files");
+    check(&["figure.svg"], 1, "each with `\\includegraphics` in a `minipage`");
+    check(&["figure.eps"], 1, "`figure.eps` is a PostScript file");
+    check(&["--tiles", "figure.pdf"], 1, "`figure.pdf` is a PDF file");
     check(&["-label", "x", "rest.png", "fast.png"], 2, "1 label for 2 pictures: give -label once");
     check(&["-cap", "漢", "rest.png"], 2, "the font has no `漢`");
     check(&["-fo", "sheet.exr", "rest.png"], 2, "name one with -dt");

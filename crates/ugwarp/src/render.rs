@@ -153,7 +153,7 @@ impl<'s> Prepared<'s> {
     /// The panorama, if there is nothing else in the sky and each pixel has its final colour, of 8
     /// bits, as soon as its light is known.
     fn alone(&self, sky: Sky<'_>) -> Option<&Layer<'s>> {
-        let is_deep = self.config.picture.output.format().is_some_and(|format| format.is_deep());
+        let is_deep = self.config.picture.output.format().is_deep();
         self.warp.clipped().filter(|_| sky.stars.is_empty() && !is_deep)
     }
 
@@ -189,9 +189,9 @@ impl<'s> Prepared<'s> {
         };
         let size = config.picture.size;
         let n_pixels = size[0] as usize * size[1] as usize;
-        let items = || (0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect();
+        let items = || Ok((0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect());
         let view = view(config, size)?;
-        let subject = Subject::Items { view: &view, items: &items, scene: None };
+        let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, notes) = (statistics.max_light, notes(config, warp, &statistics));
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)

@@ -84,7 +84,7 @@ fn options_have_two_spellings() {
 #[test]
 fn the_same_bytes_on_any_number_of_threads() {
     let run = |threads: &str| {
-        let options = ["-sz", "80", "60", "-cv", "0", ".8", "0", "-va", "120", "--basis", "smooth", "-qt"];
+        let options = ["-sz", "80", "60", "-cv", "0", ".8", "0", "-va", "120", "-sp", "-qt"];
         fed(&[&options[..], &["-nt", threads]].concat(), &sky()).stdout
     };
     let one = run("1");
@@ -100,7 +100,7 @@ fn mistakes_have_answers() {
     refused(&["-gr"], &sky, 2, "are for scenes");
     refused(&["-cube"], &sky, 2, "give -sz W H with W = 6 H");
     refused(&["-dt", "exr", "-ch", "time"], &sky, 2, "the channels of a panorama are D, direction");
-    refused(&["--basis", "green"], &sky, 2, "--basis takes mixture, smooth, blackbody or three temperatures");
+    refused(&["--basis", "green"], &sky, 2, "--basis takes mixture or three temperatures");
     refused(&["--basis", "5000", "5000", "9000"], &sky, 2, "are no basis of colours");
     refused(&["-part", "10", "-10", "0", "20"], &sky, 2, "must increase from west to east");
     refused(&["-vc", "0", "0", "0"], &sky, 1, "no direction to look in");
@@ -196,7 +196,7 @@ fn lists_of_stars_are_drawn() {
         2,
         "the input is a list of stars: leave out -from",
     );
-    refused(&["--basis", "smooth"], list.as_bytes(), 2, "leave out -br, --basis");
+    refused(&["--basis", "mixture"], list.as_bytes(), 2, "leave out -br, --basis");
     refused(&["--star-width", "0"], list.as_bytes(), 2, "0.5 to 50 pixels wide");
     refused(&[], b"ra,dec,mag,kelvin\n1,2,3,x\n", 1, "<stdin>:2:7");
     refused(&["--stars", "no-such-list.csv"], &sky(), 1, "No such file");
@@ -272,7 +272,6 @@ fn infrared_light_is_a_second_file() {
     let (all, none) = (mean(&["--infrared", path]), mean(&["--infrared", path, "--infrared-to", "831"]));
     assert!(all > none + 30.0, "{all} {none}");
     refused(&["--infrared", path, "-br", "photon"], &sky(), 2, "-br");
-    refused(&["--infrared", path, "--basis", "blackbody"], &sky(), 2, "give --basis smooth");
     refused(&["--infrared", path, "--infrared-to", "700"], &sky(), 2, "more than 830 nm");
     refused(&["--ultraviolet", "no-such-file.png"], &sky(), 1, "no-such-file.png");
     refused(&["--ultraviolet", path], b"ra,dec,mag,kelvin\n", 2, "leave out");

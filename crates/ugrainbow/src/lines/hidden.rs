@@ -1,17 +1,8 @@
 //! The visible parts of lines.
 
-use ugpicture::visible_runs;
+use ugpicture::visible_parts;
 
 use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
-
-/// Cells along a side of the grid by which faces far from all lines are skipped.
-const CELLS: usize = 256;
-
-/// Distance in samples between the rays that decide which parts of a line are occluded.
-const STEP: f64 = 0.5;
-
-/// Most rays along a straight piece; no picture is longer.
-const MOST_STEPS: f64 = 1e6;
 
 /// Decides which parts of a line are visible.
 pub struct Visibility<'a> {
@@ -22,7 +13,7 @@ pub struct Visibility<'a> {
 
 enum Occlusion<'a> {
     Polygons(Occluders),
-    Rays(&'a (dyn Fn([f64; 2], f64) -> bool + Sync)),
+    Rays(&'a (dyn Fn(DepthPoint) -> bool + Sync)),
 }
 
 impl<'a> Visibility<'a> {
@@ -33,11 +24,7 @@ impl<'a> Visibility<'a> {
     }
 
     /// Occlusion by rays. `is_hidden`: true if a point of the picture is occluded at a depth key.
-    pub fn by_rays(
-        is_hidden: &'a (dyn Fn([f64; 2], f64) -> bool + Sync),
-        size: [u32; 2],
-        margin: f64,
-    ) -> Self {
+    pub fn by_rays(is_hidden: &'a (dyn Fn(DepthPoint) -> bool + Sync), size: [u32; 2], margin: f64) -> Self {
         Self { occlusion: Occlusion::Rays(is_hidden), picture: picture(size, margin) }
     }
 
@@ -48,7 +35,7 @@ impl<'a> Visibility<'a> {
         };
         match &self.occlusion {
             Occlusion::Polygons(occluders) => occluders.visible(a, b, within),
-            Occlusion::Rays(is_hidden) => by_rays(a, b, within, is_hidden),
+            Occlusion::Rays(is_hidden) => visible_parts([a, b], within, is_hidden),
         }
     }
 }
@@ -60,26 +47,6 @@ fn picture(size: [u32; 2], margin: f64) -> Option<Convex> {
 
 fn along(a: DepthPoint, b: DepthPoint, part: f64) -> DepthPoint {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
-}
-
-/// Tests the middles of short steps.
-fn by_rays(
-    a: DepthPoint,
-    b: DepthPoint,
-    [start, end]: [f64; 2],
-    is_hidden: &(dyn Fn([f64; 2], f64) -> bool + Sync),
-) -> Vec<[f64; 2]> {
-    let length = libm::hypot(b[0] - a[0], b[1] - a[1]) * (end - start);
-    // At least one, and in range.
-    let n_steps = (length / STEP).ceil().clamp(1.0, MOST_STEPS) as u32;
-    let at = |step: u32| {
-        if step == n_steps { end } else { start + (end - start) * f64::from(step) / f64::from(n_steps) }
-    };
-    let is_visible = |step: u32| {
-        let [x, y, key] = along(a, b, 0.5 * (at(step) + at(step + 1)));
-        !is_hidden([x, y], key)
-    };
-    visible_runs(n_steps, is_visible).into_iter().map(|run| [at(run.start), at(run.end)]).collect()
 }
 
 /// Faces that may occlude lines, in convex parts.
@@ -97,10 +64,13 @@ impl Occluders {
         size: [u32; 2],
         margin: f64,
     ) -> Self {
-        let near = Near::new(lines, size);
+        let lines = BoxIndex::new(lines, size);
         let mut all = Vec::new();
         for contours in outlines {
-            if !near.has_line(&contours) {
+            let places = || contours.iter().flatten();
+            let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
+            let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
+            if !lines.has_any_in([low, high]) {
                 continue;
             }
             let outline = contours.into_iter().map(|contour| clipped_to_picture(contour, size, margin));
@@ -147,42 +117,5 @@ pub fn occluded_part(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64
         (true, false) => Some([start, crossing]),
         (false, true) => Some([crossing, end]),
         (false, false) => None,
-    }
-}
-
-/// The cells of the picture that the bounding boxes of lines touch.
-struct Near {
-    cells: Vec<bool>,
-    size: [f64; 2],
-}
-
-impl Near {
-    fn new(lines: impl Iterator<Item = [[f64; 2]; 2]>, size: [u32; 2]) -> Self {
-        let mut near = Self { cells: vec![false; CELLS * CELLS], size: size.map(f64::from) };
-        for line in lines {
-            let [columns, rows] = near.cells_of(line);
-            for row in rows {
-                near.cells[row * CELLS + columns.start()..=row * CELLS + columns.end()].fill(true);
-            }
-        }
-        near
-    }
-
-    fn has_line(&self, contours: &[Vec<DepthPoint>]) -> bool {
-        let places = || contours.iter().flatten();
-        let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
-        let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
-        let [columns, mut rows] = self.cells_of([low, high]);
-        rows.any(|row| {
-            self.cells[row * CELLS + columns.start()..=row * CELLS + columns.end()].iter().any(|&is| is)
-        })
-    }
-
-    fn cells_of(&self, [low, high]: [[f64; 2]; 2]) -> [std::ops::RangeInclusive<usize>; 2] {
-        [0, 1].map(|axis| {
-            // The cast saturates, so what is outside lies in the outermost cells.
-            let cell = |x: f64| ((x / self.size[axis] * CELLS as f64) as usize).min(CELLS - 1);
-            cell(low[axis])..=cell(high[axis])
-        })
     }
 }
