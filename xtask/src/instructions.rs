@@ -8,13 +8,14 @@
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
-use std::io::{self, Write};
+use std::io::Write;
 use std::path::Path;
 use std::process::Command;
 
 use image::{Rgb, RgbImage};
 
-use crate::{Outcome, programs};
+use crate::bench::Outcome;
+use crate::programs;
 
 /// The table: name of the work, command, millions of instructions, and why the row was raised.
 /// Commands run in this order in a folder with the scenes below, and may read what an earlier one

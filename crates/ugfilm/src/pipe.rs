@@ -8,7 +8,6 @@ use ugscene::{Provenance, Remarks, Scene};
 use crate::error::Error;
 use crate::note::Note;
 use crate::program::{Item, Program};
-#[cfg(feature = "cli")]
 
 /// The subject of a film.
 #[derive(Clone, Copy)]

@@ -232,10 +232,10 @@ impl Criterion<'_, '_> {
         let shown = || *shown;
         let shows = &mut verdict.shows;
         for ((mark, bends), (a, b)) in shows.edges.iter_mut().zip(verdict.bends).zip(shape.edges()) {
-            *mark = bends && self.shows(a, b, &shown);
+            *mark = bends && self.shows(a, b, shown);
         }
         shows.inside =
-            !shows.any_edge() && self.bends_inside(shape, &shown) && !matches!(shown(), Shown::Outline);
+            !shows.any_edge() && self.bends_inside(shape, shown) && !matches!(shown(), Shown::Outline);
         verdict
     }
 
