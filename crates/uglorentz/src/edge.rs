@@ -305,9 +305,13 @@ mod tests {
         RelativeMotion::new(Velocity::from_beta(beta).unwrap(), Geometry::default())
     }
 
+    fn at(motion: &RelativeMotion, rest: DVec3) -> Point {
+        Point::new(motion, BodyId::from_index(0), rest)
+    }
+
     /// The sagitta by bisection: the point of the true curve seen at equal angles from both ends.
     fn sagitta(a: DVec3, b: DVec3, motion: &RelativeMotion) -> f64 {
-        let seen = |s: f64| Point::new(motion, BodyId::from_index(0), a.lerp(b, s)).seen.normalize();
+        let seen = |s: f64| at(motion, a.lerp(b, s)).seen.normalize();
         let (d_a, d_b) = (seen(0.0), seen(1.0));
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..100 {
@@ -323,10 +327,7 @@ mod tests {
     fn the_sagitta_is_that_of_the_true_curve() {
         fn check(a: DVec3, b: DVec3, beta: DVec3) -> f64 {
             let motion = motion(beta);
-            let (p, q) = (
-                Point::new(&motion, BodyId::from_index(0), a),
-                Point::new(&motion, BodyId::from_index(0), b),
-            );
+            let (p, q) = (at(&motion, a), at(&motion, b));
             let found = 2.0 * libm::atan(Edge::new(&p, &q, &motion).tan_half_sagitta());
             let expected = sagitta(a, b, &motion);
             assert!((found - expected).abs() < 1e-9, "{a} {b} {beta}: {found} {expected}");
@@ -354,15 +355,12 @@ mod tests {
             let b = a.lerp(b, libm::pow(10.0, -f64::from(k % 4)));
             for speed in [1e-3, 0.5, 0.99, 0.999_99] {
                 let motion = motion(DVec3::new(0.6, 0.0, 0.8) * speed);
-                let (p, q) = (
-                    Point::new(&motion, BodyId::from_index(0), a),
-                    Point::new(&motion, BodyId::from_index(0), b),
-                );
+                let (p, q) = (at(&motion, a), at(&motion, b));
                 let found = Edge::new(&p, &q, &motion).offset(Shown::All);
                 let chord = (q.seen - p.seen).normalize();
                 let sampled = (1..1000).map(|step| {
                     let s = f64::from(step) / 1000.0;
-                    let true_point = Point::new(&motion, BodyId::from_index(0), a.lerp(b, s)).seen;
+                    let true_point = at(&motion, a.lerp(b, s)).seen;
                     (true_point - p.seen).cross(chord).length() / true_point.length()
                 });
                 let sampled = sampled.fold(0.0, f64::max);
@@ -384,10 +382,7 @@ mod tests {
             let a = DVec3::new(libm::sin(turn), libm::cos(turn), libm::sin(turn * 0.7));
             let b = a + DVec3::new(libm::cos(3.0 * turn), libm::sin(5.0 * turn), 0.3) * (2.0 / turn.sqrt());
             let motion = motion(DVec3::new(0.0, 0.9, 0.1));
-            let (p, q) = (
-                Point::new(&motion, BodyId::from_index(0), a),
-                Point::new(&motion, BodyId::from_index(0), b),
-            );
+            let (p, q) = (at(&motion, a), at(&motion, b));
             let edge = Edge::new(&p, &q, &motion);
             let is_off =
                 edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(Shown::All) > tolerance.offset;
@@ -402,14 +397,7 @@ mod tests {
     fn opposite_and_degenerate_edges() {
         let motion = motion(DVec3::X * 0.9);
         let tolerance = Tolerance::new(0.25e-3, 2e-3);
-        let bends = |a: DVec3, b: DVec3| {
-            bends(
-                &Point::new(&motion, BodyId::from_index(0), a),
-                &Point::new(&motion, BodyId::from_index(0), b),
-                &motion,
-                &tolerance,
-            )
-        };
+        let bends = |a, b| bends(&at(&motion, a), &at(&motion, b), &motion, &tolerance);
         assert!(bends(DVec3::Y, -DVec3::Y), "through the eye");
         assert!(bends(DVec3::X, -DVec3::X), "through the eye, along the motion");
         assert!(!bends(DVec3::Y, DVec3::Y), "no length");
