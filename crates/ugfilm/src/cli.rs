@@ -175,7 +175,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         if args.follow {
             follow(scene, &mut script)?;
         }
-        if args.print.is_none() {
+        if args.print.is_none() && !context.is_quiet() {
             let unseen = Sight::new(scene, &script).unseen(&frames);
             tell_unseen(&unseen, context);
             forecast.empty = unseen.frames;
