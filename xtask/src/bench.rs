@@ -14,7 +14,7 @@ use ugtests::scenes;
 
 use crate::programs;
 
-type Outcome<T> = Result<T, Box<dyn Error>>;
+pub type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// What is measured, and how often.
 #[derive(clap::Args)]

@@ -133,15 +133,21 @@ pub(crate) fn slant(corners: &[&Point], motion: &RelativeMotion) -> f64 {
     motion.velocity().speed() * (0..n).map(at).fold(0.0, f64::max)
 }
 
-/// All errors of an edge.
-pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown) -> Errors {
+/// All errors of an edge. `color`: the function for that of the colour, if the body is inertial.
+pub(crate) fn errors(
+    a: &Point,
+    b: &Point,
+    motion: &RelativeMotion,
+    shown: Shown,
+    color: impl Fn(&Point, &Point, &RelativeMotion) -> f64,
+) -> Errors {
     if motion.is_at_rest() {
         return Errors::default();
     }
     if let Some(line) = motion.world_line() {
         return world_line::errors(a, b, line);
     }
-    let color = if matches!(shown, Shown::Outline) { 0.0 } else { color::error(a, b, motion) };
+    let color = if matches!(shown, Shown::Outline) { 0.0 } else { color(a, b, motion) };
     if !motion.has_flight_time() {
         return Errors { color, ..Errors::default() };
     }
@@ -151,10 +157,14 @@ pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown
 
 /// The largest error of an edge relative to its bound; always finite.
 pub(crate) fn excess(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
-    let Errors { angle, offset, color } = errors(a, b, motion, Shown::All);
-    let color = if tolerance.color == f64::INFINITY { 0.0 } else { color / tolerance.color };
-    let angle = libm::tan(angle / 2.0) / tolerance.tan_half;
-    color.max(angle).max(offset / tolerance.offset).min(f64::MAX)
+    let Errors { angle, offset, color } = errors(a, b, motion, Shown::All, color::rough_error);
+    let shape = (libm::tan(angle / 2.0) / tolerance.tan_half).max(offset / tolerance.offset);
+    let relative = |error: f64| if tolerance.color == f64::INFINITY { 0.0 } else { error / tolerance.color };
+    let mut color = relative(color);
+    if color > shape && motion.world_line().is_none() {
+        color = relative(color::error(a, b, motion));
+    }
+    color.max(shape).min(f64::MAX)
 }
 
 /// Rules 1 and 2.
@@ -295,9 +305,13 @@ mod tests {
         RelativeMotion::new(Velocity::from_beta(beta).unwrap(), Geometry::default())
     }
 
+    fn at(motion: &RelativeMotion, rest: DVec3) -> Point {
+        Point::new(motion, BodyId::from_index(0), rest)
+    }
+
     /// The sagitta by bisection: the point of the true curve seen at equal angles from both ends.
     fn sagitta(a: DVec3, b: DVec3, motion: &RelativeMotion) -> f64 {
-        let seen = |s: f64| Point::new(motion, BodyId::from_index(0), a.lerp(b, s)).seen.normalize();
+        let seen = |s: f64| at(motion, a.lerp(b, s)).seen.normalize();
         let (d_a, d_b) = (seen(0.0), seen(1.0));
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..100 {
@@ -313,10 +327,7 @@ mod tests {
     fn the_sagitta_is_that_of_the_true_curve() {
         fn check(a: DVec3, b: DVec3, beta: DVec3) -> f64 {
             let motion = motion(beta);
-            let (p, q) = (
-                Point::new(&motion, BodyId::from_index(0), a),
-                Point::new(&motion, BodyId::from_index(0), b),
-            );
+            let (p, q) = (at(&motion, a), at(&motion, b));
             let found = 2.0 * libm::atan(Edge::new(&p, &q, &motion).tan_half_sagitta());
             let expected = sagitta(a, b, &motion);
             assert!((found - expected).abs() < 1e-9, "{a} {b} {beta}: {found} {expected}");
@@ -344,15 +355,12 @@ mod tests {
             let b = a.lerp(b, libm::pow(10.0, -f64::from(k % 4)));
             for speed in [1e-3, 0.5, 0.99, 0.999_99] {
                 let motion = motion(DVec3::new(0.6, 0.0, 0.8) * speed);
-                let (p, q) = (
-                    Point::new(&motion, BodyId::from_index(0), a),
-                    Point::new(&motion, BodyId::from_index(0), b),
-                );
+                let (p, q) = (at(&motion, a), at(&motion, b));
                 let found = Edge::new(&p, &q, &motion).offset(Shown::All);
                 let chord = (q.seen - p.seen).normalize();
                 let sampled = (1..1000).map(|step| {
                     let s = f64::from(step) / 1000.0;
-                    let true_point = Point::new(&motion, BodyId::from_index(0), a.lerp(b, s)).seen;
+                    let true_point = at(&motion, a.lerp(b, s)).seen;
                     (true_point - p.seen).cross(chord).length() / true_point.length()
                 });
                 let sampled = sampled.fold(0.0, f64::max);
@@ -374,10 +382,7 @@ mod tests {
             let a = DVec3::new(libm::sin(turn), libm::cos(turn), libm::sin(turn * 0.7));
             let b = a + DVec3::new(libm::cos(3.0 * turn), libm::sin(5.0 * turn), 0.3) * (2.0 / turn.sqrt());
             let motion = motion(DVec3::new(0.0, 0.9, 0.1));
-            let (p, q) = (
-                Point::new(&motion, BodyId::from_index(0), a),
-                Point::new(&motion, BodyId::from_index(0), b),
-            );
+            let (p, q) = (at(&motion, a), at(&motion, b));
             let edge = Edge::new(&p, &q, &motion);
             let is_off =
                 edge.tan_half_sagitta() > tolerance.tan_half || edge.offset(Shown::All) > tolerance.offset;
@@ -392,14 +397,7 @@ mod tests {
     fn opposite_and_degenerate_edges() {
         let motion = motion(DVec3::X * 0.9);
         let tolerance = Tolerance::new(0.25e-3, 2e-3);
-        let bends = |a: DVec3, b: DVec3| {
-            bends(
-                &Point::new(&motion, BodyId::from_index(0), a),
-                &Point::new(&motion, BodyId::from_index(0), b),
-                &motion,
-                &tolerance,
-            )
-        };
+        let bends = |a, b| bends(&at(&motion, a), &at(&motion, b), &motion, &tolerance);
         assert!(bends(DVec3::Y, -DVec3::Y), "through the eye");
         assert!(bends(DVec3::X, -DVec3::X), "through the eye, along the motion");
         assert!(!bends(DVec3::Y, DVec3::Y), "no length");

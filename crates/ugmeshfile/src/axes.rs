@@ -46,20 +46,3 @@ pub fn rotate(scene: &mut Scene, rotation: impl Fn(DVec3) -> DVec3) {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn up_is_a_rotation() {
-        let p = DVec3::new(0.1, -0.2, 0.3);
-        for (up, axis) in [(Axis::X, DVec3::X), (Axis::Y, DVec3::Y), (Axis::Z, DVec3::Z)] {
-            assert_eq!(to_z_up(up, axis), DVec3::Z);
-            assert_eq!(from_z_up(up, to_z_up(up, p)), p);
-            let [x, y, z] = DVec3::AXES.map(|axis| to_z_up(up, axis));
-            assert_eq!(x.cross(y), z, "{up:?} is no mirror");
-        }
-        assert!(to_z_up(Axis::Y, DVec3::ZERO).y.is_sign_positive());
-    }
-}

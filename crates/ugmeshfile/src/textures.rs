@@ -92,23 +92,3 @@ fn mean(pixels: &Pixels) -> [f64; 3] {
     let [red, green, blue, weight] = sum;
     if weight > 0.0 { [red, green, blue].map(|sum| sum / weight) } else { [1.0; 3] }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn means_are_of_linear_light() {
-        let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
-        // Half black and half white is half the light, which is not byte 128.
-        let board = Pixels::Srgb(vec![[0, 0, 0, 255], [255, 255, 255, 255]]);
-        assert!(close(mean(&board), [0.5; 3]));
-        let Rgba(grey) = tinted(Rgba::opaque([1.0; 3]), mean(&board));
-        assert!((grey[0] - 187.516 / 255.0).abs() < 1e-5, "{grey:?}");
-        let cut_out = Pixels::Srgb(vec![[255, 0, 0, 0], [0, 0, 255, 255]]);
-        assert!(close(mean(&cut_out), [0.0, 0.0, 1.0]));
-        let light = Pixels::Light(vec![[3.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.5, 1.0], [f32::NAN; 4]]);
-        assert!(close(mean(&light), [2.0, 0.0, 0.25]));
-        assert!(close(mean(&Pixels::Srgb(Vec::new())), [1.0; 3]));
-    }
-}

@@ -63,23 +63,3 @@ pub fn has_history(text: &[u8]) -> bool {
     }
     false
 }
-
-#[cfg(test)]
-mod tests {
-    use ugscene::{Provenance, Scene};
-
-    use super::*;
-
-    #[test]
-    fn recorded_texts_have_a_history() {
-        let mut scene = Scene::default();
-        scene.remarks.head.push(" A licence: free for all ".to_string());
-        assert!(!has_history(&crate::write(&scene)) && !has_history(b"{"));
-        scene.remarks.record(Provenance {
-            program: "ugdoppler",
-            version: "0.1.0",
-            command: Some("ugdoppler"),
-        });
-        assert!(has_history(&crate::write(&scene)));
-    }
-}

@@ -246,9 +246,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
         return write_report(report, &explanation, &warnings, context);
     }
-    if let Some(format) = config.picture.output.format() {
-        refuse_terminal(format, context)?;
-    }
+    refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());

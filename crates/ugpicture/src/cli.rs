@@ -107,11 +107,10 @@ fn is_linear(matches: &ArgMatches) -> bool {
 
 impl PictureArgs {
     /// Exposure as a camera finds it, for the looks of a program.
-    pub const AUTO_EXPOSURE: Preset =
-        Preset::new(&["ex", "auto"], &["dp", "crop"]).with(|all| !is_linear(all));
+    pub const AUTO_EXPOSURE: Preset = Preset::new(&["ex", "auto"], &["crop"]).with(|all| !is_linear(all));
 
     /// A filmic tone curve, for the looks of a program.
-    pub const FILMIC: Preset = Preset::new(&["tc", "filmic"], &["dp"]).with(|all| !is_linear(all));
+    pub const FILMIC: Preset = Preset::new(&["tc", "filmic"], &[]).with(|all| !is_linear(all));
 
     /// The picture options that these arguments define.
     ///

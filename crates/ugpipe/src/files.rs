@@ -181,15 +181,11 @@ mod tests {
     fn errors_have_no_system_number() {
         let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
         let words = |error: io::Error| error.to_string();
-        assert_eq!(
-            run_program(Path::new("no-such"), &Place::Anywhere, 9).map_err(words),
-            Err("No such file or directory".into())
-        );
         // Programs in `PATH` are not found either.
-        assert_eq!(
-            run_program(Path::new("sh"), &Place::Anywhere, 9).map_err(words),
-            Err("No such file or directory".into())
-        );
+        for name in ["no-such", "sh"] {
+            let found = run_program(Path::new(name), &Place::Anywhere, 9).map_err(words);
+            assert_eq!(found, Err("No such file or directory".into()));
+        }
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("text");
         fs::write(&path, "0123456789").unwrap();
@@ -198,14 +194,13 @@ mod tests {
         assert_eq!(read(&path, 4).unwrap(), b"0123");
         assert_eq!(read(&path, 10).unwrap(), b"0123456789");
         assert_eq!(read(&path, u64::MAX).unwrap(), b"0123456789");
-        assert_eq!(
-            read(&folder.path().join("no"), 9).map_err(words),
-            Err("No such file or directory".into())
-        );
-        let refused = read(Path::new("/dev/zero"), 9).map_err(|error| error.to_string());
-        assert_eq!(refused, Err("It is not a regular file".to_owned()));
-        let refused = read(folder.path(), 9).map_err(|error| error.to_string());
-        assert_eq!(refused, Err("Is a directory".to_owned()));
+        for (path, why) in [
+            (folder.path().join("no"), "No such file or directory"),
+            ("/dev/zero".into(), "It is not a regular file"),
+            (folder.path().into(), "Is a directory"),
+        ] {
+            assert_eq!(read(&path, 9).map_err(words), Err(why.into()));
+        }
     }
 
     #[test]

@@ -168,23 +168,3 @@ impl Sum {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Every colour is on two faces, so its share is twice that of a face.
-    #[test]
-    fn colours_are_counted_once_in_their_order() {
-        for n_colors in [2, 3, 15, 16, 17, 18, 100_000] {
-            let color = |row: usize| (row > 0).then(|| ColorId::from_index(row));
-            let mut sum = Sum::new(None);
-            (0..n_colors).for_each(|face| sum.meet(color(face)));
-            let Sum::Many(parts) = &mut sum else { panic!("several colours meet") };
-            (0..2 * n_colors).for_each(|face| parts.add(color(face % n_colors), 0.5));
-            let Shares::Mixed(parts) = sum.finish() else { panic!("several colours are mixed") };
-            let share = 1.0 / n_colors as f64;
-            assert!(parts.into_iter().eq((0..n_colors).map(|row| (color(row), share))), "{n_colors}");
-        }
-    }
-}

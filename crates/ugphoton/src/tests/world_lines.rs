@@ -1,4 +1,4 @@
-//! Bodies that accelerate, spin and orbit: published numbers, a slow oracle, laws.
+//! Bodies that accelerate, spin and orbit: a slow oracle, laws.
 
 use std::borrow::Cow;
 use std::ops::ControlFlow;
@@ -30,58 +30,6 @@ fn scenery_at(text: &str, time: f64) -> Scenery<'static> {
 fn face(name: &str, corners: [DVec3; 3], motion: &str) -> String {
     let [a, b, c] = corners.map(|DVec3 { x, y, z }| format!("{x} {y} {z}"));
     format!("v {name}a {a}; v {name}b {b}; v {name}c {c}; f ({name}a {name}b {name}c) {motion};\n")
-}
-
-/// Motion, point, event of the eye, own time, seen position, velocity, D.
-type Number = (&'static str, [f64; 3], [f64; 4], f64, [f64; 3], [f64; 3], f64);
-
-/// W1 to W9: the point of a small triangle is seen where, when and with which velocity and Doppler
-/// factor it has to be.
-#[test]
-fn numbers_are_those_of_40_digits() {
-    #[rustfmt::skip]
-    let rows: [Number; 9] = [
-        ("-acc .5 0 0 0 4", [0., 1., 0.], [3., 0., 0., 0.], 1.60943791243, [0.683281573, 1., 0.], [0.66666666667, 0., 0.], 0.5416407865),
-        ("-acc .5 0 0 0 4", [0., 1., 0.], [8., 0., 0., 0.], 3.18741054194, [3.1251237606, 1., 0.], [0.92071551061, 0., 0.], 0.207912717125),
-        ("-acc .5 0 0 0 4", [1., 1., 0.5], [40., 0., 0., 0.], 6.67963515099, [19.00524971, 1., 0.5], [0.96402758008, 0., 0.], 0.135450026816),
-        ("-at 1 0 0 -vel 0 .6 0 -acc .5 0 0 -2 3", [1.5, 0.25, 0.], [6., 0., -3., 1.], 0.797775924943, [1.7015406705, 4.0804069747, -1.], [0.30319764641, 0.6, 0.], 0.447605168564),
-        ("-vel .8 0 0 -spin 0 1.3333333333333333 0", [0., 0., 0.54], [0., 0., -4., 0.5], -4.02643098573, [-4.655482048, 4., -0.17054648282], [0.9170161973, 0., -0.2532781712], 0.988288108042),
-        ("-vel .8 0 0 -spin 0 1.3333333333333333 0", [0.5, 0., -0.3], [2., 0., -4., 0.5], -1.50761240289, [-1.9120985359, 4., 0.08011976081], [0.97201534871, 0., -0.029073883795], 0.40168721013),
-        ("-at 3 0 0 -orbit 0 0 0 0 0 1 .2", [3.5, 0., 0.1], [7., 0., -8., 1.], -0.999132766545, [3.4154152082, 7.3268269037, -0.9], [0.14831633107, 0.58137962291, 0.], 0.504418784358),
-        ("-at 3 0 0 -orbit 0 0 0 0 0 1 .3", [3., 0.4, 0.], [-25., 10., 0., 2.], -16.1136769843, [-10.598130244, 2.947707225, -2.], [-0.8959742816, 0.085029916619, 0.], 0.232884164834),
-        ("-spin 0 0 .25", [3., 0., 0.], [10., 0., -8., 1.], 0.836657596078, [2.9346142877, 8.6229277507, -1.], [-0.15573193768, 0.73365357192, 0.], 0.403189933584),
-    ];
-    for (motion, point, [time, x, y, z], own_time, place, beta, doppler) in rows {
-        for normal in [DVec3::X, DVec3::Y, DVec3::new(1.0, -0.4, 0.7)] {
-            let (point, place) = (DVec3::from(point), DVec3::from(place));
-            let (u, v) = normal.normalize().any_orthonormal_pair();
-            let corners = [u, -0.5 * u + v, -0.5 * u - v].map(|way| point + 1e-3 * way);
-            let text = format!(
-                "motion m {motion};\n{}l 1; cam -ep {x} {y} {z} -vc {} {} {};",
-                face("t", corners, "<m>"),
-                x + place.x,
-                y + place.y,
-                z + place.z
-            );
-            let scenery = scenery_at(&text, time);
-            let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
-            let event =
-                line.emission(point - scenery.view.eye, Event { t: 0.0, x: DVec3::ZERO }).unwrap().event;
-            // The places have 8 decimals and more: the ray needs more.
-            assert!((event.x - place).length() < 3e-9, "{motion}: {} {place}", event.x);
-            let place = event.x;
-            let ray = Ray::from_eye(place);
-            let found = scenery.closest(&ray, 0.0..f64::INFINITY).unwrap_or_else(|| panic!("{text}"));
-            assert!((found.own_time - own_time).abs() < 1e-10, "{motion} {}", found.own_time);
-            assert!((found.s - 1.0).abs() < 1e-9, "{motion}: {found:?}");
-            let seen = SurfacePoint::new(&scenery, &ray, &found);
-            let body = seen.place + DVec3::new(x, y, z);
-            assert!((body - point).length() < 1e-10, "{motion}: {body} {point}");
-            let found_beta = seen.frame(&scenery).velocity().beta();
-            assert!((found_beta - DVec3::from(beta)).length() < 1e-10, "{motion}: {found_beta}");
-            assert!((seen.doppler() - doppler).abs() < 1e-10, "{motion}: {}", seen.doppler());
-        }
-    }
 }
 
 /// A random motion for bodies within 2 of the origin.
@@ -221,6 +169,16 @@ fn hits_are_those_of_emission_events() {
             }
             let first = scenery.closest(&ray, 0.0..f64::INFINITY);
             assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
+            if let (Some(first), 0) = (first, idx % 2) {
+                let seen = SurfacePoint::new(&scenery, &Ray::from_eye(direction), &first);
+                let light = line.emission(seen.place, origin).unwrap();
+                let beta = seen.frame(&scenery).velocity().beta();
+                assert!((first.own_time - light.own_time).abs() < 1e-8, "{text}\n{first:?} {light:?}");
+                assert!((light.event.x - first.s * direction).length() < 1e-8, "{text}\n{first:?} {light:?}");
+                assert!((beta - light.velocity.beta()).length() < 1e-8, "{text}\n{beta} {light:?}");
+                let ratio = seen.doppler() / ugphysics::doppler_at(light.event.x, light.velocity);
+                assert!((ratio - 1.0).abs() < 1e-8, "{text}\n{ratio}");
+            }
             n_rays += 1;
         }
     }

@@ -143,36 +143,3 @@ impl Moving {
         matches!(self.path, Path::Orbit(_))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Piece, Velocity, WorldLine};
-
-    #[test]
-    fn the_rim_of_a_spin_and_the_horizon_of_an_acceleration_are_limits() {
-        let always = |of: DVec3| Piece { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
-        let spin = WorldLine::accelerated(DVec3::X, Velocity::ZERO, &[], &[always(DVec3::Z * 0.5)]).unwrap();
-        assert_eq!(spin.check(DVec3::new(2.999, 0.0, 7.0)), Ok(()));
-        assert!(spin.check(DVec3::new(3.0, 0.0, 0.0)).is_err());
-        let push = Piece { of: DVec3::X * 0.25, from: 1.0, to: 2.0 };
-        let pushed = WorldLine::accelerated(DVec3::ZERO, Velocity::ZERO, &[push], &[]).unwrap();
-        assert_eq!(pushed.check(DVec3::new(-3.999, 9.0, 9.0)), Ok(()));
-        let error = pushed.check(DVec3::new(-4.0, 0.0, 0.0)).unwrap_err();
-        assert_eq!(error, WorldLineError::Horizon { own_time: 1.5 });
-        // Together: 1 + a·ξ of a point that turns into the horizon.
-        let both = WorldLine::accelerated(
-            DVec3::ZERO,
-            Velocity::ZERO,
-            &[always(DVec3::X * 0.25)],
-            &[always(DVec3::Z * 0.1)],
-        );
-        assert!(both.unwrap().check(DVec3::new(0.0, 3.0, 0.0)).is_err());
-        // A wheel on the disc that turns against it keeps its directions; one that turns with it
-        // reaches 0.5 + |arm|.
-        let wheel = |rate: f64| spin.with_part(DVec3::X * 2.0, &[always(DVec3::Z * rate)]).unwrap();
-        assert_eq!(wheel(-0.5).check(DVec3::X * 9.0), Ok(()));
-        assert_eq!(wheel(0.5).check(DVec3::X * 2.4), Ok(()));
-        assert!(wheel(0.5).check(DVec3::X * 2.6).is_err());
-    }
-}

@@ -1,0 +1,11 @@
+//! Shapes of scenes in motion, measurements, and the program.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod camera;
+mod cli;
+mod common;
+mod cutting;
+mod geometry;
+mod measurements;
+mod watertight;

@@ -1,0 +1,9 @@
+//! Meshes of other programs as scenes, scenes as meshes, and the program.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod cli;
+mod common;
+mod hostile;
+mod reading;
+mod round_trip;

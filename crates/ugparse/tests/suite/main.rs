@@ -1,0 +1,8 @@
+//! The language, its messages, and the program.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod bad_scenes;
+mod language;
+mod program;
+mod read;

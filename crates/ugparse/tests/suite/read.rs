@@ -1,0 +1,110 @@
+//! Meshes as scenes, bent faces, and histories.
+
+use std::path::Path;
+
+use ugparse::{Diagnostics, Options, Parsed, Source, read};
+use ugscene::{Provenance, Scene};
+
+fn read_mesh(name: &str, text: &str) -> Result<Parsed, Diagnostics> {
+    let options = Options::default();
+    let source = ugparse::include(Source::new(name, text), &options, |request| {
+        assert_eq!(request.path, Path::new("folder/a.mtl"));
+        Ok(b"newmtl red\nKd 1 0 0\n".to_vec())
+    })?;
+    ugparse::parse(&source, &options)
+}
+
+/// Three corners of a square.
+const CORNERS: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\n";
+
+#[test]
+fn a_mesh_is_a_scene() {
+    let text = format!("mtllib a.mtl\n{CORNERS}v 0 1 0\nusemtl red\nf 1 2 3 4\n");
+    let parsed = read_mesh("folder/square.obj", &text).unwrap();
+    assert!(parsed.warnings.is_empty(), "{}", parsed.warnings);
+    let out = String::from_utf8(ugparse::write(&parsed.scene)).unwrap();
+    assert!(out.contains("c_rgb red 1 0 0;") && out.contains("v v3 1 0 1;"), "{out}");
+    assert!(out.ends_with("f (v1 v2 v3 v4) red;\n"), "{out}");
+}
+
+#[test]
+fn messages_have_the_lines_of_the_mesh() {
+    let check = |text: &str, expected: &str| {
+        let shown = match read_mesh("square.obj", text) {
+            Ok(parsed) => parsed.warnings.to_string(),
+            Err(findings) => findings.to_string(),
+        };
+        // The carriage return is shown as a blank.
+        assert_eq!(shown.replace(" \n", "\n"), expected);
+    };
+    for end in ["\n", "\r\n"] {
+        let bent = format!("{CORNERS}v 0 1 .5\nf 1 2 3\nf 1 2 3 4\n").replace('\n', end);
+        check(
+            &bent,
+            "warning: face is not flat\n --> square.obj:6:1\n  |\n6 | f 1 2 3 4\n  | ^ a corner is off by 7.9e-2 of its size\n  |\n\
+             help: cut it into triangles: it is drawn as triangles, perhaps not as those that are meant",
+        );
+    }
+    check(
+        &format!("{CORNERS}f 1 2 7\n"),
+        "error: cannot read this as OBJ: a face refers to vertex `7`, but there are 3 before it\n \
+         --> square.obj:4:1\n  |\n4 | f 1 2 7\n  | ^^^^^^^",
+    );
+    check("# 7 \"other\"\nv 0 0 0\n", "warning: the mesh has no faces\n--> square.obj");
+}
+
+fn read_text(text: &str) -> Parsed {
+    read(&Source::new("t.ug", text), &Options::default(), None).unwrap()
+}
+
+/// A square of side 1 whose corners are alternately above and below its plane by `d`.
+fn square(d: f64, rest: &str) -> String {
+    format!("v a 0 0 {d}; v b 1 0 -{d}; v c 1 1 {d}; v e 0 1 -{d}; {rest}")
+}
+
+#[test]
+fn bent_faces_become_triangles() {
+    let check = |d: f64, n_faces: usize, n_warnings: usize| {
+        let parsed = read_text(&square(d, "f (a b c e);"));
+        assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (n_faces, n_warnings), "{d}");
+        assert_eq!(parsed.origins.faces.len(), n_faces);
+    };
+    // Its size is the root of 2, almost.
+    check(0.0, 1, 0);
+    check(0.99e-6 * 2f64.sqrt(), 1, 0);
+    check(1.01e-6 * 2f64.sqrt(), 2, 0);
+    check(0.99e-3 * 2f64.sqrt(), 2, 0);
+    check(1.01e-3 * 2f64.sqrt(), 2, 1);
+}
+
+#[test]
+fn triangles_keep_what_the_face_has() {
+    let rest = "c red 1 0; surf s 1 0 0;\n{ first } f (a b c);\n{ bent }\nf x (a b c e) red s <.5 0 0>; { behind }\n\
+                { last }\nf (a c e);";
+    let parsed = read_text(&square(0.25, rest));
+    let out = String::from_utf8(ugparse::write(&parsed.scene)).unwrap();
+    let lines: Vec<&str> = out.lines().skip_while(|line| !line.starts_with("{ first")).collect();
+    let [first, f, bent, one, two, last, g] = lines[..] else { panic!("{out}") };
+    assert_eq!([first, f, bent, last, g], ["{ first }", "f (a b c);", "{ bent }", "{ last }", "f (a c e);"]);
+    assert!(one.starts_with("f x (") && one.ends_with(") red s <0.5 0 0>;"), "{out}");
+    assert!(two.starts_with("f x (") && two.ends_with(") red s <0.5 0 0>; { behind }"), "{out}");
+    assert_eq!((one.len() + 11, parsed.origins.faces[1]), (two.len(), parsed.origins.faces[2]));
+}
+
+#[test]
+fn faces_with_holes_are_cut_and_what_was_seen_stays() {
+    let hole = "v h .4 .4 0; v i .6 .4 0; v j .5 .6 0; f (a b c e) (h i j);";
+    assert_eq!(read_text(&square(0.25, hole)).scene.faces.len(), 7);
+    let seen = format!("(ugstage 1 geometry as-seen eye 0 0 0) {}", square(0.25, "f (a b c e);"));
+    let parsed = read_text(&seen);
+    assert_eq!((parsed.scene.faces.len(), parsed.warnings.list.len()), (1, 0));
+}
+
+#[test]
+fn recorded_texts_have_a_history() {
+    let mut scene = Scene::default();
+    scene.remarks.head.push(" A licence: free for all ".to_string());
+    assert!(!ugparse::has_history(&ugparse::write(&scene)) && !ugparse::has_history(b"{"));
+    scene.remarks.record(Provenance { program: "ugdoppler", version: "0.1.0", command: Some("ugdoppler") });
+    assert!(ugparse::has_history(&ugparse::write(&scene)));
+}

@@ -1,0 +1,111 @@
+//! The program itself: streams, exit codes, messages, metadata.
+
+use ugimage::PanoramaArea;
+use ugtesting::run::{Program, messages};
+
+pub const UGPHOTON: Program = Program::new(env!("CARGO_BIN_EXE_ugphoton"));
+const SCENE: &str = "\
+{ A square. }
+c green 1 120; l 1;
+v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; f (a b c d) green;
+cam -ep 0 -1 4 -vc 0 0 0;
+";
+
+#[test]
+fn a_picture_says_how_it_was_made() {
+    let output = UGPHOTON.run("-sz 20 10 -nt 2 -qt -vel .1 0 0", SCENE);
+    assert_eq!((output.status.code(), messages(&output).as_str()), (Some(0), ""));
+    let (size, metadata) = ugimage::read_png_header(&output.stdout).unwrap();
+    assert_eq!(size, [20, 10]);
+    assert!(metadata.software.starts_with("ugphoton "));
+    let (command, recipe) = metadata.comment.split_once('\n').unwrap();
+    assert_eq!(command, "ugphoton -sz 20 10 -vel .1 0 0");
+    // The pipe in one line, with the hash of the scene.
+    assert!(recipe.starts_with(&format!("{command} # SHA-256 ")), "{recipe}");
+    UGPHOTON.ends_at_a_closed_pipe("-sz 20 10 -qt", SCENE);
+}
+
+/// Viewers of 360° pictures are told of whole panoramas and their parts, and of no other picture.
+#[test]
+fn only_panoramas_are_stated_for_viewers() {
+    let area = |options: &str| ugimage::read_png_header(&UGPHOTON.output(options, SCENE)).unwrap().1.panorama;
+    let part = |corner| Some(PanoramaArea { whole: [40, 20], corner });
+    assert_eq!(area("-pan -sz 40 20"), part([0, 0]));
+    assert_eq!(area("-pan -sz 40 20 -dt png16"), part([0, 0]));
+    assert_eq!(area("-pan -sz 40 20 -ex 0 -crop 8 4 10 6"), part([8, 4]));
+    // Degrees that are not square, two eyes, rows with text, other lenses.
+    for options in ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 400 200 -lg", "-sz 40 20"] {
+        assert_eq!(area(options), None, "{options}");
+    }
+    for options in ["-fish 180 -sz 40 20", "-cube -sz 60 10", "-stereo .1 -sz 40 20"] {
+        assert_eq!(area(options), None, "{options}");
+    }
+    for format in ["ppm", "exr", "hdr", "svg"] {
+        let file = UGPHOTON.output(&format!("-pan -sz 40 20 -dt {format}"), SCENE);
+        assert!(file.len() > 100 && !file.windows(5).any(|bytes| bytes == b"GPano"), "{format}");
+    }
+}
+
+/// The option of the manual page of 1988.
+#[test]
+fn cells_are_accepted_without_effect() {
+    for cells in ["-1", "0", "20"] {
+        UGPHOTON.same("-sz 20 10", &format!("-cn {cells} -sz 20 10"), SCENE);
+    }
+    let message =
+        "ugphoton: error: `few` is not valid for `-cn`: must be a whole number\ntry `ugphoton -h`\n";
+    UGPHOTON.refuses("-cn few", SCENE, 2, message);
+}
+
+#[test]
+fn options_have_two_spellings() {
+    UGPHOTON.same(
+        "-sz 20 10 -vel .1 0 0 -cv 0 .1 0 -ti 1 -an center -in -rd 3 -rc .01 -sm -dt pfm -sp",
+        "--size 20 10 --velocity .1 0 0 --camera-velocity 0 .1 0 --time 1 --anchor center --keep-in-view \
+         --depth 3 --cut-off .01 --smooth --format pfm --spectral",
+        SCENE,
+    );
+}
+
+#[test]
+fn mistakes_have_answers() {
+    for (args, expected) in [
+        ("-vel 1 0 0", "-vel"),
+        ("-vell .1 0 0", "-vel"),
+        ("-pan -gr", "are straight lines of pinhole cameras"),
+        ("-pan -fish 180", "-fish"),
+        ("-cube", "give -sz W H with W = 6 H, such as -sz 3072 512"),
+        ("-cube -pan", "-pan"),
+        ("-cube -stereo 1", "-stereo"),
+        ("-stereo -1", "a distance is 0 or more"),
+        ("-stereo .1 -lg", "leave them out, or -cube and -stereo"),
+        ("-fish 400", "at most 360 degrees"),
+        ("-crop 0 0 9999 1", "is not in the picture of 1024 x 768 pixels"),
+    ] {
+        UGPHOTON.refuses(args, SCENE, 2, expected);
+    }
+    let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
+    let glowing = "c_bb hot 3000 1; v a 0 9 0; v b 1 9 0; v c 0 9 1; f (a b c) hot <.5 0 0>; cam -ep 0 0 0;";
+    for (args, scene, expected) in [
+        ("-og", SCENE, "leave out -og"),
+        ("", "v a 0 0 0;", "no faces"),
+        ("", "", "ugphoton: error: "),
+        ("", "f (a b c);", "vertex `a` is not defined"),
+        ("", seen, "give the scene at rest"),
+        ("-look 1988", glowing, "give -sp"),
+    ] {
+        UGPHOTON.refuses(args, scene, 1, expected);
+    }
+}
+
+#[test]
+fn notes_say_what_is_missing() {
+    let check = |scene: &str, expected: &str| {
+        let notes = UGPHOTON.notes("-sz 20 10", scene);
+        assert!(notes.contains(expected), "{notes}");
+    };
+    check(&SCENE.replace("l 1;", ""), "no lights in the scene");
+    check(&SCENE.replace("l 1;", "l 0;"), "all that is in the picture is black");
+    check(&format!("{SCENE} w (a c);"), "wires are left out");
+    check(&SCENE.replace("-vc 0 0 0", "-vc 0 -1 9"), "nothing is drawn");
+}

@@ -1,0 +1,207 @@
+//! `--explain`: its bytes are those of the picture, and its numbers satisfy the equations.
+
+use glam::DVec3;
+use serde_json::Value;
+
+use crate::cli::UGPHOTON;
+
+/// A moving mirror, moving glass, a translucent pane, a coloured wall, and shadows.
+const SCENE: &str = "\
+c red 0.9 10 0.8; c green 0.8 120 0.7; c white 1; c pane 0.9 200 0.3 0.6; c tint 0.9 60 0.2;
+surf mirror 0.2 0.7 0; surf glass 0 0.1 0.8 1.5;
+v a -4 9 -3; v b 4 9 -3; v c 4 9 4; v d -4 9 4; f wall (a b c d) green;
+v e -3 7 -2; v f -1 7 -2; v g -1 7 2; v h -3 7 2; f mirror (e f g h) white mirror <0 0.3 0.1>;
+v i -5 -2 -4; v j -5 -2 4; v k 5 -2 4; v l 5 -2 -4; f back (i j k l) red;
+v m 1 5 -1; v n 2.5 5 -1; v o 2.5 5 1; v p 1 5 1; v q 1 6 -1; v r 2.5 6 -1; v s 2.5 6 1; v t 1 6 1;
+f near (m n o p) tint glass <0.4 0 0>; f far (q t s r) tint glass <0.4 0 0>;
+f left (m p t q) tint glass <0.4 0 0>; f right (n r s o) tint glass <0.4 0 0>;
+f low (m q r n) tint glass <0.4 0 0>; f high (p o s t) tint glass <0.4 0 0>;
+v u -1 4 -3; v w 1.5 4 -3; v x 1.5 4 1; f pane (u w x) pane <0 0 0.5>;
+l 0.3; l 0.6 0.5 -2 1; l 0.5 -2 3 4;
+cam -ep 0 0 0 -vc 0 6 0 -va 60;
+";
+
+fn of_scene(args: &str, scene: &str) -> Vec<u8> {
+    UGPHOTON.output(&format!("-qt -sz 60 44 {args}"), scene)
+}
+
+fn written(args: &str) -> Vec<u8> {
+    of_scene(args, SCENE)
+}
+
+/// Red, green, blue and alpha of every pixel of a PNG.
+fn pixels(file: &[u8]) -> Vec<[u8; 4]> {
+    ugimage::read_png(file, &ugimage::PictureLimits::default()).unwrap().0.into_pixels()
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+}
+
+fn point(value: &Value) -> DVec3 {
+    DVec3::from_array(std::array::from_fn(|i| number(&value[i])))
+}
+
+#[test]
+fn the_last_step_is_the_picture() {
+    let mut seen = [0; 5];
+    for options in [
+        "-aa 3",
+        "-aa 2 -ex auto -tc filmic -bg .2 200",
+        "-aa 4 -ad .05 -tb",
+        "-aa 2 -fl spline -stereo .3 -cv 0 .3 0",
+        "-aa 2 -sp -pan",
+        "-aa 2 --fresnel -rd 4 --film-shutter 2",
+    ] {
+        let picture = pixels(&written(options));
+        for idx in (7..60 * 44).step_by(173) {
+            let place = format!("{},{}", idx % 60, idx / 60);
+            let told = written(&format!("{options} --explain {place} --format json"));
+            let told: Value = serde_json::from_slice(&told).unwrap();
+            let bytes: Vec<u64> =
+                told["bytes"].as_array().unwrap().iter().map(|x| x.as_u64().unwrap()).collect();
+            assert_eq!(bytes, picture[idx].map(u64::from), "{options:?} at {place}");
+            let is_film = options.contains("--film-shutter");
+            let sample = &told["sample"];
+            if sample.is_null() {
+                seen[0] += 1;
+                continue;
+            }
+            check_light(sample, options.contains("-sp"));
+            for surface in sample["surfaces"].as_array().unwrap() {
+                let by = surface["by"].as_u64().map(|by| &sample["surfaces"][by as usize]);
+                check_surface(surface, by, is_film || options.contains("-stereo"));
+                let kind = match (surface["way"].as_str().unwrap(), surface["medium"].is_null()) {
+                    ("straight", _) => 1,
+                    ("mirrored", _) => 2,
+                    (_, true) => 3,
+                    (_, false) => 4,
+                };
+                seen[kind] += 1;
+            }
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 4), "background, seen, mirrored, behind and in glass: {seen:?}");
+}
+
+/// The light of a sample is the sum over its surfaces.
+fn check_light(sample: &Value, is_spectral: bool) {
+    let surfaces = sample["surfaces"].as_array().unwrap();
+    let sum: DVec3 =
+        surfaces.iter().map(|surface| number(&surface["weight"]) * point(&surface["linear"])).sum();
+    let light = point(&sample["linear"]);
+    // Rounding; spectra are stored in single precision.
+    let rounding = if is_spectral { 1e-6 } else { 1e-12 };
+    assert!((sum - light).length() <= rounding * (1.0 + light.length()), "{sum} {light}");
+    let tint = |lamp: &Value| point(&lamp["level"]) * number(&lamp["part"]);
+    for surface in surfaces.iter().filter(|surface| !surface["color"]["light_level"].is_null()) {
+        let sum: DVec3 = surface["lamps"].as_array().unwrap().iter().map(tint).sum();
+        assert!((sum - point(&surface["color"]["light_level"])).length() < 1e-12, "{surface}");
+    }
+}
+
+/// Events are joined by light: with the speed of light in vacuum, with c/n in the rest frame of
+/// glass. `by`: the surface that mirrored or refracted the light. `is_elsewhere`: the light arrived
+/// at another event than the origin.
+fn check_surface(surface: &Value, by: Option<&Value>, is_elsewhere: bool) {
+    let event = |surface: &Value| (number(&surface["emission"]["t"]), point(&surface["emission"]["x"]));
+    let (t, x) = event(surface);
+    let (to_t, to_x) = by.map_or((0.0, DVec3::ZERO), event);
+    let (dt, dx) = (to_t - t, to_x - x);
+    let interval = |dt: f64, dx: DVec3| (dt * dt, dx.length_squared());
+    if let Some(medium) = surface["medium"].as_object() {
+        let (velocity, index) = (point(&medium["velocity"]), number(&medium["index"]));
+        let gamma = 1.0 / (1.0 - velocity.length_squared()).sqrt();
+        let along = velocity.dot(dx);
+        let there = gamma * (dt - along);
+        let length = (dx.length_squared() - dt * dt + there * there).sqrt();
+        assert!((there - index * length).abs() < 1e-9 * there, "{surface}");
+    } else if !(is_elsewhere && by.is_none()) {
+        let (time, length) = interval(dt, dx);
+        assert!((time - length).abs() < 1e-9 * time, "{surface}");
+    }
+    let beta = point(&surface["velocity"]);
+    let gamma = number(&surface["gamma"]);
+    assert!((gamma * gamma * (1.0 - beta.length_squared()) - 1.0).abs() < 1e-12);
+    let doppler = number(&surface["D"]);
+    if by.is_none() {
+        // (P10), and the same as angles of (P6).
+        if !is_elsewhere {
+            assert!((doppler * gamma * (1.0 + beta.dot(x) / x.length()) - 1.0).abs() < 1e-12);
+        }
+        if let (Some(camera), Some(rest)) =
+            (surface["angle_deg"].as_f64(), surface["angle_at_rest_deg"].as_f64())
+        {
+            let ratio = ((1.0 - beta.length()) / (1.0 + beta.length())).sqrt();
+            let [camera, rest] = [camera, rest].map(|angle| libm::tan(angle.to_radians() / 2.0));
+            assert!((rest - ratio * camera).abs() < 1e-9 * camera);
+        }
+    }
+    let color = &surface["color"];
+    if let (Some(rest), Some(seen)) =
+        (color["rest_wavelength_nm"].as_f64(), color["seen_wavelength_nm"].as_f64())
+    {
+        assert!((rest - seen * doppler).abs() < 1e-9 * rest);
+    }
+}
+
+#[test]
+fn people_are_told_the_same() {
+    let told = |place: &str| String::from_utf8(written(&format!("--explain {place}"))).unwrap();
+    let mirror = told("18,22");
+    for part in [
+        "surface 1, seen directly",
+        "face `mirror`, id 2",
+        "velocity 0 0.3 0.1, beta 0.316228",
+        "mirrors       0.7 of the light",
+        "surface 2, mirrored by surface 1",
+        "face `back`, id 3",
+        "along the whole path, P23",
+        "directional 1: level ",
+        "own light     ",
+    ] {
+        assert!(mirror.contains(part), "{part}:\n{mirror}");
+    }
+    let glass = told("29,22");
+    for part in
+        ["transmits     0.8 of the light", "in `glass`, index 1.5, velocity 0.4 0 0 (P35)", "face `wall`"]
+    {
+        assert!(glass.contains(part), "{part}:\n{glass}");
+    }
+    let shadow = (0..60).map(|x| told(&format!("{x},30"))).find(|text| text.contains("in shadow (P24)"));
+    assert!(shadow.is_some());
+}
+
+#[test]
+fn bad_usage_is_told() {
+    let check = |args: &str, message: &str| {
+        UGPHOTON.refuses(&format!("-sz 60 44 {args}"), SCENE, 2, message);
+    };
+    check("--explain 60,3", "pixel 60,3 is not in the picture of 60 x 44 pixels");
+    check("--explain 20", "a pixel is its column and row, such as 320,240");
+    check("--explain 2,3 -dt exr", "give --format json, or leave --format out");
+    check("--explain 2,3 -crop 0 0 9 9", "-crop");
+    check("--format json", "add --explain X,Y");
+}
+
+#[test]
+fn lights_have_their_names() {
+    let names = |lights: &str| {
+        let scene = SCENE.replace("l 0.3; l 0.6 0.5 -2 1; l 0.5 -2 3 4;", lights);
+        assert!(scene.contains(lights));
+        let told: Value = serde_json::from_slice(&of_scene("--explain 50,22 --format json", &scene)).unwrap();
+        let lamps = told["sample"]["surfaces"][0]["lamps"].as_array().unwrap().clone();
+        let text = String::from_utf8(of_scene("--explain 50,22", &scene)).unwrap();
+        lamps
+            .into_iter()
+            .map(|lamp| {
+                let name = lamp["light"].as_str().unwrap().to_owned();
+                assert!(text.contains(&format!(" {name}: level")), "{name}: {text}");
+                name
+            })
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(names("l .3; l sun .6 .5 -2 1; l .5 -2 -3 4 0;"), ["ambient 1", "sun", "local 1"]);
+    assert_eq!(names("l sky .3; l .6 .5 -2 1; l lamp .5 -2 -3 4 0;"), ["sky", "directional 1", "lamp"]);
+    assert_eq!(names(""), ["ambient 1", "directional 1"]);
+}

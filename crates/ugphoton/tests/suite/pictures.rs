@@ -1,0 +1,609 @@
+//! Pictures as a whole: parts, lenses, shutters, soft shadows, and scenes without an end.
+
+use glam::DVec3;
+use rayon::ThreadPoolBuilder;
+use ugimage::{Format, LinearFrame, Samples};
+use ugphoton::{
+    Anchor, Background, CameraOptions, Channel, Config, Exposure, Filter, Lens, MotionOptions, Note, Output,
+    PictureOptions, RayOptions, Shutter, light, render,
+};
+use ugphysics::{Hsv, Velocity, WaveVector};
+use ugpipe::Words;
+
+fn scene(text: &str) -> ugscene::Scene {
+    let source = ugparse::Source::new("test.ug", text);
+    ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene
+}
+
+/// A mirror, a pane of glass, a coloured box and its ground, under two lamps, one with a radius.
+const ROOM: &str = "
+    c red 0.9 10 0.8; c green 0.8 120 0.7; c white 1; c pane 0.9 200 0.3 0.5;
+    surf mirror 0.2 0.7 0; surf glass 0 0.1 0.8 1.5;
+    v a -4 4 -1; v b 4 4 -1; v c 4 9 -1; v d -4 9 -1; v e -4 9 3; v f 4 9 3;
+    f (a b c d) green; f (d c f e) white mirror <0 0.3 0>;
+    v g -1 6 -0.5; v h 0 6 -0.5; v i 0 6 1; v j -1 6 1; f (g h i j) red <0.5 0 0>;
+    v k 0.5 5 -0.6; v l 1.5 5 -0.6; v m 1.5 5 0.8; v n 0.5 5 0.8; f (k l m n) pane <0 0 0.4>;
+    l 0.3; l 0.7 0.5 -1 2; l 0.5 -2 3 4 1.5;
+    cam -ep 0 0 0.5 -vc 0 6 0.3 -va 60;";
+
+fn picture(size: [u32; 2]) -> Config {
+    Config { picture: PictureOptions { size, samples: 2, ..PictureOptions::default() }, ..Config::default() }
+}
+
+#[test]
+fn parts_are_those_of_the_whole_picture() {
+    for (filter, lens, stereo, adaptive) in [
+        (Filter::Box, Lens::Pinhole, None, None),
+        (Filter::Spline, Lens::Pinhole, None, None),
+        (Filter::Spline, Lens::Pinhole, Some(0.5), None),
+        (Filter::Triangle, Lens::Panorama, None, None),
+        (Filter::Box, Lens::Pinhole, None, Some(0.05)),
+        (Filter::Spline, Lens::Pinhole, Some(0.5), Some(0.05)),
+    ] {
+        let mut config = picture([50, 37]);
+        config.picture.filter = filter;
+        (config.lens, config.stereo, config.adaptive) = (lens, stereo, adaptive);
+        config.picture.samples = if adaptive.is_some() { 4 } else { 2 };
+        (config.picture.output, config.picture.channels) =
+            (Output::Color(Format::Exr), Channel::ALL.to_vec());
+        let planes =
+            |frame: &LinearFrame| ["D", "time", "Z", "id", "velocity.X"].map(|name| channel(frame, name));
+        let whole = light(scene(ROOM), &config).unwrap();
+        let (mut joined, whole_planes) = (vec![None; 50 * 37], planes(&whole));
+        for [left, top, width, height] in [[0, 0, 23, 19], [23, 0, 27, 19], [0, 19, 50, 1], [0, 20, 50, 17]] {
+            let config = Config { crop: Some([left, top, width, height]), ..config.clone() };
+            let part = light(scene(ROOM), &config).unwrap();
+            assert_eq!([part.width(), part.height()], [width, height]);
+            let part_planes = planes(&part);
+            for (at, pixel) in part.pixels().iter().enumerate() {
+                let (column, row) = (left as usize + at % width as usize, top as usize + at / width as usize);
+                joined[row * 50 + column] = Some(*pixel);
+                for (plane, whole) in part_planes.iter().zip(&whole_planes) {
+                    assert!(plane[at].to_bits() == whole[row * 50 + column].to_bits(), "{lens:?} {stereo:?}");
+                }
+            }
+        }
+        let joined: Option<Vec<_>> = joined.into_iter().collect();
+        assert!(joined.unwrap() == whole.pixels(), "{filter:?} {lens:?} {stereo:?}");
+    }
+}
+
+#[test]
+fn threads_do_not_matter() {
+    let mut config = picture([40, 30]);
+    (config.picture.samples, config.adaptive) = (3, Some(0.02));
+    let on = |n_threads| {
+        let pool = ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
+        pool.install(|| light(scene(ROOM), &config).unwrap().pixels().to_vec())
+    };
+    let one = on(1);
+    assert!(one == on(2) && one == on(5));
+    let lit = one.iter().filter(|pixel| pixel[..3].iter().any(|&channel| channel > 0.0)).count();
+    assert!(lit > 300, "{lit}");
+}
+
+/// What is seen in a direction does not depend on the lens.
+#[test]
+fn lenses_show_the_same_light() {
+    let pinhole = |toward: DVec3| {
+        let camera = CameraOptions {
+            center: Some(DVec3::new(0.0, 0.0, 0.5) + toward),
+            view_angle: Some((1e-4, None)),
+            ..CameraOptions::default()
+        };
+        let picture = PictureOptions { size: [1, 1], samples: 1, camera, ..PictureOptions::default() };
+        light(scene(ROOM), &Config { picture, ..Config::default() }).unwrap().pixels()[0]
+    };
+    let mut n_lit = 0;
+    for lens in [Lens::Panorama, Lens::Fisheye { angle: 4.0 }] {
+        let mut config = picture([36, 18]);
+        (config.lens, config.picture.samples) = (lens, 1);
+        let frame = light(scene(ROOM), &config).unwrap();
+        let forward = DVec3::new(0.0, 6.0, -0.2).normalize();
+        let right = DVec3::X;
+        let up = right.cross(forward);
+        for (at, pixel) in frame.pixels().iter().enumerate() {
+            let (x, y) = ((at % 36) as f64 + 0.5, (at / 36) as f64 + 0.5);
+            let direction = match lens {
+                Lens::Fisheye { angle } => {
+                    let (across, above) = (x - 18.0, 9.0 - y);
+                    let radius = libm::hypot(across, above);
+                    if radius > 9.0 {
+                        assert_eq!(pixel[..3], [0.0; 3]);
+                        continue;
+                    }
+                    let (sin, cos) = libm::sincos(0.5 * angle * radius / 9.0);
+                    cos * forward + sin / radius * (across * right + above * up)
+                }
+                _ => {
+                    let (sin, cos) = libm::sincos(std::f64::consts::TAU * (x / 36.0 - 0.5));
+                    let (rise, run) = libm::sincos(std::f64::consts::PI * (0.5 - y / 18.0));
+                    run * (cos * forward + sin * right) + rise * up
+                }
+            };
+            let expected = pinhole(direction);
+            // Lamps with a radius are seen at another of their points.
+            let is_near = (0..3).all(|channel| (pixel[channel] - expected[channel]).abs() < 0.3);
+            assert!(is_near, "{lens:?} {x} {y}: {pixel:?} {expected:?}");
+            assert_eq!(pixel[..3] == [0.0; 3], expected[..3] == [0.0; 3], "{lens:?} {x} {y}");
+            n_lit += usize::from(pixel[0] > 0.0);
+        }
+    }
+    assert!(n_lit > 40, "{n_lit}");
+}
+
+/// The same without soft shadows, whose lamps are seen at another point at every sample.
+fn hard_room() -> String {
+    ROOM.replace("3 4 1.5", "3 4")
+}
+
+/// The part of a picture from column `left` and row `top` on.
+fn part(frame: &LinearFrame, [left, top]: [u32; 2], [width, height]: [u32; 2]) -> Vec<[f32; 4]> {
+    let row = |row: u32| &frame.pixels()[((top + row) * frame.width() + left) as usize..][..width as usize];
+    (0..height).flat_map(|at| row(at).to_vec()).collect()
+}
+
+/// The pixels that differ by more than rounding.
+fn n_different(found: &[[f32; 4]], expected: &[[f32; 4]]) -> usize {
+    assert_eq!(found.len(), expected.len());
+    let differs = |(a, b): &(&[f32; 4], &[f32; 4])| (0..4).any(|at| (a[at] - b[at]).abs() > 1e-5);
+    found.iter().zip(expected).filter(differs).count()
+}
+
+/// Each side of a cube map is the picture of a pinhole camera with an angle of view of 90 degrees,
+/// also where a filter reaches across its edges.
+#[test]
+fn sides_of_a_cube_are_square_views() {
+    const SIDE: u32 = 30;
+    // Around the eye, something on every side that differs.
+    let around = "
+        v p -7 -5 -4; v q 6 -6 -5; v r 0 -2 6; f (p q r) red 0.8; f (p q g) green 0.6; f (q r f) green 0.9;
+        f (r p a) red 0.5; f (r f e) green 0.3;
+        v s 5 0 5; v t -5 1 5; f (r s t) red 0.7;";
+    let text = hard_room().replace("-vc 0 6 0.3", "-vc 0 6 0.5").replace("cam ", &format!("{around} cam "));
+    let mut config = picture([6 * SIDE, SIDE]);
+    (config.lens, config.picture.filter) = (Lens::Cube, Filter::Spline);
+    let cube = light(scene(&text), &config).unwrap();
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    for (side, (toward, up)) in [(x, z), (-x, z), (z, -y), (-z, y), (y, z), (-y, z)].into_iter().enumerate() {
+        let mut config = picture([SIDE, SIDE]);
+        config.picture.filter = Filter::Spline;
+        config.picture.camera = CameraOptions {
+            center: Some(DVec3::new(0.0, 0.0, 0.5) + 6.0 * toward),
+            up: Some(up),
+            view_angle: Some((90.0, Some(90.0))),
+            ..CameraOptions::default()
+        };
+        let expected = light(scene(&text), &config).unwrap();
+        let found = part(&cube, [side as u32 * SIDE, 0], [SIDE, SIDE]);
+        // A sample exactly on an edge of a face: the filter spreads it over nine pixels.
+        let n_different = n_different(&found, expected.pixels());
+        assert!(n_different <= 9, "{side}: {n_different}");
+        let n_lit = found.iter().filter(|pixel| pixel[..3] != [0.0; 3]).count();
+        assert!(n_lit > 100, "{side}: {n_lit}");
+    }
+}
+
+/// Each eye sees the picture of a camera in its place at the same moment. The camera moves ahead,
+/// so its frame has the same distances across.
+#[test]
+fn eyes_see_what_cameras_in_their_places_see() {
+    let motion = MotionOptions {
+        camera_velocity: Some(DVec3::new(0.0, 0.4, 0.0)),
+        anchor: Some(Anchor::Origin),
+        ..MotionOptions::default()
+    };
+    let drawn = |lens: Lens, stereo: Option<f64>, size: [u32; 2], eye: f64| {
+        let camera = CameraOptions {
+            eye: Some(DVec3::new(eye, 0.0, 0.5)),
+            center: Some(DVec3::new(eye, 6.0, 0.5)),
+            ..CameraOptions::default()
+        };
+        let picture = PictureOptions { size, samples: 2, camera, ..PictureOptions::default() };
+        let shutter = if lens == Lens::Pinhole { Shutter::Film { distance: 0.2 } } else { Shutter::Pinhole };
+        let rays = RayOptions { shutter, ..RayOptions::default() };
+        let config = Config { picture, rays, lens, stereo, motion: motion.clone(), ..Config::default() };
+        light(scene(&hard_room()), &config).unwrap()
+    };
+    for lens in [Lens::Pinhole, Lens::Fisheye { angle: 1.5 }] {
+        let both = drawn(lens, Some(0.6), [80, 30], 0.0);
+        let eyes = [(0, -0.3), (40, 0.3)].map(|(left, eye)| {
+            let found = part(&both, [left, 0], [40, 30]);
+            let n_different = n_different(&found, drawn(lens, None, [40, 30], eye).pixels());
+            assert!(n_different <= 2, "{lens:?} {eye}: {n_different}");
+            found
+        });
+        assert!(n_different(&eyes[0], &eyes[1]) > 30, "{lens:?}");
+    }
+    // In a panorama the eyes are across each direction: straight ahead and behind they are at
+    // those places, on the other side behind.
+    let size = [36, 18];
+    let both = drawn(Lens::Panorama, Some(0.6), [36, 36], 0.0);
+    for (top, left, eye) in [(0, 17, -0.3), (18, 17, 0.3), (0, 0, 0.3), (18, 0, -0.3)] {
+        let whole = drawn(Lens::Panorama, None, size, eye);
+        let [found, expected] = [part(&both, [left, top], [1, 18]), part(&whole, [left, 0], [1, 18])];
+        // Half a column from the exact direction.
+        let is_near = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).all(|at| (a[at] - b[at]).abs() < 0.1);
+        let n_near = found.iter().zip(&expected).filter(|pair| is_near(*pair)).count();
+        assert!(n_near >= 16, "{top} {left}: {n_near}");
+    }
+}
+
+/// Adaptive samples trace fewer rays, and draw nearly the same: boundaries as with all samples, and
+/// what is smooth within the contrast.
+#[test]
+fn adaptive_samples_draw_boundaries() {
+    let drawn = |adaptive: Option<f64>, samples: u32| {
+        let mut config = picture([120, 90]);
+        (config.picture.samples, config.adaptive) = (samples, adaptive);
+        let notes = render(scene(&hard_room()), &config).unwrap().notes;
+        let percent = |note: &Note| if let Note::Adaptive(percent) = note { Some(*percent) } else { None };
+        let part = notes.iter().find_map(percent).unwrap_or(100.0) / 100.0;
+        (light(scene(&hard_room()), &config).unwrap(), part)
+    };
+    for samples in [4, 8] {
+        let (full, _) = drawn(None, samples);
+        for (contrast, most_samples, most_error) in
+            [(0.0, 0.9, 1e-6), (0.05, 0.35, 0.1 / 255.0), (0.5, 0.35, 0.01)]
+        {
+            let (adaptive, part) = drawn(Some(contrast), samples);
+            assert!(0.25 <= part && part < most_samples, "{samples} {contrast}: {part}");
+            let error = greatest_difference(&full, &adaptive);
+            assert!(error <= most_error, "{samples} {contrast}: {error}");
+        }
+        // The first samples alone do not draw boundaries.
+        let (first, part) = drawn(Some(1.0), samples);
+        assert!(part < 0.3);
+        assert!(greatest_difference(&full, &first) > 0.05);
+    }
+}
+
+/// The greatest difference of a pixel's light.
+fn greatest_difference(one: &LinearFrame, other: &LinearFrame) -> f32 {
+    let away = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|at| (a[at] - b[at]).abs()).fold(0.0, f32::max);
+    one.pixels().iter().zip(other.pixels()).map(away).fold(0.0, f32::max)
+}
+
+/// The numbers of a channel.
+fn channel(frame: &LinearFrame, name: &str) -> Vec<f64> {
+    let plane = frame.planes().iter().find(|plane| plane.name == name).unwrap();
+    match &plane.samples {
+        Samples::Float(numbers) => numbers.iter().map(|&number| f64::from(number)).collect(),
+        Samples::Whole(numbers) => numbers.iter().map(|&number| f64::from(number)).collect(),
+    }
+}
+
+/// Channels of a wall that recedes, with every lens, against closed forms. Seen in a direction d at
+/// time 0, the light of a wall at y = 5 + β t left at the distance r with r d_y = 5 − β r.
+#[test]
+fn channels_hold_with_every_lens() {
+    let (beta, slant): (f64, f64) = (0.4, 90.0);
+    // Coordinates of the wall are those at rest.
+    let y = 5.0 / (1.0 - beta * beta).sqrt();
+    let text = format!(
+        "c white 1; v a -900 {y} -900; v b 900 {y} -900; v c 900 {y} 900; v d -900 {y} 900;
+         f (a b c d) white 1 <0 {beta} 0>; cam -ep 0 0 0 -vc 0 1 0 -va {slant} {slant};"
+    );
+    let mut n_seen = 0;
+    for (lens, stereo, size, film) in [
+        (Lens::Pinhole, None, [20, 20], None),
+        (Lens::Pinhole, None, [20, 20], Some(3.0)),
+        (Lens::Pinhole, Some(0.5), [40, 20], Some(3.0)),
+        (Lens::Panorama, None, [40, 20], None),
+        (Lens::Fisheye { angle: 2.0 }, Some(0.5), [40, 20], None),
+        (Lens::Cube, None, [120, 20], None),
+    ] {
+        let mut config = picture(size);
+        (config.lens, config.stereo, config.picture.samples) = (lens, stereo, 1);
+        (config.picture.output, config.picture.channels) =
+            (Output::Color(Format::Exr), Channel::ALL.to_vec());
+        config.rays.shutter = film.map_or(Shutter::Pinhole, |distance| Shutter::Film { distance });
+        let frame = light(scene(&text), &config).unwrap();
+        let [d, time, distance, depth, id, velocity] =
+            ["D", "time", "distance", "Z", "id", "velocity.Y"].map(|name| channel(&frame, name));
+        for at in 0..distance.len() {
+            let (column, row) = (at % size[0] as usize, at / size[0] as usize);
+            let place = [column % 20, row].map(|pixel| (pixel as f64 + 0.5) / 10.0 - 1.0);
+            let radius = libm::hypot(place[0], place[1]);
+            // The part of a unit vector in the direction of the motion, and depth by distance.
+            let (ahead, flat) = match lens {
+                Lens::Pinhole => (1.0 / (1.0 + radius * radius).sqrt(), true),
+                Lens::Cube if (80..100).contains(&column) => (1.0 / (1.0 + radius * radius).sqrt(), false),
+                Lens::Panorama => {
+                    let longitude = std::f64::consts::TAU * ((column as f64 + 0.5) / 40.0 - 0.5);
+                    (libm::cos(longitude) * libm::cos(std::f64::consts::FRAC_PI_2 * place[1]), false)
+                }
+                Lens::Fisheye { angle } if radius < 1.0 => (libm::cos(0.5 * angle * radius), false),
+                _ => continue,
+            };
+            let earlier = film.map_or(0.0, |distance| distance * (1.0 / ahead - 1.0));
+            let far = (5.0 - beta * earlier) / (ahead + beta);
+            if far < 0.0 || ahead < 0.1 - beta {
+                continue;
+            }
+            if id[at] == 0.0 {
+                // Beyond the end of the wall.
+                assert!(far * (1.0 - ahead * ahead).sqrt() > 800.0 || ahead < 0.0, "{lens:?} {at}");
+                continue;
+            }
+            n_seen += 1;
+            let doppler = (1.0 - beta * beta).sqrt() / (1.0 + beta * ahead);
+            for (found, expected) in [
+                (distance[at], far),
+                (time[at], -far - earlier),
+                (d[at], doppler),
+                (depth[at], if flat { far * ahead } else { far }),
+                (velocity[at], beta),
+            ] {
+                assert!((found - expected).abs() < 1e-5 * far, "{lens:?} {at}: {found} {expected}");
+            }
+        }
+    }
+    assert!(n_seen > 2000, "{n_seen}");
+}
+
+/// With the shutter at the film, light for its edge passed the pinhole earlier: what moves is seen
+/// where it was then (Howard, Dance and Kitchen 1995).
+#[test]
+fn a_shutter_at_the_film_shows_its_edge_earlier() {
+    // The edge of a wall at y = 10 moves along x with 0.5 c, and is seen 45° to the right.
+    let slant = 2.0_f64.sqrt();
+    let seen = |shutter, offset: f64| {
+        // Flight time, and at the film √2 − 1 times the focal length of 3 before.
+        let earlier = match shutter {
+            Shutter::Pinhole => 0.0,
+            Shutter::Film { distance } => distance * (slant - 1.0),
+        };
+        let now = 10.0 + 0.5 * (10.0 * slant + earlier) + offset;
+        let x = now / 0.75_f64.sqrt();
+        let text = format!(
+            "c white 1; v a {x} 10 -9; v b {x} 10 9; v c {0} 10 9; v d {0} 10 -9; f (a b c d) white 1 <0.5 0 0>;
+             cam -ep 0 0 0 -vc 0 1 0 -va 90.000001 90.000001;",
+            x - 900.0
+        );
+        let picture = PictureOptions { size: [20001, 1], samples: 1, ..PictureOptions::default() };
+        let rays = RayOptions { shutter, ..RayOptions::default() };
+        let config = Config { picture, rays, crop: Some([20000, 0, 1, 1]), ..Config::default() };
+        light(scene(&text), &config).unwrap().pixels()[0][0] > 0.0
+    };
+    for shutter in [Shutter::Pinhole, Shutter::Film { distance: 3.0 }] {
+        // A pixel is 0.001 wide there.
+        assert!(seen(shutter, 0.01) && !seen(shutter, -0.01), "{shutter:?}");
+    }
+}
+
+/// A slab of absorbing glass with velocity `velocity`, 1 thick at rest, below z = `top`; its
+/// coefficient is 0.7, its index 1.5.
+fn absorbing_slab(top: f64, velocity: DVec3) -> String {
+    let corner = |name: &str, x: f64, y: f64, z: f64| format!("v {name} {x} {y} {z};");
+    let square = |name: &str, z: f64| {
+        let corners = [(-500.0, -500.0), (500.0, -500.0), (500.0, 500.0), (-500.0, 500.0)];
+        let corners = corners.iter().enumerate();
+        corners.map(|(at, (x, y))| corner(&format!("{name}{at}"), *x, *y, z)).collect::<String>()
+    };
+    let motion = format!("<{} {} {}>", velocity.x, velocity.y, velocity.z);
+    format!(
+        "surf glass 0 0 1 1.5 20 0.7; {} {} f (n0 n1 n2 n3) white glass {motion};
+         f (f3 f2 f1 f0) white glass {motion};",
+        square("n", top),
+        square("f", top - 1.0)
+    )
+}
+
+/// The light left behind a moving slab is exp(−a L), with L the length of the path in the frame of
+/// the slab: of the refracted ray, and of the straight shadow ray (P38).
+#[test]
+fn moving_glass_absorbs_light_along_its_path() {
+    let seen = |text: &str, toward: DVec3| {
+        let camera = CameraOptions {
+            center: Some(toward),
+            up: Some(DVec3::Y),
+            view_angle: Some((1e-3, None)),
+            ..CameraOptions::default()
+        };
+        let background = Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 });
+        let picture =
+            PictureOptions { size: [1, 1], samples: 1, camera, background, ..PictureOptions::default() };
+        light(scene(text), &Config { picture, ..Config::default() }).unwrap().pixels()[0][0]
+    };
+    let wall = "v a -900 -900 -60; v b 900 -900 -60; v c 900 900 -60; v d -900 900 -60;";
+    for velocity in [
+        DVec3::ZERO,
+        DVec3::new(0.0, 0.0, 0.5),
+        DVec3::new(0.0, 0.0, -0.3),
+        DVec3::new(0.6, 0.0, 0.0),
+        DVec3::new(0.3, 0.2, -0.4),
+    ] {
+        let frame = Velocity::from_beta(velocity).unwrap();
+        // The cosine to the normal of the slab, in its frame, of light that moves in a direction.
+        let cosine = |direction: DVec3| {
+            let wave = WaveVector::in_vacuum(1.0, direction.normalize()).in_frame(frame);
+            wave.k.z.abs() / wave.frequency
+        };
+        let toward = DVec3::new(0.3, 0.1, -1.0);
+        let glass = absorbing_slab(-2.0, velocity);
+        let text = format!("c white 1; l 0; {wall} f (a b c d) white 1; {glass} cam -ep 0 0 0;");
+        let sine_squared = (1.0 - cosine(-toward) * cosine(-toward)) / (1.5 * 1.5);
+        let expected = libm::exp(-0.7 / (1.0 - sine_squared).sqrt());
+        let found = f64::from(seen(&text, toward));
+        assert!((found / expected - 1.0).abs() < 1e-5, "{velocity}: {found} {expected}");
+        // The slab is above the eye, out of view; its shadow falls on the wall, below the middle.
+        let lamp = DVec3::new(0.4, -0.2, 1.0);
+        let glass = absorbing_slab(7.0, velocity);
+        let text = format!(
+            "c white 1; l 1 {} {} {} <0 0 0>; {wall} f (a b c d) white; {glass} cam -ep 0 0 0;",
+            lamp.x, lamp.y, lamp.z
+        );
+        let level = ugphysics::srgb_decode(
+            lamp.normalize().z * ugphysics::srgb_encode(libm::exp(-0.7 / cosine(-lamp))),
+        );
+        let found = f64::from(seen(&text, DVec3::NEG_Z));
+        assert!((found / level - 1.0).abs() < 1e-5, "{velocity}: {found} {level}");
+    }
+    // Light from the background that never leaves the glass.
+    let endless = "c white 1; l 0; surf glass 0 0 1 1.5 20 0.7; v a -9 -9 -2; v b 9 -9 -2; v c 0 9 -2;
+        f (a b c) white glass; cam -ep 0 0 0;";
+    assert_eq!(seen(endless, DVec3::NEG_Z), 0.0);
+    assert_eq!(seen(&endless.replace(" 0.7;", ";"), DVec3::NEG_Z), 1.0);
+}
+
+/// On a coarse globe with the normals of a sphere, faces near the limit of the light are turned
+/// away from the lamp. They cast no shadows with edges, since a globe hides no lamp above its
+/// horizon; what another body hides is dark.
+#[test]
+fn shadows_end_as_smoothly_as_normals() {
+    let mut text = String::from("c white 1; l 1 3 -1 1 <0 0 0>;");
+    let (across, down) = (16, 8);
+    for row in 0..=down {
+        for column in 0..across {
+            let (sin, cos) = libm::sincos(std::f64::consts::PI * f64::from(row) / f64::from(down));
+            let (y, x) = libm::sincos(std::f64::consts::TAU * f64::from(column) / f64::from(across));
+            let [x, y, z] = [sin * x, sin * y, cos];
+            text += &format!("v g{row}_{column} {x} {y} {z} {x} {y} {z};");
+        }
+    }
+    for (row, column) in (0..down).flat_map(|row| (0..across).map(move |column| (row, column))) {
+        let (below, right) = (row + 1, (column + 1) % across);
+        // At the poles one of the two triangles has no area.
+        if row + 1 < down {
+            text += &format!("f (g{row}_{column} g{below}_{column} g{below}_{right}) white <0.3 0 0.2>;");
+        }
+        if row > 0 {
+            text += &format!("f (g{row}_{column} g{below}_{right} g{row}_{right}) white <0.3 0 0.2>;");
+        }
+    }
+    let drawn = |text: &str, shadows: bool| {
+        let mut config = picture([60, 60]);
+        config.rays.shadows = shadows;
+        config.picture.samples = 1;
+        config.motion.in_place = true;
+        light(scene(&format!("{text} cam -ep 0 -6 0 -vc 0 0 0 -va 30;")), &config).unwrap()
+    };
+    let (with, without) = (drawn(&text, true), drawn(&text, false));
+    let n_lit = without.pixels().iter().filter(|pixel| pixel[0] > 0.0).count();
+    let n_shadowed = n_different(with.pixels(), without.pixels());
+    assert!(n_lit > 200 && n_shadowed * 100 < n_lit, "{n_shadowed} of {n_lit}");
+    let plate = "v p 3 -3 -2; v q 3 3 -2; v r 3 3 4; v s 3 -3 4; f (p q r s) white;";
+    let hidden = drawn(&format!("{text} {plate}"), true);
+    assert!(n_different(hidden.pixels(), without.pixels()) > n_lit / 2);
+}
+
+#[test]
+fn lamps_with_a_radius_make_soft_shadows() {
+    // A lamp 4 above the ground, a plate 2 above it that hides the lamp from x < 0 in part.
+    let text = |radius: f64| {
+        format!(
+            "c white 1; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0; f (a b c d) white;
+             v e -9 -9 2; v f 0 -9 2; v g 0 9 2; v h -9 9 2; f (e f g h) white;
+             l 1 0 0 4 {radius}; cam -ep 5 0 1 -vc 0 0 0 -va 60;"
+        )
+    };
+    let lit = |radius: f64, x: f64| {
+        let camera = CameraOptions {
+            center: Some(DVec3::new(x, 0.0, 0.0)),
+            view_angle: Some((0.01, None)),
+            ..CameraOptions::default()
+        };
+        let picture = PictureOptions { size: [8, 8], samples: 4, camera, ..PictureOptions::default() };
+        let frame = light(scene(&text(radius)), &Config { picture, ..Config::default() }).unwrap();
+        frame.pixels().iter().map(|pixel| f64::from(pixel[0])).sum::<f64>() / 64.0
+    };
+    assert!(lit(0.0, 0.05) > 0.9 && lit(0.0, -0.05) == 0.0);
+    // Under the edge half of the disk is seen; beyond x = ±1 all of it and nothing.
+    assert!((lit(1.0, 1.3) - lit(0.0, 1.3)).abs() < 0.05 && lit(1.0, -1.3) == 0.0);
+    let half = lit(1.0, 0.0);
+    assert!((half - 0.5 * lit(0.0, 0.05)).abs() < 0.05, "{half}");
+}
+
+/// Two boxes, one in the other, whose walls mirror and transmit: a path has two branches at every
+/// wall between them.
+#[test]
+fn endless_mirrors_end() {
+    let mut text = String::from("c white 1; surf both 0.1 0.9 0.9 1.5; l 1;");
+    for (name, (normal, other)) in
+        ["p", "q", "r"].into_iter().zip([(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)])
+    {
+        for side in [-2.0_f64, -1.0, 1.0, 2.0] {
+            let third = normal.cross(other);
+            let label = format!("{}{}", if side < 0.0 { "low" } else { "high" }, side.abs());
+            for (at, [u, v]) in [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].into_iter().enumerate() {
+                // Counterclockwise seen from outside.
+                let u = u * side.signum();
+                let corner = side * normal + side.abs() * (u * other + v * third);
+                text += &format!("v {name}{label}{at} {} {} {};", corner.x, corner.y, corner.z);
+            }
+            text += &format!("f ({0}0 {0}1 {0}2 {0}3) white both;", format!("{name}{label}"));
+        }
+    }
+    text += "cam -ep 0 0 0 -vc 0.3 1 0.2 -va 60;";
+    let mut config = picture([8, 6]);
+    config.picture.samples = 1;
+    config.rays = RayOptions { depth: 64, cutoff: 0.0, ..RayOptions::default() };
+    let notes = render(scene(&text), &config).unwrap().notes;
+    assert!(notes.contains(&Note::CutShort), "{notes:?}");
+    let of_open_solids = |notes: &[Note]| notes.contains(&Note::OpenSolid);
+    // The eye is inside both boxes, which are closed.
+    assert!(!of_open_solids(&notes), "{notes:?}");
+    config.rays = RayOptions { depth: 3, ..RayOptions::default() };
+    let notes = render(scene(&text), &config).unwrap().notes;
+    assert!(!notes.contains(&Note::CutShort), "{notes:?}");
+    assert!(notes.iter().any(|note| matches!(note, Note::TooDeep { depth: 3, .. })), "{notes:?}");
+    let without_a_wall = text.replacen("f (phigh20 phigh21 phigh22 phigh23) white both;", "", 1);
+    assert_ne!(without_a_wall, text);
+    let notes = render(scene(&without_a_wall), &config).unwrap().notes;
+    assert!(of_open_solids(&notes), "{notes:?}");
+}
+
+#[test]
+fn messages() {
+    let check = |config: Config, expected: &str| {
+        let found = render(scene(ROOM), &config).err().map(|error| error.words()).unwrap_or_default();
+        assert!(found.contains(expected), "{found}");
+    };
+    let config = picture([40, 30]);
+    check(
+        Config { crop: Some([30, 0, 11, 30]), ..config.clone() },
+        "-crop 30 0 11 30 is not in the picture of 40 x 30",
+    );
+    check(Config { crop: Some([0, 0, 0, 30]), ..config.clone() }, "is not in the picture");
+    check(Config { crop: Some([u32::MAX, 0, 2, 30]), ..config.clone() }, "is not in the picture");
+    let mut auto = Config { crop: Some([0, 0, 4, 3]), ..config.clone() };
+    auto.picture.exposure = Some(Exposure::Auto);
+    // Light is not exposed; the picture is.
+    assert!(light(scene(ROOM), &auto).is_ok());
+    let found = render(scene(ROOM), &auto).unwrap_err().words();
+    assert!(found.contains("-ex auto would differ"), "{found}");
+    let shutter = Shutter::Film { distance: 1.0 };
+    let rays = RayOptions { shutter, ..RayOptions::default() };
+    check(Config { lens: Lens::Panorama, rays, ..config.clone() }, "--film-shutter is for pinhole cameras");
+    check(Config { lens: Lens::Cube, ..config.clone() }, "such as -sz 3072 512");
+    let both = Config { lens: Lens::Cube, stereo: Some(0.1), ..picture([60, 10]) };
+    check(both, "leave out -stereo, or give -pan instead of -cube");
+    check(Config { stereo: Some(0.1), ..picture([41, 30]) }, "give an even width");
+    let annotated = |config: Config| {
+        let mut config = config;
+        config.picture.annotations.caption = "Caption".to_owned();
+        config
+    };
+    let single = "annotations (-cap, -lg, -dl, -gr) are for pictures of a single view";
+    check(annotated(Config { stereo: Some(0.1), ..config.clone() }), single);
+    check(annotated(Config { lens: Lens::Cube, ..picture([60, 10]) }), single);
+    // Captions and legends are below a picture of any lens; lines over it are straight.
+    let mut legend = annotated(Config { lens: Lens::Panorama, ..picture([400, 300]) });
+    legend.picture.annotations.legend = true;
+    assert!(render(scene(ROOM), &legend).is_ok());
+    legend.picture.annotations.grid = true;
+    check(legend, "outline and grid (-dl, -gr) are straight lines of pinhole cameras");
+    let mut orthographic = config.clone();
+    orthographic.picture.camera.is_orthographic = true;
+    check(orthographic, "leave out -og");
+    let empty = light(scene("v a 0 0 0; cam -ep 0 -5 0;"), &config).unwrap_err().words();
+    assert!(empty.contains("no faces"), "{empty}");
+    let seen = "(ugstage 1 geometry as-seen eye 0 0 0) v a 0 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
+    let seen = light(scene(seen), &config).unwrap_err().words();
+    assert!(seen.contains("give the scene at rest"), "{seen}");
+    let mut large = picture([16384, 16384]);
+    large.picture.samples = 16;
+    large.crop = Some([0, 0, 16384, 4096]);
+    check(large, "lights at each of");
+}

@@ -1,0 +1,363 @@
+//! World lines: published numbers, computed with 40 digits, and laws.
+
+use glam::DVec3;
+use ugphysics::{Event, Lorentz, Orbit, Piece, SampledPath, Velocity, WorldLine, doppler_at};
+
+const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+fn piece(of: [f64; 3], [from, to]: [f64; 2]) -> Piece {
+    Piece { of: of.into(), from, to }
+}
+
+fn moving(at: [f64; 3], beta: [f64; 3], accelerations: &[Piece], spins: &[Piece]) -> WorldLine {
+    let velocity = Velocity::from_beta(beta.into()).unwrap();
+    WorldLine::accelerated(at.into(), velocity, accelerations, spins).unwrap()
+}
+
+/// The numbers of a row of a table.
+fn numbers<const N: usize>(row: &str) -> [f64; N] {
+    let words: Vec<f64> = row.split_whitespace().map(|word| word.parse().unwrap()).collect();
+    words.try_into().unwrap()
+}
+
+/// Emission events, velocities and Doppler factors, seen by an eye at rest: the point of the body;
+/// t, x, y, z of the eye; own time; place, relative to the eye; velocity; D.
+#[test]
+#[rustfmt::skip] // rows of a table
+fn light_is_seen_as_published() {
+    let orbit = |rate| {
+        WorldLine::orbiting(Orbit::new(3.0 * DVec3::X, DVec3::ZERO, DVec3::Z, rate).unwrap(), &[]).unwrap()
+    };
+    let launch = moving([0.0; 3], [0.0; 3], &[piece([0.5, 0.0, 0.0], [0.0, 4.0])], &[]);
+    let aslant = moving([1.0, 0.0, 0.0], [0.0, 0.6, 0.0], &[piece([0.5, 0.0, 0.0], [-2.0, 3.0])], &[]);
+    let wheel = moving([0.0; 3], [0.8, 0.0, 0.0], &[], &[piece([0.0, 4.0 / 3.0, 0.0], ALWAYS)]);
+    let disc = moving([0.0; 3], [0.0; 3], &[], &[piece([0.0, 0.0, 0.25], ALWAYS)]);
+    for (world_line, rows) in [
+        (
+            launch,
+            "0 1 0  3 0 0 0  1.60943791243  0.683281573 1 0  0.66666666667 0 0  0.5416407865
+             0 1 0  8 0 0 0  3.18741054194  3.1251237606 1 0  0.92071551061 0 0  0.207912717125
+             1 1 0.5  40 0 0 0  6.67963515099  19.00524971 1 0.5  0.96402758008 0 0  0.135450026816",
+        ),
+        (aslant, "1.5 0.25 0  6 0 -3 1  0.797775924943  1.7015406705 4.0804069747 -1 0.30319764641 0.6 0  0.447605168564"),
+        (
+            wheel,
+            "0 0 0.54  0 0 -4 0.5  -4.02643098573  -4.655482048 4 -0.17054648282
+             0.9170161973 0 -0.2532781712  0.988288108042
+             0.5 0 -0.3  2 0 -4 0.5  -1.50761240289  -1.9120985359 4 0.08011976081
+             0.97201534871 0 -0.029073883795  0.40168721013",
+        ),
+        (orbit(0.2), "3.5 0 0.1  7 0 -8 1  -0.999132766545  3.4154152082 7.3268269037 -0.9 0.14831633107 0.58137962291 0  0.504418784358"),
+        (orbit(0.3), "3 0.4 0  -25 10 0 2  -16.1136769843  -10.598130244 2.947707225 -2 -0.8959742816 0.085029916619 0  0.232884164834"),
+        (disc, "3 0 0  10 0 -8 1  0.836657596078  2.9346142877 8.6229277507 -1 -0.15573193768 0.73365357192 0  0.403189933584"),
+    ] {
+        let words: Vec<&str> = rows.split_whitespace().collect();
+        for row in words.chunks(15) {
+            let [px, py, pz, t, x, y, z, own_time, sx, sy, sz, bx, by, bz, doppler] = numbers(&row.join(" "));
+            let (point, place, beta) =
+                (DVec3::new(px, py, pz), DVec3::new(sx, sy, sz), DVec3::new(bx, by, bz));
+            let observer = Event { t, x: DVec3::new(x, y, z) };
+            let seen = world_line.emission(point, observer).unwrap();
+            let relative = seen.event.x - observer.x;
+            // The numbers are rounded to 10 decimals, or to more.
+            assert!((seen.own_time - own_time).abs() < 6e-11, "{point}: {} for {own_time}", seen.own_time);
+            assert!((relative - place).length() < 1e-9, "{point}: {relative} for {place}");
+            assert!((seen.velocity.beta() - beta).length() < 1e-10, "{point}: {}", seen.velocity.beta());
+            let found = doppler_at(relative, seen.velocity);
+            assert!((found - doppler).abs() < 1e-10, "{point}: {found} for {doppler}");
+        }
+    }
+}
+
+/// What a camera with `-acc 0 .2 0 0 10` sees, in its axes.
+#[test]
+fn accelerated_observers_see_as_published() {
+    let camera = moving([0.0; 3], [0.0; 3], &[piece([0.0, 0.2, 0.0], [0.0, 10.0])], &[]);
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-10 * b.abs().max(1.0);
+    // Own time; t and y of the event; speed; y that is seen; D.
+    for row in [
+        "2 2.05376162901 0.405361859192 0.379948962255 44.1846609207 1.4906572448",
+        "10 18.1343020392 13.8109784554 0.964027580076 120.17902252 7.35494707534",
+    ] {
+        let [own_time, t, y, beta, seen, doppler] = numbers(row);
+        let pose = camera.pose(own_time);
+        assert!(close(pose.event.t, t) && close(pose.event.x.y, y) && pose.event.x.x == 0.0, "{pose:?}");
+        assert!(close(pose.scene_from_axes.velocity_of_frame().unwrap().speed(), beta));
+        // A point at rest at (1, 30, 2).
+        let place = DVec3::new(1.0, 30.0, 2.0) - pose.event.x;
+        let in_axes = pose.scene_from_axes.inverse().apply(Event { t: -place.length(), x: place });
+        assert!((in_axes.x - DVec3::new(1.0, seen, 2.0)).length() < 1e-8, "{}", in_axes.x);
+        assert!(close(in_axes.x.length() / place.length(), doppler));
+    }
+}
+
+/// A trip there and back.
+#[test]
+fn twins_meet_again() {
+    let push = [0.3, 0.0, 0.0];
+    let pull = [-0.3, 0.0, 0.0];
+    let trip = moving(
+        [0.0; 3],
+        [0.0; 3],
+        &[piece(push, [0.0, 2.0]), piece(pull, [2.0, 6.0]), piece(push, [6.0, 8.0])],
+        &[],
+    );
+    let home = trip.pose(8.0);
+    assert!(home.event.x.length() < 1e-14 && (home.event.t - 8.4887144286432).abs() < 1e-12);
+    assert!(home.scene_from_axes.velocity_of_frame().unwrap().speed() < 1e-15);
+}
+
+/// Thomas precession: the axes turn by −2π(γ − 1) a revolution.
+#[test]
+fn axes_on_an_orbit_turn_back() {
+    let orbit = Orbit::new(3.0 * DVec3::X, DVec3::ZERO, DVec3::Z, 0.3).unwrap();
+    let line = WorldLine::orbiting(orbit, &[]).unwrap();
+    let gamma = 1.0 / (1.0 - 0.81f64).sqrt();
+    let round = std::f64::consts::TAU / (0.3 * gamma);
+    let [start, end] = [0.0, round].map(|own_time| line.pose(own_time).scene_from_axes);
+    let turn = start.inverse() * end;
+    let x = turn.apply(Event { t: 0.0, x: DVec3::X }).x;
+    let angle = libm::atan2(x.y, x.x);
+    assert!((gamma - 2.294157338706).abs() < 1e-12 && (angle + 1.8482450685542).abs() < 1e-11, "{angle}");
+}
+
+/// A stretch of acceleration in two pieces is the same stretch, and light leaves on the light cone
+/// of the observer.
+#[test]
+fn pieces_join_without_a_trace() {
+    let (at, beta) = ([0.3, -1.0, 0.2], [0.1, 0.2, -0.4]);
+    let (push, spin) = ([0.2, -0.1, 0.3], [0.05, 0.1, -0.02]);
+    let whole = moving(at, beta, &[piece(push, [-3.0, 5.0])], &[piece(spin, [-1.0, 9.0])]);
+    let halves = moving(
+        at,
+        beta,
+        &[piece(push, [1.0, 5.0]), piece(push, [-3.0, 1.0])],
+        &[piece(spin, [-1.0, -0.5]), piece(spin, [-0.5, 4.0]), piece(spin, [4.0, 9.0])],
+    );
+    for step in -40..40 {
+        let observer = Event { t: f64::from(step), x: DVec3::new(1.0, -2.0, 3.0) };
+        let point = DVec3::new(0.5, -0.2, 0.1);
+        let [one, other] = [&whole, &halves].map(|line| line.emission(point, observer).unwrap());
+        assert!((one.own_time - other.own_time).abs() < 1e-12 * one.own_time.abs().max(1.0));
+        assert!((one.velocity.beta() - other.velocity.beta()).length() < 1e-12);
+        let way = observer.x - one.event.x;
+        assert!((observer.t - one.event.t - way.length()).abs() < 1e-12 * way.length().max(1.0));
+    }
+}
+
+/// Without acceleration and spin a motion is inertial, and sees what (P3) says.
+#[test]
+fn nothing_is_inertial() {
+    let velocity = Velocity::from_beta(DVec3::new(0.3, -0.4, 0.5)).unwrap();
+    let none = piece([0.0; 3], [0.0, 1.0]);
+    let line = WorldLine::accelerated(DVec3::X, velocity, &[none], &[none]).unwrap();
+    assert_eq!(line, WorldLine::inertial(velocity));
+    let point = DVec3::new(4.0, 1.0, -2.0);
+    let seen = line.emission(point, Event { t: 0.0, x: DVec3::ZERO }).unwrap();
+    assert!((seen.event.x - ugphysics::seen_position(point, velocity)).length() < 1e-14);
+}
+
+/// Points of a body without spin keep their distances in every momentary rest frame, and move with
+/// the velocity of the axes; normals of a spinning body are perpendicular to the surface as it
+/// moves.
+#[test]
+fn normals_are_perpendicular_to_the_motion_of_the_surface() {
+    let line = moving(
+        [1.0, 0.0, 0.0],
+        [0.0, 0.3, 0.0],
+        &[piece([0.2, 0.0, 0.1], ALWAYS_TO_TEN)],
+        &[piece([0.1, 0.2, -0.3], ALWAYS)],
+    );
+    let (point, normal) = (DVec3::new(1.5, 0.8, -0.4), DVec3::new(0.36, 0.48, 0.8));
+    let [first, second] = normal.any_orthonormal_pair().into();
+    for own_time in [-2.0, 0.0, 3.0] {
+        let found = line.element(point, own_time).normal(normal);
+        assert!((found.length() - 1.0).abs() < 1e-14);
+        let h = 1e-6;
+        let difference = |plus: Event, minus: Event| Event {
+            t: (plus.t - minus.t) / (2.0 * h),
+            x: (plus.x - minus.x) / (2.0 * h),
+        };
+        let along = |d: DVec3| {
+            difference(
+                line.event(point + h * d, own_time).unwrap(),
+                line.event(point - h * d, own_time).unwrap(),
+            )
+        };
+        let rate =
+            difference(line.event(point, own_time + h).unwrap(), line.event(point, own_time - h).unwrap());
+        let velocity = Velocity::from_beta(rate.x / rate.t).unwrap();
+        let to_element = Lorentz::boost(velocity).inverse();
+        for tangent in [along(first), along(second)] {
+            let tangent = to_element.apply(tangent);
+            // At rest with the element, tangents at one time lie in the surface.
+            assert!(found.dot(tangent.x).abs() < 1e-8, "{own_time}: {found} {:?}", tangent);
+        }
+    }
+}
+
+const ALWAYS_TO_TEN: [f64; 2] = [f64::NEG_INFINITY, 10.0];
+
+#[test]
+fn impossible_motions_are_refused() {
+    use ugphysics::WorldLineError as Error;
+    let refused = |accelerations: &[Piece], spins: &[Piece]| {
+        WorldLine::accelerated(DVec3::ZERO, Velocity::ZERO, accelerations, spins).unwrap_err()
+    };
+    let x = [1.0, 0.0, 0.0];
+    assert_eq!(refused(&[piece(x, [2.0, 1.0])], &[]), Error::EmptyPiece { piece: [2.0, 1.0] });
+    assert_eq!(refused(&[piece(x, [0.0, 2.0]), piece(x, [1.0, 3.0])], &[]), Error::Overlap { from: 1.0 });
+    assert_eq!(refused(&[piece([f64::NAN, 0.0, 0.0], [0.0, 1.0])], &[]), Error::NotFinite);
+    assert!(matches!(refused(&[piece(x, [0.0, 1e6])], &[]), Error::TooLong { .. }));
+    let observer = Event { t: 0.0, x: DVec3::ZERO };
+    let disc = moving([0.0; 3], [0.0; 3], &[], &[piece([0.0, 0.0, 0.5], ALWAYS)]);
+    assert!(matches!(disc.emission(2.0 * DVec3::X, observer), Err(Error::Horizon { .. })));
+    let ship = moving([0.0; 3], [0.0; 3], &[piece(x, [0.0, 1.0])], &[]);
+    assert!(matches!(ship.emission(-DVec3::X, Event { t: 1.5, x: DVec3::ZERO }), Err(Error::Horizon { .. })));
+    assert!(matches!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::Z, 1.0), Err(Error::Velocity(_))));
+    assert_eq!(Orbit::new(DVec3::X, DVec3::ZERO, DVec3::ZERO, 0.5), Err(Error::NoAxis));
+    // Times whose rounding error is a visible angle.
+    assert_eq!(disc.check_turn(-1.9e12), Ok(()));
+    assert_eq!(disc.check_turn(-2.1e12), Err(Error::ManyTurns { own_time: -2.1e12 }));
+    assert_eq!(disc.check_turn(f64::NAN), Err(Error::NotFinite));
+    assert_eq!(disc.check_turn(f64::NEG_INFINITY), Err(Error::NotFinite));
+    let far = Event { t: 3e12, x: DVec3::ZERO };
+    assert!(matches!(disc.check_turn_seen(far), Err(Error::ManyTurns { .. })));
+    assert_eq!(ship.check_turn_seen(far), Ok(()));
+    // Finite numbers whose products overflow.
+    assert_eq!(Orbit::new(DVec3::X * 1e308, -1e308 * DVec3::X, DVec3::Z, 2.0), Err(Error::NotFinite));
+    assert_eq!(refused(&[piece([1e308, 0.0, 0.0], [-3.0, -1.0])], &[]), Error::NotFinite);
+}
+
+/// Motions of every kind, and points of them before every horizon.
+fn motions() -> Vec<WorldLine> {
+    let push = [piece([0.3, 0.0, 0.1], [-2.0, 1.5]), piece([0.0, -0.2, 0.0], [2.0, 6.0])];
+    let spin = [piece([0.1, 0.2, 0.05], ALWAYS)];
+    let center = DVec3::new(-3.0, 1.0, 0.0);
+    let orbit = Orbit::new(0.2 * DVec3::X, center, DVec3::new(0.1, 0.2, 1.0), 0.2).unwrap();
+    let pushed = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &push, &[]);
+    let both = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &push, &spin);
+    let wheel = both.with_part(DVec3::new(0.5, 0.4, 0.0), &[piece([0.0, 0.3, 0.0], [0.0, 9.0])]).unwrap();
+    let moon = WorldLine::orbiting(orbit, &spin).unwrap();
+    vec![
+        pushed,
+        both,
+        wheel,
+        moon.clone(),
+        moon.with_part(DVec3::new(0.5, 0.0, 0.0), &[piece([0.2, 0.0, 0.0], ALWAYS)]).unwrap(),
+        moving([0.0; 3], [0.5, 0.0, 0.0], &[], &spin),
+        WorldLine::along(DVec3::X * 0.1, curve(), &[]).unwrap(),
+        WorldLine::along(DVec3::X * 0.1, curve(), &spin).unwrap(),
+        WorldLine::inertial(Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap()),
+    ]
+}
+
+/// A path with an acceleration of 0.5 at most.
+fn curve() -> SampledPath {
+    let row = |k: i32| {
+        let t = f64::from(k) * 1.5 - 4.0 + 0.3 * f64::from(k % 2);
+        let x = DVec3::new(0.3 * t + libm::sin(0.5 * t), libm::cos(0.4 * t), 0.2 * t);
+        Event { t, x }
+    };
+    SampledPath::new(&(0..9).map(row).collect::<Vec<_>>()).unwrap()
+}
+
+fn points() -> impl Iterator<Item = DVec3> {
+    (0..20).map(|k| {
+        let k = f64::from(k);
+        DVec3::new(0.6 * libm::sin(k), 0.6 * libm::cos(2.0 * k), 0.6 * libm::sin(3.0 * k + 1.0))
+    })
+}
+
+/// An event on a body leads back to its point and own time.
+#[test]
+fn events_are_of_the_points_that_are_there() {
+    for motion in motions() {
+        points().for_each(|point| motion.check(point).unwrap());
+        for (point, own_time) in points().zip((-10..10).map(f64::from)) {
+            let event = motion.event(point, own_time).unwrap();
+            let found = motion.at_event(event).unwrap();
+            let scale = 1.0 + event.t.abs();
+            assert!((found.own_time - own_time).abs() < 1e-13 * scale, "{} {own_time}", found.own_time);
+            assert!((found.point - point).length() < 1e-13 * scale, "{} {point}", found.point);
+            let seen =
+                motion.emission(point, Event { t: event.t + 5.0, x: event.x + 5.0 * DVec3::Y }).unwrap();
+            assert!((seen.own_time - own_time).abs() < 1e-12 * scale);
+            // A spin begins and ends with a jerk.
+            if [-2.0, 0.0, 1.5, 2.0, 6.0, 9.0].contains(&own_time) {
+                continue;
+            }
+            assert!((seen.velocity.beta() - found.velocity.beta()).length() < 1e-12);
+            // The velocity is the derivative of the event.
+            let [early, late] = [-1e-5, 1e-5].map(|step| motion.event(point, own_time + step).unwrap());
+            let slope = (late.x - early.x) / (late.t - early.t);
+            assert!((found.velocity.beta() - slope).length() < 1e-8, "{slope}");
+        }
+    }
+}
+
+/// A change of frame changes coordinates, not what is seen.
+#[test]
+fn what_is_seen_does_not_depend_on_the_frame() {
+    let velocity = Velocity::from_beta(DVec3::new(-0.3, 0.5, 0.2)).unwrap();
+    let frame = Lorentz::boost(velocity).inverse();
+    let origin = Event { t: 2.0, x: DVec3::new(1.0, -3.0, 0.5) };
+    let there = |event: Event| frame.apply(event - origin);
+    for motion in motions() {
+        let moved = motion.in_frame(frame, origin);
+        let twice = moved.in_frame(frame.inverse(), there(Event { t: 0.0, x: DVec3::ZERO }));
+        for point in points() {
+            let observer = Event { t: 3.0, x: DVec3::new(0.0, -4.0, 1.0) };
+            let seen = motion.emission(point, observer).unwrap();
+            let again = moved.emission(point, there(observer)).unwrap();
+            assert!((again.own_time - seen.own_time).abs() < 1e-12 * (1.0 + seen.own_time.abs()));
+            let event = there(seen.event);
+            assert!((again.event.x - event.x).length() < 1e-12 * (1.0 + event.t.abs()));
+            let composed = ugphysics::compose(seen.velocity, -velocity);
+            assert!((again.velocity.beta() - composed.beta()).length() < 1e-13);
+            let back = twice.emission(point, observer).unwrap();
+            assert!((back.event.x - seen.event.x).length() < 1e-11 * (1.0 + seen.event.t.abs()));
+        }
+    }
+}
+
+/// A part that does not spin is the body; a wheel that turns with its car is part of it.
+#[test]
+fn parts_move_with_their_body() {
+    let car = moving([0.1, 0.2, 0.3], [0.2, 0.3, -0.1], &[piece([0.3, 0.0, 0.1], [-2.0, 1.5])], &[]);
+    assert_eq!(car.with_part(DVec3::X, &[]).unwrap(), car);
+    let wheel = car.with_part(DVec3::X, &[piece([0.0, 0.0, 0.5], [0.0, 4.0])]).unwrap();
+    let hub = wheel.event(DVec3::X, 3.0).unwrap();
+    assert_eq!(hub, car.event(DVec3::X, 3.0).unwrap());
+    let rim = wheel.event(DVec3::X + DVec3::Y, 3.0).unwrap();
+    let turned = DVec3::X + DVec3::new(-libm::sin(1.5), libm::cos(1.5), 0.0);
+    let same = car.event(turned, 3.0).unwrap();
+    assert!((rim.x - same.x).length() < 1e-14 && (rim.t - same.t).abs() < 1e-14);
+}
+
+#[test]
+fn the_rim_of_a_spin_and_the_horizon_of_an_acceleration_are_limits() {
+    let always = |of: DVec3| piece(of.into(), ALWAYS);
+    let spin = WorldLine::accelerated(DVec3::X, Velocity::ZERO, &[], &[always(DVec3::Z * 0.5)]).unwrap();
+    assert_eq!(spin.check(DVec3::new(2.999, 0.0, 7.0)), Ok(()));
+    assert!(spin.check(DVec3::new(3.0, 0.0, 0.0)).is_err());
+    let push = Piece { of: DVec3::X * 0.25, from: 1.0, to: 2.0 };
+    let pushed = WorldLine::accelerated(DVec3::ZERO, Velocity::ZERO, &[push], &[]).unwrap();
+    assert_eq!(pushed.check(DVec3::new(-3.999, 9.0, 9.0)), Ok(()));
+    let error = pushed.check(DVec3::new(-4.0, 0.0, 0.0)).unwrap_err();
+    assert_eq!(error, ugphysics::WorldLineError::Horizon { own_time: 1.5 });
+    // Together: 1 + a·ξ of a point that turns into the horizon.
+    let both = WorldLine::accelerated(
+        DVec3::ZERO,
+        Velocity::ZERO,
+        &[always(DVec3::X * 0.25)],
+        &[always(DVec3::Z * 0.1)],
+    );
+    assert!(both.unwrap().check(DVec3::new(0.0, 3.0, 0.0)).is_err());
+    // A wheel on the disc that turns against it keeps its directions; one that turns with it
+    // reaches 0.5 + |arm|.
+    let wheel = |rate: f64| spin.with_part(DVec3::X * 2.0, &[always(DVec3::Z * rate)]).unwrap();
+    assert_eq!(wheel(-0.5).check(DVec3::X * 9.0), Ok(()));
+    assert_eq!(wheel(0.5).check(DVec3::X * 2.4), Ok(()));
+    assert!(wheel(0.5).check(DVec3::X * 2.6).is_err());
+}

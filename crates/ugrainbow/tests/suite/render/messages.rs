@@ -1,0 +1,230 @@
+//! Errors and notes about pictures that cannot be drawn or show nothing.
+
+use ugimage::{LinearFrame, Samples};
+use ugphysics::Hsv;
+use ugpipe::Words;
+use ugrainbow::{
+    Background, CameraOptions, Channel, Config, Error, HueScale, PictureOptions, Wireframe, light, render,
+};
+
+use crate::common::{SQUARE, scene, with};
+use crate::render::{BLACK, notes, plain};
+
+#[test]
+fn sizes_that_do_not_fit_are_refused() {
+    #[track_caller]
+    fn check(size: [u32; 2], samples: u32, message: &str) {
+        let error = render(
+            &scene("l 1;"),
+            &with(&Config::default(), |picture| (picture.size, picture.samples) = (size, samples)),
+        )
+        .unwrap_err();
+        assert!(error.is_usage());
+        assert_eq!(error.words(), message);
+    }
+    check(
+        [32_768, 16_384],
+        4,
+        "a picture of 32768 x 16384 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 \
+         along a side; give a smaller -sz",
+    );
+    check(
+        [0, 7],
+        4,
+        "a picture of 0 x 7 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 along a \
+         side; give a smaller -sz",
+    );
+    check(
+        [u32::MAX, 1],
+        4,
+        "a picture of 4294967295 x 1 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 \
+         along a side; give a smaller -sz",
+    );
+    check([8, 8], 17, "17 x 17 samples a pixel cannot be taken; give -aa 1 to 16");
+    check([8, 8], 0, "0 x 0 samples a pixel cannot be taken; give -aa 1 to 16");
+}
+
+#[test]
+fn scenes_without_a_picture_are_errors() {
+    #[track_caller]
+    fn check(text: &str, message: &str) {
+        assert_eq!(render(&scene(text), &plain(4, 4)).unwrap_err().words(), message);
+    }
+    assert!(matches!(render(&scene("v a 0 0 0; l 1;"), &plain(4, 4)), Err(Error::Empty)));
+    check(
+        "",
+        "the scene has no faces and no wires, so there is nothing to draw; check that the program before in \
+         the pipe wrote one",
+    );
+    check(
+        &format!("{SQUARE} f (a b c d);"),
+        "the eye point 0 0 0 is also the view centre, so there is no direction to look in; move the eye with \
+         -ep or the centre with -vc",
+    );
+    check(
+        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -va 180 40;"),
+        "a view angle of 180 degrees cannot be projected on a flat picture; give -va more than 0 and less than \
+         180",
+    );
+    check(
+        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -fs 1 1 -fl 0;"),
+        "the film size and the focal length of the camera must be positive; correct -fs and -fl of the `cam` \
+         statement, or give -va",
+    );
+    check(
+        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -ph 0 0 0 1;"),
+        "the film rectangle of the camera has no area; give -ph of the `cam` statement as min x, min y, max x, \
+         max y",
+    );
+    check(
+        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -cl 3 2;"),
+        "nothing lies between the clipping distances 3 and 2; give -cl of the `cam` statement as hither and a \
+         greater yon",
+    );
+}
+
+#[test]
+fn pictures_in_which_nothing_is_seen_say_why() {
+    #[track_caller]
+    fn check(text: &str, config: &Config, expected: &[&str]) {
+        let notes = notes(text, config);
+        assert_eq!(notes, expected);
+    }
+    let square = format!("c green 1 120; c far 1 900; c black 0; l 1; {SQUARE} f (a b c d)");
+    let config = plain(32, 32);
+    check(&format!("{square}; cam -ep 1 0 20;"), &config, &[]);
+    check(
+        &format!("{square}; cam -ep 0 0 20 -vc 0 0 30 -ud 0 1 0;"),
+        &config,
+        &["nothing is drawn: everything is behind the eye or outside the clipping distances; try \
+             `uglorentz --keep-in-view`, another -ep or -vc"],
+    );
+    check(
+        &format!("{square}; cam -ep 0 0 20 -vc 90 0 0;"),
+        &config,
+        &["nothing is drawn: everything is outside the picture, where fast bodies often are; \
+             try `uglorentz --keep-in-view`, another -vc or a wider -va"],
+    );
+    check(
+        &format!("{square}; cam -ep 30 0 0 -vc 0 0 0;"),
+        &config,
+        &[
+            "nothing is drawn: everything is seen edge-on or smaller than a sample; try another -ep or a narrower \
+           -va",
+        ],
+    );
+    check(
+        &format!("{square} far; cam -ep 1 0 20;"),
+        &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
+        &["all that is in the picture is black: its wavelengths are outside 380-780 nm; give ugdoppler \
+             and ugrainbow -look light, or -look shape to see the shape"],
+    );
+    // The white part of a pale colour stays visible.
+    let moved = "c far .5 900 .8; v e 30 0 0; v f 31 0 0; v g 30 1 0; f (e f g) far";
+    check(
+        &format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"),
+        &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
+        &[
+            "all that is in the picture is black or grey: its wavelengths are outside 380-780 nm; give ugdoppler \
+             and ugrainbow -look light, or -look shape to see the shape",
+        ],
+    );
+    // The picture is 40 tan 2.5° = 1.746 wide, so 1.373 / 1.746 of it is out of range, then 0.373.
+    let parts = |near: f64| {
+        format!(
+            "c far 1 900; c green 1 546; l 1; v a -1 -1 0; v b 1 -1 0; v c 1 1 0; v d -1 1 0; v e {near} -1 0; \
+             v f {near} 1 0; v g {near} -1 0; v h {near} 1 0; f (a e f d) far; f (g b c h) green; \
+             cam -ep 0 0 20 -vc 0 0 0 -ud 0 1 0 -va 5;"
+        )
+    };
+    let wavelengths = Config { hue_scale: HueScale::Wavelengths, ..config.clone() };
+    check(
+        &parts(0.5),
+        &wavelengths,
+        &["78 percent of what is in the picture is black or grey: its wavelengths are outside 380-780 nm; \
+           give ugdoppler \
+             and ugrainbow -look light, or -look shape to see the shape"],
+    );
+    check(&parts(-0.5), &wavelengths, &[]);
+    check(
+        &format!("{square} black; cam -ep 1 0 20;"),
+        &config,
+        &[
+            "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the \
+           scene",
+        ],
+    );
+    // Black lines, on black and on white.
+    let lines =
+        Config { wireframe: Some(Wireframe { has_faces: false, color: Some(BLACK) }), ..config.clone() };
+    let text = format!("{square}; cam -ep 1 0 20;");
+    check(&text, &lines, &["the lines are black on black: choose another colour with -lc or -bg"]);
+    let mut on_white = lines;
+    on_white.picture.background = Background::Color(Hsv { value: 1.0, ..BLACK });
+    check(&text, &on_white, &[]);
+    check(
+        &format!("{square}; l .25; cam -ep 0 0 20;"),
+        &config,
+        &[
+            "the up direction is zero or parallel to the view, so another axis is up; choose one with -ud",
+            "max intensity is 1.25, clip to 1.0",
+        ],
+    );
+    check(&format!("{square}; l 1; cam -ep 1 0 20;"), &config, &["max intensity is 2.0, clip to 1.0"]);
+    check(
+        &format!("c clear 1 0 1 .5; {SQUARE} f (a b c d) clear; cam -ep 1 0 20;"),
+        &config,
+        &["no lights in the scene: drawn with ambient light 0.3 and a light of 0.7 from the eye"],
+    );
+}
+
+#[test]
+fn no_scene_makes_it_panic() {
+    // Coordinates near the ends of the number range, needles, points, folded faces.
+    let corners =
+        ["0 0 0", "1e308 0 0", "-1e308 1e308 0", "1e-308 0 1e-320", "0 5 0", "1e154 1e154 1e154", "3 4 5"];
+    let mut vertices = String::new();
+    for (idx, place) in corners.iter().enumerate() {
+        vertices += &format!("v p{idx} {place};");
+    }
+    let mut n_drawn = 0;
+    for a in 0..corners.len() {
+        for b in 0..corners.len() {
+            let text = format!(
+                "{vertices} l 1; l 1 1 2 3 4; f (p{a} p{b} p4 p6) (p{b} p2 p5); w (p{a} p{b}); w (p{a} p{a});
+                 cam -ep {} -vc {};",
+                corners[a], corners[b]
+            );
+            let source = ugparse::Source::new("test.ug", text);
+            let Ok(parsed) = ugparse::parse(&source, &ugparse::Options::default()) else { continue };
+            for is_orthographic in [false, true] {
+                let camera = CameraOptions { is_orthographic, ..CameraOptions::default() };
+                let config = with(&plain(16, 16), |picture| picture.camera = camera);
+                n_drawn += usize::from(render(&parsed.scene, &config).is_ok());
+                let picture = PictureOptions { channels: Channel::ALL.to_vec(), ..config.picture.clone() };
+                let Ok(frame) = light(&parsed.scene, &Config { picture, ..config }) else { continue };
+                assert_finite(&frame);
+            }
+        }
+    }
+    assert!(n_drawn > 10, "{n_drawn}");
+}
+
+/// Every number is finite where something is drawn.
+#[track_caller]
+fn assert_finite(frame: &LinearFrame) {
+    let drawn: Vec<bool> = frame
+        .planes()
+        .iter()
+        .find_map(|plane| match &plane.samples {
+            Samples::Whole(ids) => Some(ids.iter().map(|&id| id > 0).collect()),
+            Samples::Float(_) => None,
+        })
+        .unwrap();
+    assert!(frame.pixels().iter().flatten().all(|number| number.is_finite()));
+    for plane in frame.planes() {
+        let Samples::Float(numbers) = &plane.samples else { continue };
+        let is_finite = numbers.iter().zip(&drawn).all(|(number, drawn)| !drawn || number.is_finite());
+        assert!(is_finite, "{}: {numbers:?}", plane.name);
+    }
+}

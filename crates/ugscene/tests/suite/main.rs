@@ -1,0 +1,23 @@
+//! Tests of functions on scenes, with scenes from text.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod bodies;
+mod body_boxes;
+mod builder;
+mod default_camera;
+mod geometry;
+mod history;
+mod normals;
+mod polygons;
+mod shares;
+mod view;
+
+use ugscene::Scene;
+
+/// The scene of a text without errors.
+fn parse(text: &str) -> Scene {
+    let source = ugparse::Source::new("t.ug", text);
+    let parsed = ugparse::parse(&source, &ugparse::Options::default());
+    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
+}
