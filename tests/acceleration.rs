@@ -1,7 +1,5 @@
 //! Films at growing speed: constant proper acceleration along a line.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::process::Command;
 
 use ugtests::{programs, scenes};
@@ -11,7 +9,7 @@ const PER_YEAR: f64 = 9.806_65 * 31_557_600.0 / 299_792_458.0;
 
 /// The velocities along y of the frames of a film, as its commands say.
 fn velocities(n_frames: u32, last: f64) -> Vec<f64> {
-    let program = programs::of_this_profile().join("ugfilm");
+    let program = programs::folder().join("ugfilm");
     let moving = format!("0 0 0 .. 0 {last} 0");
     let output = Command::new(program)
         .args(["-warp", "-frames", &n_frames.to_string(), "-cv", &moving])

@@ -1,8 +1,6 @@
 //! One face, one picture: colours inside faces, the triangles of bent ones, and coloured lamps are
 //! the same by rays, in exact mode, and in the pipe within its tolerances.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::fmt::Write;
 
 use glam::DVec3;

@@ -1,15 +1,14 @@
 //! Compares small pictures, one idea each, with the recorded ones, which somebody has reviewed.
 //!
-//! `UG_BLESS=1 cargo test -p ugtests --test golden` re-records them; review every change.
-
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+//! `UG_BLESS=1 cargo test -p ugtests golden` re-records them; review every change.
 
 use glam::DVec3;
 use ugphysics::Brightness;
 use ugrainbow::{Background, ColorShift, Exposure, HueScale, Interpolation, SpectralShift, Tone};
 use ugtests::picture::{self, assert_golden, decode};
 use ugtests::pipe::{Pipe, rainbow};
-use ugtests::{programs, scenes};
+use ugtests::scenes;
+use ugtests::shell::Shell;
 
 const SIZE: [u32; 2] = [160, 120];
 
@@ -246,23 +245,13 @@ fn outlines_show_what_is_not_distorted() {
     check("undistorted-outline-and-grid-teapot-0.95c", "teapot", &teapot);
 }
 
-/// Runs commands beside the scenes, and compares the pictures of these names that they write.
-fn check_commands(commands: &str, names: &[&str]) {
-    let folder = tempfile::tempdir().unwrap();
-    for entry in std::fs::read_dir(scenes::root().join("scenes")).unwrap().flatten() {
-        let path = entry.path();
-        if path.extension().is_some_and(|ending| ending == "ug" || ending == "csv") {
-            std::fs::copy(&path, folder.path().join(entry.file_name())).unwrap();
-        }
-    }
-    let system = std::env::var_os("PATH").unwrap();
-    let path = std::iter::once(programs::of_this_profile()).chain(std::env::split_paths(&system));
-    let mut shell = std::process::Command::new("sh");
-    shell.args(["-ec", commands]).current_dir(&folder).env("PATH", std::env::join_paths(path).unwrap());
-    let output = shell.output().unwrap();
-    assert!(output.status.success(), "{commands}: {}", String::from_utf8_lossy(&output.stderr));
+/// Runs commands beside these scenes, and compares the pictures of these names that they write.
+#[track_caller]
+fn check_commands(scenes: &[&str], commands: &str, names: &[&str]) {
+    let shell = Shell::new(scenes);
+    shell.run(commands);
     for name in names {
-        assert_golden(name, &picture::read(&folder.path().join(format!("{name}.png"))));
+        assert_golden(name, &picture::read(&shell.path(&format!("{name}.png"))));
     }
 }
 
@@ -277,14 +266,16 @@ fn rays_show_mirrors_shadows_and_glass() {
         ("rays-panorama-of-a-room", "-pan room.ug"),
         ("rays-stereo-shadow-0.95c", "-stereo .6 shadow.ug"),
     ] {
-        check_commands(&format!("ugphoton {SHAPES} {options} -fo {name}.png"), &[name]);
+        let scene = options.rsplit(' ').next().unwrap();
+        check_commands(&[scene], &format!("ugphoton {SHAPES} {options} -fo {name}.png"), &[name]);
     }
 }
 
 #[test]
 fn panoramas_are_warped_and_stars_drawn() {
     check_commands(
-        "ugphoton -look 1988 -pan -sz 512 256 -aa 2 street.ug -fo sky.png
+        &["street.ug", "stars.csv"],
+        "set -e; ugphoton -look 1988 -pan -sz 512 256 -aa 2 street.ug -fo sky.png
          ugwarp -look 1988 -cv 0 .5 0 -va 90 -sz 160 120 sky.png -fo warp-street-0.5c.png
          ugwarp -look 1988 -cv 0 .9 0 -va 90 -ex auto -sz 160 120 stars.csv -fo warp-stars-0.9c.png",
         &["warp-street-0.5c", "warp-stars-0.9c"],
@@ -294,6 +285,7 @@ fn panoramas_are_warped_and_stars_drawn() {
 #[test]
 fn frames_of_a_film_follow_a_shadow() {
     check_commands(
+        &["shadow.ug"],
         "ugfilm -look 1988 -rays -frames 3 -ti -3..3 -vel .9 0 0 -in --no-doppler --no-flux -bg .8 210 .25 \
          -sz 96 72 -aa 2 shadow.ug -fo film-shadow-lags-0.9c-%d.png",
         &["film-shadow-lags-0.9c-1", "film-shadow-lags-0.9c-2", "film-shadow-lags-0.9c-3"],

@@ -1,14 +1,12 @@
 //! The texts of `-h` and `--help`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
-
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
 use ugpipe::Manual;
 use ugpipe::remedies::program_with_option;
-use ugtests::documents::{Page, prepare, resized, written_files};
+use ugtests::documents::{Page, prepare, resized, shortened, written_files};
 use ugtests::{programs, scenes};
 
 /// The manual of a program.
@@ -30,13 +28,13 @@ fn printed(folder: &Path, program: &str, option: &str) -> String {
 
 #[test]
 fn short_help_is_one_screenful() {
-    let folder = programs::of_this_profile();
+    let folder = programs::folder();
     for manual in
         manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
     {
         for part in manual.commands.iter().chain([&manual]) {
             let name = &part.name;
-            let help = printed(&folder, name, "-h");
+            let help = printed(folder, name, "-h");
             let lines = help.lines().count();
             let columns = help.lines().map(|line| line.chars().count()).max().unwrap();
             assert!(lines <= SCREEN[0] && columns <= SCREEN[1], "{name}: {lines} x {columns}\n{help}");
@@ -55,12 +53,12 @@ fn short_help_is_one_screenful() {
 
 #[test]
 fn help_has_everything_as_documented() {
-    let folder = programs::of_this_profile();
+    let folder = programs::folder();
     for manual in
         manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
     {
         for part in manual.commands.iter().chain([&manual]) {
-            let help = printed(&folder, &part.name, "--help");
+            let help = printed(folder, &part.name, "--help");
             for heading in ["Usage", "Common options", "Exit status", "Documentation"] {
                 assert!(help.contains(&format!("\n{heading}:")), "{heading}: {help}");
             }
@@ -95,7 +93,7 @@ fn help_has_everything_as_documented() {
 /// about the neighbour.
 #[test]
 fn names_in_help_are_accepted() {
-    let folder = programs::of_this_profile();
+    let folder = programs::folder();
     for manual in
         manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
     {
@@ -163,14 +161,14 @@ fn remedies_know_the_options_of_all_programs() {
 #[test]
 fn examples_in_help_work() {
     let folder = tempfile::tempdir().unwrap();
-    let programs = programs::of_this_profile();
-    prepare(folder.path(), &programs);
+    let programs = programs::folder();
+    prepare(folder.path(), programs);
     let pictures = Page::of_commands("pictures", &[
         "ugrainbow -sz 90 60 ship.ug -fo rest.png; for name in fast 0.5c 0.9c 0.99c; do cp rest.png $name.png; done; \
          ugrainbow -vec -sz 90 60 ship.ug -fo rest.pdf; cp rest.pdf fast.pdf; \
          for y in 0 8; do ugphoton -sz 16 16 -crop 0 $y 16 8 ship.ug > tile_$y.png; done".to_owned(),
     ]);
-    pictures.run(&pictures.commands[0], folder.path(), &programs).unwrap();
+    pictures.run(&pictures.commands[0], folder.path(), programs).unwrap();
     for manual in
         manuals!(uglorentz, ugdoppler, ugrainbow, ugphoton, ugwarp, ugmesh, ugparse, ugsheet, ugfilm)
     {
@@ -179,8 +177,9 @@ fn examples_in_help_work() {
         for command in &page.commands {
             let has_text = command.contains("-lg") || command.contains("-cap");
             let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.25) };
-            let messages =
-                page.run(&small, folder.path(), &programs).unwrap_or_else(|message| panic!("{message}"));
+            let messages = page
+                .run(&shortened(&small), folder.path(), programs)
+                .unwrap_or_else(|message| panic!("{message}"));
             // The first frame of a film may be empty, before a body comes.
             let is_drawn = command.starts_with("ugfilm ")
                 || !messages.contains("nothing is drawn") && !messages.contains("is black");
@@ -191,4 +190,19 @@ fn examples_in_help_work() {
             }
         }
     }
+}
+
+/// A shell asks for completions: options with their meaning, and a slash where files are meant.
+#[test]
+fn programs_complete_command_lines() {
+    let folder = programs::of_this_profile();
+    let completed = |program: &str, words: &[&str]| {
+        let output = Command::new(folder.join(program)).arg("--complete").args(words).output().unwrap();
+        assert!(output.status.success() && output.stderr.is_empty());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(completed("uglorentz", &["-ve"]), "-vel\tVelocity of all objects, fraction of c\n");
+    assert_eq!(completed("uglorentz", &["-vel", "-.9", ""]), "");
+    assert_eq!(completed("uglorentz", &["-vel", "-.9", "0", "0", ""]), "/\n");
+    assert!(completed("ugparse", &["ti"]).starts_with("tidy\t"));
 }

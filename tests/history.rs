@@ -1,57 +1,18 @@
 //! The pipe that a picture records, run again by a shell in a clean folder.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+use ugtests::scenes;
+use ugtests::shell::Shell;
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-use ugtests::{programs, scenes};
-
-/// A folder with one scene and nothing else, and the programs on the path.
-struct Shell {
-    folder: tempfile::TempDir,
-    programs: PathBuf,
-}
-
-impl Shell {
-    fn new(scene: &str) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join(scene), scenes::text("dice")).unwrap();
-        Self { folder, programs: programs::of_this_profile() }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn output(&self, folder: &Path, script: &str) -> Output {
-        let system = std::env::var_os("PATH").unwrap();
-        let path = std::iter::once(self.programs.clone()).chain(std::env::split_paths(&system));
-        let mut shell = Command::new("sh");
-        shell.args(["-c", script]).current_dir(folder).env("PATH", std::env::join_paths(path).unwrap());
-        shell.output().unwrap()
-    }
-
-    /// Runs a script; returns what it wrote to standard output and to standard error.
-    #[track_caller]
-    fn run(&self, script: &str) -> [String; 2] {
-        let output = self.output(self.folder.path(), script);
-        let [out, messages] = [output.stdout, output.stderr].map(|text| String::from_utf8(text).unwrap());
-        assert!(output.status.success(), "{script}: {messages}");
-        [out, messages]
-    }
-
-    #[track_caller]
-    fn check_same(&self, first: &str, second: &str) {
-        let [first, second] = [first, second].map(|name| fs::read(self.path(name)).unwrap());
-        assert!(first.len() > 300 && first == second, "the second picture has other bytes");
-    }
+#[track_caller]
+fn check_same(shell: &Shell, first: &str, second: &str) {
+    let [first, second] = [first, second].map(|name| shell.read(name));
+    assert!(first.len() > 300 && first == second, "the second picture has other bytes");
 }
 
 #[test]
 fn a_picture_is_drawn_again_by_its_history() {
     let check = |scene: &str, pipe: &str| {
-        let shell = Shell::new(scene);
+        let shell = Shell::new(&[]);
+        shell.write(scene, scenes::text("dice"));
         shell.run(&format!("{pipe} > first.png"));
         let [script, messages] = shell.run("ugsheet --history first.png | tee again.sh");
         assert_eq!(messages, "", "{script}");
@@ -61,7 +22,7 @@ fn a_picture_is_drawn_again_by_its_history() {
         let [sum, _] = shell.run(&format!("sha256sum '{scene}'"));
         assert!(comment.contains(&format!("SHA-256 {}; ug", &sum[..64])), "{comment} {sum}");
         shell.run("sh again.sh > second.png");
-        shell.check_same("first.png", "second.png");
+        check_same(&shell, "first.png", "second.png");
     };
     check("dice.ug", "ugrainbow -sz 60 40 dice.ug");
     check(
@@ -78,31 +39,31 @@ fn a_picture_is_drawn_again_by_its_history() {
 
 #[test]
 fn every_format_with_text_is_drawn_again() {
-    let shell = Shell::new("dice.ug");
+    let shell = Shell::new(&["dice.ug"]);
     for format in ["png", "exr", "hdr", "ppm", "pdf", "svg", "eps", "ps"] {
         let vector = if format == "svg" { "-vec" } else { "" };
         shell.run(&format!(
             "uglorentz -vel .5 0 0 dice.ug > seen.ug; ugrainbow -sz 60 40 {vector} seen.ug -fo first.{format}
              ugsheet --history first.{format} > again.sh; sh again.sh > second.{format}"
         ));
-        shell.check_same(&format!("first.{format}"), &format!("second.{format}"));
+        check_same(&shell, &format!("first.{format}"), &format!("second.{format}"));
     }
 }
 
 #[test]
 fn scenes_from_pipes_are_given_to_the_script() {
-    let shell = Shell::new("dice.ug");
+    let shell = Shell::new(&["dice.ug"]);
     shell.run("uglorentz -vel .5 0 0 < dice.ug | ugrainbow -sz 60 40 > first.png");
     let [_, messages] = shell.run("ugsheet --history < first.png > again.sh");
     let note = "the scene was read from standard input: run the pipe with the same input";
     assert_eq!(messages, format!("ugsheet: note: {note}\n"));
     shell.run("sh again.sh < dice.ug > second.png");
-    shell.check_same("first.png", "second.png");
+    check_same(&shell, "first.png", "second.png");
 }
 
 #[test]
 fn changed_and_missing_scenes_are_noted() {
-    let shell = Shell::new("dice.ug");
+    let shell = Shell::new(&["dice.ug"]);
     shell.run("mkdir sub; ugrainbow -sz 60 40 dice.ug > a.png; ugrainbow -sz 60 40 sub/../dice.ug > b.png");
     let messages = |script: &str| shell.run(script)[1].clone();
     assert_eq!(messages("ugsheet --history a.png"), "");
@@ -122,32 +83,32 @@ fn changed_and_missing_scenes_are_noted() {
 /// Whoever writes a scene chooses its comments, and so what a picture records.
 #[test]
 fn forged_histories_do_not_run() {
-    let shell = Shell::new("dice.ug");
+    let shell = Shell::new(&["dice.ug"]);
     let hash = "0".repeat(64);
     let forged = |command: &str| {
         let scene = format!("{{ SHA-256 {hash} dice.ug }}\n{{ ugmesh 1: ugmesh {command} }}\n");
-        fs::write(shell.path("forged.ug"), [scene.as_bytes(), &scenes::text("dice")].concat()).unwrap();
+        shell.write("forged.ug", [scene.as_bytes(), &scenes::text("dice")].concat());
         shell.run("ugrainbow -sz 60 40 forged.ug > forged.png");
-        shell.output(shell.folder.path(), "ugsheet -qt --history forged.png > again.sh")
+        shell.output("ugsheet -qt --history forged.png > again.sh")
     };
     for command in ["| touch gone", "-fo gone", "--output=gone", "; touch gone | ug"] {
         let output = forged(command);
         let messages = String::from_utf8(output.stderr).unwrap();
         let is_refused = messages.contains("must not be run") && output.status.code() == Some(1);
         assert!(is_refused || command.starts_with(';'), "{command}: {messages}");
-        assert!(is_refused == fs::read(shell.path("again.sh")).unwrap().is_empty(), "{command}");
+        assert!(is_refused == shell.read("again.sh").is_empty(), "{command}");
     }
     for command in ["`touch gone`", "$(touch gone)", "& touch gone", "> gone", "; touch gone"] {
         assert!(forged(command).status.success(), "{command}");
-        shell.output(shell.folder.path(), "sh again.sh");
+        shell.output("sh again.sh");
         assert!(!shell.path("gone").exists(), "{command}");
     }
 }
 
 #[test]
 fn files_without_a_history_are_an_error() {
-    let shell = Shell::new("dice.ug");
-    let output = shell.output(shell.folder.path(), "ugsheet --history dice.ug");
+    let shell = Shell::new(&["dice.ug"]);
+    let output = shell.output("ugsheet --history dice.ug");
     let expected = "ugsheet: error: `dice.ug` has no history that can be run: another program drew it, or its \
                     texts were removed\n";
     assert_eq!(String::from_utf8(output.stderr).unwrap(), expected);
@@ -157,7 +118,7 @@ fn files_without_a_history_are_an_error() {
 /// The file that joins the tiles of a picture is the one that a single command writes.
 #[test]
 fn tiles_are_joined_to_the_bytes_of_the_whole_picture() {
-    let shell = Shell::new("dice.ug");
+    let shell = Shell::new(&["dice.ug"]);
     let draw = "ugphoton -vel .5 0 0 dice.ug -aa 2 -sz 50 40";
     for options in ["", "-sp -ex -1", "-tb"] {
         shell.run(&format!("{draw} {options} > whole.png"));
@@ -165,13 +126,13 @@ fn tiles_are_joined_to_the_bytes_of_the_whole_picture() {
             shell.run(&format!("{draw} {options} -crop {part} > \"tile-{part}.png\""));
         }
         shell.run("ugsheet --tiles tile-*.png > joined.png; ls -r tile-* | xargs -d '\\n' ugsheet --tiles -fo again.png");
-        shell.check_same("whole.png", "joined.png");
-        shell.check_same("whole.png", "again.png");
+        check_same(&shell, "whole.png", "joined.png");
+        check_same(&shell, "whole.png", "again.png");
         let [history, _] = shell.run("ugsheet --history joined.png");
         assert!(history.contains("-sz 50 40") && !history.contains("crop"), "{history}");
     }
     let message = |script: &str| {
-        let output = shell.output(shell.folder.path(), script);
+        let output = shell.output(script);
         assert!(!output.status.success() && output.stdout.is_empty(), "{script}");
         String::from_utf8(output.stderr).unwrap()
     };

@@ -3,8 +3,6 @@
 //!
 //! Without `oiiotool` on the path the tests are skipped, unless `UG_CI=1`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -6,12 +6,11 @@
 
 use std::fs::{self, File};
 use std::os::unix::fs::symlink;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Output};
 
-use tempfile::TempDir;
 use ugimage::{Compression, Format, Frame, LinearFrame, Metadata};
-use ugtests::{programs, scenes};
+use ugtests::scenes;
+use ugtests::shell::Shell;
 
 /// Address space for rows whose need is small, in KiB.
 const LITTLE: u64 = 400_000;
@@ -19,23 +18,15 @@ const LITTLE: u64 = 400_000;
 /// Address space that large pictures exceed, in KiB.
 const LEAST: u64 = 120_000;
 
-/// Runs a shell line in the folder, with the programs in the path.
-fn run(folder: &Path, limit_kib: u64, line: &str) -> Output {
-    let path = std::env::var("PATH").unwrap_or_default();
-    Command::new("sh")
-        .args(["-c", &format!("ulimit -v {limit_kib}; {line}")])
-        .env("PATH", format!("{}:{path}", programs::of_this_profile().display()))
-        .env_remove("RUST_BACKTRACE")
-        .current_dir(folder)
-        .stdin(Stdio::null())
-        .output()
-        .expect("a shell runs")
+/// Runs a shell line.
+fn run(shell: &Shell, limit_kib: u64, line: &str) -> Output {
+    shell.output(&format!("ulimit -v {limit_kib}; {line}"))
 }
 
 /// Checks status, emptiness of the output unless the status is 0, and a part of the messages.
 #[track_caller]
-fn check(folder: &Path, limit_kib: u64, line: &str, status: i32, message: &str) -> String {
-    let out = run(folder, limit_kib, line);
+fn check(shell: &Shell, limit_kib: u64, line: &str, status: i32, message: &str) -> String {
+    let out = run(shell, limit_kib, line);
     let messages = String::from_utf8_lossy(&out.stderr);
     assert_eq!(out.status.code(), Some(status), "{line}: {messages}");
     assert_eq!(out.stdout.is_empty(), status != 0, "{line}");
@@ -46,10 +37,9 @@ fn check(folder: &Path, limit_kib: u64, line: &str, status: i32, message: &str) 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 /// `in/` is the folder of the inputs, `out/` a folder beside it.
-fn folder() -> TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name);
-    let write = |name: &str, text: &str| fs::write(path(name), text).expect("a file is written");
+fn folder() -> Shell {
+    let shell = Shell::new(&[]);
+    let path = |name: &str| shell.path(name);
     fs::create_dir(path("in")).expect("a folder");
     fs::create_dir(path("out")).expect("a folder");
     for name in ["in/huge", "out/huge"] {
@@ -59,11 +49,11 @@ fn folder() -> TempDir {
     symlink("../out", path("in/link")).expect("a link");
     let made = Command::new("mkfifo").arg(path("in/pipe")).status().expect("mkfifo runs");
     assert!(made.success());
-    write("out/secret", "root:x:0:0:secret\n");
-    write("out/part.ug", "v outside 1 2 3;");
-    write("part.ug", "v beside 1 2 3;");
-    write("in/part.ug", "v inside 1 2 3;");
-    folder
+    shell.write("out/secret", "root:x:0:0:secret\n");
+    shell.write("out/part.ug", "v outside 1 2 3;");
+    shell.write("part.ug", "v beside 1 2 3;");
+    shell.write("in/part.ug", "v inside 1 2 3;");
+    shell
 }
 
 /// A triangle whose buffer of 36 bytes is in a file.
@@ -78,9 +68,7 @@ fn gltf(uri: &str) -> String {
 
 #[test]
 fn files_that_a_mesh_names_are_limited() {
-    let folder = folder();
-    let at = folder.path();
-    let mesh = |name: &str, text: &str| fs::write(at.join(name), text).expect("a file is written");
+    let shell = folder();
     for (library, options, status, message) in [
         ("endless", "", 0, "colours are missing: cannot read `endless`: It is outside the folder"),
         ("endless", "--allow-outside", 0, "cannot read `endless`: It is not a regular file"),
@@ -89,11 +77,11 @@ fn files_that_a_mesh_names_are_limited() {
         ("link/secret", "", 0, "cannot read `link/secret`: It is outside the folder"),
         ("link/secret", "--allow-outside", 0, ""),
     ] {
-        mesh("in/a.obj", &format!("mtllib {library}\n{TRIANGLE}"));
+        shell.write("in/a.obj", format!("mtllib {library}\n{TRIANGLE}"));
         // Materials of the largest size, and the stacks of the threads.
-        check(at, 1_000_000, &format!("ugmesh in/a.obj {options}"), status, message);
+        check(&shell, 1_000_000, &format!("ugmesh in/a.obj {options}"), status, message);
     }
-    let absolute = at.join("out/huge").display().to_string();
+    let absolute = shell.path("out/huge").display().to_string();
     for (uri, options, status, message) in [
         // Only 36 bytes are read.
         ("huge", "", 0, ""),
@@ -105,15 +93,14 @@ fn files_that_a_mesh_names_are_limited() {
         (&absolute, "", 1, "It is outside the folder of the input"),
         (&absolute, "--allow-outside", 0, ""),
     ] {
-        mesh("in/a.gltf", &gltf(uri));
-        check(at, LITTLE, &format!("ugmesh in/a.gltf {options}"), status, message);
+        shell.write("in/a.gltf", gltf(uri));
+        check(&shell, LITTLE, &format!("ugmesh in/a.gltf {options}"), status, message);
     }
 }
 
 #[test]
 fn files_that_a_scene_names_are_in_its_folder() {
-    let folder = folder();
-    let at = folder.path();
+    let shell = folder();
     for (file, options, status, expected) in [
         ("part.ug", "", 0, "v inside 1 2 3;\n"),
         ("link/../in/part.ug", "", 0, "v inside 1 2 3;\n"),
@@ -129,95 +116,93 @@ fn files_that_a_scene_names_are_in_its_folder() {
         ("link/secret", "--allow-outside", 1, "file `link/secret` is not UniGrafix"),
         ("link/secret", "--allow-outside -lax", 1, "file `link/secret` is not UniGrafix"),
     ] {
-        fs::write(at.join("in/scene.ug"), format!("include {file} ;")).expect("a file is written");
+        shell.write("in/scene.ug", format!("include {file} ;"));
         let named = format!("ugparse flatten in/scene.ug {options}");
         // On standard input, the current folder is that of the input.
         for line in [named, format!("cd in; ugparse flatten {options} < scene.ug")] {
-            let output = check(at, LITTLE, &line, status, if status == 0 { "" } else { expected });
+            let output = check(&shell, LITTLE, &line, status, if status == 0 { "" } else { expected });
             assert!(status != 0 || output == expected, "{file}: {output}");
-            let messages = String::from_utf8_lossy(&run(at, LITTLE, &line).stderr).into_owned();
+            let messages = String::from_utf8_lossy(&run(&shell, LITTLE, &line).stderr).into_owned();
             assert!(!messages.contains("root:"), "{messages}");
         }
     }
     // What the user names may be anything.
-    let piped = check(at, LITTLE, "cat in/part.ug | ugparse flatten /dev/stdin", 0, "");
+    let piped = check(&shell, LITTLE, "cat in/part.ug | ugparse flatten /dev/stdin", 0, "");
     assert_eq!(piped, "v inside 1 2 3;\n");
 }
 
 #[test]
 fn endless_inputs_end() {
-    let folder = folder();
+    let shell = folder();
     for line in [
         "ugparse --limit text=1000000",
         "uglorentz --limit text=1000000",
         "ugdoppler --limit text=1000000",
         "ugrainbow --limit text=1000000",
     ] {
-        check(folder.path(), LITTLE, &format!("{line} /dev/zero"), 1, "the scene is too large");
+        check(&shell, LITTLE, &format!("{line} /dev/zero"), 1, "the scene is too large");
     }
     for program in ["ugparse", "uglorentz", "ugdoppler", "ugrainbow", "ugmesh -if ply", "ugsheet"] {
         let line = format!("{program} /dev/zero");
-        check(folder.path(), LITTLE, &line, 1, "cannot read `/dev/zero`: out of memory");
+        check(&shell, LITTLE, &line, 1, "cannot read `/dev/zero`: out of memory");
     }
 }
 
 /// Arrays of arrays: none needs more than the limits allow, and all are refused before expansion.
 #[test]
 fn arrays_are_limited_by_what_they_write() {
-    let folder = folder();
+    let shell = folder();
     let points: String = (0..100).map(|idx| format!("v p{idx} 0 {idx} {};", idx * idx)).collect();
     let faces = "f (p0 p1 p2) (p3 p4 p5);".repeat(100);
     let wires = format!("w {};", "(p0 p1)".repeat(500));
     let cameras = "cam -ep 1 2 3;".repeat(100);
     for content in [points.clone(), format!("{points}{faces}"), format!("{points}{wires}"), cameras] {
         let text = format!("def d; {content} end; def e; a (d) 490; end; a (e) 490;");
-        fs::write(folder.path().join("in/array.ug"), text).expect("a file is written");
-        check(folder.path(), LITTLE, "ugparse count in/array.ug", 1, "the expanded scene would have ");
+        shell.write("in/array.ug", text);
+        check(&shell, LITTLE, "ugparse count in/array.ug", 1, "the expanded scene would have ");
     }
 }
 
 #[test]
 fn lack_of_memory_is_an_error() {
-    let folder = folder();
-    let at = folder.path();
-    let ship = scenes::root().join("scenes").join("ship.ug");
-    fs::copy(ship, at.join("ship.ug")).expect("a scene is copied");
+    let shell = folder();
+    shell.write("ship.ug", scenes::text("ship"));
     for options in ["", "-dt png16", "-dt exr -ch D", "-dt hdr", "-ex 1", "-tb", "-xc"] {
         let line = format!("ugrainbow ship.ug -sz 16000 16000 {options}");
-        check(at, LITTLE, &line, 1, "there is not enough memory for a picture of 16000 x 16000 pixels");
+        check(&shell, LITTLE, &line, 1, "there is not enough memory for a picture of 16000 x 16000 pixels");
     }
     // Whatever cannot be allocated.
-    fs::write(at.join("in/array.ug"), "def d; v a 0 0 0; end; a (d) 9000000;").expect("a file is written");
+    shell.write("in/array.ug", "def d; v a 0 0 0; end; a (d) 9000000;");
     let line = "ugparse flatten in/array.ug";
-    check(at, LITTLE, line, 1, "memory allocation of ");
-    assert!(fs::read_dir(at).expect("a folder").count() < 6);
+    check(&shell, LITTLE, line, 1, "memory allocation of ");
+    assert!(fs::read_dir(shell.folder()).expect("a folder").count() < 6);
     // A sheet is as large as its text.
     let title = "word ".repeat(8);
     let line = format!("ugrainbow ship.ug -sz 40 30 -qt > a.png; ugsheet a.png -ts 1000 -title '{title}'");
     for format in ["png", "svg", "pdf"] {
-        check(at, LEAST, &format!("{line} -dt {format}"), 1, "there is not enough memory for ");
+        check(&shell, LEAST, &format!("{line} -dt {format}"), 1, "there is not enough memory for ");
     }
     // Threads for which there is no address space are not started.
-    check(at, LITTLE, "ugparse flatten ship.ug -nt 1024", 0, "");
-    check(at, LITTLE, "ulimit -s 200000; ugparse flatten ship.ug", 0, "");
+    check(&shell, LITTLE, "ugparse flatten ship.ug -nt 1024", 0, "");
+    check(&shell, LITTLE, "ulimit -s 200000; ugparse flatten ship.ug", 0, "");
 }
 
 /// A header of 8 million pixels, and bytes that could be runs of so many, but are one pixel each;
 /// another with so many, but a wrong number of blocks.
 #[test]
 fn pixels_take_memory_as_they_are_read() {
-    let folder = folder();
+    let shell = folder();
     let frame = LinearFrame::from(&Frame::opaque(4000, 2000));
     let mut file = Format::Exr.encode_linear(&frame, &Metadata::default(), Compression::Fast);
     let name = b"chunkCount\0int\0\x04\0\0\0";
     let at = file.windows(name.len()).position(|bytes| bytes == name).expect("the attribute") + name.len();
     file[at] ^= 1;
-    fs::write(folder.path().join("in/lie.exr"), file).expect("a file is written");
-    check(folder.path(), LEAST, "ugwarp in/lie.exr -sz 8 8", 1, "chunk count");
+    shell.write("in/lie.exr", file);
+    check(&shell, LEAST, "ugwarp in/lie.exr -sz 8 8", 1, "chunk count");
     let header = b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000 +X 4000\n".as_slice();
     let file = [header, &[99; 600_000]].concat();
-    fs::write(folder.path().join("in/lie.hdr"), file).expect("a file is written");
-    check(folder.path(), LEAST, "ugwarp in/lie.hdr -sz 8 8", 1, "the file is truncated");
+    shell.write("in/lie.hdr", file);
+    check(&shell, LEAST, "ugwarp in/lie.hdr -sz 8 8", 1, "the file is truncated");
 }
 
 /// A PNG file of one bit per pixel, whose rows are alike.
@@ -236,12 +221,11 @@ fn bits([width, height]: [u32; 2]) -> Vec<u8> {
 /// whole sky seen small needs more, and one that is too large is refused before it is decoded.
 #[test]
 fn large_panoramas_are_bounded() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let write = |name: &str, size: [u32; 2]| fs::write(folder.path().join(name), bits(size)).expect("a file");
+    let shell = Shell::new(&[]);
+    let write = |name: &str, size: [u32; 2]| shell.write(name, bits(size));
     write("sky.png", [14_144, 7072]);
-    let at = folder.path();
-    check(at, 1_000_000, "ugwarp -qt -nt 2 -cv 0 .5 0 -sz 160 90 -dt ppm sky.png", 0, "");
-    check(at, 2_000_000, "ugwarp -qt -nt 2 -cv 0 .9 0 -pan -sz 400 200 -dt ppm sky.png", 0, "");
+    check(&shell, 1_000_000, "ugwarp -qt -nt 2 -cv 0 .5 0 -sz 160 90 -dt ppm sky.png", 0, "");
+    check(&shell, 2_000_000, "ugwarp -qt -nt 2 -cv 0 .9 0 -pan -sz 400 200 -dt ppm sky.png", 0, "");
     write("huge.png", [32_768, 16_384]);
-    check(at, LITTLE, "ugwarp huge.png", 1, "32768 x 16384 pixels exceed the limit of 268435456");
+    check(&shell, LITTLE, "ugwarp huge.png", 1, "32768 x 16384 pixels exceed the limit of 268435456");
 }

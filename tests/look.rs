@@ -1,7 +1,5 @@
 //! `-look`: the options that docs/pipeline.md lists, and no others.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
-
 use std::fmt::Debug;
 use std::fs;
 

@@ -1,7 +1,5 @@
 //! Meshes are drawn without any option for the camera: in every format, of any size, at any place
 //! and any speed they fill between a tenth and nine tenths of the picture and touch no edge.
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
-
 use std::fmt::Write;
 
 use glam::DVec3;

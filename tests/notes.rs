@@ -1,9 +1,5 @@
 //! Notes on colours in real pipes: each is printed once, by the program where it happens.
 
-use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
-
 use ugtests::programs;
 
 /// Yellow walls and a red roof that share vertices.
@@ -19,19 +15,13 @@ const MIXED: &str =
     "note: colours are mixed at 6 vertices where faces of different colours meet; -vr keeps them apart\n";
 
 /// The error output of a pipe of these commands, which succeeds and writes a picture.
-fn messages(folder: &Path, pipe: &str, scene: &str) -> String {
+#[track_caller]
+fn messages(pipe: &str, scene: &str) -> String {
     let mut text = scene.as_bytes().to_vec();
     let mut messages = String::new();
     for command in pipe.split('|') {
-        let mut words = command.split_whitespace();
-        let mut command = Command::new(folder.join(words.next().expect("a program")));
-        command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = command.spawn().expect("the program starts");
-        let mut input = child.stdin.take().expect("a pipe");
-        let writer = std::thread::spawn(move || input.write_all(&text));
-        let output = child.wait_with_output().expect("the program ends");
-        writer.join().expect("the writer ends").expect("the program reads its input");
-        messages += &String::from_utf8(output.stderr).expect("messages are UTF-8");
+        let output = programs::fed(command, &text);
+        messages += &ugtesting::run::messages(&output);
         assert!(output.status.success(), "{pipe}: {messages}");
         text = output.stdout;
     }
@@ -41,10 +31,9 @@ fn messages(folder: &Path, pipe: &str, scene: &str) -> String {
 
 #[test]
 fn mixed_colours_are_noted_once() {
-    let folder = programs::of_this_profile();
     let check = |pipe: &str, expected: &str| {
         let pipe = pipe.replace("ugrainbow", "ugrainbow -sz 64 48 -aa 2");
-        assert_eq!(messages(&folder, &pipe, HOUSE), expected, "{pipe}");
+        assert_eq!(messages(&pipe, HOUSE), expected, "{pipe}");
     };
     check("ugrainbow", &format!("ugrainbow: {MIXED}"));
     check("ugrainbow -vr", "");
@@ -72,7 +61,6 @@ fn mixed_colours_are_noted_once() {
 /// A pure green square that moves across: D = 1 / γ where it is seen at right angles to the motion.
 #[test]
 fn a_picture_without_visible_wavelengths_says_so() {
-    let folder = programs::of_this_profile();
     let scene = |saturation: f64| {
         format!(
             "c green .9 120 {saturation}; v a -1 9 -1; v b 1 9 -1; v c 1 9 1; v d -1 9 1; f (a b c d) green;
@@ -81,7 +69,7 @@ fn a_picture_without_visible_wavelengths_says_so() {
     };
     let check = |saturation: f64, speed: &str, expected: &str| {
         let pipe = format!("uglorentz -in -vel {speed} 0 0 | ugdoppler | ugrainbow -sz 64 48 -aa 2");
-        let found = messages(&folder, &pipe, &scene(saturation));
+        let found = messages(&pipe, &scene(saturation));
         let remedy = "its wavelengths are outside 380-780 nm; give ugdoppler and \
                       ugrainbow -look light, or -look shape to see the shape";
         let expected = match expected {
@@ -99,10 +87,9 @@ fn a_picture_without_visible_wavelengths_says_so() {
 
 #[test]
 fn red_green_and_blue_that_are_read_as_lightness_and_hue_are_noted_once() {
-    let folder = programs::of_this_profile();
     let scene = HOUSE.replace("c red .9 0 .8", "c red 1 0 0");
     let pipe = "uglorentz -vel .1 0 0 -in -vr | ugdoppler -hd | ugrainbow -sz 64 48";
-    let found = messages(&folder, pipe, &scene);
+    let found = messages(pipe, &scene);
     assert_eq!(found.matches("colour `red` is white, not red, green and blue").count(), 1, "{found}");
     assert!(found.contains("for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"), "{found}");
 }
@@ -111,7 +98,6 @@ fn red_green_and_blue_that_are_read_as_lightness_and_hue_are_noted_once() {
 /// an open box, in a box of glass, and without shadows it does.
 #[test]
 fn a_lamp_in_a_closed_body_is_named() {
-    let folder = programs::of_this_profile();
     let cube = |half: f64, motion: &str, faces: &[&str], color: &str| {
         let corner = |name: &str| {
             let at = |letter: char| if name.contains(letter) { half } else { -half };
@@ -127,7 +113,7 @@ fn a_lamp_in_a_closed_body_is_named() {
     let motion = "<.3 0 0>";
     let check = |options: &str, body: &str, lamp: &str, is_named: bool| {
         let text = format!("{stage} l .2; l bulb 1 0 0 0 0 {lamp}; {body}");
-        let found = messages(&folder, &format!("ugphoton -sz 16 12 {options}"), &text);
+        let found = messages(&format!("ugphoton -sz 16 12 {options}"), &text);
         let named = "ugphoton: note: the light of lamp `bulb` does not leave the closed body that it is in: move \
                      it out, or give --no-shadows\n";
         assert_eq!(found.contains(named), is_named, "{options} {body}: {found}");

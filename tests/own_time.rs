@@ -3,8 +3,6 @@
 //!
 //! A clock is a face whose Y is a hundredth of its own time.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use glam::DVec3;
 use ugimage::LinearFrame;
 use uglight::ColorShift;

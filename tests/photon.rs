@@ -1,8 +1,6 @@
 //! Compares the ray tracer with the pipe in exact mode: two renderers that share scenes and
 //! colours, and neither geometry nor samples.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use glam::DVec3;
 use ugimage::{LinearFrame, Samples};
 use uglight::ColorShift;

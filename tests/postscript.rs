@@ -2,8 +2,6 @@
 //!
 //! Without `gs` on the path the test is skipped, unless `UG_CI=1`.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::process::Command;
 
 use glam::DVec3;

@@ -1,21 +1,23 @@
 //! Mistakes at the prompt, and the answer to each.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
-
-use std::path::Path;
-use std::process::{Command, Stdio};
-
-use ugtests::{programs, scenes};
+use ugtests::shell::Shell;
 
 /// What the last program of a shell command prints to standard error, without the hint at `-h`.
-fn answer(folder: &Path, programs: &Path, command: &str) -> String {
-    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
-    let output = Command::new("sh").args(["-c", command]).current_dir(folder).env("PATH", path).output();
-    let shown = String::from_utf8(output.unwrap().stderr).unwrap();
+fn answer(shell: &Shell, command: &str) -> String {
+    let shown = String::from_utf8(shell.output(command).stderr).unwrap();
     let name = command.rsplit(" | ").next().unwrap().split(' ').next().unwrap();
     let first = shown.lines().position(|line| line.starts_with(&format!("{name}: "))).unwrap_or(0);
     let lines = shown.lines().skip(first).filter(|line| !line.starts_with("try `"));
     lines.collect::<Vec<_>>().join("\n")
+}
+
+#[track_caller]
+fn check(shell: &Shell, command: &str, expected: &str) {
+    let shown = answer(shell, command);
+    assert!(
+        !expected.is_empty() && shown.contains(expected),
+        "$ {command}\n{shown}\n  instead of\n{expected}"
+    );
 }
 
 /// A lamp in a tetrahedron, which is closed.
@@ -24,10 +26,8 @@ const ENCLOSED_LAMP: &str =
     l bulb 1 .2 .2 .2 1; cam -ep 3 3 3 -vc 0 0 0;";
 
 /// A folder with scenes, and files that are none.
-fn prepare(folder: &Path) {
-    for name in ["ship.ug", "stars.csv"] {
-        std::fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).unwrap();
-    }
+fn prepared() -> Shell {
+    let shell = Shell::new(&["ship.ug", "stars.csv"]);
     let triangle = "v a 0 0 0; v b 1 0 0; v c 0 1 0;\n";
     for (name, text) in [
         ("photo.jpg", "\u{fffd}".to_owned()),
@@ -39,23 +39,16 @@ fn prepare(folder: &Path) {
         ("broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n".to_owned()),
         ("boxed.ug", ENCLOSED_LAMP.to_owned()),
     ] {
-        std::fs::write(folder.join(name), text).unwrap();
+        shell.write(name, text);
     }
-    std::fs::write(folder.join("photo.jpg"), b"\xff\xd8\xff\xe0").unwrap();
+    shell.write("photo.jpg", b"\xff\xd8\xff\xe0");
+    shell
 }
 
 #[test]
 fn mistakes_are_answered() {
-    let folder = tempfile::tempdir().unwrap();
-    let programs = programs::of_this_profile();
-    prepare(folder.path());
-    let check = |command: &str, expected: &str| {
-        let shown = answer(folder.path(), &programs, command);
-        assert!(
-            !expected.is_empty() && shown.contains(expected),
-            "$ {command}\n{shown}\n  instead of\n{expected}"
-        );
-    };
+    let shell = prepared();
+    let check = |command: &str, expected: &str| check(&shell, command, expected);
 
     // Programs in the wrong order.
     let seen = "error: positions in this scene are as seen already, so its rest shapes are not known: give the scene \
@@ -153,13 +146,8 @@ fn mistakes_are_answered() {
 /// What is black, or outside the picture, is not drawn without a word.
 #[test]
 fn nothing_is_black_in_silence() {
-    let folder = tempfile::tempdir().unwrap();
-    let programs = programs::of_this_profile();
-    prepare(folder.path());
-    let check = |command: &str, expected: &str| {
-        let shown = answer(folder.path(), &programs, command);
-        assert!(shown.contains(expected), "$ {command}\n{shown}\n  instead of\n{expected}");
-    };
+    let shell = prepared();
+    let check = |command: &str, expected: &str| check(&shell, command, expected);
     check(
         "uglorentz -vel .9 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 40 30 -fo x.png",
         "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
@@ -184,7 +172,7 @@ fn nothing_is_black_in_silence() {
     );
     let dark = ugimage::Frame::new([32, 16], true, vec![[3, 3, 3, 255]; 32 * 16]);
     let dark = ugimage::Format::Png.encode(&dark, &ugimage::Metadata::default());
-    std::fs::write(folder.path().join("dark.png"), dark).unwrap();
+    shell.write("dark.png", dark);
     // The first is packed while it is drawn.
     for options in ["-sz 40 20", "-sz 400 200 -cap dark", "-sz 40 20 -dt png16"] {
         check(
@@ -229,15 +217,11 @@ fn photograph() -> Vec<u8> {
 /// bodies may add up to negative light.
 #[test]
 fn what_a_photograph_does_not_hold_is_chosen_or_noted() {
-    let folder = tempfile::tempdir().unwrap();
-    let programs = programs::of_this_profile();
-    std::fs::write(folder.path().join("sky.png"), photograph()).unwrap();
+    let shell = Shell::new(&[]);
+    shell.write("sky.png", photograph());
     let shown = |options: &str| {
         let command = format!("ugwarp -cv 0 .5 0 -va 90 -sz 96 72 -fo x.png {options} sky.png");
-        let messages = answer(folder.path(), &programs, &command);
-        let file = std::fs::read(folder.path().join("x.png")).unwrap();
-        let frame = ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap().0;
-        (messages, frame.pixels().to_vec())
+        (answer(&shell, &command), shell.pixels("x.png"))
     };
     // In the middle of the column: sky, sun, meadow.
     let at = |pixels: &[[u8; 4]], row: usize| pixels[96 * row + 48];
@@ -268,18 +252,14 @@ fn what_a_photograph_does_not_hold_is_chosen_or_noted() {
 /// A mesh of another program is a scene to every program that reads one.
 #[test]
 fn meshes_are_read_in_place_of_scenes() {
-    let folder = tempfile::tempdir().unwrap();
-    let programs = programs::of_this_profile();
-    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    let shell = Shell::new(&[]);
     let run = |command: &str| {
-        let output =
-            Command::new("sh").args(["-c", command]).current_dir(&folder).env("PATH", &path).output();
-        let output = output.unwrap();
+        let output = shell.output(command);
         let messages = String::from_utf8(output.stderr).unwrap();
         assert!(output.status.success(), "{command}: {messages}");
         (output.stdout, messages)
     };
-    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.path().join(name), bytes).unwrap();
+    let write = |name: &str, bytes: &[u8]| shell.write(name, bytes);
     let pyramid = "v 0 0 0\nv 1 0 0\nv 1 0 -1\nv 0 0 -1\nv .5 1 -.5\nf 4 3 2 1\nf 1 2 5\nf 2 3 5\nusemtl tiled\nf 3 4 5\nf 4 1 5\n";
     write("a.obj", format!("mtllib a.mtl\nusemtl red\n{pyramid}").as_bytes());
     write("a.mtl", b"newmtl red\nKd 1 0 0\nnewmtl tiled\nKd 1 1 1\nmap_Kd tiles.png\n");
@@ -315,7 +295,7 @@ fn meshes_are_read_in_place_of_scenes() {
     assert!(scene.contains("c_rgb red 1 0 0;\nc_rgb tiled 0 0 0.7353"), "{scene}");
     let lent = "textures are not drawn: faces with `tiles.png` have its mean colour";
     assert!(messages.contains(lent) && messages.contains("--> a.obj"), "{messages}");
-    std::fs::remove_file(folder.path().join("tiles.png")).unwrap();
+    std::fs::remove_file(shell.path("tiles.png")).unwrap();
     let (scene, messages) = run("ugparse flatten a.obj");
     assert!(String::from_utf8(scene).unwrap().contains("c_rgb tiled 1 1 1;"));
     let missing = "warning: texture `tiles.png`: No such file or directory; its faces have the colour of their material";
@@ -325,17 +305,11 @@ fn meshes_are_read_in_place_of_scenes() {
 /// Values over time may have blanks around their dots.
 #[test]
 fn blanks_in_values_over_time() {
-    let folder = tempfile::tempdir().unwrap();
-    let programs = programs::of_this_profile();
-    prepare(folder.path());
+    let shell = prepared();
     let printed = |options: &str| {
-        let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
-        let command = format!("ugfilm -qt -frames 3 {options} --print -fo f_%d.png ship.ug");
-        let mut shell = Command::new("sh");
-        shell.args(["-c", &command]).current_dir(&folder).env("PATH", path).stdin(Stdio::null());
-        let output = shell.output().unwrap();
-        assert!(output.status.success(), "{command}: {}", String::from_utf8_lossy(&output.stderr));
-        String::from_utf8(output.stdout).unwrap()
+        let [commands, _] =
+            shell.run(&format!("ugfilm -qt -frames 3 {options} --print -fo f_%d.png ship.ug"));
+        commands
     };
     for (with_blanks, without) in [
         ("-ti 0 .. 5", "-ti 0..5"),

@@ -1,10 +1,6 @@
 //! The stage of a scene in real pipes: comments have no effect on programs, and wrong orders are
 //! refused.
 
-use std::io::Write;
-use std::path::PathBuf;
-use std::process::{Command, Output, Stdio};
-
 use ugtests::programs;
 
 /// A scene with everything that programs use: bodies at rest and in motion, a face that is far from
@@ -26,35 +22,15 @@ cam -ep 0 0 0 -vc 0 8 0 -va 70 50; { the eye }
 { the end }
 ";
 
-/// Runs the programs one by one, so that a test can change the text between them.
-struct Programs(PathBuf);
-
-impl Programs {
-    fn new() -> Programs {
-        Programs(programs::released())
-    }
-
-    /// Runs a command such as `uglorentz -in` with `input` on its standard input.
-    fn feed(&self, command: &str, input: &[u8]) -> Output {
-        let mut words = command.split_whitespace();
-        let program = self.0.join(words.next().expect("a program"));
-        let mut command = Command::new(program);
-        command.args(words).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut child = command.spawn().expect("the program starts");
-        // A program that refuses its options does not read its input.
-        let _ = child.stdin.take().expect("a pipe").write_all(input);
-        child.wait_with_output().expect("the program ends")
-    }
-
-    /// The output of a pipe, with `joint` applied to the text between programs.
-    fn pipe(&self, commands: &[&str], input: &[u8], joint: fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
-        commands.iter().fold(input.to_vec(), |input, command| {
-            let output = self.feed(command, &joint(&input));
-            let messages = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{commands:?}: {messages}");
-            output.stdout
-        })
-    }
+/// The output of a pipe of programs, with `joint` applied to the text between them.
+#[track_caller]
+fn piped(commands: &[&str], input: &str, joint: fn(&[u8]) -> Vec<u8>) -> Vec<u8> {
+    commands.iter().fold(input.into(), |input, command| {
+        let output = programs::fed(command, joint(&input));
+        let messages = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{commands:?}: {messages}");
+        output.stdout
+    })
 }
 
 /// A picture without the command lines in the header of a PPM file.
@@ -80,7 +56,6 @@ fn without_comments(text: &[u8]) -> Vec<u8> {
 
 #[test]
 fn comments_tell_programs_nothing() {
-    let programs = Programs::new();
     let lorentz =
         ["", "-vel 0 -.4 .1 -in -sd 2", "-cv .3 .2 0 -sm", "-nc -ti 2", "--no-flight-time", "-vel 0 0 0"];
     let doppler =
@@ -88,8 +63,8 @@ fn comments_tell_programs_nothing() {
     let rainbow = ["-dt ppm", "-dt pfm", "-dt ppm -lg -dl -gr", "-dt ppm -iw -ed"];
     let mut n_pictures = 0;
     let mut check = |commands: &[&str]| {
-        let plain = programs.pipe(commands, SCENE.as_bytes(), <[u8]>::to_vec);
-        let stripped = programs.pipe(commands, SCENE.as_bytes(), without_comments);
+        let plain = piped(commands, SCENE, <[u8]>::to_vec);
+        let stripped = piped(commands, SCENE, without_comments);
         assert!(
             without_history(&plain) == without_history(&stripped),
             "{commands:?}: comments change the result"
@@ -124,9 +99,8 @@ fn comments_tell_programs_nothing() {
                 .into()
         };
         let commands = ["uglorentz -vel 0 -.4 .1 -sm", "ugdoppler -qt -gw", last];
-        let [plain, stripped] = [<[u8]>::to_vec, without_comments].map(|joint: fn(&[u8]) -> Vec<u8>| {
-            head_of_mesh(programs.pipe(&commands, SCENE.as_bytes(), joint))
-        });
+        let [plain, stripped] = [<[u8]>::to_vec, without_comments]
+            .map(|joint: fn(&[u8]) -> Vec<u8>| head_of_mesh(piped(&commands, SCENE, joint)));
         assert!(plain == stripped, "{commands:?}: comments change the result");
     }
     assert!(n_pictures > 40, "{n_pictures}");
@@ -210,12 +184,11 @@ fn pipes_that_would_draw_wrong_pictures_are_refused() {
             remedy: "leave out -xc",
         },
     ];
-    let programs = Programs::new();
     let scene = SCENE.to_owned() + "cam side -ep 3 0 0 -vc 0 8 0;";
     for Refused { pipe, problem, remedy } in ALL {
         let (last, others) = pipe.split_last().expect("a program");
-        let input = programs.pipe(others, scene.as_bytes(), <[u8]>::to_vec);
-        let output = programs.feed(last, &input);
+        let input = piped(others, &scene, <[u8]>::to_vec);
+        let output = programs::fed(last, &input);
         let messages = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{pipe:?}: {messages}");
         assert!(output.stdout.is_empty(), "{pipe:?}");
@@ -228,10 +201,9 @@ const STILL: &str = "c red 1 20; v a 0 5 0; v b 1 5 0; v c 0 5 1; f (a b c) red;
 
 #[test]
 fn colours_come_last_even_at_rest() {
-    let programs = Programs::new();
-    let colored = programs.pipe(&["ugdoppler"], STILL.as_bytes(), <[u8]>::to_vec);
+    let colored = piped(&["ugdoppler"], STILL, <[u8]>::to_vec);
     for command in ["uglorentz -vel .1 0 0", "ugdoppler"] {
-        let output = programs.feed(command, &colored);
+        let output = programs::fed(command, &colored);
         let messages = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{command}: {messages}");
         assert!(messages.contains("colours in this scene are as seen already"), "{command}: {messages}");
@@ -240,8 +212,7 @@ fn colours_come_last_even_at_rest() {
 
 #[test]
 fn legitimate_pipes_pass() {
-    let programs = Programs::new();
-    let check = |pipe: &[&str], scene: &str| drop(programs.pipe(pipe, scene.as_bytes(), <[u8]>::to_vec));
+    let check = |pipe: &[&str], scene: &str| drop(piped(pipe, scene, <[u8]>::to_vec));
     // Nothing moves, so positions do not depend on the eye and stay at rest.
     check(
         &["uglorentz -ep 0 -1 0", "uglorentz", "ugdoppler -ep 0 0 1", "ugrainbow -ep 1 1 1 -sz 9 9"],
@@ -258,9 +229,7 @@ fn legitimate_pipes_pass() {
 
 #[test]
 fn wavelengths_need_no_option() {
-    let programs = Programs::new();
-    let picture =
-        |last: &str| programs.pipe(&["uglorentz", "ugdoppler -gw", last], SCENE.as_bytes(), <[u8]>::to_vec);
+    let picture = |last: &str| piped(&["uglorentz", "ugdoppler -gw", last], SCENE, <[u8]>::to_vec);
     let [plain, asked] =
         ["", "-wi"].map(|option| without_history(&picture(&format!("ugrainbow -sz 60 40 -dt ppm {option}"))));
     assert!(plain == asked, "-wi makes a difference");
@@ -268,8 +237,7 @@ fn wavelengths_need_no_option() {
 
 #[test]
 fn moving_bodies_at_rest_are_drawn_with_a_warning() {
-    let programs = Programs::new();
-    let output = programs.feed("ugrainbow -sz 9 9", SCENE.as_bytes());
+    let output = programs::fed("ugrainbow -sz 9 9", SCENE.as_bytes());
     let messages = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && !output.stdout.is_empty(), "{messages}");
     assert!(
@@ -281,7 +249,6 @@ fn moving_bodies_at_rest_are_drawn_with_a_warning() {
 
 #[test]
 fn explanations_name_the_law_of_spectra() {
-    let programs = Programs::new();
     for (options, told, law) in [
         ("-sp", "brightness D^5 per wavelength", "\"D^5\""),
         ("-sp --no-flux", "brightness by the law `none`", "\"none\""),
@@ -291,7 +258,7 @@ fn explanations_name_the_law_of_spectra() {
         let doppler = format!("ugdoppler {options}");
         for (last, part) in [("", told), (" --format json", &format!("\"brightness_law\": {law}"))] {
             let last = format!("ugrainbow -sz 40 30 --explain 8,20{last}");
-            let text = programs.pipe(&["uglorentz", &doppler, &last], SCENE.as_bytes(), <[u8]>::to_vec);
+            let text = piped(&["uglorentz", &doppler, &last], SCENE, <[u8]>::to_vec);
             let text = String::from_utf8(text).expect("text");
             assert!(text.contains(part), "{options}: {part}\n{text}");
         }

@@ -1,7 +1,5 @@
 //! A caller can stop every computation: it gives up at once, and its error says so.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::DVec3;

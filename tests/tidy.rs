@@ -1,19 +1,11 @@
 //! Rules for the whole repository: dependencies, their licences, citations of equations, scenes,
 //! and clean text.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
-#[path = "tidy/circles.rs"]
 mod circles;
-#[path = "tidy/dependencies.rs"]
 mod dependencies;
-#[path = "tidy/literals.rs"]
 mod literals;
-#[path = "tidy/modules.rs"]
 mod modules;
-#[path = "tidy/names.rs"]
 mod names;
-#[path = "tidy/paths.rs"]
 mod paths;
 
 use std::collections::{BTreeMap, BTreeSet};

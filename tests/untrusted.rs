@@ -2,8 +2,6 @@
 //! every field of every format, in option values and in file names, do not reach standard error,
 //! nor reports on standard output, nor figures.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use std::fs::{self, Permissions};
 use std::io::{Cursor, Write};
 use std::os::unix::fs::PermissionsExt;
@@ -13,7 +11,7 @@ use std::sync::LazyLock;
 
 use ugtests::programs;
 
-static PROGRAMS: LazyLock<PathBuf> = LazyLock::new(programs::of_this_profile);
+static PROGRAMS: LazyLock<PathBuf> = LazyLock::new(|| programs::folder().to_owned());
 
 /// The replacements of `@` in a template: characters that a terminal obeys, those that separate
 /// words as well, and a line end before what looks like a message.

@@ -1,8 +1,6 @@
 //! Panoramas warped for a moving observer against rays traced for a moving camera: two independent
 //! methods (Weiskopf 2000).
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
-
 use glam::DVec3;
 use ugimage::LinearFrame;
 use ugphoton::{CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions};

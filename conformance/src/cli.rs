@@ -1,18 +1,16 @@
 //! The command line of `ugconformance`.
 
 use std::cell::Cell;
-use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
 
-use crate::answer::answer;
 use crate::compare::Comparison;
 use crate::picture::{self, DrawnBy, PictureCase};
 use crate::precision::Precision;
-use crate::scorecard::{Answers, Scorecard, read_answers};
+use crate::scorecard::{Scorecard, read_answers};
 use crate::suite::{Topic, topics};
 
 /// Tests relativistic renderers
@@ -31,7 +29,6 @@ struct Args {
 
 const EXAMPLES: &str = "Examples:
   ugconformance questions | my-program | ugconformance score
-  ugconformance questions | ugconformance answer | ugconformance score
   ugconformance draw sphere > sphere.png
   ugconformance draw --rays sphere > sphere.png
   ugconformance score-image sphere sphere.png
@@ -46,8 +43,6 @@ fn globally(arg: Arg) -> Arg {
 enum Command {
     /// Write the questions, one per line
     Questions(CommonArgs),
-    /// Answer questions with the crates of this project
-    Answer(CommonArgs),
     /// Compare answers with the expected ones; status 1 if one is wrong
     Score(ScoreArgs),
     /// Measure a PNG of a scene; status 1 if a number is wrong
@@ -62,8 +57,8 @@ enum Command {
     Table(TableArgs),
     /// Test the programs of this project; status 1 if one is wrong
     ///
-    /// Answers, draws, also by rays, and measures everything.
-    Check(ScoreArgs),
+    /// Draws all scenes, also by rays, and measures them.
+    Check(CommonArgs),
 }
 
 #[derive(clap::Args, Debug)]
@@ -72,8 +67,7 @@ struct ScoreArgs {
     ///
     /// In single precision the tolerance of a question is what rounding to 24 bits costs there:
     /// see conformance/README.md.
-    #[arg(long, value_name = "CLASS", default_value = "double",
-          value_parser = one_of(Precision::ALL.map(Precision::name), precision))]
+    #[arg(long, value_name = "CLASS", default_value = "double")]
     precision: Precision,
 
     #[command(flatten)]
@@ -149,11 +143,6 @@ struct DrawArgs {
     image: ImageArgs,
 }
 
-fn precision(name: &str) -> Result<Precision, String> {
-    Precision::named(name)
-        .ok_or_else(|| format!("none of the classes {}", Precision::ALL.map(Precision::name).join(", ")))
-}
-
 fn picture_case(name: &str) -> Result<&'static str, String> {
     picture::case(name).map(|case| case.name).ok_or_else(|| {
         let names = picture::CASES.iter().map(|case| case.name);
@@ -167,9 +156,9 @@ impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
         match &self.command {
             None => &self.rest,
-            Some(Command::Questions(common) | Command::Answer(common)) => common,
+            Some(Command::Questions(common) | Command::Check(common)) => common,
             Some(Command::Table(table)) => &table.common,
-            Some(Command::Score(score) | Command::Check(score)) => &score.common,
+            Some(Command::Score(score)) => &score.common,
             Some(Command::Compare(compare)) => &compare.common,
             Some(
                 Command::ScoreImage(image) | Command::Mesh(image) | Command::Draw(DrawArgs { image, .. }),
@@ -204,10 +193,6 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     let topics = topics().map_err(Failure::failed)?;
     match command {
         Command::Questions(_) => context.write_text(&questions(&topics))?,
-        Command::Answer(_) => {
-            let input = context.input()?;
-            context.write_text(&answers(&String::from_utf8_lossy(&input.text)))?;
-        }
         Command::Score(ScoreArgs { precision, .. }) => {
             let input = context.input()?;
             let answers = read_answers(&String::from_utf8_lossy(&input.text), &topics)
@@ -242,8 +227,8 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         Command::Table(TableArgs { table, .. }) => {
             context.write_text(&table().map_err(Failure::failed)?)?;
         }
-        Command::Check(ScoreArgs { precision, .. }) => {
-            let (text, is_right) = check(&topics, *precision);
+        Command::Check(_) => {
+            let (text, is_right) = check();
             context.write_text(&text)?;
             return Ok(is_right);
         }
@@ -264,7 +249,7 @@ impl CompareArgs {
 
 /// The error for a command line without a command. A word before it is the name of a file.
 fn no_command(word: Option<&Path>) -> Failure {
-    let commands = "commands are questions, answer, score, score-image, compare, draw, mesh, table and check";
+    let commands = "commands are questions, score, score-image, compare, draw, mesh, table and check";
     Failure::Usage(match word {
         Some(word) => format!("`{}` is not a command; {commands}", word.display()),
         None => format!("a command is missing; {commands}"),
@@ -281,27 +266,6 @@ pub fn questions(topics: &[Topic]) -> String {
     cases.map(|case| case.question() + "\n").collect()
 }
 
-/// Answers questions, as text; the answer to an unknown or invalid question is `-`.
-pub fn answers(questions: &str) -> String {
-    let mut text = String::new();
-    for line in questions.lines() {
-        let mut words = line.split_ascii_whitespace();
-        let Some(id) = words.next().filter(|word| !word.starts_with('#')) else { continue };
-        let kind = words.next().unwrap_or_default();
-        let given: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
-        // Writing to a string cannot fail.
-        let _ = write!(text, "{id}");
-        match given.and_then(|given| answer(kind, &given)) {
-            Some(values) => values.iter().for_each(|value| {
-                let _ = write!(text, " {value:?}");
-            }),
-            None => text.push_str(" -"),
-        }
-        text.push('\n');
-    }
-    text
-}
-
 /// Returns the measurements as lines of text, and whether all are within their tolerance.
 ///
 /// # Errors
@@ -313,16 +277,14 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     Ok((text, measured.iter().all(picture::MeasuredQuantity::passes)))
 }
 
-/// Returns the scorecard and the measurements of this project's programs, with a last line that
-/// lists everything wrong.
-fn check(topics: &[Topic], precision: Precision) -> (String, bool) {
-    // A mistake in our crates may also produce answers that cannot be parsed.
-    let answers = read_answers(&answers(&questions(topics)), topics).unwrap_or_else(|_| Answers::new());
-    let card = Scorecard::new(topics, &answers, precision);
-    let mut text = card.to_string();
-    let mut wrong: Vec<String> = card.failed().map(str::to_string).collect();
-    let drawings = picture::CASES.iter().flat_map(|case| case.renderers().iter().map(move |by| (case, *by)));
-    for (case, drawn_by) in drawings {
+/// Draws and measures all pictures. Returns the measurements, with a last line that lists everything
+/// wrong, and whether all are right.
+fn check() -> (String, bool) {
+    let mut text = String::new();
+    let mut wrong: Vec<String> = Vec::new();
+    for (case, drawn_by) in
+        picture::CASES.iter().flat_map(|case| case.renderers().iter().map(move |by| (case, *by)))
+    {
         let (title, name) = match drawn_by {
             DrawnBy::Pipe => ("", case.name.to_string()),
             DrawnBy::Rays => ("By rays: ", format!("{}-by-rays", case.name)),
@@ -331,14 +293,11 @@ fn check(topics: &[Topic], precision: Precision) -> (String, bool) {
             .draw(drawn_by)
             .and_then(|png| score_image(case, &png))
             .unwrap_or_else(|problem| (format!("{}: {problem}\n", case.name), false));
-        text += &format!("\n{title}{scored}");
+        text += &format!("{title}{scored}\n");
         if !is_right {
             wrong.push(name);
         }
     }
-    if card.counts()[0] == 0 {
-        wrong.push("everything".to_string());
-    }
-    text += &format!("\nwrong: {}\n", if wrong.is_empty() { "nothing".to_string() } else { wrong.join(" ") });
+    text += &format!("wrong: {}\n", if wrong.is_empty() { "nothing".to_string() } else { wrong.join(" ") });
     (text, wrong.is_empty())
 }

@@ -22,7 +22,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod answer;
 mod cli;
 pub mod compare;
 pub mod mistakes;
@@ -31,4 +30,4 @@ pub mod precision;
 pub mod scorecard;
 pub mod suite;
 
-pub use cli::{answers, main, manual, questions, score_image};
+pub use cli::{main, manual, questions, score_image};

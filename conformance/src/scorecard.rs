@@ -1,7 +1,7 @@
 //! Compares answers with the suite.
 
 use std::collections::BTreeMap;
-use std::fmt::{self, Write};
+use std::fmt;
 
 use crate::mistakes;
 use crate::precision::Precision;
@@ -10,42 +10,19 @@ use crate::suite::{Case, Topic};
 /// The answers of a program, by the id of the question.
 pub type Answers = BTreeMap<String, Vec<f64>>;
 
-/// An invalid line of answers.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct AnswerError {
-    /// Line number, from 1.
-    pub line: usize,
-    /// Column in bytes, from 1.
-    pub column: usize,
-    /// The invalid word.
-    pub word: String,
-    /// The error in it.
-    pub what: &'static str,
-}
-
-impl fmt::Display for AnswerError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: `{}` {}", self.line, self.column, self.word, self.what)
-    }
-}
-
-impl std::error::Error for AnswerError {}
-
 /// Parses answers: an id and numbers on each line. `-` instead of numbers means that there is no
 /// answer. Empty lines and those that begin with `#` are ignored. Infinities and NaN are parsed,
 /// but are always wrong.
 ///
 /// # Errors
-/// A word is not a number, or an id is unknown or repeated.
-pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, AnswerError> {
+/// A word is not a number, or an id is unknown or repeated: line and column, the word, and why.
+pub fn read_answers(text: &str, topics: &[Topic]) -> Result<Answers, String> {
     let is_known = |id: &str| topics.iter().flat_map(|topic| &topic.cases).any(|case| case.id == id);
     let mut answers = Answers::new();
     for (row, line) in text.lines().enumerate() {
-        let bad = |word: &str, what| AnswerError {
-            line: row + 1,
-            column: word.as_ptr() as usize - line.as_ptr() as usize + 1,
-            word: word.chars().take(40).collect(),
-            what,
+        let bad = |word: &str, what: &str| {
+            let column = word.as_ptr() as usize - line.as_ptr() as usize + 1;
+            format!("{}:{column}: `{}` {what}", row + 1, word.chars().take(40).collect::<String>())
         };
         let mut words = line.split_ascii_whitespace();
         let Some(id) = words.next().filter(|word| !word.starts_with('#')) else { continue };
@@ -129,11 +106,6 @@ impl<'a> Scorecard<'a> {
             [passed + row.passed, failed + row.failed, unanswered + row.unanswered()]
         })
     }
-
-    /// Ids of the cases that failed.
-    pub fn failed(&self) -> impl Iterator<Item = &str> {
-        self.failures.iter().map(|failure| failure.case.id.as_str())
-    }
 }
 
 impl fmt::Display for Scorecard<'_> {
@@ -154,11 +126,11 @@ impl fmt::Display for Scorecard<'_> {
         }
         let [passed, failed, unanswered] = self.counts();
         writeln!(f, "all    {passed:6}  {failed:6}  {unanswered:10}\n")?;
-        write!(f, "The worst error is in units of the tolerance")?;
-        if self.precision != Precision::Double {
-            write!(f, " for {} precision", self.precision.name())?;
-        }
-        writeln!(f, ": up to 1 is correct.")?;
+        let class = match self.precision {
+            Precision::Double => "",
+            Precision::Single => " for single precision",
+        };
+        writeln!(f, "The worst error is in units of the tolerance{class}: up to 1 is correct.")?;
         for &Failure { case, answer, tolerance } in &self.failures {
             writeln!(f, "\n{}", case.question())?;
             writeln!(f, "  answered {}", list(answer))?;
@@ -182,11 +154,5 @@ fn short(value: f64) -> String {
 }
 
 fn list(values: &[f64]) -> String {
-    let mut text = String::new();
-    for (i, value) in values.iter().enumerate() {
-        let gap = if i == 0 { "" } else { " " };
-        // Writing to a string does not fail.
-        let _ = write!(text, "{gap}{value:?}");
-    }
-    text
+    values.iter().map(|value| format!("{value:?}")).collect::<Vec<_>>().join(" ")
 }

@@ -1,6 +1,10 @@
 //! The cases: questions and their expected answers.
 
+use std::collections::BTreeMap;
 use std::fmt;
+
+/// Id and question of a case, and its tolerance in single precision, where that is larger.
+const SINGLE: &str = include_str!("../single.tsv");
 
 /// One file for each topic, T01 to T38.
 const FILES: [&str; 38] = [
@@ -68,6 +72,8 @@ pub struct Case {
     pub expected: Vec<f64>,
     /// The largest allowed [`Case::error`] of a program in double precision.
     pub tolerance: f64,
+    /// The largest allowed [`Case::error`] of a program in single precision.
+    pub single_tolerance: f64,
     /// Wrong answers that known mistakes give, `M1` and so on.
     pub mistakes: Vec<(String, Vec<f64>)>,
     /// Source of the law: author, year, section.
@@ -96,7 +102,26 @@ impl std::error::Error for CaseError {}
 /// # Errors
 /// A file of cases has an invalid line. The files are part of the program, so a test excludes this.
 pub fn topics() -> Result<Vec<Topic>, CaseError> {
-    FILES.into_iter().map(topic).collect()
+    let mut topics = FILES.into_iter().map(topic).collect::<Result<Vec<_>, _>>()?;
+    let mut single = single_tolerances(SINGLE)?;
+    for case in topics.iter_mut().flat_map(|topic| &mut topic.cases) {
+        case.single_tolerance = single.remove(case.question().as_str()).unwrap_or(case.tolerance);
+    }
+    match single.into_keys().next() {
+        Some(line) => Err(CaseError { line: line.to_string(), what: "no such question" }),
+        None => Ok(topics),
+    }
+}
+
+/// The tolerances in single precision, by question.
+fn single_tolerances(text: &str) -> Result<BTreeMap<&str, f64>, CaseError> {
+    let mut tolerances = BTreeMap::new();
+    for line in text.lines().filter(|line| !line.starts_with('#')) {
+        let bad = || CaseError { line: line.to_string(), what: "not a question and a tolerance" };
+        let (question, tolerance) = line.split_once('\t').ok_or_else(bad)?;
+        tolerances.insert(question, tolerance.parse().map_err(|_| bad())?);
+    }
+    Ok(tolerances)
 }
 
 /// Parses a file: its first line is `# T01 title`; other lines that begin with `#` are comments.
@@ -135,12 +160,14 @@ fn case(line: &str) -> Result<Case, CaseError> {
             })
             .collect::<Result<_, _>>()?,
     };
+    let tolerance = tolerance.parse().map_err(|_| bad("no tolerance"))?;
     let case = Case {
         id: id.to_string(),
         kind: words.next().unwrap_or_default(),
         given: words.collect(),
         expected: numbers(expected)?,
-        tolerance: tolerance.parse().map_err(|_| bad("no tolerance"))?,
+        tolerance,
+        single_tolerance: tolerance,
         mistakes,
         source: source.to_string(),
     };
@@ -169,11 +196,6 @@ impl Case {
     /// largest of these, or absolute if these are all 0. Infinite if the count of numbers differs.
     pub fn error(&self, answer: &[f64]) -> f64 {
         distance(answer, &self.expected)
-    }
-
-    /// The number to which [`Case::error`] is relative.
-    pub fn scale(&self) -> f64 {
-        scale(&self.expected)
     }
 }
 
@@ -214,6 +236,8 @@ mod tests {
         assert_eq!(refused(""), "the first line is not `# T01 title`");
         assert_eq!(refused("# T01 a title\n"), "no cases, or cases of another topic");
         assert_eq!(refused("# T01 a title\nT01.1\tgamma 0\n"), "not six columns");
+        let refused_single = |text| single_tolerances(text).unwrap_err().what;
+        assert_eq!(refused_single("T01.01 gamma 0\tx"), "not a question and a tolerance");
         assert_eq!(refused("# T01 a title\nT01.1\tgamma 0\tx\t0\t-\tme\n"), "not numbers");
         assert_eq!(refused("# T01 a title\nT01.1\tgamma 0\t1\t0\tM1\tme\n"), "a mistake is `M1: numbers`");
         assert_eq!(

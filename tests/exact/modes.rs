@@ -7,7 +7,7 @@ use ugtests::picture::decode;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
 
-use crate::{SIZE, channels, exact};
+use super::{SIZE, channels, exact};
 
 /// Colours and normals of corners, and a hole, in triangles at rest. At rest both modes draw a
 /// triangle equally.

@@ -6,7 +6,7 @@ use ugrainbow::ColorShift;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
 
-use crate::{SQUARE, exact};
+use super::{SQUARE, exact};
 
 #[test]
 fn threads_do_not_change_the_picture() {

@@ -12,7 +12,7 @@ use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::scenes;
 use ugtests::shading::Shading;
 
-use crate::{SIZE, SQUARE, channels, exact};
+use super::{SIZE, SQUARE, channels, exact};
 
 const SPEEDS: [f64; 4] = [0.3, 0.9, 0.99, 0.999];
 

@@ -51,28 +51,28 @@ fn cameras() -> Vec<CameraOptions> {
 #[test]
 fn pictures_stay_the_same_to_the_pixel() {
     let mut n_culled = 0;
-    for scene in ["street", "lattice", "cubes"] {
+    let velocities = [DVec3::new(0.2, -0.5, 0.1), DVec3::NEG_Y * 0.95, DVec3::Y * 0.99];
+    for (row, scene) in ["street", "lattice", "cubes"].into_iter().enumerate() {
         for (idx, camera) in cameras().into_iter().enumerate() {
-            for beta in [DVec3::new(0.2, -0.5, 0.1), DVec3::NEG_Y * 0.95, DVec3::Y * 0.99] {
-                let coarse = uglorentz::Pieces::UpTo(2e-3);
-                let lorentz = uglorentz::Config {
-                    velocity: Some(beta),
-                    camera: camera.clone(),
-                    pieces: coarse,
-                    ..Default::default()
-                };
-                let mut pipe = pipe(lorentz);
-                pipe.rainbow.picture.camera.view_angle = camera.view_angle;
-                // Flat shading, too, and colours that do not mix.
-                pipe.lorentz.smooth = idx % 2 == 1;
-                pipe.doppler.repeat = idx == 2;
-                pipe.doppler.shift = ColorShift::hues(idx != 1, Brightness::Report);
-                n_culled += culled(&format!("{scene}-{idx}-{:.2}", beta.length()), scene, &pipe);
-            }
+            // Every scene and every camera with every velocity, though not both.
+            let beta = velocities[(row + idx) % velocities.len()];
+            let lorentz = uglorentz::Config {
+                velocity: Some(beta),
+                camera: camera.clone(),
+                pieces: uglorentz::Pieces::UpTo(5e-3),
+                ..Default::default()
+            };
+            let mut pipe = pipe(lorentz);
+            pipe.rainbow.picture.camera.view_angle = camera.view_angle;
+            // Flat shading, too, and colours that do not mix.
+            pipe.lorentz.smooth = idx % 2 == 1;
+            pipe.doppler.repeat = idx == 2;
+            pipe.doppler.shift = ColorShift::hues(idx != 1, Brightness::Report);
+            n_culled += culled(&format!("{scene}-{idx}-{:.2}", beta.length()), scene, &pipe);
         }
     }
-    // There are 5434 faces in total, drawn 15 times.
-    assert!(n_culled > 5434 * 15 / 3, "{n_culled}");
+    // There are 5434 faces in total, drawn 5 times.
+    assert!(n_culled > 5434 * 5 / 3, "{n_culled}");
 }
 
 #[test]

@@ -89,13 +89,12 @@ fn directions_are_in_the_axes_of_the_scene() {
         let by_pipe =
             ugrainbow::explain::explain(&scanned, &Source::new("t.ug", &fine[..]), PIXEL).unwrap().0;
         let by_rays = ugphoton::explain(&rays, &Source::new("t.ug", text.as_str()), PIXEL).unwrap().0;
-        let by_pipe = by_pipe.sample.unwrap();
-        let by_rays = by_rays.sample.unwrap().surfaces.remove(0);
-        for (program, (t, x), (_, rest)) in [
-            ("ugrainbow", by_pipe.emission, (by_pipe.rest.0.unwrap(), by_pipe.rest.1)),
-            ("ugphoton", by_rays.emission, by_rays.rest),
-        ] {
-            let event = rest_from_camera * x.extend(t);
+        let by_pipe = by_pipe.sample.unwrap().surface;
+        let by_rays = by_rays.sample.unwrap().surfaces.remove(0).surface;
+        for (program, surface) in [("ugrainbow", by_pipe), ("ugphoton", by_rays)] {
+            let [seen, rest] =
+                [surface.emission, surface.emission_at_rest].map(|event| DVec3::from_array(event.x));
+            let event = rest_from_camera * seen.extend(surface.emission.t.unwrap());
             let off = rest.distance(event.truncate()) / rest.length();
             assert!(off < 1e-6, "{program} --explain, {body} from {camera}: {rest} for {event}");
         }

@@ -8,7 +8,7 @@ use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
 
-use crate::{color_of, named, triangles};
+use super::{color_of, named, triangles};
 
 type Big = FBig<HalfEven, 2>;
 type BigVector = [Big; 3];
@@ -89,36 +89,37 @@ fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
     let mut random = Random(1);
     let (mut n_vertices, mut worst_place, mut worst_doppler) = (0, 0.0_f64, 0.0_f64);
     for speed in speeds() {
-        for _ in 0..4 {
-            let (beta, eye) = (speed * random.direction(), random.in_cube(10.0));
-            let (text, points) = triangles(&mut random, 5, &["green"]);
-            let text = format!("c green 0.1 120 1; {text}");
-            let lorentz = uglorentz::Config { velocity: Some(beta), eye: Some(eye), ..Default::default() };
-            let seen = pipe::lorentz(text.as_bytes(), &lorentz);
-            let doppler = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
-            let scene = parse(&pipe::doppler(&seen, &doppler));
+        let (beta, eye) = (speed * random.direction(), random.in_cube(10.0));
+        let (text, points) = triangles(&mut random, 5, &["green"]);
+        let text = format!("c green 0.1 120 1; {text}");
+        // Vertices are where they are however edges are divided.
+        let pieces = uglorentz::Pieces::PerEdge(1);
+        let lorentz =
+            uglorentz::Config { velocity: Some(beta), eye: Some(eye), pieces, ..Default::default() };
+        let seen = pipe::lorentz(text.as_bytes(), &lorentz);
+        let doppler = ugdoppler::Config { tolerance: 0.0, wavelengths: true, ..Default::default() };
+        let scene = parse(&pipe::doppler(&seen, &doppler));
 
-            let motion = Motion::new(beta);
-            for (name, vertex) in named(&scene, &points) {
-                let place = difference(vertex.position, eye);
-                let off = error(&place, &motion.seen(&difference(points[&name], eye)));
-                assert!(off < TOLERANCE, "{name} at {:?}, {speed} c, is off by {off:e}", points[&name]);
+        let motion = Motion::new(beta);
+        for (name, vertex) in named(&scene, &points) {
+            let place = difference(vertex.position, eye);
+            let off = error(&place, &motion.seen(&difference(points[&name], eye)));
+            assert!(off < TOLERANCE, "{name} at {:?}, {speed} c, is off by {off:e}", points[&name]);
 
-                let ColorValue::Hsv { tint: Tint::Wavelength(wavelength_nm), .. } =
-                    color_of(&scene, vertex).value
-                else {
-                    panic!("ugdoppler writes colours with `c`")
-                };
-                let ratio = big(GREEN_NM) / big(wavelength_nm);
-                let shift = number(&(ratio / motion.doppler(&place) - big(1.0))).abs();
-                assert!(shift < TOLERANCE, "{name} at {:?}, {speed} c: D is off by {shift:e}", points[&name]);
+            let ColorValue::Hsv { tint: Tint::Wavelength(wavelength_nm), .. } =
+                color_of(&scene, vertex).value
+            else {
+                panic!("ugdoppler writes colours with `c`")
+            };
+            let ratio = big(GREEN_NM) / big(wavelength_nm);
+            let shift = number(&(ratio / motion.doppler(&place) - big(1.0))).abs();
+            assert!(shift < TOLERANCE, "{name} at {:?}, {speed} c: D is off by {shift:e}", points[&name]);
 
-                n_vertices += 1;
-                worst_place = worst_place.max(off);
-                worst_doppler = worst_doppler.max(shift);
-            }
+            n_vertices += 1;
+            worst_place = worst_place.max(off);
+            worst_doppler = worst_doppler.max(shift);
         }
     }
     println!("{n_vertices} vertices: places within {worst_place:.1e}, D within {worst_doppler:.1e}");
-    assert!(n_vertices > 1500);
+    assert!(n_vertices > 400);
 }

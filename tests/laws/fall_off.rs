@@ -7,7 +7,7 @@ use ugphysics::{Brightness, srgb_decode};
 use ugtesting::Random;
 use ugtests::scenes;
 
-use crate::linear_light::{ENGINES, Engine, WITH_MOVING_LAMPS, assert_light, place, seen, square};
+use super::linear_light::{ENGINES, Engine, WITH_MOVING_LAMPS, assert_light, place, seen, square};
 
 fn point(p: DVec3) -> String {
     format!("{:?} {:?} {:?}", p.x, p.y, p.z)

@@ -10,7 +10,7 @@ use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
 
-use crate::{color_of, named, triangles};
+use super::{color_of, named, triangles};
 
 /// Colours dark enough that no brightness law clips them, by hue.
 const COLORS: &str = "c red 0.002 10 0.9; c green 0.001 120 1; c blue 0.003 230 0.5; c grey 0.004 0 0;\n";

@@ -178,6 +178,18 @@ pub fn with_options(command: &str, options: &str) -> String {
         .fold(command.to_owned(), |command, name| command.replace(name, &format!("{name}{options} ")))
 }
 
+/// The command with at most four frames in a film, unless it names frames.
+#[must_use]
+pub fn shortened(command: &str) -> String {
+    let names_frames = ["-only ", "-keys ", "--print "].iter().any(|option| command.contains(option));
+    let Some((before, after)) = command.split_once("-frames ").filter(|_| !names_frames) else {
+        return command.to_owned();
+    };
+    let n_digits = after.bytes().take_while(u8::is_ascii_digit).count();
+    let n_frames: u32 = after[..n_digits].parse().unwrap_or(4);
+    format!("{before}-frames {}{}", n_frames.min(4), &after[n_digits..])
+}
+
 /// The files that a command writes, by its redirections and `-fo`; those of a loop for each of its
 /// values, and of the numbered frames of a film the first.
 #[must_use]
@@ -206,45 +218,4 @@ fn loop_values(command: &str, name: &str) -> Vec<String> {
     }
     names.retain(|name| !name.contains('$'));
     names
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sizes_are_scaled() {
-        let check = |command: &str, expected: &str| assert_eq!(resized(command, [640, 480], 0.5), expected);
-        check("ugrainbow a.ug > a.png", "ugrainbow -sz 320 240 a.ug > a.png");
-        check("uglorentz a.ug | ugrainbow -sz 400 300 -va 9", "uglorentz a.ug | ugrainbow -sz 200 150 -va 9");
-        check("uglorentz a.ug | ugrainbow -va 9 -sz 5 3", "uglorentz a.ug | ugrainbow -va 9 -sz 3 2");
-        check("ugphoton a.ug > a.png", "ugphoton -sz 320 240 a.ug > a.png");
-        check("ugphoton -in -sz 400 300 -va 9 <(b)", "ugphoton -in -sz 200 150 -va 9 <(b)");
-        check("ugsheet a.png > b.png", "ugsheet a.png > b.png");
-        check("ugrainbow --explain 1,2 a.ug", "ugrainbow --explain 1,2 a.ug");
-    }
-
-    #[test]
-    fn options_are_added() {
-        let check = |command: &str, expected: &str| assert_eq!(with_options(command, "-aa 1"), expected);
-        check("uglorentz a.ug | ugrainbow > a.png", "uglorentz a.ug | ugrainbow -aa 1 > a.png");
-        check("ugphoton a.ug; ugphoton b.ug", "ugphoton -aa 1 a.ug; ugphoton -aa 1 b.ug");
-        check("ugsheet a.png > b.png", "ugsheet a.png > b.png");
-    }
-
-    #[test]
-    fn files_of_loops() {
-        let check = |command: &str, expected: &[&str]| {
-            let expected: Vec<PathBuf> = expected.iter().map(PathBuf::from).collect();
-            assert_eq!(written_files(command), expected, "{command}");
-        };
-        check("ugrainbow a.ug > a.png", &["a.png"]);
-        check("ugrainbow a.ug -fo a.png", &["a.png"]);
-        check("for v in 1 2; do ugrainbow -fo a$v.png; done", &["a1.png", "a2.png"]);
-        check(
-            "for v in 1 2; do for t in 3 4; do x > $v-$t.png; done; done",
-            &["1-3.png", "1-4.png", "2-3.png", "2-4.png"],
-        );
-        check("ugparse check a.ug", &[]);
-    }
 }

@@ -1,7 +1,7 @@
 //! Helpers shared by the cross-crate tests.
 //!
 //! - [`pipe`]: the three programs in one process, from text to a decoded picture;
-//! - [`programs`]: the built programs;
+//! - [`programs`]: the programs, for tests and shells;
 //! - [`scenes`]: the scenes of the repository;
 //! - [`documents`]: the commands in the pages of the documentation;
 //! - [`picture`]: comparison of pictures, golden ones included;
@@ -12,7 +12,7 @@
 //! - [`explanation`]: known causes of differences between them;
 //! - [`outline`]: errors of drawn edges;
 //! - [`shading`]: the expected colour of a point, from the formulas;
-//! - [`slow_reader`]: a second, independent reader of the scene language;
+//! - [`shell`]: shell commands in a folder of their own;
 //! - [`tools`]: whether programs of others are there, and what is skipped without them;
 //! - [`tracked`]: the files of the repository;
 //! - [`world_lines`]: bodies that accelerate, spin and orbit, by integration in small steps;
@@ -31,7 +31,7 @@ pub mod pipe;
 pub mod programs;
 pub mod scenes;
 pub mod shading;
-pub mod slow_reader;
+pub mod shell;
 pub mod tools;
 pub mod tracked;
 pub mod world_lines;

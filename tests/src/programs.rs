@@ -1,32 +1,51 @@
-//! The programs, built as people build them.
+//! The programs, for tests and shells.
 
-use std::path::PathBuf;
-use std::process::Command;
+use std::env;
+use std::ffi::OsString;
+use std::fs;
+use std::io::ErrorKind;
+use std::os::unix::fs::symlink;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::LazyLock;
 
-use crate::scenes;
+const NAMES: [&str; 9] =
+    ["ugdoppler", "ugfilm", "uglorentz", "ugmesh", "ugparse", "ugphoton", "ugrainbow", "ugsheet", "ugwarp"];
 
-/// The folder of the programs in the profile that this test is built in. They are built if
-/// need be; `cargo test --workspace` has done so already, with the same features.
-pub fn of_this_profile() -> PathBuf {
-    built(if cfg!(debug_assertions) { "dev" } else { "release" })
+/// The folder of the programs: that of the variable `UG_PROGRAMS`, or else one with a link of each
+/// name to `ugtests-programs`, which cargo builds beside the tests.
+pub fn folder() -> &'static Path {
+    static FOLDER: LazyLock<PathBuf> =
+        LazyLock::new(|| env::var_os("UG_PROGRAMS").map_or_else(linked, PathBuf::from));
+    &FOLDER
 }
 
-/// The folder of the programs in the other profile of `dev` and `release`: minutes if they are
-/// not built yet.
-pub fn of_other_profile() -> PathBuf {
-    built(if cfg!(debug_assertions) { "release" } else { "dev" })
+fn linked() -> PathBuf {
+    let test = env::current_exe().expect("a running program has a path");
+    let profile = test.parent().and_then(Path::parent).expect("a test is target/PROFILE/deps/NAME");
+    let folder = profile.join("programs");
+    fs::create_dir_all(&folder).expect("the target folder can be written");
+    for name in NAMES {
+        let made = symlink("../ugtests-programs", folder.join(name));
+        // Tests in several processes make the same links.
+        if let Err(error) = made {
+            assert!(error.kind() == ErrorKind::AlreadyExists, "{}: {error}", folder.display());
+        }
+    }
+    folder
 }
 
-/// The folder of the optimised programs: minutes if they are not built yet.
-pub fn released() -> PathBuf {
-    built("release")
+/// The path variable with the folder of the programs in front.
+pub fn path() -> OsString {
+    let system = env::var_os("PATH").unwrap_or_default();
+    let folders = std::iter::once(folder().to_owned()).chain(env::split_paths(&system));
+    env::join_paths(folders).expect("a path without colons")
 }
 
-fn built(profile: &str) -> PathBuf {
-    let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--quiet", "--profile", profile]);
-    cargo.arg("--target-dir").arg(scenes::target_dir()).current_dir(scenes::root());
-    let status = cargo.status().expect("cargo runs");
-    assert!(status.success(), "cargo build --profile {profile}: {status}");
-    scenes::target_dir().join(if profile == "dev" { "debug" } else { profile })
+/// Runs a command such as `uglorentz -in` with `input` on its standard input.
+#[track_caller]
+pub fn fed(command: &str, input: impl AsRef<[u8]>) -> Output {
+    let mut words = command.split_whitespace();
+    let program = folder().join(words.next().expect("a program"));
+    ugtesting::run::fed(Command::new(program).args(words), input)
 }

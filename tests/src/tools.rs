@@ -1,8 +1,8 @@
-//! Requirements of some checks that may be missing: external programs, and builds that only
-//! `.ci/run` makes.
+//! Requirements of some checks that may be missing: external programs, and another build of ours,
+//! which only `.ci/run` makes.
 //!
 //! A check without its tool is skipped and says so on standard error, past the capture of
-//! output by the test harness. `tests/tools.rs`, the last of the cross-crate tests, repeats
+//! output by the test harness. `tests/z_skipped.rs`, the last of the cross-crate tests, repeats
 //! what was skipped. With `UG_CI=1`, as `.ci/run` sets it, nothing is skipped: a missing
 //! tool is a failure.
 
@@ -106,31 +106,29 @@ pub const FISH: Tool =
 pub const TOOLS: [Tool; 11] =
     [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, FFMPEG, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
 
-/// Needs a release build.
+/// Checks that need the programs of another build, in the folder that the variable `UG_PROGRAMS` names.
+pub const OF_OTHER_BUILD: [&str; 2] = [PROFILES, PROCESSORS];
+/// See [`OF_OTHER_BUILD`].
 pub const PROFILES: &str = "debug and release builds write the same bytes";
-/// Needs a release build.
+/// See [`OF_OTHER_BUILD`].
 pub const PROCESSORS: &str = "the programs write the same bytes on emulated processors";
-/// Needs a build of a changed copy of all crates.
-pub const MISTAKES: &str = "the conformance suite finds every mistake that is built in on purpose";
-
-/// Checks that need another build, and so minutes.
-pub const ONLY_IN_CI: [&str; 3] = [PROFILES, PROCESSORS, MISTAKES];
 
 /// True if no check may be skipped.
 pub fn is_ci() -> bool {
     std::env::var_os("UG_CI").is_some_and(|value| value == "1")
 }
 
-/// Should a check of [`ONLY_IN_CI`] run? Prints a message if not.
-pub fn is_ci_or_skipped(check: &str) -> bool {
-    if !is_ci() {
-        say(&only_in_ci(check));
+/// Is there another build for a check of [`OF_OTHER_BUILD`]? Prints a message if not.
+pub fn has_other_build(check: &str) -> bool {
+    let is_given = std::env::var_os("UG_PROGRAMS").is_some();
+    if !is_given {
+        say(&without_other_build(check));
     }
-    is_ci()
+    is_given
 }
 
-/// The message about one of [`ONLY_IN_CI`].
-pub fn only_in_ci(check: &str) -> String {
+/// The message about one of [`OF_OTHER_BUILD`].
+pub fn without_other_build(check: &str) -> String {
     format!("skipped: {check}: only `.ci/run` checks it")
 }
 

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::paths::{code, from_root, module_of, tree};
+use super::paths::{code, from_root, module_of, tree};
 
 /// Imports between the modules of one folder: from each module to those it uses, each with the
 /// first file that imports it.

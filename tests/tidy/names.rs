@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::paths::{code, from_root, module_of, tree};
+use super::paths::{code, from_root, module_of, tree};
 
 /// The text of each module, without comments, by its path from the root of the crate.
 type Modules = BTreeMap<Vec<String>, String>;

@@ -5,7 +5,7 @@ use ugscene::Scene;
 use ugtesting::Random;
 use ugtests::world_lines::{Body, Observer, Path, Statement, Stretch, Triangle};
 
-use crate::{World, observer, options};
+use super::{World, observer, options};
 
 /// Largest errors of drawn edges and triangles, as multiples of their bounds.
 #[derive(Clone, Copy, Debug, Default)]

@@ -12,7 +12,7 @@ use ugtests::world_lines::sight::emission_time;
 use ugtests::world_lines::statement::words;
 use ugtests::world_lines::{Body, Four, Observer, Statement, plus, product};
 
-use crate::{World, observer, options};
+use super::{World, observer, options};
 
 /// Value and hue of the surface, and the level of the lamp.
 const VALUE: f64 = 0.8;

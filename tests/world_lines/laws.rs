@@ -9,7 +9,7 @@ use ugtests::scenes::parse;
 use ugtests::world_lines::statement::words;
 use ugtests::world_lines::{Path, Statement, Stretch};
 
-use crate::{World, is_free, options, seen};
+use super::{World, is_free, options, seen};
 
 /// A cube with colours, lamps and a camera; `MOTION` is the motion of the cube.
 const CUBE: &str = "c red 1 20 .8; c blue .8 230;

@@ -8,7 +8,7 @@ use ugtests::scenes::parse;
 use ugtests::world_lines::curve::Curve;
 use ugtests::world_lines::{Four, boosted};
 
-use crate::options;
+use super::options;
 
 fn event([t, x, y, z]: Four) -> Event {
     Event { t, x: DVec3::new(x, y, z) }

@@ -9,7 +9,7 @@ use ugtests::scenes::parse;
 use ugtests::world_lines::statement::words;
 use ugtests::world_lines::{Observer, Statement, View};
 
-use crate::{World, observer};
+use super::{World, observer};
 
 const SIZE: [u32; 2] = [24, 18];
 

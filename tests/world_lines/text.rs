@@ -8,7 +8,7 @@ use ugtesting::Random;
 use ugtests::pipe;
 use ugtests::scenes::parse;
 
-use crate::{World, options};
+use super::{World, options};
 
 fn world(random: &mut Random) -> World {
     World::random(random, 3.0, 0.8, 2)

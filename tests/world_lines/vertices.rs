@@ -6,7 +6,7 @@ use ugtests::pipe;
 use ugtests::scenes::parse;
 use ugtests::world_lines::{Observer, Statement};
 
-use crate::{World, observer, options, seen};
+use super::{World, observer, options, seen};
 
 /// Compares every vertex with the oracle. Returns the largest difference.
 #[track_caller]

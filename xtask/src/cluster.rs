@@ -3,7 +3,9 @@
 use std::io;
 use std::process::Command;
 
-use ugtests::{programs, scenes};
+use ugtests::scenes;
+
+use crate::programs;
 
 /// Builds the programs and runs `batch/check.sh` with them.
 pub fn check() -> io::Result<()> {

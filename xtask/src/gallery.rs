@@ -5,7 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ugtests::documents::{Page, prepare, resized, with_options};
-use ugtests::{programs, scenes};
+use ugtests::scenes;
+
+use crate::programs;
 
 /// The pages, each with the default size of its pictures in pixels.
 const PAGES: [(&str, [u32; 2]); 3] =

@@ -61,7 +61,6 @@ pub struct Axis {
 pub enum Mark {
     /// Points connected by lines of this width in pixels.
     Line(Vec<[f64; 2]>, RGBColor, u32),
-    Dashes([[f64; 2]; 2]),
     Dots(Vec<[f64; 2]>, RGBColor),
     Arrow([[f64; 2]; 2], RGBColor),
     /// A text that begins at a place.
@@ -161,11 +160,6 @@ impl Panel {
                 Mark::Line(points, color, width) => {
                     chart.draw_series([PathElement::new(places(points), lines(*color, *width))])?;
                 }
-                Mark::Dashes(ends) => {
-                    chart.draw_series(
-                        dashes(ends).map(|dash| PathElement::new(places(&dash), lines(FRAME, 1))),
-                    )?;
-                }
                 Mark::Dots(points, color) => {
                     let dot = |place| Circle::new(place, 4 * SCALE, color.filled());
                     chart.draw_series(places(points).into_iter().map(dot))?;
@@ -217,15 +211,6 @@ impl ValueFormatter<f64> for Axis {
     }
 }
 
-/// A straight line as dashes with equal gaps.
-fn dashes([from, to]: &[[f64; 2]; 2]) -> impl Iterator<Item = [[f64; 2]; 2]> {
-    const N: u32 = 30;
-    let at = |part: u32| {
-        [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * f64::from(part) / f64::from(2 * N - 1))
-    };
-    (0..N).map(move |n| [at(2 * n), at(2 * n + 1)])
-}
-
 /// The end of an arrow's shaft, and its head.
 fn arrow_head([from, to]: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 3]) {
     const LENGTH: f64 = 0.1;
@@ -236,67 +221,4 @@ fn arrow_head([from, to]: [[f64; 2]; 2]) -> ([f64; 2], [[f64; 2]; 3]) {
     let neck = [to[0] - LENGTH * x, to[1] - LENGTH * y];
     let side = |by: f64| [neck[0] - by * y, neck[1] + by * x];
     (neck, [to, side(HALF_WIDTH), side(-HALF_WIDTH)])
-}
-
-/// Measurements on logarithmic axes.
-pub struct Growth<'a> {
-    pub title: &'a str,
-    /// Unit of the horizontal axis.
-    pub unit: &'a str,
-    pub series: [Series<'a>; 2],
-}
-
-/// Points connected by a line.
-pub struct Series<'a> {
-    pub name: &'a str,
-    pub points: Vec<[f64; 2]>,
-}
-
-/// Panels with the same vertical range and as many decades horizontally, so that a slope of 1 looks
-/// the same in all. A dashed line has that slope.
-pub fn logarithmic(panels: &[Growth<'_>]) -> Plot {
-    let all = || panels.iter().flat_map(|panel| &panel.series).flat_map(|series| &series.points);
-    let down = decades(all().map(|point| point[1]));
-    let across: Vec<_> = panels
-        .iter()
-        .map(|panel| decades(panel.series.iter().flat_map(|series| &series.points).map(|point| point[0])))
-        .collect();
-    let most = across.iter().map(|[low, high]| high - low).fold(down[1] - down[0], i32::max);
-    let axis = |name: &str, low: i32| Axis {
-        name: name.to_owned(),
-        ticks: (low..=low + most).map(f64::from).collect(),
-        label: |exponent| power(exponent as i32),
-    };
-    let panels = panels.iter().zip(across).map(|(panel, [low, _])| {
-        let [left, bottom, size] = [low, down[0], most].map(f64::from);
-        let mut marks = vec![Mark::Dashes([[left, bottom], [left + size, bottom + size]])];
-        for (row, (series, color)) in panel.series.iter().zip(COLORS).enumerate() {
-            let points: Vec<_> = series.points.iter().map(|point| point.map(libm::log10)).collect();
-            marks.push(Mark::Line(points.clone(), color, 2));
-            marks.push(Mark::Dots(points, color));
-            let name_at = [left + 0.03 * size, bottom + (0.97 - 0.07 * row as f64) * size];
-            marks.push(Mark::Text(name_at, series.name.to_owned(), color));
-        }
-        let axes = [axis(panel.unit, low), axis("", down[0])];
-        Panel { title: panel.title.to_owned(), axes, has_scales: true, marks }
-    });
-    Plot { columns: panels.len() as u32, panel_size: [420, 420], panels: panels.collect() }
-}
-
-/// The exponents of the powers of ten that enclose these numbers.
-fn decades(numbers: impl Iterator<Item = f64>) -> [i32; 2] {
-    let (low, high) = numbers
-        .map(libm::log10)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), number| (low.min(number), high.max(number)));
-    [low.floor() as i32, high.ceil() as i32]
-}
-
-/// A power of ten as text.
-fn power(exponent: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    match u32::try_from(exponent) {
-        Ok(exponent @ 4..=9) => format!("10{}", DIGITS[exponent as usize]),
-        Ok(exponent) => 10u64.pow(exponent).to_string(),
-        Err(_) => format!("0.{}1", "0".repeat(exponent.unsigned_abs() as usize - 1)),
-    }
 }

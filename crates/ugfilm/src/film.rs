@@ -19,7 +19,6 @@ use crate::levels::WrongBrightness;
 use crate::note::Note;
 use crate::pipe::{FilmSubject, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
-use crate::spherical::Spherical;
 use crate::work::in_order;
 
 /// Largest number of frames whose commands are checked before the first frame is drawn.
@@ -142,14 +141,6 @@ impl Film<'_> {
             return Err(Failure::usage("all frames of a film have one size: give one -sz"));
         }
         Ok(first)
-    }
-
-    /// What players of 360° films are told, if the first and the last frame are whole panoramas.
-    fn spherical(&self) -> Result<Option<Spherical>, Failure> {
-        let [first, last] =
-            [1, self.script.n_frames].map(|frame| self.pipe(frame).map(|pipe| pipe.spherical()));
-        let (first, last) = (first?, last?);
-        Ok(first.filter(|_| first == last))
     }
 
     /// Checks the commands of some of the frames, so that a wrong one is found before anything
@@ -377,17 +368,7 @@ impl Film<'_> {
             context.write_by_name(|path, steps| {
                 let mut ffmpeg = Ffmpeg::new(kind, shape, path)?;
                 summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
-                ffmpeg.finish()?;
-                let Some(spherical) = self.spherical()? else { return Ok(()) };
-                let marked = match kind {
-                    Kind::Webm => spherical.mark_webm(path),
-                    _ => spherical.mark_mp4(path),
-                };
-                marked.map_err(|error| {
-                    Failure::failed(format!(
-                        "ffmpeg has written a film that cannot be marked as 360°: {error}"
-                    ))
-                })
+                ffmpeg.finish()
             })?;
             return Ok(summary);
         }

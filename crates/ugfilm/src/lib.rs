@@ -46,7 +46,6 @@
 //! sight  levels                             what will be in view; frames that are nearly black
 //! animation                                 animated PNG and GIF
 //! keys  encode                              key frames; film formats
-//! spherical  spherical_webm                 the marks of 360° films in MP4 and WebM files
 //! film                                      frames, in files or in a film
 //! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
@@ -82,10 +81,6 @@ mod program;
 mod script;
 #[cfg(feature = "cli")]
 mod sight;
-#[cfg(feature = "cli")]
-mod spherical;
-#[cfg(feature = "cli")]
-mod spherical_webm;
 #[cfg(feature = "cli")]
 mod timeline;
 #[cfg(feature = "cli")]

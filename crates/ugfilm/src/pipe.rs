@@ -9,7 +9,6 @@ use crate::error::Error;
 use crate::note::Note;
 use crate::program::{Item, Program};
 #[cfg(feature = "cli")]
-use crate::spherical::Spherical;
 
 /// The subject of a film.
 #[derive(Clone, Copy)]
@@ -60,12 +59,6 @@ impl Pipe {
         let command = Some(self.lines.last().map_or("", String::as_str));
         let metadata = ugpicture::metadata(&remarks, Provenance { command, ..last.provenance() });
         Metadata { panorama: last.panorama(&self.picture), ..metadata }
-    }
-
-    /// What players of 360° films are told about a film of such frames.
-    #[cfg(feature = "cli")]
-    pub fn spherical(&self) -> Option<Spherical> {
-        self.programs.last().and_then(|last| last.spherical(&self.picture))
     }
 
     /// Draws the frame. Returns it with the notes of all programs.

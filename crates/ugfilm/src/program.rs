@@ -7,8 +7,6 @@ use ugpipe::Progress;
 use ugscene::{MotionOptions, Provenance, Scene};
 
 use crate::note::Note;
-#[cfg(feature = "cli")]
-use crate::spherical::Spherical;
 
 /// Declares the programs: a variant for each with the options of its crate, and one with its
 /// errors.
@@ -88,24 +86,6 @@ impl Program {
             Self::Warp(config) => config.lens.panorama(picture, false, None),
             Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => None,
         }
-    }
-
-    /// What players of 360° films are told about a film with these options.
-    #[cfg(feature = "cli")]
-    pub fn spherical(&self, picture: &PictureOptions) -> Option<Spherical> {
-        let is_odd = picture.size.iter().any(|side| side % 2 == 1);
-        let is_stereo = matches!(self, Self::Photon(config) if config.stereo.is_some());
-        // An encoder of films adds a row to odd ones, which are no whole panorama then.
-        if is_odd || matches!(self, Self::Photon(config) if config.crop.is_some()) {
-            return None;
-        }
-        if is_stereo {
-            let [width, height] = picture.size;
-            let of_eye = PictureOptions { size: [width, height / 2], ..picture.clone() };
-            let Self::Photon(config) = self else { return None };
-            return config.lens.panorama(&of_eye, false, None).map(|_| Spherical::TopBottom);
-        }
-        self.panorama(picture).map(|_| Spherical::Mono)
     }
 
     /// How bodies and camera move, of a program that reads a scene at rest.

@@ -21,7 +21,7 @@ use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, RayOptions, Shutter};
-use crate::explain::{self, explain};
+use crate::explain::explain;
 use crate::render::{PROVENANCE, PreparedScene};
 
 /// Draws a UniGrafix scene in motion by tracing rays: mirrors, glass, shadows
@@ -252,8 +252,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let report = report_format(args.dt, context.output_name())?;
         let source = pipe::read(context, &config.reading)?;
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
-        let (text, json) = (|| explain::text(&explanation), || explain::json(&explanation));
-        return write_report(report, &warnings, text, json, context);
+        return write_report(report, &explanation, &warnings, context);
     }
     if let Some(format) = config.picture.output.format() {
         refuse_terminal(format, context)?;

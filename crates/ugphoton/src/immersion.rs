@@ -7,7 +7,7 @@ use ugphysics::Event;
 use ugscene::{Illum, Scene};
 
 use crate::path::{Media, Ray, Solid};
-use crate::world::{Faces, World};
+use crate::world::{Faces, Intersection, World};
 
 /// Rays from a point inside a closed surface leave it once more than they enter it, in every
 /// direction. Surfaces that are not closed, such as a single pane, are told apart by the
@@ -62,12 +62,13 @@ impl Immersion {
         }
         let crossings = DIRECTIONS.map(|direction| crossings(world, faces, event, direction));
         let exits = |crossings: &[Crossing], solid: Solid| -> i32 {
-            crossings.iter().filter(|crossing| crossing.solid == solid).map(|crossing| crossing.exits).sum()
+            let own = crossings.iter().filter(|crossing| crossing.solid == solid);
+            own.map(|crossing| if crossing.is_exit { 1 } else { -1 }).sum()
         };
         // Where paths leave solids in the first direction, the outermost first.
         let mut media = Media::default();
         let mut left: Vec<Solid> = Vec::new();
-        for crossing in crossings[0].iter().rev().filter(|crossing| crossing.exits > 0) {
+        for crossing in crossings[0].iter().rev().filter(|crossing| crossing.is_exit) {
             let solid = crossing.solid;
             let n_inside = exits(&crossings[0], solid);
             let n_left = left.iter().filter(|other| **other == solid).count();
@@ -93,12 +94,27 @@ pub fn is_enclosed(world: &World, faces: Faces<'_>, event: Event, is_opaque: imp
 }
 
 /// Where a ray crosses the surface of a transparent solid.
-struct Crossing {
-    solid: Solid,
-    /// 1 out of it, −1 into it.
-    exits: i32,
+pub struct Crossing {
+    /// The solid.
+    pub solid: Solid,
+    /// True if the ray leaves the solid there.
+    is_exit: bool,
     /// The parameter of the ray.
-    s: f64,
+    pub s: f64,
+}
+
+impl Crossing {
+    /// Where a ray meets a face; `None` if that is not of a transparent solid.
+    pub fn new(world: &World, faces: Faces<'_>, ray: &Ray, found: &Intersection) -> Option<Self> {
+        let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
+        let step = ray.in_part(found.part, &world.parts[found.part].frame).1;
+        Some(Self { solid, is_exit: faces.outside(found.triangle.face).dot(step) > 0.0, s: found.s })
+    }
+
+    /// The media of the ray behind it; `None` if it leaves a solid that it is not in.
+    pub fn behind(&self, media: &Media) -> Option<Media> {
+        if self.is_exit { media.without(self.solid) } else { Some(media.with(self.solid)) }
+    }
 }
 
 /// The crossings of a ray into the past, in their order along it.
@@ -106,12 +122,7 @@ fn crossings(world: &World, faces: Faces<'_>, event: Event, direction: DVec3) ->
     let ray = Ray::in_vacuum(event, direction);
     let mut all = Vec::new();
     let _ = world.visit(faces, &ray, 0.0..f64::INFINITY, |found| {
-        if let Some(solid) = transparent_solid(faces.scene, found.part, found.triangle.face) {
-            let outside = faces.outside(found.triangle.face);
-            let step = ray.in_part(found.part, &world.parts[found.part].frame).1;
-            let exits = if outside.dot(step) > 0.0 { 1 } else { -1 };
-            all.push(Crossing { solid, exits, s: found.s });
-        }
+        all.extend(Crossing::new(world, faces, &ray, &found));
         ControlFlow::Continue(())
     });
     all.sort_by(|a, b| a.s.total_cmp(&b.s));
@@ -119,7 +130,7 @@ fn crossings(world: &World, faces: Faces<'_>, event: Event, direction: DVec3) ->
 }
 
 /// The transparent solid that a face of a part belongs to.
-pub fn transparent_solid(scene: &Scene, part: usize, face: u32) -> Option<Solid> {
+fn transparent_solid(scene: &Scene, part: usize, face: u32) -> Option<Solid> {
     let Illum::Surface(surface) = scene.illums[scene.faces[face as usize].illum?.index()] else {
         return None;
     };

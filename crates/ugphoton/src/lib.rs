@@ -71,6 +71,7 @@ mod surface_point;
 #[cfg(test)]
 mod tests;
 mod tracer;
+mod wires;
 mod world;
 mod world_line_part;
 

@@ -1,8 +1,8 @@
-//! Surfaces at the middles of pixels: for channels, legends and outlines.
+//! Surfaces at the middles of pixels: for channels and legends.
 
 use rayon::prelude::*;
 use ugphysics::{BodyEvent, RestFrame};
-use ugpicture::{DepthBuffer, Emission, MediumLight, SeenItem, SurfaceSample};
+use ugpicture::{Emission, MediumLight, SeenItem};
 use ugscene::BodyId;
 
 use crate::path::{Ray, along};
@@ -12,13 +12,6 @@ use crate::scenery::Scenery;
 pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
     let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
     (0..middles.len()).into_par_iter().map(|idx| middles.item(idx)).collect()
-}
-
-/// The nearest surface at the middle of each pixel of a pinhole camera.
-pub fn depths(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> DepthBuffer {
-    let sample = |(s, item): (f64, u32)| SurfaceSample { key: (1.0 / s) as f32, item };
-    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
-    DepthBuffer { size, seen: middles.surfaces.into_iter().map(|seen| seen.map(sample)).collect() }
 }
 
 /// The surfaces at the middles of the pixels of a part of a picture.
@@ -55,20 +48,8 @@ impl<'a> Middles<'a> {
     }
 
     fn surface(&self, idx: usize) -> Option<(f64, u32)> {
-        let scenery = self.scenery;
-        let ray = self.ray(idx)?;
-        let slab = scenery.view.slab;
-        let mut range = slab.near..slab.far;
-        loop {
-            let found = scenery.closest(&ray, range.clone())?;
-            let face = &scenery.scene.faces[found.triangle.face as usize];
-            let translucency =
-                face.color.map_or(0.0, |color| scenery.scene.colors[color.index()].translucency);
-            if translucency < 0.5 {
-                return Some((found.s, found.triangle.face));
-            }
-            range.start = found.s;
-        }
+        let slab = self.scenery.view.slab;
+        self.scenery.first_opaque(&self.ray(idx)?, slab.near..slab.far)
     }
 
     /// The surface at a pixel, and the emission event of its light, relative to the eye that sees

@@ -5,18 +5,16 @@ use std::borrow::Cow;
 use ugimage::{LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
 use ugphysics::{Event, WorldLineError};
-use ugpicture::{
-    Annotated, Canvas, DepthBuffer, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata,
-};
+use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
-use ugscene::{BodyBoxes, CameraOptions, PlacedBodies, Provenance, RestPosition, Scene, View};
+use ugscene::{BodyBoxes, PlacedBodies, Provenance, RestPosition, Scene};
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::lens::Lens;
 use crate::notes::notes;
 use crate::scenery::Scenery;
-use crate::{middles, pixels};
+use crate::{middles, pixels, wires};
 
 /// The event of the eye.
 const ORIGIN: Event = Event { t: 0.0, x: glam::DVec3::ZERO };
@@ -165,30 +163,18 @@ impl PreparedScene {
     ) -> Result<Rendering, Error> {
         let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
-        let depths = |scene: &_, camera: &_, _| depths(scene, camera, config);
-        let items = || middles::seen_items(scenery, picture.size, picture.samples);
-        let (scene, camera) = (&*scenery.scene, &picture.camera);
-        let view = match config.lens {
-            Lens::Pinhole => None,
-            _ => Some(View::new(scene, camera, picture.size)?),
-        };
-        let subject = match &view {
-            Some(view) => Subject::Items { view, items: &items, scene: Some(scene) },
-            None => Subject::Scene { scene, camera, depths: &depths },
+        let items = || Ok(middles::seen_items(scenery, picture.size, picture.samples));
+        let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
+        let subject = Subject::Surfaces {
+            view: &scenery.view,
+            items: &items,
+            scene: Some(&scenery.scene),
+            wires: if config.lens == Lens::Pinhole { Some(&wires) } else { None },
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let content = DrawnContent::Light { frame, is_clipped: !scenery.is_uncut };
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
-}
-
-/// The depth buffer of a scene with a camera, in a picture of these options.
-fn depths(scene: &Scene, camera: &CameraOptions, config: &Config) -> Result<DepthBuffer, Error> {
-    let mut coarse = config.clone();
-    coarse.picture.samples = 1;
-    coarse.picture.camera = camera.clone();
-    let scenery = Scenery::new(Cow::Borrowed(scene), &coarse)?;
-    Ok(middles::depths(&scenery, coarse.picture.size, 1))
 }
 
 /// The scene with its vertices where they are seen and where they rest, and the stage that says so.

@@ -172,7 +172,13 @@ impl<'a> Scenery<'a> {
     /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter
     /// is the depth along the view, or the distance with another lens than a pinhole.
     pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
-        let sight = self.film.sight([f64::from(column) + 0.5, f64::from(row) + 0.5])?;
+        self.ray_through([f64::from(column) + 0.5, f64::from(row) + 0.5])
+    }
+
+    /// The same through any place, in samples.
+    #[inline]
+    pub fn ray_through(&self, place: [f64; 2]) -> Option<Ray> {
+        let sight = self.film.sight(place)?;
         if self.is_seen_from_origin() {
             return Some(Ray::from_eye(sight.direction));
         }
@@ -235,6 +241,19 @@ impl<'a> Scenery<'a> {
     #[inline]
     pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
         self.world.closest(self.faces(), ray, range)
+    }
+
+    /// The parameter and the row of the first face on a ray that transmits less than half of the
+    /// light behind it.
+    pub fn first_opaque(&self, ray: &Ray, mut range: Range<f64>) -> Option<(f64, u32)> {
+        loop {
+            let found = self.closest(ray, range.clone())?;
+            let color = self.scene.faces[found.triangle.face as usize].color;
+            if color.is_none_or(|color| self.scene.colors[color.index()].translucency < 0.5) {
+                return Some((found.s, found.triangle.face));
+            }
+            range.start = found.s;
+        }
     }
 
     /// Reflection properties.

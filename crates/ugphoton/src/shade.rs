@@ -7,12 +7,11 @@ use uglight::{ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPla
 use ugphysics::{Event, WaveVector, srgb_encode};
 
 use crate::corridor::Corridor;
-use crate::immersion::transparent_solid;
-use crate::path::{Ray, Solid, Start};
+use crate::immersion::Crossing;
+use crate::path::{Media, Ray, Solid, Start};
 use crate::sampling::disk_point;
 use crate::scenery::{LampMotion, Scenery};
 use crate::surface_point::SurfacePoint;
-use crate::world::Intersection;
 
 /// Shades points of surfaces; it owns the memory it needs for that.
 pub struct Shader<'a> {
@@ -202,80 +201,52 @@ fn unshadowed(
     let _ = scenery.world.visit_along(scenery.faces(), &ray, 0.0..distance, Some(corridor), |found| {
         part *= transmittance(scenery, found.triangle.face);
         if scenery.has_absorption {
-            crossings.extend(Crossing::new(scenery, &ray, &found));
+            crossings.extend(Crossing::new(&scenery.world, scenery.faces(), &ray, &found));
         }
         if part > 0.0 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     });
-    part *= left_by_solids(crossings, distance);
+    part *= left_by_solids(scenery, step, crossings, distance);
     let is_linear = scenery.appearance.is_spectral() || scenery.appearance.hue_shift.law.acts_on_light();
     if is_linear { part } else { srgb_encode(part) }
 }
 
-/// Where a shadow ray crosses the surface of a transparent solid.
-struct Crossing {
-    /// The parameter of the ray.
-    s: f64,
-    solid: Solid,
-    /// True if the ray leaves the solid there.
-    is_exit: bool,
-    /// The absorption coefficient, for each step of the ray.
-    absorption: f64,
-}
-
-impl Crossing {
-    /// `None` if the face is not of a transparent solid.
-    fn new(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) -> Option<Self> {
-        let faces = scenery.faces();
-        let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
-        let step = ray.in_part(found.part, &scenery.world.parts[found.part].frame).1;
-        Some(Self {
-            s: found.s,
-            solid,
-            is_exit: faces.outside(found.triangle.face).dot(step) > 0.0,
-            absorption: scenery.properties(solid.surface).absorption * step.length(),
-        })
-    }
-}
-
-/// The part of the light that solids do not absorb along a straight shadow ray from 0 to `end`.
-/// Where solids are nested, the innermost absorbs, as along the paths of the light that is seen.
-/// Eq. (P38)
-fn left_by_solids(mut crossings: Vec<Crossing>, end: f64) -> f64 {
+/// The part of the light that solids do not absorb along a straight shadow ray from 0 to `end` in
+/// these steps. Where solids are nested, the innermost absorbs, as along the paths of the light that
+/// is seen.  Eq. (P38)
+fn left_by_solids(scenery: &Scenery<'_>, step: Event, mut crossings: Vec<Crossing>, end: f64) -> f64 {
     crossings.sort_by(|a, b| a.s.total_cmp(&b.s));
     // Solids that the ray leaves without having entered them are those it starts in.
-    let mut inside = Vec::new();
+    let mut inside = Media::default();
     let mut around = Vec::new();
-    crossings.iter().for_each(|crossing| around.extend(cross(&mut inside, crossing)));
-    around.reverse();
-    let (mut inside, mut depth, mut from) = (around, 0.0, 0.0);
-    let absorption = |inside: &[&Crossing]| inside.last().map_or(0.0, |solid| solid.absorption);
     for crossing in &crossings {
-        depth += (crossing.s - from) * absorption(&inside);
+        match crossing.behind(&inside) {
+            Some(media) => inside = media,
+            None => around.push(crossing.solid),
+        }
+    }
+    let mut inside = around.into_iter().rev().fold(Media::default(), |media, solid| media.with(solid));
+    let (mut depth, mut from) = (0.0, 0.0);
+    for crossing in &crossings {
+        depth += (crossing.s - from) * absorption(scenery, inside.innermost(), step);
         from = crossing.s;
-        cross(&mut inside, crossing);
+        inside = crossing.behind(&inside).unwrap_or(inside);
     }
     // A lamp in a solid: the ray does not leave it.
-    if absorption(&inside) > 0.0 {
-        depth += (end - from) * absorption(&inside);
+    let last = absorption(scenery, inside.innermost(), step);
+    if last > 0.0 {
+        depth += (end - from) * last;
     }
     libm::exp(-depth)
 }
 
-/// Updates the solids that a ray is in, the innermost last. Returns a crossing out of a solid that
-/// it is not in.
-fn cross<'c>(inside: &mut Vec<&'c Crossing>, crossing: &'c Crossing) -> Option<&'c Crossing> {
-    if !crossing.is_exit {
-        inside.push(crossing);
-        return None;
+/// Absorption in a medium for a step of a ray.  Eq. (P38)
+pub fn absorption(scenery: &Scenery<'_>, solid: Option<Solid>, step: Event) -> f64 {
+    let Some(solid) = solid else { return 0.0 };
+    let coefficient = scenery.properties(solid.surface).absorption;
+    if coefficient == 0.0 {
+        return 0.0;
     }
-    let at = inside.iter().rposition(|other| other.solid == crossing.solid);
-    match at {
-        Some(at) => {
-            inside.remove(at);
-            None
-        }
-        None => Some(crossing),
-    }
+    coefficient * scenery.world.parts[solid.part].frame.rest_from_camera(step).x.length()
 }
 
 /// Transmittance of a face for a ray that is not bent, 0…1.

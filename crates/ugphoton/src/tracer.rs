@@ -1,12 +1,13 @@
 //! Rays from the eye into the past: surfaces, mirrors and glass along them.
 
 use glam::DVec3;
+use serde::Serialize;
 use uglight::ColorFilter;
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
 use crate::path::{Media, Ray, Solid, Start};
 use crate::scenery::Scenery;
-use crate::shade::{LampLight, Shader};
+use crate::shade::{LampLight, Shader, absorption};
 use crate::surface_point::SurfacePoint;
 use crate::world::Intersection;
 
@@ -75,7 +76,8 @@ pub struct Visit {
 }
 
 /// How light of a surface goes on towards the eye.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(tag = "way", content = "by", rename_all = "lowercase")]
 pub enum Way {
     /// Straight to the eye.
     Straight,
@@ -365,14 +367,4 @@ fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, point: &SurfacePoint) -> 
     let (of_solid, here) = (&scenery.world.parts[solid.part].frame, point.frame(scenery));
     let velocity = here.turned_velocity(compose(of_solid.velocity(), -here.velocity()));
     Medium { index, velocity }
-}
-
-/// Absorption in a medium for a step of a ray.  Eq. (P38)
-fn absorption(scenery: &Scenery<'_>, solid: Option<Solid>, step: Event) -> f64 {
-    let Some(solid) = solid else { return 0.0 };
-    let coefficient = scenery.properties(solid.surface).absorption;
-    if coefficient == 0.0 {
-        return 0.0;
-    }
-    coefficient * scenery.world.parts[solid.part].frame.rest_from_camera(step).x.length()
 }

@@ -17,6 +17,7 @@ use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
 use crate::channel::Channel;
+use crate::explain::{Explanation, WriteSample};
 use crate::exposure::Exposure;
 use crate::lens::Lens;
 use crate::options::{AnnotationOptions, PictureOptions};
@@ -333,19 +334,18 @@ pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Explana
 ///
 /// # Errors
 /// The output cannot be written.
-pub fn write_report(
+pub fn write_report<S: WriteSample>(
     report: ExplanationFormat,
+    explanation: &Explanation<S>,
     warnings: &Diagnostics,
-    text: impl FnOnce() -> String,
-    json: impl FnOnce() -> String,
     context: &mut Context,
 ) -> Result<(), Failure> {
     if !warnings.is_empty() {
         context.report(&warnings.report());
     }
     match report {
-        ExplanationFormat::Text => context.write_text(&text()),
-        ExplanationFormat::Json => context.write_json(&json()),
+        ExplanationFormat::Text => context.write_text(&explanation.text()),
+        ExplanationFormat::Json => context.write_json(&explanation.json()),
     }
 }
 

@@ -4,7 +4,14 @@ use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
 use ugscene::{BodyId, Geometry, RestFrames, Scene, View};
 
-use crate::depth_buffer::SurfaceSample;
+/// A surface at a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceSample {
+    /// Depth key: 1/depth in perspective, −depth in orthographic projection. Larger is nearer.
+    pub key: f32,
+    /// Row of the face in the scene; wires are counted after the faces.
+    pub item: u32,
+}
 
 /// The event at which the light seen at a sample was emitted.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -47,7 +47,6 @@ mod canvas;
 mod channel;
 #[cfg(feature = "cli")]
 pub mod cli;
-mod depth_buffer;
 mod emission;
 mod error;
 pub mod explain;
@@ -64,17 +63,16 @@ mod output;
 mod picture_file;
 mod rendering;
 
-pub use annotations::{Annotated, DepthsOf, Layout, SceneState, Subject};
+pub use annotations::{Annotated, Layout, Subject, VisibleWires};
 pub use background::{Backdrop, Background};
 pub use canvas::{Canvas, Drawn, DrawnContent};
 pub use channel::{Channel, channel_planes};
-pub use depth_buffer::{DepthBuffer, SurfaceSample};
-pub use emission::{Emission, Emissions, MediumLight, SeenItem};
+pub use emission::{Emission, Emissions, MediumLight, SeenItem, SurfaceSample};
 pub use error::Error;
 pub use exposure::Exposure;
 pub use levels::{LevelCounts, levels_note};
 pub use limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
-pub use line::{clip_line, visible_runs};
+pub use line::{DepthPoint, clip_line, in_picture, visible_parts};
 pub use metadata::metadata;
 pub use note::Note;
 pub use options::{AnnotationOptions, PictureOptions};

@@ -2,6 +2,9 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
+use ugscene::View;
+
 /// The part of a line, as parameters in 0…1, on which all of several linear functions are not
 /// negative. `ends`: the values of each function at the two ends. The part may be a point.
 pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
@@ -17,16 +20,48 @@ pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
     (start <= end).then_some([start, end])
 }
 
-/// The longest runs of visible steps, out of `n_steps` along a line.
-pub fn visible_runs(n_steps: u32, is_visible: impl Fn(u32) -> bool) -> Vec<Range<u32>> {
+/// The part of a line between two points, relative to the eye, that is in the picture and between the
+/// clipping planes.
+pub fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
+    let sides = view.half_spaces().into_iter().flatten();
+    let [start, end] = clip_line(sides.map(|side| [a, b].map(|end| side.normal.dot(end) + side.offset)))?;
+    Some([start, end].map(|part| a + (b - a) * part))
+}
+
+/// A place in the picture with depth: column, row and depth key, which is linear in the picture.
+pub type DepthPoint = [f64; 3];
+
+/// Distance in the picture between the points at which visibility is tested.
+const STEP: f64 = 0.5;
+
+/// Most points along a line; no picture is longer.
+const MOST_STEPS: f64 = 1e6;
+
+/// The parts of a line, as parameters within a range of it, at which the middles of short steps are
+/// not hidden.
+pub fn visible_parts(
+    [a, b]: [DepthPoint; 2],
+    [start, end]: [f64; 2],
+    is_hidden: impl Fn(DepthPoint) -> bool,
+) -> Vec<[f64; 2]> {
+    let length = libm::hypot(b[0] - a[0], b[1] - a[1]) * (end - start);
+    // At least one, and in range.
+    let n_steps = (length / STEP).ceil().clamp(1.0, MOST_STEPS) as u32;
+    let at = |step: u32| {
+        if step == n_steps { end } else { start + (end - start) * f64::from(step) / f64::from(n_steps) }
+    };
+    let is_visible = |step: &u32| {
+        let part = 0.5 * (at(*step) + at(step + 1));
+        !is_hidden([0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part))
+    };
     let mut runs: Vec<Range<u32>> = Vec::new();
-    for step in (0..n_steps).filter(|&step| is_visible(step)) {
+    for step in (0..n_steps).filter(is_visible) {
         match runs.last_mut() {
             Some(run) if run.end == step => run.end = step + 1,
             _ => runs.push(step..step + 1),
         }
     }
-    runs
+    runs.into_iter().map(|run| [at(run.start), at(run.end)]).collect()
 }
 
 #[cfg(test)]
@@ -49,7 +84,10 @@ mod tests {
 
     #[test]
     fn visible_steps_are_joined() {
-        assert_eq!(visible_runs(6, |step| step != 2), [0..2, 3..6]);
-        assert_eq!(visible_runs(3, |_| false), []);
+        let line = [[0.0; 3], [3.0, 0.0, 0.0]];
+        let is_hidden = |[x, ..]: DepthPoint| (1.0..1.5).contains(&x);
+        assert_eq!(visible_parts(line, [0.0, 1.0], is_hidden), [[0.0, 1.0 / 3.0], [0.5, 1.0]]);
+        assert_eq!(visible_parts(line, [0.5, 1.0], is_hidden), [[0.5, 1.0]]);
+        assert!(visible_parts(line, [0.0, 1.0], |_| true).is_empty());
     }
 }

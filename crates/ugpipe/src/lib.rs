@@ -97,6 +97,8 @@ mod argv;
 #[cfg(feature = "cli")]
 mod cleanup;
 #[cfg(feature = "cli")]
+mod completion;
+#[cfg(feature = "cli")]
 mod context;
 #[cfg(feature = "cli")]
 mod failure;
@@ -140,6 +142,8 @@ mod values;
 pub use args::{CommonArgs, ToolArgs};
 #[cfg(feature = "cli")]
 pub use cleanup::{Claim, Running};
+#[cfg(feature = "cli")]
+pub use completion::{COMPLETE, completions};
 #[cfg(feature = "cli")]
 pub use context::{Context, MAX_INPUT};
 #[cfg(feature = "cli")]

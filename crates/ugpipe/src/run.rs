@@ -2,7 +2,7 @@
 
 use std::env;
 use std::ffi::OsString;
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{self, Sender};
@@ -18,8 +18,9 @@ use signal_hook::low_level::emulate_default_handler;
 use crate::args::ToolArgs;
 use crate::context::Context;
 use crate::failure::{Failure, reason};
+use crate::manual::manual;
 use crate::messages::Messages;
-use crate::{argv, cleanup, help, look, provenance, streams, usage};
+use crate::{argv, cleanup, completion, help, look, provenance, streams, usage};
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;
@@ -80,6 +81,10 @@ const BAD_USAGE: u8 = 2;
 pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
     exit_on_abort();
     cleanup::survive_size_limits();
+    if let Some(words) = completion::words_of_shell(env::args_os()) {
+        let text = completion::completions(&manual::<A>(), &words);
+        return io::stdout().write_all(text.as_bytes()).map_or(BAD_INPUT.into(), |()| ExitCode::SUCCESS);
+    }
     let mut command = help::install(argv::prepare(A::command()), A::ESSENTIAL);
     let (args, matches) = match parse::<A>(&mut command) {
         Ok(parsed) => parsed,

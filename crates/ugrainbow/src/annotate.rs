@@ -1,6 +1,6 @@
-//! The subject of a scene's annotations.
+//! What annotations show of a scene: surfaces at the middles of pixels, and lines.
 
-use ugpicture::{Annotated, DepthBuffer, DepthsOf, SceneState, Subject};
+use ugpicture::{Emissions, SeenItem};
 use ugraster::Center;
 use ugscene::{CameraOptions, Scene};
 
@@ -10,37 +10,40 @@ use crate::front::of_surface;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-/// The subject of a prepared scene's annotations.
-pub fn annotated<'a>(
-    setup: &'a Setup<'_>,
-    config: &'a Config,
-    depths: &'a DepthsOf<'a, Error>,
-) -> Annotated<'a, Error> {
-    let scene = setup.scene();
-    let is_shifted = match config.exact {
-        Some(shift) => shift.shifts_wavelengths(),
-        None => scene.stage.seen_colors().is_some_and(|seen| seen.doppler),
-    };
-    Annotated { is_shifted, subject: Subject::Scene { scene, camera: &config.picture.camera, depths } }
-}
-
-/// The depth buffer of a scene with a camera, in a picture of these options.
+/// The nearest opaque surface at the middle of each pixel.
 ///
 /// # Errors
-/// Errors of rendering the scene with its moving bodies at rest.
-pub fn depths(
-    scene: &Scene,
-    camera: &CameraOptions,
-    state: SceneState,
-    config: &Config,
-) -> Result<DepthBuffer, Error> {
-    let mut coarse = Config { wireframe: None, depth_cue: None, ..config.clone() };
-    coarse.picture.samples = 1;
-    coarse.picture.camera = camera.clone();
-    coarse.exact = config.exact.filter(|_| state == SceneState::AsSeen);
-    let setup = Setup::new(scene, &coarse)?;
-    let layers = RenderLayers::new(setup.painter(), &coarse.draw_mode());
+/// As [`Setup::new`].
+pub fn seen_items(scene: &Scene, config: &Config) -> Result<Vec<Option<SeenItem>>, Error> {
+    let config = plain(config);
+    let setup = Setup::new(scene, &config)?;
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
     let surface = |center: &Center<'_>| center.opaque.map(of_surface);
     let seen = layers.paint_centers(&setup.grid, &setup.shader, surface);
-    Ok(DepthBuffer { size: coarse.picture.size, seen })
+    let emissions = Emissions::new(setup.scene(), &setup.view, setup.appearance.surface.frames());
+    Ok((0..seen.len()).map(|idx| emissions.at_pixel([setup.grid.width, 1], &seen, idx)).collect())
+}
+
+/// The visible parts of the wires of a scene in a picture of these options from another camera, in
+/// pixels.
+///
+/// # Errors
+/// As [`Setup::new`].
+pub fn visible_wires(
+    scene: &Scene,
+    camera: &CameraOptions,
+    config: &Config,
+) -> Result<Vec<[[f64; 2]; 2]>, Error> {
+    let mut config = plain(config);
+    config.picture.camera = camera.clone();
+    let setup = Setup::new(scene, &config)?;
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    Ok(layers.strokes().iter().map(|stroke| stroke.ends.map(|end| [end.x, end.y])).collect())
+}
+
+/// Options for one sample a pixel, without edges of faces and depth cueing.
+fn plain(config: &Config) -> Config {
+    let mut plain = Config { wireframe: None, depth_cue: None, ..config.clone() };
+    plain.picture.samples = 1;
+    plain
 }

@@ -21,7 +21,7 @@ use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
-use crate::explain::{self, explain};
+use crate::explain::explain;
 use crate::{PROVENANCE, run_with};
 
 /// Greatest width of lines in pixels.
@@ -304,8 +304,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::follow(input, &config.reading, context).map_err(pipe::refused)?;
     if let Some((pixel, report)) = report {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
-        let (text, json) = (|| explain::text(&explanation), || explain::json(&explanation));
-        return write_report(report, &warnings, text, json, context);
+        return write_report(report, &explanation, &warnings, context);
     }
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };

@@ -108,7 +108,7 @@ mod vector;
 pub use cli::{Args, draw, manual};
 pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
-pub use render::{PROVENANCE, Prepared, light, render, render_with, run, run_with};
+pub use render::{PROVENANCE, light, render, render_with, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Note, Output,

@@ -25,7 +25,7 @@ pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (D
 }
 
 /// The whole picture as 8-bit levels.
-pub fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
+fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
     let grid = &setup.grid;
     let finish = Display::new(&config.picture);
     let (pixels, stats) = layers.paint_filtered(grid, config.picture.filter, &setup.shader, &finish);

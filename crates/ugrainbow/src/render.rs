@@ -1,19 +1,18 @@
 //! From a scene to a picture.
 
-use ugimage::{Frame, LinearFrame};
+use ugimage::LinearFrame;
 use ugparse::{Diagnostics, Parsed, Source};
-use ugpicture::{Canvas, Drawn, Output, PictureFile, Rendering, metadata};
+use ugpicture::{Annotated, Canvas, Drawn, Output, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
 use ugscene::{Provenance, Scene};
 
-use crate::annotate::{annotated, depths};
+use crate::annotate::{seen_items, visible_wires};
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::drawn_scene::DrawnScene;
 use crate::error::Error;
 use crate::notes::notes;
 use crate::render_layers::RenderLayers;
-use crate::setup::Setup;
 use crate::{pixels, vector};
 
 /// This program, without a command line, for the history of what it makes.
@@ -99,8 +98,19 @@ fn draw(
     };
     let notes = notes(&drawn, config);
     let DrawnScene { setup, stats, content, .. } = drawn;
-    let depths = |scene: &_, camera: &_, state| depths(scene, camera, state, config);
-    let annotated = annotated(&setup, config, &depths);
+    let items = || seen_items(setup.scene(), config);
+    let wires = |scene: &_, camera: &_| visible_wires(scene, camera, config);
+    let is_shifted = match config.exact {
+        Some(shift) => shift.shifts_wavelengths(),
+        None => setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler),
+    };
+    let subject = Subject::Surfaces {
+        view: &setup.view,
+        items: &items,
+        scene: Some(setup.scene()),
+        wires: Some(&wires),
+    };
+    let annotated = Annotated { is_shifted, subject };
     let drawn = Drawn { content, brightest: stats.max_intensity, notes, annotated };
     canvas.finish(drawn, metadata(&scene.remarks, provenance), progress)
 }
@@ -116,27 +126,4 @@ fn draw_pixels<'a>(
     let clip_counts = layers.clip_counts();
     drop(layers);
     Ok(DrawnScene { setup, clip_counts, stats, content })
-}
-
-/// A scene prepared for drawing: its colours and lights are computed, but nothing is projected yet.
-pub struct Prepared<'a> {
-    setup: Setup<'a>,
-    config: &'a Config,
-}
-
-impl<'a> Prepared<'a> {
-    /// Prepares a scene.
-    ///
-    /// # Errors
-    /// As [`render`].
-    pub fn new(scene: &'a Scene, config: &'a Config) -> Result<Self, Error> {
-        config.picture.check()?;
-        Ok(Self { setup: prepare(scene, config)?, config })
-    }
-
-    /// Draws the scene: from vertices to 8 bits per channel, without exposure.
-    pub fn draw(&self) -> Frame {
-        let layers = RenderLayers::new(self.setup.painter(), &self.config.draw_mode());
-        pixels::display(&self.setup, &layers, self.config).0
-    }
 }

@@ -1,7 +1,7 @@
 //! All faces and lines of a scene as layers for the rasterizer, in the packed layout that the scene
 //! needs.
 
-use ugpicture::Filter;
+use ugpicture::{DepthPoint, Filter};
 use ugpipe::Progress;
 use ugraster::{
     Center, Corner, FragmentTarget, FragmentWriter, NoTriangles, OpaqueLayer, PixelSamples, PolygonLayer,
@@ -108,7 +108,7 @@ impl<'a, const N: usize> Layers<'a, N> {
         let margin = 0.5 * width + 1.0;
         match &self.surfaces {
             Surfaces::Rays(faces) => {
-                let is_hidden = |place, key| faces.hides(place, key);
+                let is_hidden = |[x, y, key]: DepthPoint| faces.hides([x, y], key);
                 strokes(all, &Visibility::by_rays(&is_hidden, size, margin))
             }
             Surfaces::Polygons(list) => {
@@ -146,7 +146,7 @@ impl Layers<'_, TRANSPARENT_VALUES> {
         }
         match &self.surfaces {
             Surfaces::Rays(faces) => faces.draw_transparent(band, writer),
-            Surfaces::Polygons(list) => list.shapes().draw_transparent(grid, band, scanner, writer),
+            Surfaces::Polygons(list) => list.shapes().draw_on(grid, band, scanner, writer),
         }
     }
 }
@@ -184,7 +184,7 @@ impl TransparentLayer for Lit<'_, '_> {
             faces.draw_transparent(grid, band, scanner, &mut target.writer(&shade, false));
         }
         let lines = PolygonLayer { lists: &self.layers.lines, corners: &NoTriangles };
-        lines.draw_transparent(grid, band, scanner, &mut target.writer(&shade, true));
+        lines.draw_on(grid, band, scanner, &mut target.writer(&shade, true));
     }
 }
 

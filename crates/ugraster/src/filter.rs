@@ -11,9 +11,10 @@ use fearless_simd::{Level, Simd, dispatch};
 use ugimage::Filter;
 
 use crate::progress::BandProgress;
-use crate::rasterizer::{Keep, Rasterizer, TileBuffers, paint_parts};
+use crate::rasterizer::{Rasterizer, TileBuffers, paint_parts};
 use crate::resolve::{Center, PixelSamples, Planes, Resolve, Resolver};
 use crate::shading::{SampleStats, Shading};
+use crate::transparency::Keep;
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
 const STRIP_ROWS: u32 = 32;

@@ -1,13 +1,13 @@
 //! Layers of polygons and triangles, drawn into tiles or as transparent fragments.
 
+use std::ops::Range;
+
 use fearless_simd::Level;
 
 use crate::edges::{Crossing, Scanner};
 use crate::grid::SampleGrid;
-use crate::polygons::{PolygonList, ScreenPoint, ShapeRef};
-use crate::rows::draw_block;
+use crate::polygons::{PolygonList, ScreenPoint, ShapeRef, first_center};
 use crate::tile::{Area, Tile};
-use crate::transparency::{FragmentWriter, TRANSPARENT_VALUES};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, TriangleQueue, TriangleValues};
 
 /// Opaque surfaces that are drawn tile by tile. They carry N interpolated values.
@@ -50,25 +50,13 @@ pub struct PolygonLayer<'a, const N: usize, C: ?Sized> {
 
 impl<const N: usize, C: CornerTable<N> + ?Sized> OpaqueLayer<N> for PolygonLayer<'_, N, C> {
     fn draw(&self, grid: &SampleGrid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N>) {
-        self.draw_shapes(grid, band, scanner, tile);
-    }
-}
-
-impl<C: CornerTable<TRANSPARENT_VALUES> + ?Sized> PolygonLayer<'_, TRANSPARENT_VALUES, C> {
-    /// Draws what the layer has in a band as transparent fragments.
-    pub fn draw_transparent(
-        &self,
-        grid: &SampleGrid,
-        band: usize,
-        scanner: &mut Scanner<TRANSPARENT_VALUES>,
-        writer: &mut FragmentWriter<'_, '_>,
-    ) {
-        self.draw_shapes(grid, band, scanner, writer);
+        self.draw_on(grid, band, scanner, tile);
     }
 }
 
 impl<const N: usize, C: CornerTable<N> + ?Sized> PolygonLayer<'_, N, C> {
-    fn draw_shapes(
+    /// Draws what the layer has in a band: into a tile, or as transparent fragments.
+    pub fn draw_on(
         &self,
         grid: &SampleGrid,
         band: usize,
@@ -131,29 +119,27 @@ impl<const N: usize, C: CornerTable<N> + ?Sized> TriangleValues for Values<'_, N
 }
 
 /// Receives the samples of shapes.
-trait ShapeTarget<const N: usize> {
+pub trait ShapeTarget<const N: usize> {
     /// The samples to be drawn.
     fn area(&self) -> Area;
 
-    /// Draws a span of a polygon.
-    fn draw_span(
+    /// Draws samples of a row. `sample` receives the column of each and the key of the nearest
+    /// occluder; it returns key and values of a surface in front of that.
+    fn draw_each(
         &mut self,
         row: u32,
-        left: &Crossing<N>,
-        right: &Crossing<N>,
-        is_perspective: bool,
+        columns: Range<u32>,
         item: u32,
+        sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
     );
 
     /// Draws a block of triangles.
     fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>);
-}
 
-impl<const N: usize> ShapeTarget<N> for Tile<N> {
-    fn area(&self) -> Area {
-        self.area()
-    }
-
+    /// Draws the samples of a row with left ≤ x < right where the depth test passes.
+    ///
+    /// Keys and values are linear between the two ends. In perspective the values are multiplied
+    /// by the key, and are divided by it here.
     #[inline]
     fn draw_span(
         &mut self,
@@ -163,31 +149,25 @@ impl<const N: usize> ShapeTarget<N> for Tile<N> {
         is_perspective: bool,
         item: u32,
     ) {
-        self.draw_span(row, left, right, is_perspective, item);
-    }
-
-    fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
-        draw_block(level, block, self.samples(), planes);
-    }
-}
-
-impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
-    fn area(&self) -> Area {
-        self.area()
-    }
-
-    fn draw_span(
-        &mut self,
-        row: u32,
-        left: &Crossing<TRANSPARENT_VALUES>,
-        right: &Crossing<TRANSPARENT_VALUES>,
-        is_perspective: bool,
-        item: u32,
-    ) {
-        self.draw_span(row, left, right, is_perspective, item);
-    }
-
-    fn draw_block(&mut self, _level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
-        block.draw(self, planes);
+        let [start, end] = self.area().columns;
+        let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
+        if columns.is_empty() {
+            return;
+        }
+        let per_column = 1.0 / (right.x - left.x);
+        let key_slope = (right.key - left.key) * per_column;
+        let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
+        self.draw_each(row, columns, item, |column, occluder_key| {
+            // From the left end and never from the sample before: the result must not depend on
+            // where a tile starts.
+            let across = f64::from(column) + 0.5 - left.x;
+            let key = left.key + across * key_slope;
+            if key as f32 <= occluder_key {
+                return None;
+            }
+            let scale = if is_perspective { 1.0 / key } else { 1.0 };
+            let value = |i: usize| ((left.values[i] + across * slopes[i]) * scale) as f32;
+            Some((key as f32, std::array::from_fn(value)))
+        });
     }
 }

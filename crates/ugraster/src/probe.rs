@@ -1,10 +1,10 @@
 //! One pixel alone, with all its samples.
 
-use crate::rasterizer::{Keep, Rasterizer, TileBuffers};
+use crate::rasterizer::{Rasterizer, TileBuffers};
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver};
 use crate::shading::{Encoding, ShadedRun, ShadedSample, Shading};
 use crate::tile::VisibleItem;
-use crate::transparency::Fragment;
+use crate::transparency::{Fragment, Keep};
 
 /// A sample of a pixel that shows something.
 #[derive(Clone, Debug, PartialEq)]

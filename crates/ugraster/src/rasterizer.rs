@@ -11,7 +11,7 @@ use crate::progress::BandProgress;
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver, center};
 use crate::shading::{SampleStats, Shading};
 use crate::tile::{Area, Tile};
-use crate::transparency::{KeepFragments, TransparencyBuffer, TransparentLayer};
+use crate::transparency::{Keep, TransparencyBuffer, TransparentLayer};
 
 /// The shapes to draw. The methods differ in what they make of the samples; their output does not
 /// depend on the number of threads.
@@ -133,25 +133,9 @@ impl<const N: usize> Rasterizer<'_, N> {
         let area = Area { columns: columns.map(samples), rows: rows.map(samples) };
         tile.reset(area, keep != Keep::Light);
         opaque.draw(grid, band, scanner, tile);
-        let fragments = match keep {
-            Keep::Light => KeepFragments::None,
-            Keep::Centers => KeepFragments::Centers,
-            Keep::All => KeepFragments::All,
-        };
-        let draw = |layer| transparency.draw(layer, grid, band, tile, fragments);
+        let draw = |layer| transparency.draw(layer, grid, band, (area, tile.keys()), keep);
         transparent.map_or_else(SampleStats::default, draw)
     }
-}
-
-/// The parts of a tile's samples that are kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Keep {
-    /// Light only.
-    Light,
-    /// Items, and the fragments at the centres of pixels.
-    Centers,
-    /// Items and all fragments.
-    All,
 }
 
 /// Buffers to draw a tile, which are reused.

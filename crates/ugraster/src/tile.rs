@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
-use crate::edges::Crossing;
-use crate::polygons::first_center;
+use fearless_simd::Level;
+
+use crate::layer::ShapeTarget;
+use crate::rows::draw_block;
+use crate::triangles::{BlockSetup, LazyPlanes};
 
 /// Samples that are drawn together; a tile has as many elements more than samples.
 pub const LANES: usize = 8;
@@ -103,11 +106,6 @@ impl<const N: usize> Tile<N> {
         self.items.resize(if keeps_items { len } else { 0 }, 0);
     }
 
-    /// The samples it contains.
-    pub fn area(&self) -> Area {
-        self.area
-    }
-
     /// Depth keys, row after row, and [`LANES`] more.
     pub(crate) fn keys(&self) -> &[f32] {
         &self.keys
@@ -116,60 +114,6 @@ impl<const N: usize> Tile<N> {
     pub(crate) fn samples(&mut self) -> TileSamples<'_> {
         let Self { area, keys, values, items } = self;
         TileSamples { area: *area, keys, values, items }
-    }
-
-    /// Draws samples of a row. `sample` receives the column of each and the key of the nearest
-    /// surface so far; it returns key and values of a nearer surface.
-    #[inline]
-    pub fn draw_each(
-        &mut self,
-        row: u32,
-        columns: Range<u32>,
-        item: u32,
-        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
-    ) {
-        let mut part = self.part(row, &columns);
-        for (idx, column) in columns.enumerate() {
-            if let Some((key, values)) = sample(column, part.keys[idx]) {
-                part.set(idx, key, values, item);
-            }
-        }
-    }
-
-    /// Draws the samples of a row with left ≤ x < right where the depth test passes.
-    ///
-    /// Keys and values are linear between the two ends. In perspective the values are multiplied
-    /// by the key, and are divided by it here.
-    #[inline]
-    pub(crate) fn draw_span(
-        &mut self,
-        row: u32,
-        left: &Crossing<N>,
-        right: &Crossing<N>,
-        is_perspective: bool,
-        item: u32,
-    ) {
-        let [start, end] = self.area.columns;
-        let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
-        if columns.is_empty() {
-            return;
-        }
-        let per_column = 1.0 / (right.x - left.x);
-        let key_slope = (right.key - left.key) * per_column;
-        let slopes: [f64; N] = std::array::from_fn(|i| (right.values[i] - left.values[i]) * per_column);
-        let mut part = self.part(row, &columns);
-        for (idx, column) in columns.enumerate() {
-            // From the left end and never from the sample before: the result must not depend on
-            // where a tile starts.
-            let across = f64::from(column) + 0.5 - left.x;
-            let key = left.key + across * key_slope;
-            if key as f32 <= part.keys[idx] {
-                continue;
-            }
-            let scale = if is_perspective { 1.0 / key } else { 1.0 };
-            let value = |i: usize| ((left.values[i] + across * slopes[i]) * scale) as f32;
-            part.set(idx, key as f32, std::array::from_fn(value), item);
-        }
     }
 
     /// The samples of part of a row, to be drawn on.
@@ -198,6 +142,32 @@ impl<const N: usize> Tile<N> {
         let &item = self.items.get(sample)?;
         let key = self.keys[sample];
         (key != EMPTY).then_some(VisibleItem { key, item })
+    }
+}
+
+impl<const N: usize> ShapeTarget<N> for Tile<N> {
+    fn area(&self) -> Area {
+        self.area
+    }
+
+    #[inline]
+    fn draw_each(
+        &mut self,
+        row: u32,
+        columns: Range<u32>,
+        item: u32,
+        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
+    ) {
+        let mut part = self.part(row, &columns);
+        for (idx, column) in columns.enumerate() {
+            if let Some((key, values)) = sample(column, part.keys[idx]) {
+                part.set(idx, key, values, item);
+            }
+        }
+    }
+
+    fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
+        draw_block(level, block, self.samples(), planes);
     }
 }
 

@@ -12,12 +12,15 @@
 
 use std::ops::Range;
 
-use crate::edges::{Crossing, Scanner};
+use fearless_simd::Level;
+
+use crate::edges::Scanner;
 use crate::grid::SampleGrid;
-use crate::polygons::{first_center, greater};
+use crate::layer::ShapeTarget;
+use crate::polygons::greater;
 use crate::shading::{SampleStats, ShadedSample};
-use crate::tile::{Area, EMPTY, Tile};
-use crate::triangles::{LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
+use crate::tile::{Area, EMPTY};
+use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
 /// Number of interpolated values of transparent shapes.
 pub const TRANSPARENT_VALUES: usize = 8;
@@ -81,13 +84,14 @@ impl Composite {
     }
 }
 
-/// Which fragments are kept after blending.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum KeepFragments {
-    #[default]
-    None,
-    /// Samples at the centres of pixels.
+/// What is kept of the samples of a tile besides their light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keep {
+    /// Nothing.
+    Light,
+    /// Items, and the fragments at the centres of pixels.
     Centers,
+    /// Items and all fragments.
     All,
 }
 
@@ -109,25 +113,15 @@ pub struct TransparencyBuffer {
 }
 
 impl TransparencyBuffer {
-    /// Draws and blends a transparent layer in front of a tile.
-    pub fn draw<const N: usize>(
-        &mut self,
-        layer: &dyn TransparentLayer,
-        grid: &SampleGrid,
-        band: usize,
-        tile: &Tile<N>,
-        keep: KeepFragments,
-    ) -> SampleStats {
-        self.draw_before(layer, grid, band, (tile.area(), tile.keys()), keep)
-    }
-
-    fn draw_before(
+    /// Draws and blends a transparent layer in front of a tile, given by its samples and their depth
+    /// keys.
+    pub fn draw(
         &mut self,
         layer: &dyn TransparentLayer,
         grid: &SampleGrid,
         band: usize,
         (area, keys): (Area, &[f32]),
-        keep: KeepFragments,
+        keep: Keep,
     ) -> SampleStats {
         self.area = area;
         self.composites.clear();
@@ -165,7 +159,7 @@ impl TransparencyBuffer {
         self.composites.is_empty()
     }
 
-    fn blend(&mut self, grid: &SampleGrid, keep: KeepFragments) {
+    fn blend(&mut self, grid: &SampleGrid, keep: Keep) {
         if self.fragments.is_empty() {
             return;
         }
@@ -182,7 +176,7 @@ impl TransparencyBuffer {
                 is_middle(columns[0] + fragment.sample % width)
                     && is_middle(rows[0] + fragment.sample / width)
             };
-            if keep == KeepFragments::All || keep == KeepFragments::Centers && is_center() {
+            if keep == Keep::All || keep == Keep::Centers && is_center() {
                 self.kept.push(*fragment);
             }
         }
@@ -296,15 +290,16 @@ pub struct FragmentWriter<'t, 'a> {
     is_line: bool,
 }
 
-impl FragmentWriter<'_, '_> {
-    /// The samples to be drawn.
-    pub fn area(&self) -> Area {
+impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
+    fn area(&self) -> Area {
         self.target.part
     }
 
-    /// Draws samples of a row. `sample` receives the column of each and the key of the nearest
-    /// occluder; it returns key and values of a surface in front of that.
-    pub fn draw_each(
+    fn draw_block(&mut self, _level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
+        block.draw(self, planes);
+    }
+
+    fn draw_each(
         &mut self,
         row: u32,
         columns: Range<u32>,
@@ -331,35 +326,9 @@ impl FragmentWriter<'_, '_> {
         }
         self.push(&places[..n], &values[..n], item);
     }
+}
 
-    /// Draws the samples of a row with left ≤ x < right, as in [`Tile`].
-    pub(crate) fn draw_span(
-        &mut self,
-        row: u32,
-        left: &Crossing<TRANSPARENT_VALUES>,
-        right: &Crossing<TRANSPARENT_VALUES>,
-        is_perspective: bool,
-        item: u32,
-    ) {
-        let [start, end] = self.target.part.columns;
-        let columns = first_center(left.x, end).max(start)..first_center(right.x, end);
-        if columns.is_empty() {
-            return;
-        }
-        let per_column = 1.0 / (right.x - left.x);
-        self.draw_each(row, columns, item, |column, occluder_key| {
-            let across = f64::from(column) + 0.5 - left.x;
-            let mix = |a: f64, b: f64| a + across * ((b - a) * per_column);
-            let key = mix(left.key, right.key);
-            if key as f32 <= occluder_key {
-                return None;
-            }
-            let scale = if is_perspective { 1.0 / key } else { 1.0 };
-            let values = std::array::from_fn(|i| (mix(left.values[i], right.values[i]) * scale) as f32);
-            Some((key as f32, values))
-        });
-    }
-
+impl FragmentWriter<'_, '_> {
     /// Shades samples, given by index and key, and stores them.
     fn push(&mut self, places: &[(usize, f32)], values: &[[f32; TRANSPARENT_VALUES]], item: u32) {
         let mut shaded = [(ShadedSample::default(), 0.0); RUN];
@@ -468,7 +437,7 @@ mod tests {
         for n in [1, 100, 2000, 4001] {
             let panes = Panes { n, n_shaded: AtomicU64::new(0) };
             let mut buffer = TransparencyBuffer::default();
-            buffer.draw_before(&panes, &grid, 0, (area, &keys), KeepFragments::None);
+            buffer.draw(&panes, &grid, 0, (area, &keys), Keep::Light);
             let n_fragments = area.n_samples() as u64 * u64::from(n);
             let n_shaded = panes.n_shaded.into_inner();
             assert!(n_shaded <= n_fragments + MAX_FRAGMENTS as u64 + 64, "{n}: {n_shaded} of {n_fragments}");
@@ -490,7 +459,7 @@ mod tests {
         let grid = grid(3000, 1);
         let panes = Panes { n: 1100, n_shaded: AtomicU64::new(0) };
         let mut buffer = TransparencyBuffer::default();
-        buffer.draw_before(&panes, &grid, 0, (area, &keys), KeepFragments::Centers);
+        buffer.draw(&panes, &grid, 0, (area, &keys), Keep::Centers);
         let n_fragments = area.n_samples() as u64 * u64::from(panes.n);
         assert!(panes.n_shaded.into_inner() <= n_fragments + MAX_FRAGMENTS as u64 + 3000);
         assert!(buffer.fragments.capacity() <= 2 * MAX_FRAGMENTS, "{}", buffer.fragments.capacity());

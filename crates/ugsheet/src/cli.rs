@@ -4,23 +4,18 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::figure::PartError;
-use ugimage::label::TextForm;
-use ugimage::{Format, Metadata, PictureLimits, ReadError, read_history, read_png, read_png_header};
+use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header};
 use ugphysics::Hsv;
 use ugpipe::{
     CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
 };
 
 use crate::recipe::{Recipe, recipes};
-use crate::{
-    Config, Error, Figures, Labels, Motion, Picture, figure_format, figure_sheet, history, join, sheet,
-};
+use crate::{Config, Error, Labels, Motion, Picture, history, join, sheet};
 
 /// Arranges several pictures on one sheet, with labels
 ///
-/// Reads PNG files and arranges them in a grid without resampling them; or vector figures, all SVG or
-/// all PDF, and writes one figure of that format. By default the labels are
+/// Reads PNG files and arranges them in a grid without resampling them. By default the labels are
 /// the speeds and times recorded in the history of the pictures, if these differ; otherwise the
 /// file names.
 #[derive(Parser, Debug)]
@@ -59,19 +54,12 @@ pub struct Args {
           value_parser = whole(0..=10_000))]
     gap: Option<Vec<u32>>,
 
-    /// Text of labels on sheets of SVG and PDF files as text, instead of outlines
-    ///
-    /// It can be searched, copied, and changed in an editor.
-    #[arg(long, visible_alias = "text")]
-    txt: bool,
-
     /// Background colour: lightness, hue in degrees, saturation [default: white]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           value_parser = finite, visible_alias = "background")]
     bg: Option<Vec<f64>>,
 
-    /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png, or
-    /// that of the files if they are SVG or PDF]
+    /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(FORMATS, format_named))]
     dt: Option<Format>,
 
@@ -79,14 +67,14 @@ pub struct Args {
     ///
     /// For files in png, exr, hdr, ppm, pdf, svg, eps and ps, in the folder where the pipe was run.
     /// A comment has the SHA-256 of the scene, and a warning says whether the scene has changed.
-    #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "txt", "gap", "bg", "dt"])]
+    #[arg(long, conflicts_with_all = ["cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
     history: bool,
 
     /// Join the tiles of a picture, drawn with -crop, to the whole picture
     ///
     /// Tiles are PNG files that were drawn by one command but for their -crop. The result is the
     /// file that the command without -crop writes. Their order does not matter.
-    #[arg(long, conflicts_with_all = ["history", "cols", "label", "lb", "lt", "title", "cap", "ts", "txt", "gap", "bg", "dt"])]
+    #[arg(long, conflicts_with_all = ["history", "cols", "label", "lb", "lt", "title", "cap", "ts", "gap", "bg", "dt"])]
     tiles: bool,
 
     #[command(flatten)]
@@ -100,7 +88,6 @@ pub struct Args {
 const EXAMPLES: &str = "Examples:
   ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
   ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png
-  ugsheet -lt rest.pdf fast.pdf > sheet.pdf
   ugsheet --tiles tile_*.png > whole.png
   ugsheet --history rest.png";
 
@@ -199,78 +186,9 @@ impl Args {
 /// The picture of an input, without its pixels. `path` is its file, `None` for standard input.
 fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
     let (size, history) = read_png_header(&input.text).map_err(|error| unreadable(input, &error))?;
-    Ok(described(path, size, history))
-}
-
-/// The picture of a file with a size and a history.
-fn described(path: Option<&Path>, size: [u32; 2], history: Metadata) -> Picture {
     let name = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
     let motion = Motion::recorded(&history);
-    Picture { name: name.unwrap_or_default(), size, motion, history }
-}
-
-/// The format of the vector figures; `None` for pictures.
-fn common_format(inputs: &[Input]) -> Result<Option<Format>, Failure> {
-    let formats: Vec<Option<Format>> = inputs.iter().map(|input| figure_format(&input.text)).collect();
-    let Some(other) = formats.iter().position(|format| *format != formats[0]) else { return Ok(formats[0]) };
-    let described = |idx: usize| {
-        let kind = formats[idx].map_or("a picture", Format::name);
-        format!("`{}` is {kind}", inputs[idx].name)
-    };
-    Err(Failure::failed(format!(
-        "the files of a sheet are all PNG, all SVG or all PDF: {}, {}",
-        described(0),
-        described(other)
-    )))
-}
-
-/// Arranges vector figures.
-fn print_figures(
-    args: &Args,
-    inputs: &[Input],
-    format: Format,
-    context: &mut Context,
-) -> Result<(), Failure> {
-    if args.dt.is_some() || context.output_name().is_some_and(|file| file.extension().is_some()) {
-        let given = args.format(context.output_name())?;
-        if given != format {
-            return Err(Failure::Usage(format!(
-                "a sheet of {0} files is a file of the format {0}, not {1}",
-                format.name(),
-                given.name()
-            )));
-        }
-    }
-    let unreadable =
-        |row: usize, error| Failure::failed(format!("`{}`: {error}{}", inputs[row].name, remedy(&error)));
-    let mut figures = Figures::none(format);
-    let mut pictures = Vec::new();
-    let paths =
-        std::iter::once(args.common.input()).chain(args.files.iter().map(|path| Some(path.as_path())));
-    for (row, (path, input)) in paths.zip(inputs).enumerate() {
-        let size = figures.add(&input.text).map_err(|error| unreadable(row, error))?;
-        let comment = read_history(&input.text).unwrap_or_default();
-        pictures.push(described(path, size, Metadata { comment, ..Metadata::default() }));
-    }
-    let text = if args.txt { TextForm::Text } else { TextForm::Outlines };
-    let metadata = history(&pictures, Some(context.command_line()));
-    let file = figure_sheet(&args.config()?, &pictures, &figures, text, &metadata);
-    let file = file.map_err(|error| match error {
-        Error::Figure { row, error } => unreadable(row, error),
-        error => refused(error),
-    })?;
-    context.detail(&format!("{} figures", pictures.len()));
-    context.write(&file)
-}
-
-/// How to make a figure that can be read.
-fn remedy(error: &PartError) -> &'static str {
-    match error {
-        PartError::Compressed => "; write it again with `qpdf --object-streams=disable IN.pdf OUT.pdf`",
-        PartError::Encrypted => "; write it again with `qpdf --decrypt IN.pdf OUT.pdf`",
-        PartError::Pages(_) => "; extract one with `qpdf IN.pdf --pages . 1 -- OUT.pdf`",
-        _ => "",
-    }
+    Ok(Picture { name: name.unwrap_or_default(), size, motion, history })
 }
 
 fn refused(error: Error) -> Failure {
@@ -308,8 +226,26 @@ fn print_joined(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 fn unreadable(input: &Input, error: &ReadError) -> Error {
+    if let Some(format) = vector_format(&input.text) {
+        return Error::Picture(format!(
+            "`{}` is a {format} file, and a sheet consists of PNG files; draw it as PNG, or place the \
+             figures side by side in LaTeX, each with `\\includegraphics` in a `minipage`",
+            input.name
+        ));
+    }
     let remedy = CommonArgs::memory_remedy(error.needed_memory());
     Error::Picture(format!("`{}`: {error}{remedy}", input.name))
+}
+
+/// The format of a file that may hold a vector figure; `None` for other files.
+fn vector_format(file: &[u8]) -> Option<&'static str> {
+    let file = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file).trim_ascii_start();
+    match file {
+        [b'%', b'P', b'D', b'F', b'-', ..] => Some("PDF"),
+        [b'%', b'!', ..] => Some("PostScript"),
+        [b'<', ..] => Some("SVG"),
+        _ => None,
+    }
 }
 
 impl Words for Error {
@@ -320,7 +256,7 @@ impl Words for Error {
             Self::NoPart { .. } => " (-crop)",
             Self::NoWholeSize { .. } => ": draw all tiles with -sz W H",
             Self::Memory { .. } => "; make it smaller with -ts, fewer pictures or smaller ones",
-            Self::Empty | Self::Size | Self::Figure { .. } | Self::Picture(_) => "",
+            Self::Empty | Self::Size | Self::Picture(_) => "",
         };
         format!("{self}{remedy}")
     }
@@ -396,14 +332,6 @@ pub fn main() -> ExitCode {
         let mut inputs = vec![context.input()?];
         for path in &args.files {
             inputs.push(context.input_file(path)?);
-        }
-        if let Some(format) = common_format(&inputs)? {
-            return print_figures(args, &inputs, format, context);
-        }
-        if args.txt {
-            return Err(Failure::usage(
-                "-txt is for sheets of SVG and PDF files: labels of pictures are pixels",
-            ));
         }
         let paths =
             std::iter::once(args.common.input()).chain(args.files.iter().map(|path| Some(path.as_path())));

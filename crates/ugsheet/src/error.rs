@@ -1,7 +1,6 @@
 //! The errors of making a sheet.
 
 use thiserror::Error;
-use ugimage::figure::PartError;
 use ugimage::label::MissingCharacter;
 
 /// Largest number of pixels of a sheet.
@@ -54,14 +53,6 @@ pub enum Error {
     NoWholeSize {
         /// The name of the tile.
         name: String,
-    },
-    /// A vector figure cannot be copied to the sheet.
-    #[error("figure {}: {error}", row + 1)]
-    Figure {
-        /// The row of the figure.
-        row: usize,
-        /// Why.
-        error: PartError,
     },
     /// A picture cannot be read or joined to others; the message names it.
     #[error("{0}")]

@@ -5,8 +5,6 @@
 //! these are the labels, otherwise the file names ([`Labels`]). Opaque pixels are copied unchanged;
 //! transparent ones are composited over the background.
 //!
-//! Vector figures, SVG or PDF, are arranged in the same way, and stay vectors ([`figure_sheet`]).
-//!
 //! It also joins the tiles of a large picture to the whole ([`join`]).
 //!
 //! # Example
@@ -30,7 +28,6 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod error;
-mod figures;
 mod labels;
 mod layout;
 #[cfg(feature = "cli")]
@@ -43,7 +40,6 @@ use ugimage::{Frame, Metadata};
 #[cfg(feature = "cli")]
 pub use cli::{main, manual};
 pub use error::Error;
-pub use figures::{Figures, figure_format, figure_sheet};
 pub use labels::{Labels, Motion};
 use layout::Layout;
 pub use tiles::join;

@@ -11,9 +11,8 @@
 //!   weights by true directions and solid angles. There is no aliasing where the sky is seen
 //!   smaller, by (1 − β)/(1 + β) straight ahead, and no blocks where it is seen larger.
 //! - A [`SpectralTable`] is light as seen, on an assumption about its spectrum: a [`Basis`].
-//! - [`SkyColors`] say how colours change; a [`Sky`] is a panorama, stars or both; [`SkyBehind`]
-//!   is the light of one in the footprint of any ray, [`SkyLight`] that of rows of pixels.
-//! - A [`Texture`] is light in a plane, with the same texels and mip levels.
+//! - [`SkyColors`] say how colours change; a [`Sky`] is a panorama, stars or both; [`SkyLight`]
+//!   is the light of one in rows of pixels.
 //! - A [`Star`] is a black body too small to be resolved, and [`StarLight`] what it gives an
 //!   observer in motion.
 //!
@@ -34,7 +33,6 @@
 //! ```
 
 mod arrangement;
-mod behind;
 mod blocks;
 mod cube;
 mod flat;
@@ -52,13 +50,11 @@ mod spectral;
 mod star_list;
 mod stars;
 mod texels;
-mod texture;
 mod transfer;
 mod view;
 mod window;
 
 pub use arrangement::Arrangement;
-pub use behind::{SkyBehind, SkyRays};
 pub use cube::CubeMap;
 pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
@@ -72,5 +68,4 @@ pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
 pub use star_list::{MAX_STARS, StarColumn, StarListError, StarListMistake, is_star_list, read_stars};
 pub use stars::{Star, StarLight, StarOptions};
 pub use texels::Texels;
-pub use texture::{Texture, Wrap};
 pub use view::{SkyLight, SkyView};

@@ -1,7 +1,6 @@
 //! Texels in rows, with mip levels that are computed where they are needed.
 //!
-//! Rows may have different numbers of texels: on a sphere those near the poles have fewer. Nothing
-//! here depends on what the rows are, so panoramas and textures have the same texels.
+//! Rows may have different numbers of texels: on a sphere those near the poles have fewer.
 
 use std::ops::Range;
 use std::sync::OnceLock;

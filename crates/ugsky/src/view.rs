@@ -39,14 +39,8 @@ pub struct SkyLight<'a, 's, F> {
 }
 
 impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
-    /// The light seen in a square of the picture, `side` samples wide: red, green and blue times
-    /// the covered part, and that part. It is exact at poles, at edges and for squares that see
-    /// most of the sky.
-    pub fn square(&mut self, place: [f64; 2], side: f64) -> [f32; 4] {
-        self.part(place, side, 0)
-    }
-
-    /// The light seen in `n` samples of a row, as of [`SkyLight::square`]: faster for many.
+    /// The light seen in `n` samples of a row: red, green and blue times the covered part, and that
+    /// part. It is exact at poles, at edges and for samples that see most of the sky.
     pub fn row(&mut self, found: &mut [Seen], [left, y]: [f64; 2], n: usize) {
         let SkyView { observer, spread, flat } = self.view;
         match flat {

@@ -189,9 +189,9 @@ impl<'s> Prepared<'s> {
         };
         let size = config.picture.size;
         let n_pixels = size[0] as usize * size[1] as usize;
-        let items = || (0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect();
+        let items = || Ok((0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect());
         let view = view(config, size)?;
-        let subject = Subject::Items { view: &view, items: &items, scene: None };
+        let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, notes) = (statistics.max_light, notes(config, warp, &statistics));
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)

@@ -3,17 +3,21 @@
 //! Fuzz targets and the tests share these functions. Each returns the first finding in words; a
 //! panic is left to the caller.
 
+use std::ffi::OsString;
 use std::io;
 use std::sync::LazyLock;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use ugimage::{Format, Metadata};
+use uglorentz::Pieces;
 use ugmesh::Target;
 use ugparse::{Limit, Limits, Options, Source};
+use ugpipe::{Failure, ToolArgs, parse_words};
 use ugscene::Scene;
 use ugtesting::Random;
 
-use super::config;
+use super::options;
+use super::template::Kind;
 
 /// Small limits, because large scenes take long and reach no further code.
 pub fn limits() -> Limits {
@@ -50,12 +54,26 @@ fn pool(n_threads: usize) -> ThreadPool {
     pool.unwrap_or_else(|error| panic!("{n_threads} threads: {error}"))
 }
 
+/// The configuration of a program by options at random; the default if they are refused.
+fn config<A: ToolArgs, C: Default>(
+    random: &mut Random,
+    program: &str,
+    config: fn(&A) -> Result<C, Failure>,
+) -> C {
+    let words = options::line(random, Kind::Wild, program);
+    parse_words(words.into_iter().map(OsString::from)).and_then(|args| config(&args)).unwrap_or_default()
+}
+
 /// The bytes of the last stage that succeeds; empty if the scene is invalid.
 fn stages(seed: u64, text: &[u8], options: &Options) -> Result<Vec<u8>, String> {
     let mut random = Random(seed);
-    let lorentz = config::lorentz(&mut random);
-    let doppler = config::doppler(&mut random);
-    let rainbow = config::rainbow(&mut random);
+    let mut lorentz = config(&mut random, "uglorentz", uglorentz::Args::config);
+    if let Pieces::UpTo(error) = lorentz.pieces {
+        // Many pieces take long.
+        lorentz.pieces = Pieces::UpTo(error.max(0.1));
+    }
+    let doppler = config(&mut random, "ugdoppler", ugdoppler::Args::config);
+    let rainbow = config(&mut random, "ugrainbow", |args: &ugrainbow::Args| args.config(None));
     let [has_lorentz, has_doppler] = [!random.one_in(5), !random.one_in(3)];
     let Ok(parsed) = ugparse::read(&Source::new("first.ug", text), options, None) else {
         return Ok(Vec::new());
@@ -149,7 +167,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     }
     let mut random = Random(seed);
     let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
-    let config = quick(config::warp(&mut random), seed);
+    let config = quick(&mut random, seed);
     let Ok(opened) = ugwarp::open(&[bytes], arrangement, None, None, LIMITS) else { return Ok(()) };
     sky((&opened).into(), &config, seed)
 }
@@ -160,7 +178,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
 /// The violation.
 pub fn stars(seed: u64, bytes: &[u8]) -> Result<(), String> {
     match ugwarp::read_stars("stars.csv", bytes) {
-        Ok(stars) => sky(stars.as_slice().into(), &quick(config::warp(&mut Random(seed)), seed), seed),
+        Ok(stars) => sky(stars.as_slice().into(), &quick(&mut Random(seed), seed), seed),
         Err(findings) => {
             std::hint::black_box(findings.render(false));
             Ok(())
@@ -170,11 +188,12 @@ pub fn stars(seed: u64, bytes: &[u8]) -> Result<(), String> {
 
 /// A picture of few samples, mostly in hues: near the speed of light a sample takes in all of the
 /// sky, and the tables of spectra take longer than all else.
-fn quick(mut config: ugwarp::Config, seed: u64) -> ugwarp::Config {
+fn quick(random: &mut Random, seed: u64) -> ugwarp::Config {
+    let mut config = config(random, "ugwarp", |args: &ugwarp::Args| args.config(None));
     config.picture.size = config.picture.size.map(|side| side.min(4));
     config.picture.samples = 1;
     if !seed.is_multiple_of(32) {
-        config.shift = ugrainbow::ColorShift::hues(true, *Random(seed).pick(&ugphysics::Brightness::ALL));
+        config.shift = ugrainbow::ColorShift::hues(true, *random.pick(&ugphysics::Brightness::ALL));
     }
     config
 }
@@ -231,33 +250,6 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
     match ugimage::read_png(&Format::Png.encode(&sheet, &metadata), &ugimage::PictureLimits::default()) {
         Ok((frame, _)) if frame == sheet => Ok(()),
         Ok(_) => Err("a sheet is read with other pixels than were written".to_owned()),
-        Err(error) => Err(format!("a sheet is refused: {error}")),
-    }
-}
-
-/// A vector figure: a sheet of it and itself is no longer than the files allow, and is read again
-/// with its own size.
-///
-/// # Errors
-/// The refusal or the difference.
-pub fn figure(format: Format, bytes: &[u8]) -> Result<(), String> {
-    let mut figures = ugsheet::Figures::none(format);
-    let [Ok(size), Ok(_)] = [figures.add(bytes), figures.add(bytes)] else { return Ok(()) };
-    let (motion, history) = (ugsheet::Motion::default(), Metadata::default());
-    let picture = ugsheet::Picture { name: "a".to_owned(), size, motion, history };
-    let config = ugsheet::Config { labels: ugsheet::Labels::None, ..ugsheet::Config::default() };
-    let pictures = [picture.clone(), picture];
-    let text = ugimage::label::TextForm::Outlines;
-    let Ok(sheet) = ugsheet::figure_sheet(&config, &pictures, &figures, text, &Metadata::default()) else {
-        return Ok(());
-    };
-    let most = 40 * bytes.len() + 10_000;
-    if sheet.len() > most {
-        return Err(format!("a sheet has {} bytes, more than {most}", sheet.len()));
-    }
-    match ugsheet::Figures::none(format).add(&sheet) {
-        Ok([width, _]) if width >= size[0] => Ok(()),
-        Ok(other) => Err(format!("a sheet of figures of {size:?} pixels is read with {other:?}")),
         Err(error) => Err(format!("a sheet is refused: {error}")),
     }
 }

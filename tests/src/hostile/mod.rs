@@ -1,55 +1,39 @@
 //! Hostile inputs for the programs, and what must hold whatever they are given.
 //!
-//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) that
-//! is malformed, extreme or both, and the command lines of a pipe. Half of the cases are valid, so
-//! that their pipes run to the end. [`Case::run`] runs it with the built programs and checks what
-//! no input may break:
+//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) and the
+//! command lines of a pipe, possible or malformed and extreme. [`Case::run`] runs it with the programs
+//! and checks what no input may break:
 //!
-//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and
-//!   [`MEMORY_LIMIT`], and allocates no more than 64 MiB and 16 times the bytes of its input and
-//!   output; a film 64 MiB more for each frame that it draws at once;
-//! - limits of the shell (address space, processes, the size of files) cause errors, not panics;
-//! - with status 0 it has written something, and every program downstream reads it;
+//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and the memory that
+//!   the size of its input and output allows;
+//! - limits of the shell (address space, the size of files) cause errors, not panics;
+//! - with status 0 it has written something, and the next program reads it;
 //! - with another status it has written nothing to standard output, and says why;
 //! - if its output is lost (a full disk, a closed pipe), the status is not 0;
-//! - after a signal its output file is whole or absent;
+//! - after a signal its output file is whole or absent, and no temporary file is left;
 //! - nothing that it prints moves the cursor or reverses the text, and no number in a message is
 //!   infinite or NaN;
-//! - the number of threads changes no byte;
-//! - no temporary file is left, unless there was not enough address space: then the next run
-//!   deletes it.
+//! - the number of threads changes no byte.
 //!
 //! [`memory`] has what must hold in memory, for fuzz targets, whose inputs are [`File`]s.
 
 mod bytes;
-pub mod config;
-mod edge;
-mod figure;
-mod film;
-mod line;
+mod files;
 pub mod memory;
-mod mesh;
-mod mild;
-mod motion;
 mod options;
-mod panorama;
-mod path;
-mod picture;
-pub mod renderers;
 mod run;
 mod scene;
-mod words;
+mod template;
 
 use std::path::Path;
 
+use ugimage::Format;
+use ugmesh::MeshFormat;
 use ugtesting::Random;
 
 pub use bytes::damage;
-pub use edge::Edge;
-pub use run::{MEMORY_LIMIT, PROCESSOR_LIMIT};
-
-/// Names and contents.
-type Files = Vec<(String, Vec<u8>)>;
+pub use run::{Edge, PROCESSOR_LIMIT};
+pub use template::Kind;
 
 /// A pipe with a hostile input.
 #[derive(Clone, Debug)]
@@ -57,63 +41,37 @@ pub struct Case {
     /// Its number.
     pub seed: u64,
     /// Name and content of the files in its folder; the first is the input.
-    pub files: Files,
+    pub files: Vec<(String, Vec<u8>)>,
     /// Program and arguments of each stage.
     pub stages: Vec<Vec<String>>,
     /// Streams and signals of the last stage.
     pub edge: Edge,
-    /// Whether the pipe is run again on one thread, and compared.
-    pub is_repeated: bool,
 }
 
 impl Case {
     /// The case of this number.
-    pub fn new(seed: u64) -> Self {
-        match seed % 16 {
-            7 => return Self::with_motions(seed),
-            15 => return Self::with_figures(seed),
-            _ => {}
-        }
+    pub fn new(seed: u64, kind: Kind) -> Self {
         let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        let (files, stages) = if random.one_in(3) { wild(&mut random) } else { mild::pipe(&mut random) };
-        Self::finished(seed, random, files, stages)
-    }
-
-    /// The case of this number among scenes with motions alone.
-    pub fn with_motions(seed: u64) -> Self {
-        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        let (files, stages) = match random.below(6) {
-            0 | 1 => {
-                let files = scene::named(motion::wild(&mut random).into_bytes());
-                let stages = options::stages(&mut random, "scene", &files);
-                (files, stages)
-            }
+        let random = &mut random;
+        let (name, file, programs) = match random.below(8) {
+            0 => ("0.png", File::Picture, &["ugsheet"][..]),
+            1 => ("0.sky", if random.one_in(3) { File::Stars } else { File::Panorama }, &["ugwarp"][..]),
             2 | 3 => {
-                let stages = mild::stages(&mut random);
-                (scene::named(motion::sane(&mut random).into_bytes()), stages)
+                let format = *random.pick(&MESHES);
+                ("mesh", File::Mesh(format), *random.pick(&[&["ugmesh"][..], &["uglorentz", "ugrainbow"]]))
             }
-            4 => path::path(&mut random),
-            _ => path::warp(&mut random),
+            _ => ("scene.ug", File::Scene, PIPES[random.below(PIPES.len())]),
         };
-        Self::finished(seed, random, files, stages)
-    }
-
-    /// The case of this number among vector figures: joined on sheets, or drawn with text.
-    pub fn with_figures(seed: u64) -> Self {
-        let mut random = Random(seed.wrapping_mul(0x2545_f491_4f6c_dd1d));
-        let (files, stages) = if random.one_in(4) {
-            path::vector(&mut random)
-        } else {
-            let (files, line) = figure::sheet(&mut random);
-            (files, vec![line])
-        };
-        Self::finished(seed, random, files, stages)
-    }
-
-    fn finished(seed: u64, mut random: Random, files: Files, stages: Vec<Vec<String>>) -> Self {
-        let is_repeated = random.one_in(4);
-        let edge = Edge::new(&mut random);
-        Self { seed, files, stages, edge, is_repeated }
+        let input = if kind == Kind::Wild { file.generate(random) } else { file.undamaged(random, kind) };
+        let mut stages: Vec<Vec<String>> =
+            programs.iter().map(|program| options::line(random, kind, program)).collect();
+        if file != File::Scene {
+            stages[0].push(name.to_owned());
+        }
+        let part = b"v part 0 0 1 ;\n".to_vec();
+        let files = vec![(name.to_owned(), input), ("part.ug".to_owned(), part)];
+        let edge = if kind == Kind::Wild { Edge::new(random) } else { Edge::Plain };
+        Self { seed, files, stages, edge }
     }
 
     /// Runs the pipe with the programs in `programs`. True if every stage succeeds.
@@ -121,13 +79,9 @@ impl Case {
     /// # Errors
     /// The first thing that does not hold, in words.
     pub fn run(&self, programs: &Path) -> Result<bool, String> {
-        run::run(self, programs).map_err(|finding| format!("case {}: {finding}\n{}", self.seed, self.shell()))
-    }
-
-    /// The pipe as a shell would take it.
-    fn shell(&self) -> String {
         let stages: Vec<String> = self.stages.iter().map(|words| words.join(" ")).collect();
-        format!("  {} < {}", stages.join(" | "), self.files[0].0)
+        let shell = format!("  {} < {}", stages.join(" | "), self.files[0].0);
+        run::run(self, programs).map_err(|finding| format!("case {}: {finding}\n{shell}", self.seed))
     }
 
     /// Writes the files of the case into a folder, to look into it by hand.
@@ -139,17 +93,20 @@ impl Case {
     }
 }
 
-/// Malformed and extreme files and options.
-fn wild(random: &mut Random) -> (Files, Vec<Vec<String>>) {
-    let (files, first) = match random.below(11) {
-        0 | 1 => mesh::files(random),
-        2 => picture::files(random),
-        3 => panorama::files(random),
-        _ => scene::files(random),
-    };
-    let stages = options::stages(random, first, &files);
-    (files, stages)
-}
+/// The programs of a pipe for a scene.
+const PIPES: [&[&str]; 7] = [
+    &["uglorentz", "ugdoppler", "ugrainbow"],
+    &["uglorentz", "ugdoppler", "ugrainbow"],
+    &["uglorentz", "ugrainbow"],
+    &["uglorentz", "ugdoppler", "ugmesh"],
+    &["ugphoton"],
+    &["ugfilm"],
+    &["ugparse"],
+];
+
+/// The formats of meshes other than that of scenes.
+pub const MESHES: [MeshFormat; 5] =
+    [MeshFormat::Obj, MeshFormat::Off, MeshFormat::Ply, MeshFormat::Stl, MeshFormat::Gltf];
 
 /// A kind of file that the programs read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -157,35 +114,41 @@ pub enum File {
     /// A scene.
     Scene,
     /// A mesh of a format other than that of scenes.
-    Mesh(ugmesh::MeshFormat),
+    Mesh(MeshFormat),
     /// A PNG file.
     Picture,
-    /// A panorama: a PNG, JPEG, HDR, EXR or PFM file.
+    /// A panorama: a PNG, JPEG, HDR or EXR file.
     Panorama,
     /// A list of stars.
     Stars,
     /// A picture of any format, with its history.
     History,
-    /// A vector figure, SVG or PDF.
-    Figure(ugimage::Format),
 }
 
 impl File {
     /// A file of this kind, often malformed.
     pub fn generate(self, random: &mut Random) -> Vec<u8> {
-        let mut bytes = match self {
-            Self::Scene => return scene::text(random),
-            Self::Mesh(format) => mesh::of(format, random),
-            Self::Picture => picture::png(random),
-            Self::Panorama => panorama::file(random),
-            Self::Stars => panorama::stars(random).into_bytes(),
-            Self::History => picture::with_history(random),
-            Self::Figure(format) => return figure::of(format, random),
-        };
+        let kind = if random.one_in(3) { Kind::Mild } else { Kind::Wild };
+        let mut bytes = self.undamaged(random, kind);
         if random.one_in(2) {
             damage(random, &mut bytes);
         }
         bytes
+    }
+
+    fn undamaged(self, random: &mut Random, kind: Kind) -> Vec<u8> {
+        match self {
+            Self::Scene if random.one_in(4) => scene::known(random),
+            Self::Scene => scene::statements(random, kind).into_bytes(),
+            Self::Mesh(format) => files::mesh(random, kind, format),
+            Self::Picture => files::picture(random, kind, Format::Png),
+            Self::Panorama => files::panorama(random, kind),
+            Self::Stars => files::stars(random, kind),
+            Self::History => {
+                let format = *random.pick(&Format::ALL);
+                files::picture(random, kind, format)
+            }
+        }
     }
 
     /// The law for such a file in memory: the function of [`memory`] for it.
@@ -193,19 +156,16 @@ impl File {
     /// # Errors
     /// The violation.
     pub fn check(self, bytes: &[u8]) -> Result<(), String> {
+        // Options follow from the content, so that a corpus is a folder of files.
+        let hash = |seed: u64, &byte: &u8| (seed ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        let seed = bytes.iter().fold(0, hash);
         match self {
-            Self::Scene => memory::pipe(seed_of(bytes), bytes),
+            Self::Scene => memory::pipe(seed, bytes),
             Self::Mesh(format) => memory::mesh(format, bytes),
             Self::Picture => memory::picture(bytes),
-            Self::Panorama => memory::panorama(seed_of(bytes), bytes),
-            Self::Stars => memory::stars(seed_of(bytes), bytes),
+            Self::Panorama => memory::panorama(seed, bytes),
+            Self::Stars => memory::stars(seed, bytes),
             Self::History => memory::history(bytes),
-            Self::Figure(format) => memory::figure(format, bytes),
         }
     }
-}
-
-/// Options follow from the content, so that a corpus is a folder of files.
-fn seed_of(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0, |seed: u64, &byte| (seed ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }

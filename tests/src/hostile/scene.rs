@@ -1,33 +1,98 @@
-//! Scenes: of random statements, and those of the repository, damaged.
-
-use std::fmt::Write;
+//! Scenes: of random statements, and those of the repository.
 
 use ugtesting::Random;
 
-use super::{Files, bytes, motion, words};
+use super::template::{Kind, fill};
 use crate::scenes;
 
-/// A scene and files it names.
-pub fn files(random: &mut Random) -> (Files, &'static str) {
-    (named(text(random)), "scene")
-}
+/// What the statements of a random scene refer to.
+const MOTIONS: [&str; 4] = [
+    "motion m0 -at % -spin 0 0 .1 ;",
+    "motion m1 -vel & -acc 0 .05 0 -1 2 -acc .02 0 0 2 9 ;",
+    "motion m2 -on m0 -at 0 0 .1 ;",
+    "motion m3 -orbit 0 1 0 0 0 1 .1 ;",
+];
+const COLORS: [&str; 6] = [
+    "c red0 # # # ;",
+    "c_rgb red0 % # ;",
+    "c_xyz red0 % ;",
+    "c_bb red0 4# ;",
+    "c_spd red0 400 # 500 # 600 1 ;",
+    "c red3 1 0 ; c_time red0 -period 2 0 red3 # red1 ;",
+];
+const DEFINITION: &str = "def d ; v a % ; v b % ; v c 0 0 1 ; v e 1 0 0 ;
+f (a b c) ^ ; f (a e b) red1 ; f (b e c) ; f (c e a) red2 ~ ; end ;\n";
 
-/// The same files with this scene.
-pub fn named(text: Vec<u8>) -> Files {
-    let part = b"v part 0 0 1 ;\n".to_vec();
-    vec![("scene.ug".to_owned(), text), ("part.ug".to_owned(), part)]
-}
+/// Statements that are valid whatever replaces their signs.
+const MILD: [&str; 13] = [
+    "f (* * *) ^ ~ ;",
+    "f @ (* * *) ^ # ~ ;",
+    "f (v0 v1 v2 v3) red0 mirror ~ ;",
+    "f (v4 v5 v6) red1 glass ~ ;",
+    "w (* * *) ^ ~ ;",
+    "i (d) ~ ;",
+    "i (d -tx # -ry # -sa #) ~ ;",
+    "a (d -mx) 3 -rz 2# -ty # ~ ;",
+    "l # ;",
+    "l # 1 # # ~ ;",
+    "l # # # 3 # red1 ~ ;",
+    "l # # -2 2 # # red2 ~ ;",
+    "cam -ep 0 -9 # -vc # 0 # -va 3# ~ ;",
+];
 
-/// A scene.
-pub fn text(random: &mut Random) -> Vec<u8> {
-    let mut text = match random.below(6) {
-        0 | 1 => known(random),
-        2 => motion::wild(random).into_bytes(),
-        _ => statements(random).into_bytes(),
-    };
-    if random.one_in(3) {
-        bytes::damage(random, &mut text);
+/// Statements that may be invalid.
+const WILD: [&str; 21] = [
+    "f (* * * * * *)(* * *) ^ ~ ;",
+    "f (@ * *) ;",
+    "v @ % ^ % ;",
+    "v v0 % ;",
+    "a (d) 4000# -tx # ;",
+    "def @ ; i (@) ; end ;",
+    "i (@ -M3 % % % -rv % #) ;",
+    "c red0 # # # # # ;",
+    "c_mix red0 red0 # ;",
+    "cam @ -ep % -vc % -ud % -va # # -og ~ ;",
+    "l # % # # ~ ;",
+    "surf @ # # # # # ;",
+    "include part.ug ;",
+    "include @ ; include /dev/zero ; include scene.ug ;",
+    "execute @ ; execute ./part.ug ;",
+    "( ug @ )",
+    "# 9 \"@\"\n@ # ;",
+    "motion @ -acc % # # -spin % # # -shift % # ;",
+    "motion m0 -orbit % % # ;",
+    "motion m1 -path (# % # % # %) -on m0 ;",
+    "motion m2 -on m2 ; motion m3 -at % -vel & -spin % ;",
+];
+
+/// A scene of random statements.
+pub fn statements(random: &mut Random, kind: Kind) -> String {
+    let mut text = String::new();
+    for idx in 0..8 {
+        let [x, y, z] = random.in_cube(2.0).to_array();
+        text += &format!("v v{idx} {x:.3} {y:.3} {z:.3} ;\n");
     }
+    let mut add = |random: &mut Random, template: &str| {
+        text += &fill(random, kind, template);
+        text.push('\n');
+    };
+    add(random, "surf mirror .1 .9 0 1 60 ; surf glass 0 .1 .9 1.5 60 ; c red1 # 2# 1 ; c red2 # 9# # # ;");
+    let color = *random.pick(&COLORS);
+    add(random, color);
+    add(random, DEFINITION);
+    let motions: Vec<&str> =
+        MOTIONS.into_iter().filter(|_| kind == Kind::Mild || !random.one_in(4)).collect();
+    let n = 2 + random.below(9);
+    let others = (0..n).map(|_| match kind {
+        Kind::Wild if random.one_in(2) => *random.pick(&WILD),
+        _ => *random.pick(&MILD),
+    });
+    let mut all: Vec<&str> = others.collect();
+    // A motion is stated before or after its name is used.
+    all.splice(0..0, motions);
+    let start = random.below(all.len());
+    all.rotate_left(start);
+    all.into_iter().for_each(|template| add(random, template));
     text
 }
 
@@ -35,123 +100,6 @@ pub fn text(random: &mut Random) -> Vec<u8> {
 pub fn known(random: &mut Random) -> Vec<u8> {
     const NAMES: [&str; 10] =
         ["ship", "cubes", "dice", "glass", "halves", "traffic", "lamp", "rainbow", "twins", "orbit"];
-    let path = scenes::root().join("scenes").join(random.pick(&NAMES)).with_extension("ug");
-    std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-fn statements(random: &mut Random) -> String {
-    let mut text = String::new();
-    let n_vertices = 3 + random.below(9);
-    for idx in 0..n_vertices {
-        let position = point(random);
-        let color = if random.one_in(5) { format!(" red{}", random.below(3)) } else { String::new() };
-        let normal = if random.one_in(8) { format!(" ({})", point(random)) } else { String::new() };
-        let _ = writeln!(text, "v v{idx} {position}{color}{normal} ;");
-    }
-    for idx in 0..3 {
-        let _ = writeln!(text, "{}", color(random, idx));
-    }
-    for _ in 0..1 + random.below(12) {
-        statement(random, n_vertices, &mut text);
-    }
-    text
-}
-
-fn statement(random: &mut Random, n_vertices: usize, text: &mut String) {
-    let color = if random.one_in(2) { format!(" red{}", random.below(3)) } else { String::new() };
-    let velocity = if random.one_in(3) { format!(" <{}>", velocity(random)) } else { String::new() };
-    let _ = match random.below(24) {
-        0..=8 => {
-            writeln!(text, "f{} {}{color}{velocity} ;", optional_name(random), contours(random, n_vertices))
-        }
-        9 => writeln!(text, "w {}{color} ;", contours(random, n_vertices)),
-        10 => writeln!(text, "l {} {}{color}{velocity} ;", words::number(random), point(random)),
-        11 => writeln!(
-            text,
-            "l {} {} {} {}{velocity} ;",
-            words::number(random),
-            point(random),
-            words::number(random),
-            if random.one_in(2) { words::number(random) } else { String::new() }
-        ),
-        12 => writeln!(text, "cam -ep {} -vc {}{velocity} ;", point(random), point(random)),
-        13 => {
-            let n_deep = 1 + random.below(4);
-            let name = words::name(random);
-            let _ = writeln!(text, "def {name} ; v q {} ; f (q v0 v1) ; end ;", point(random));
-            writeln!(
-                text,
-                "a ({name}) {} -tx {} -rz {} ;",
-                random.below(1 << (4 * n_deep)),
-                words::number(random),
-                words::number(random)
-            )
-        }
-        14 => writeln!(text, "i {} (d) -sa {} ;", words::name(random), words::number(random)),
-        15 => {
-            let path = *random.pick(&["part.ug", "scene.ug", ".", "/dev/zero", "/dev/stdin", "missing", ""]);
-            writeln!(text, "include {path} ;")
-        }
-        19 => {
-            // None of them is a program.
-            let path = *random.pick(&["part.ug", ".", "missing", "/dev/null"]);
-            writeln!(text, "execute {path} ;")
-        }
-        16 => writeln!(text, "{{{}}}", " \n".repeat(random.below(3000))),
-        17 => writeln!(text, "( ug {} )", words::name(random)),
-        18 => writeln!(text, "# {} \"{}\"", random.below(1 << 20), words::name(random)),
-        _ => writeln!(text, "{} {} ;", words::name(random), words::number(random)),
-    };
-}
-
-fn optional_name(random: &mut Random) -> String {
-    if random.one_in(3) { format!(" {}", words::name(random)) } else { String::new() }
-}
-
-/// Contours: mostly a triangle or a few corners; sometimes very many, repeated ones.
-fn contours(random: &mut Random, n_vertices: usize) -> String {
-    let n_contours = match random.below(30) {
-        0 => random.below(300),
-        1..=4 => 2,
-        _ => 1,
-    };
-    let mut text = String::new();
-    for _ in 0..n_contours {
-        let n_corners = match random.below(40) {
-            0 => random.below(3000),
-            1..=8 => 4 + random.below(6),
-            _ => 3,
-        };
-        let corners: Vec<String> = (0..n_corners).map(|_| format!("v{}", random.below(n_vertices))).collect();
-        let _ = write!(text, "({}) ", corners.join(" "));
-    }
-    text
-}
-
-fn color(random: &mut Random, idx: usize) -> String {
-    let numbers = [(); 3].map(|()| words::number(random)).join(" ");
-    match random.below(8) {
-        6 => {
-            let times = [(); 2].map(|()| words::number(random));
-            let option = ["", "-step", "-period 3"][random.below(3)];
-            format!("c_time red{idx} {option} {} red0 {} red1 ;", times[0], times[1])
-        }
-        0 => format!("c_rgb red{idx} {numbers} ;"),
-        1 => format!("c_xyz red{idx} {numbers} ;"),
-        2 => format!("c_bb red{idx} {} ;", words::number(random)),
-        3 => format!("c_spd red{idx} 400 1 500 {} 600 1 ;", words::number(random)),
-        4 => format!("c red{idx} {numbers} {} ;", words::number(random)),
-        5 => format!("c red{idx} {numbers} {} {} ;", words::number(random), words::number(random)),
-        _ => {
-            format!("c red{idx} 1 {} 1 ; c_mix red{idx} red0 {} ;", random.below(360), words::number(random))
-        }
-    }
-}
-
-fn point(random: &mut Random) -> String {
-    [(); 3].map(|()| words::number(random)).join(" ")
-}
-
-fn velocity(random: &mut Random) -> String {
-    words::velocity(random).join(" ")
+    let name: &&str = random.pick(&NAMES);
+    scenes::text(name)
 }

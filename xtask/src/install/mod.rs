@@ -9,10 +9,10 @@
 //! | `share/fish/vendor_completions.d` | completions for fish |
 //! | `share/doc/ugtools` | the pages of the documentation, and the record of what was installed |
 //!
-//! Pages and completions are made from the definitions of the options, as the help is. clap_mangen
-//! and clap_complete do not fit: both write options with two dashes, the pages lack second names
-//! and join the lines of examples, and the completions do not know where the three numbers of
-//! `-vel` end.
+//! Pages are made from the definitions of the options, as the help is, and completions are scripts
+//! that ask the program (`ugpipe::completions`). clap_mangen and clap_complete do not fit: both write
+//! options with two dashes, the pages lack second names and join the lines of examples, and the
+//! completions do not know where the three numbers of `-vel` end.
 
 mod completions;
 mod man;
@@ -26,7 +26,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ugpipe::Manual;
-use ugtests::{programs, scenes};
+use ugtests::scenes;
+
+use crate::programs;
 
 use record::Record;
 
@@ -169,9 +171,9 @@ fn documents() -> Vec<(String, String)> {
         let name = &manual.name;
         files.extend([
             (format!("man/man1/{name}.1"), man::page(manual)),
-            (format!("bash-completion/completions/{name}"), completions::bash(manual)),
-            (format!("zsh/site-functions/_{name}"), completions::zsh(manual)),
-            (format!("fish/vendor_completions.d/{name}.fish"), completions::fish(manual)),
+            (format!("bash-completion/completions/{name}"), completions::bash(name)),
+            (format!("zsh/site-functions/_{name}"), completions::zsh(name)),
+            (format!("fish/vendor_completions.d/{name}.fish"), completions::fish(name)),
         ]);
     }
     files
@@ -191,6 +193,7 @@ fn replace(file: &Path, write: impl FnOnce(&Path) -> io::Result<()>) -> io::Resu
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::os::unix::fs::PermissionsExt;
     use std::process::Command;
     use ugtests::tools::{self, BASH, FISH, MANDOC, ZSH};
 
@@ -203,15 +206,33 @@ mod tests {
         folder
     }
 
-    /// The output of a script, in a folder with two files.
-    fn printed(shell: &str, options: &[&str], script: &str) -> String {
+    /// Writes a program that completes one command line as the program of this name does.
+    fn write_program(folder: &Path, line: &str) {
+        let words: Vec<String> = line.split(' ').skip(1).map(str::to_owned).collect();
+        let (name, asked) = line.split_once(' ').expect("a program and a word");
+        let manual = manuals().into_iter().find(|manual| manual.name == name).expect("a program");
+        let answer = ugpipe::completions(&manual, &words);
+        let script = format!(
+            "#!/bin/sh\n[ \"$*\" = '{} {asked}' ] || exit 1\ncat << 'END'\n{answer}END\n",
+            ugpipe::COMPLETE
+        );
+        let program = folder.join("bin").join(name);
+        replace(&program, |new| fs::write(new, &script)).expect("a file");
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o755)).expect("a program");
+    }
+
+    /// The output of a script, in a folder with two files. `programs`: a folder with `bin`.
+    fn printed(shell: &str, options: &[&str], programs: &Path, script: &str) -> String {
         let place = tempfile::tempdir().expect("a folder");
         fs::write(place.path().join("ship one.ug"), "").expect("a file");
+        let path = std::env::var_os("PATH").unwrap_or_default();
+        let path = [programs.join("bin")].into_iter().chain(std::env::split_paths(&path));
         let output = Command::new(shell)
             .args(options)
             .args(["-c", script])
             .current_dir(place.path())
             .env("HOME", place.path())
+            .env("PATH", std::env::join_paths(path).expect("a path without colons"))
             .env("TERM", "dumb")
             .output()
             .expect("a shell");
@@ -422,6 +443,7 @@ mod tests {
         }
         let folder = folder();
         for (line, expected) in CASES {
+            write_program(folder.path(), line);
             let program = line.split(' ').next().unwrap_or_default();
             let file = folder.path().join("bash-completion/completions").join(program);
             let words: Vec<String> = line.split(' ').map(|word| format!("'{word}'")).collect();
@@ -432,7 +454,7 @@ mod tests {
                 words.join(" "),
                 words.len() - 1
             );
-            let found = printed("bash", &["--norc"], &script);
+            let found = printed("bash", &["--norc"], folder.path(), &script);
             assert_eq!(found.lines().collect::<Vec<_>>(), expected, "{line}");
         }
     }
@@ -444,10 +466,11 @@ mod tests {
         }
         let folder = folder();
         for (line, expected) in CASES {
+            write_program(folder.path(), line);
             let program = line.split(' ').next().unwrap_or_default();
             let file = folder.path().join(format!("fish/vendor_completions.d/{program}.fish"));
             let script = format!("source {}; complete -C '{line}'", file.display());
-            let found = printed("fish", &["--no-config"], &script);
+            let found = printed("fish", &["--no-config"], folder.path(), &script);
             // Words, without their explanations; fish escapes the blank of the file.
             let found: Vec<String> =
                 found.lines().filter_map(|line| Some(line.split('\t').next()?.replace('\\', ""))).collect();
@@ -472,9 +495,10 @@ mod tests {
                  until [[ -s shown ]]; do zpty -r -t shell drained; sleep .05; done; cat shown",
                 folder.path().join("zsh/site-functions").display()
             );
-            printed("zsh", &["-f"], &script)
+            printed("zsh", &["-f"], folder.path(), &script)
         };
         for (line, expected) in CASES {
+            write_program(folder.path(), line);
             let before = line.rsplit_once(' ').map_or("", |(before, _)| before);
             let whole = match expected {
                 [word] => format!("<{before} {} >", word.replace(' ', "\\ ")),

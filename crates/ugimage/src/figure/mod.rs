@@ -18,24 +18,17 @@
 //! An edge is shared only between areas on opposite sides of it. This is decided by the direction
 //! of the edge, so all outlines must have the same orientation (clockwise, say).
 
-mod part_error;
 mod pdf;
 mod pdf_font;
-mod pdf_object;
-mod pdf_part;
 mod postscript;
 mod postscript_font;
 mod svg;
-mod svg_part;
 
 use std::collections::HashMap;
 
-pub use part_error::PartError;
-pub use pdf::{pdf, pdf_sheet};
-pub use pdf_part::PdfPart;
+pub use pdf::pdf;
 pub use postscript::{eps, ps};
-pub use svg::{svg, svg_sheet};
-pub use svg_part::SvgPart;
+pub use svg::svg;
 
 /// Display-encoded (sRGB) red, green, blue.
 pub type Rgb = [u8; 3];

@@ -1,12 +1,9 @@
 //! Figures as PDF.
 
 use pdf_writer::writers::StreamShadingType;
-use pdf_writer::{Chunk, Content, Filter, Name, Pdf, Ref, Str};
+use pdf_writer::{Content, Filter, Name, Pdf, Ref, Str};
 
-use super::part_error::PartError;
 use super::pdf_font::{FONT_NAME, PdfFont};
-use super::pdf_object::single;
-use super::pdf_part::PdfPart;
 use super::{
     Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Text, paint_ops, texts,
 };
@@ -15,50 +12,6 @@ use crate::pdf::{FIRST, deflate, document};
 
 /// The figure as a PDF file, one pixel per point.
 pub fn pdf(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
-    written(figure, metadata, &Forms::default())
-}
-
-/// As [`pdf`], with parts over the background, each with its upper left corner at a place.
-///
-/// # Errors
-/// A part refers to invalid objects: its row, and why.
-pub fn pdf_sheet(
-    figure: &Figure<GouraudTriangle>,
-    parts: &[(Point, PdfPart<'_>)],
-    metadata: &Metadata,
-) -> Result<Vec<u8>, (usize, PartError)> {
-    let mut forms = Forms::default();
-    for (row, (place, part)) in parts.iter().enumerate() {
-        let mut new_ref = || {
-            forms.next += 1;
-            Ref::new(forms.next - 1)
-        };
-        let id = new_ref();
-        part.write(&mut forms.chunk, id, &mut new_ref).map_err(|error| (row, error))?;
-        let ([left, bottom], unit) = part.frame();
-        let matrix =
-            [unit, 0.0, 0.0, -unit, place[0] - unit * left, place[1] + part.size()[1] + unit * bottom];
-        forms.placed.push((id, matrix.map(single)));
-    }
-    Ok(written(figure, metadata, &forms))
-}
-
-/// Pages of other files, as forms.
-struct Forms {
-    chunk: Chunk,
-    /// The id of each, and the matrix from its page to this one, whose rows count downwards.
-    placed: Vec<(Ref, [f32; 6])>,
-    /// The number of the first object behind them.
-    next: i32,
-}
-
-impl Default for Forms {
-    fn default() -> Self {
-        Self { chunk: Chunk::new(), placed: Vec::new(), next: FIRST }
-    }
-}
-
-fn written(figure: &Figure<GouraudTriangle>, metadata: &Metadata, forms: &Forms) -> Vec<u8> {
     let [width, height] = figure.size.map(|side| side as f32);
     let font = PdfFont::of(texts(figure));
     let mut page =
@@ -68,15 +21,10 @@ fn written(figure: &Figure<GouraudTriangle>, metadata: &Metadata, forms: &Forms)
         page.set_color(background);
         page.content.rect(0.0, 0.0, width, height).fill_nonzero();
     }
-    for (idx, (_, matrix)) in forms.placed.iter().enumerate() {
-        let name = form_name(idx);
-        page.content.save_state().transform(*matrix).x_object(Name(name.as_bytes())).restore_state();
-    }
     page.draw(figure);
     let Page { content, meshes, .. } = page;
     let mut pdf = Pdf::new();
-    pdf.extend(&forms.chunk);
-    let ids = (forms.next..).map(Ref::new);
+    let ids = (FIRST..).map(Ref::new);
     for (mesh, id) in meshes.iter().zip(ids) {
         let data = deflate(&mesh.0);
         let mut shading = pdf.stream_shading(id, &data);
@@ -85,31 +33,21 @@ fn written(figure: &Figure<GouraudTriangle>, metadata: &Metadata, forms: &Forms)
         shading.bits_per_coordinate(MESH_BITS as i32).bits_per_component(8).bits_per_flag(8);
         shading.decode(Mesh::decode().map(|number| number as f32));
     }
-    let font_id = Ref::new(forms.next + meshes.len() as i32);
+    let font_id = Ref::new(FIRST + meshes.len() as i32);
     if !font.is_empty() {
         font.write(&mut pdf, font_id);
     }
     document(pdf, figure.size, metadata, content.finish().as_slice(), |resources| {
-        if !forms.placed.is_empty() {
-            let mut objects = resources.x_objects();
-            for (idx, (id, _)) in forms.placed.iter().enumerate() {
-                objects.pair(Name(form_name(idx).as_bytes()), *id);
-            }
-        }
         if !font.is_empty() {
             resources.fonts().pair(Name(FONT_NAME), font_id);
         }
         if !meshes.is_empty() {
             let mut shadings = resources.shadings();
             for number in 0..meshes.len() {
-                shadings.pair(Name(mesh_name(number).as_bytes()), Ref::new(forms.next + number as i32));
+                shadings.pair(Name(mesh_name(number).as_bytes()), Ref::new(FIRST + number as i32));
             }
         }
     })
-}
-
-fn form_name(number: usize) -> String {
-    format!("P{number}")
 }
 
 fn mesh_name(number: usize) -> String {

@@ -3,23 +3,16 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::svg_part::SvgPart;
 use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, Text, number, seams, texts};
 use crate::svg::{document, escaped};
 use crate::{Metadata, typeface};
 
 /// The figure as an SVG file, one pixel per user unit.
 pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
-    svg_sheet(figure, &[], metadata)
-}
-
-/// As [`svg`], with parts over the background, each with its upper left corner at a place.
-pub fn svg_sheet(figure: &Figure<Gradient>, parts: &[(Point, SvgPart)], metadata: &Metadata) -> Vec<u8> {
     let mut out = String::new();
     if let Some(background) = figure.background {
         out += &format!("<rect width=\"100%\" height=\"100%\" fill=\"{}\"/>\n", hex(background));
     }
-    out.extend(parts.iter().map(|(place, part)| part.element(*place)));
     let mut font = String::new();
     if texts(figure).next().is_some() {
         out += &font_face();

@@ -6,14 +6,14 @@
 
 use glam::DVec3;
 use ugimage::figure::Point;
+use ugimage::label::number::significant;
 use ugimage::label::{DESCENT, Drawing, Line, MissingCharacter};
-use ugscene::View;
 
 use super::seen::SeenScene;
 use super::style::Style;
-use super::visible::{VisibleLines, in_picture};
+use crate::error::Error;
+use crate::line::in_picture;
 use crate::note::Note;
-use ugimage::label::number::significant;
 
 /// Squares side by side in the picture, counted a quarter above its lower edge; decides their size.
 const SQUARES: f64 = 8.0;
@@ -25,33 +25,25 @@ const MOST: f64 = 100.0;
 const TEXT: f64 = 0.8;
 
 /// Draws the visible parts of the grid. Returns a note.
-///
-/// # Errors
-/// Never, because the font has all characters of the numbers.
-pub fn draw(
-    seen: &SeenScene<'_>,
-    visible: &VisibleLines<'_>,
+pub fn draw<E: From<Error>>(
+    seen: &SeenScene<'_, E>,
     style: &Style,
     drawing: &mut Drawing,
-) -> Result<Option<Note>, MissingCharacter> {
+) -> Result<Option<Note>, E> {
     let Some(grid) = GroundGrid::new(seen) else { return Ok(None) };
-    let view = &seen.view;
-    let mut lines = Vec::new();
+    let line = |(axis, number): (usize, i64)| {
+        let [low, high] = grid.ends[1 - axis];
+        [low, high].map(|across| grid.point(axis, number, across) - seen.view.eye)
+    };
+    let both = [0, 1].into_iter().flat_map(|axis| grid.numbers(axis).map(move |number| (axis, number)));
+    let lines = seen.visible(seen.scene, &both.map(line).collect::<Vec<_>>())?;
+    drawing.lines(lines.clone(), style.hairline, style.faint);
+    let mut labels = Labels { grid: &grid, seen, visible: &lines, style, boxes: Vec::new() };
     for axis in 0..2 {
-        for number in grid.numbers(axis) {
-            let [low, high] = grid.ends[1 - axis];
-            let ends = [low, high].map(|across| grid.point(axis, number, across) - view.eye);
-            lines.extend(visible.visible(ends));
-        }
-    }
-    let is_empty = lines.is_empty();
-    drawing.lines(lines, style.hairline, style.faint);
-    let mut labels = Labels { grid: &grid, view, visible, style, boxes: Vec::new(), size: seen.size() };
-    for axis in 0..2 {
-        labels.draw(axis, drawing)?;
+        labels.draw(axis, drawing).map_err(Error::from)?;
     }
     let (step, level) = (significant(grid.step, 4), significant(grid.level, 4));
-    Ok(Some(Note::Grid { step: (!is_empty).then_some(step), level }))
+    Ok(Some(Note::Grid { step: (!lines.is_empty()).then_some(step), level }))
 }
 
 /// Lines at multiples of a step.
@@ -65,12 +57,12 @@ struct GroundGrid {
 
 impl GroundGrid {
     /// `None` if the scene is too far away for numbers.
-    fn new(seen: &SeenScene<'_>) -> Option<Self> {
+    fn new<E: From<Error>>(seen: &SeenScene<'_, E>) -> Option<Self> {
         let (low, high) = seen.scene.bounds()?;
         let longest = (high.x - low.x).max(high.y - low.y);
         let level = if low.z < -1e-9 * longest { low.z } else { 0.0 };
         let depth = depth(seen, level);
-        let [left, right] = [0.0, seen.size()[0]].map(|column| seen.view.point([column, 0.0], depth));
+        let [left, right] = [0.0, seen.size[0]].map(|column| seen.view.point([column, 0.0], depth));
         let step = round_step(((right - left).length() / SQUARES).max(longest / MOST));
         let ends = [[low.x, high.x], [low.y, high.y]]
             .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
@@ -102,9 +94,9 @@ fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
 
 /// The depth of the ground in the lower part of the picture, or that of the view centre if it is
 /// nearer.
-fn depth(seen: &SeenScene<'_>, level: f64) -> f64 {
+fn depth<E>(seen: &SeenScene<'_, E>, level: f64) -> f64 {
     let view = &seen.view;
-    let [width, height] = seen.size();
+    let [width, height] = seen.size;
     let [near, far] = [1.0, 2.0].map(|depth| view.eye.z + view.point([0.5 * width, 0.75 * height], depth).z);
     let crossing = 1.0 + (level - near) / (far - near);
     if crossing > 0.0 && view.is_perspective { crossing.min(view.distance) } else { view.distance }
@@ -122,18 +114,17 @@ fn round_step(least: f64) -> f64 {
 }
 
 /// Numbers at the ends of lines nearer to the eye.
-struct Labels<'a> {
+struct Labels<'a, E> {
     grid: &'a GroundGrid,
-    view: &'a View,
-    visible: &'a VisibleLines<'a>,
+    seen: &'a SeenScene<'a, E>,
+    /// Visible parts of the grid.
+    visible: &'a [[Point; 2]],
     style: &'a Style,
     /// Upper-left and lower-right corners of the numbers already drawn.
     boxes: Vec<[Point; 2]>,
-    /// Size of the picture.
-    size: [f64; 2],
 }
 
-impl Labels<'_> {
+impl<E: From<Error>> Labels<'_, E> {
     /// Draws the numbers of an axis from the nearest on, until two would overlap. Those that would
     /// overlap numbers of the other axis are left out.
     fn draw(&mut self, axis: usize, drawing: &mut Drawing) -> Result<(), MissingCharacter> {
@@ -142,8 +133,8 @@ impl Labels<'_> {
         let [low, high] = grid.ends[1 - axis];
         let far = if near == low { high } else { low };
         let in_picture = |number: i64| {
-            let ends = [near, far].map(|across| grid.point(axis, number, across) - self.view.eye);
-            in_picture(self.view, ends).map(|[end, other]| (number, end, other, end == ends[0]))
+            let ends = [near, far].map(|across| grid.point(axis, number, across) - self.seen.view.eye);
+            in_picture(&self.seen.view, ends).map(|[end, other]| (number, end, other, end == ends[0]))
         };
         let mut lines: Vec<_> = grid.numbers(axis).filter_map(in_picture).collect();
         lines.sort_by(|(_, one, ..), (_, other, ..)| one.length().total_cmp(&other.length()));
@@ -151,13 +142,16 @@ impl Labels<'_> {
         let name = ["x", "y"][axis];
         let mut is_named = false;
         for (number, end, other, is_whole) in lines {
-            let Some(spot) = self.visible.shows(end) else { continue };
+            let spot = self.seen.place(end);
+            if !self.visible.iter().any(|part| is_on(spot, *part)) {
+                continue;
+            }
             let text = significant(number as f64 * grid.step, 6);
             // At the edges of the picture numbers of both axes are mixed, so they get the name of
             // the axis.
             let text = if is_named && is_whole { text } else { format!("{name} = {text}") };
             let line = Line::new(&text, TEXT * self.style.size)?;
-            let outward = self.direction(end, end + (end - other) * 1e-3);
+            let outward = direction(spot, self.seen.place(end + (end - other) * 1e-3));
             // Where a line leaves the picture, its number is placed on the line.
             let direction = if is_whole { outward } else { outward.map(|part| -part) };
             let place = self.place(&line, spot, direction);
@@ -178,21 +172,9 @@ impl Labels<'_> {
         let ends = self.grid.ends;
         let middle = (ends[axis][0] + ends[axis][1]) / 2;
         let [low, high] = ends[1 - axis];
-        let distance = |across: i64| (self.grid.point(axis, middle, across) - self.view.eye).length();
+        let distance = |across: i64| (self.grid.point(axis, middle, across) - self.seen.view.eye).length();
         // Ties go to the edge with the greater coordinate.
         if distance(low) < distance(high) * (1.0 - 1e-9) { low } else { high }
-    }
-
-    /// The direction in the picture in which a line leaves the ground.
-    fn direction(&self, end: DVec3, beyond: DVec3) -> [f64; 2] {
-        let [a, b] = [end, beyond].map(|point| {
-            let place = self.view.place(point);
-            let w = if self.view.is_perspective { place.z } else { 1.0 };
-            [place.x / w, place.y / w]
-        });
-        let [x, y] = [b[0] - a[0], b[1] - a[1]];
-        let length = libm::hypot(x, y);
-        if length > 0.0 && length.is_finite() { [x / length, y / length] } else { [0.0, 1.0] }
     }
 
     /// The box of a number, offset from a point in a direction.
@@ -207,7 +189,7 @@ impl Labels<'_> {
     }
 
     fn is_inside(&self, [low, high]: [Point; 2]) -> bool {
-        low.iter().all(|edge| *edge >= 0.0) && (0..2).all(|i| high[i] <= self.size[i])
+        low.iter().all(|edge| *edge >= 0.0) && (0..2).all(|i| high[i] <= self.seen.size[i])
     }
 
     fn push(&mut self, line: &Line, [low, high]: [Point; 2], has_ground: bool, drawing: &mut Drawing) {
@@ -218,6 +200,21 @@ impl Labels<'_> {
         let base = high[1] - DESCENT * TEXT * self.style.size;
         drawing.text(line, [0.5 * (low[0] + high[0] - line.width()), base.round()], self.style.ink);
     }
+}
+
+/// The unit vector from one point of the picture to another.
+fn direction([left, top]: Point, [right, below]: Point) -> [f64; 2] {
+    let [x, y] = [right - left, below - top];
+    let length = libm::hypot(x, y);
+    if length > 0.0 && length.is_finite() { [x / length, y / length] } else { [0.0, 1.0] }
+}
+
+/// True if a point is within a pixel of a line.
+fn is_on([x, y]: Point, [[left, top], [right, below]]: [Point; 2]) -> bool {
+    let (along, off) = ([right - left, below - top], [x - left, y - top]);
+    let square = along[0] * along[0] + along[1] * along[1];
+    let part = ((off[0] * along[0] + off[1] * along[1]) / square.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    libm::hypot(off[0] - part * along[0], off[1] - part * along[1]) < 1.0
 }
 
 #[cfg(test)]

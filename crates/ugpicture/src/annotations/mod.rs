@@ -13,24 +13,20 @@ mod motion;
 mod outline;
 mod seen;
 mod style;
-mod visible;
 
 use ugimage::Development;
+use ugimage::figure::Point;
 use ugimage::label::{DESCENT, Drawing, Line, SPACING, wrapped};
-use ugscene::{CameraOptions, RestFrames, Scene, View};
+use ugscene::{CameraOptions, Scene, View};
 
 use crate::background::Backdrop;
-use crate::depth_buffer::DepthBuffer;
-use crate::emission::{Emissions, SeenItem};
+use crate::emission::SeenItem;
 use crate::error::Error;
-use crate::note::Note;
 use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;
 use motion::MotionSummary;
-use outline::IdealScene;
 use seen::{SeenScene, velocities};
 use style::Style;
-use visible::VisibleLines;
 
 /// The subject of a picture's annotations. `E`: the error of a renderer.
 pub struct Annotated<'a, E> {
@@ -42,39 +38,24 @@ pub struct Annotated<'a, E> {
 
 /// The content of an annotated picture.
 pub enum Subject<'a, E> {
-    /// A scene seen by a pinhole camera, which all annotations suit.
-    Scene {
-        /// The scene, whose vertices are part of one body each.
-        scene: &'a Scene,
-        /// The camera of the picture.
-        camera: &'a CameraOptions,
-        /// Renders the depth buffer of a picture of the same size.
-        depths: &'a DepthsOf<'a, E>,
-    },
-    /// Surfaces seen through any lens, for captions and legends.
-    Items {
-        /// The axes of the camera.
+    /// Surfaces seen through a lens.
+    Surfaces {
+        /// The camera, in any units of the picture.
         view: &'a View,
-        /// The surface at the middle of each pixel.
-        items: &'a (dyn Fn() -> Vec<Option<SeenItem>> + 'a),
-        /// The scene whose bodies a legend lists if none is seen.
+        /// The surface at the middle of each pixel, for legends.
+        items: &'a (dyn Fn() -> Result<Vec<Option<SeenItem>>, E> + 'a),
+        /// The scene, whose vertices are part of one body each, if there is one.
         scene: Option<&'a Scene>,
+        /// Draws grids and outlines, if the lens is a pinhole.
+        wires: Option<&'a VisibleWires<'a, E>>,
     },
     /// A picture of which only the pixels are known, which captions suit.
     Pixels,
 }
 
-/// Renders the depth buffer of a scene with a camera.
-pub type DepthsOf<'a, E> = dyn Fn(&Scene, &CameraOptions, SceneState) -> Result<DepthBuffer, E> + 'a;
-
-/// The geometry of a depth buffer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SceneState {
-    /// The scene of the picture.
-    AsSeen,
-    /// The same scene with all bodies at rest.
-    AtRest,
-}
+/// Finds the parts of the wires of a scene that its faces do not hide from a camera, in a picture of
+/// the size of the subject, in pixels.
+pub type VisibleWires<'a, E> = dyn Fn(&Scene, &CameraOptions) -> Result<Vec<[Point; 2]>, E> + 'a;
 
 /// The areas of an annotated picture.
 pub struct Layout {
@@ -126,7 +107,7 @@ impl Layout {
     /// `development`: of its light.
     ///
     /// # Errors
-    /// Errors of [`Subject::Scene`]'s `depths` and of the camera.
+    /// Errors of [`Subject::Surfaces`]'s functions.
     pub fn annotate<E: From<Error>>(
         &self,
         annotated: &Annotated<'_, E>,
@@ -145,37 +126,26 @@ impl Layout {
             notes: Vec::new(),
         };
         let AnnotationOptions { legend, outline, grid, .. } = options.annotations;
-        let Annotated { is_shifted, subject } = annotated;
-        match subject {
-            Subject::Scene { scene, camera, depths } if legend || outline || grid => {
-                let seen = SeenScene::new(scene, camera, options.size)?;
-                if grid || legend {
-                    let depths = depths(scene, camera, SceneState::AsSeen)?;
-                    if grid {
-                        let visible = VisibleLines { view: &seen.view, depths: &depths };
-                        let note = grid::draw(&seen, &visible, style, &mut all.over).map_err(Error::from)?;
-                        all.notes.extend(note);
-                    }
-                    if legend {
-                        let emissions = Emissions::new(scene, &seen.view, &seen.frames);
-                        let at = |idx| emissions.at_pixel([depths.size[0], 1], &depths.seen, idx);
-                        let items = (0..depths.seen.len()).map(at);
-                        let motion = MotionSummary::new(&seen.view, items, || seen.velocities(), *is_shifted);
-                        self.draw_legend(&motion, style, &mut all.strips)?;
-                    }
+        if let Subject::Surfaces { view, items, scene, wires } = annotated.subject {
+            if let (Some(scene), Some(wires), true) = (scene, wires, outline || grid) {
+                let seen = SeenScene::new(scene, view, options, wires)?;
+                if grid {
+                    all.notes.extend(grid::draw(&seen, style, &mut all.over)?);
                 }
                 if outline {
-                    draw_outline(&seen, camera, *depths, style, &mut all)?;
+                    all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
             }
-            Subject::Items { view, items, scene } if legend => {
-                let velocities = || scene.map(|scene| velocities(scene, &RestFrames::new(scene)));
-                let items = items().into_iter();
-                let motion =
-                    MotionSummary::new(view, items, || velocities().unwrap_or_default(), *is_shifted);
+            if legend {
+                let items = items()?.into_iter();
+                let motion = MotionSummary::new(
+                    view,
+                    items,
+                    || scene.map_or_else(Vec::new, velocities),
+                    annotated.is_shifted,
+                );
                 self.draw_legend(&motion, style, &mut all.strips)?;
             }
-            _ => {}
         }
         self.push_caption(style, &mut all.strips);
         Ok(all)
@@ -201,27 +171,6 @@ impl Layout {
             drawing.text(line, [left, base], ink);
         }
     }
-}
-
-/// Draws the outlines of moving bodies as they would look at rest.
-fn draw_outline<E: From<Error>>(
-    seen: &SeenScene<'_>,
-    camera: &CameraOptions,
-    depths: &DepthsOf<'_, E>,
-    style: &Style,
-    all: &mut Annotations,
-) -> Result<(), E> {
-    let Some(ideal) = IdealScene::new(seen) else {
-        all.notes.push(Note::NoOutline);
-        return Ok(());
-    };
-    // The camera must stay, although the scene at rest has another middle.
-    let mut camera = camera.clone();
-    camera.eye = Some(seen.view.eye);
-    camera.center = Some(seen.view.eye + seen.view.distance * seen.view.forward);
-    let depths = depths(&ideal.scene, &camera, SceneState::AtRest)?;
-    outline::draw(seen, &ideal, &depths, style, &mut all.over);
-    Ok(())
 }
 
 /// Height of capital letters with some space above, relative to the text size.

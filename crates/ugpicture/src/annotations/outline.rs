@@ -4,24 +4,23 @@
 //! frame) is at the apparent position of that centre (P3). The outline is thus what the eye would
 //! see if the body rested there; for a body placed by `uglorentz -in` it is the body in the scene
 //! at rest. A spinning body is turned as its centre is seen. Only edges that the eye sees are
-//! drawn: edges between front and back faces, borders, and creases. Other faces of the scene at
-//! rest occlude them, those of the picture do not.
+//! drawn: edges between front and back faces, borders, and creases. They are wires of the scene at
+//! rest, so its faces occlude them, and those of the picture do not.
 
 use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
-use ugimage::figure::Point;
 use ugimage::label::Drawing;
 use ugphysics::{Event, WorldLine};
 use ugscene::{
-    BodyId, Face, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
+    BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
     vertex_bodies,
 };
 
 use super::seen::SeenScene;
 use super::style::Style;
-use super::visible::{DepthPoint, VisibleLines};
-use crate::depth_buffer::DepthBuffer;
+use crate::error::Error;
+use crate::note::Note;
 
 /// Cosine of the angle, 35 degrees, below which adjacent faces count as one curved surface.
 const CREASE: f64 = 0.819;
@@ -29,63 +28,24 @@ const CREASE: f64 = 0.819;
 /// Cosine of the angle below which faces count as coplanar.
 const COPLANAR: f64 = 0.9999;
 
-/// Distance from a line, in pixels, at which the surfaces beside it are tested.
-const ASIDE: f64 = 1.6;
-
-/// Points closer than this to the plane of a face, relative to their distance from the eye, count
-/// as in the plane.
-const FLAT: f64 = 3e-3;
-
-/// As [`BEHIND`], of faces that are connected with the edge, so that they are placed as exactly.
-const JUST_BEHIND: f64 = 1e-6;
-
-/// Points further than this behind the plane of a face, relative to their distance from the eye,
-/// are behind it: a tenth of a pixel of a face that is seen at 45 degrees.
-const BEHIND: f64 = 1e-4;
-
-/// The scene for the outlines: moving bodies as they would look at rest.
-pub struct IdealScene {
-    /// The scene, in which nothing moves.
-    pub scene: Scene,
-    /// Positions of its vertices relative to the eye.
-    places: Vec<DVec3>,
-}
-
-impl IdealScene {
-    /// `None` if nothing moves.
-    pub fn new(seen: &SeenScene<'_>) -> Option<Self> {
-        let is_moving = |body: BodyId| seen.is_moving(body);
-        if !seen.scene.faces.iter().any(|face| is_moving(face.body)) {
-            return None;
-        }
-        let places = ideal_places(seen);
-        Some(Self { scene: ideal_scene(seen.scene, seen.view.eye, &places), places })
-    }
-}
-
-/// Draws the outlines. `depths`: of the ideal scene.
-pub fn draw(
-    seen: &SeenScene<'_>,
-    ideal: &IdealScene,
-    depths: &DepthBuffer,
+/// Draws the outlines of moving bodies as they would look at rest. Returns a note if nothing moves.
+pub fn draw<E: From<Error>>(
+    seen: &SeenScene<'_, E>,
     style: &Style,
     drawing: &mut Drawing,
-) {
-    let IdealScene { places, .. } = ideal;
-    let is_moving = |body: BodyId| seen.is_moving(body);
-    let visible = VisibleLines { view: &seen.view, depths };
-    let mut lines = Vec::new();
-    let faces = Faces::new(seen.scene, places, &seen.view);
-    for edge in edges(seen.scene, &is_moving).iter().filter(|edge| edge.is_shown(&faces)) {
-        let ends = edge.ends.map(|vertex| places[vertex.index()]);
-        lines.extend(visible.visible_where(ends, |place, across| {
-            !faces.hide(&visible, edge, place)
-                && (edge.faces.len() == 2 || !faces.go_on(&visible, place, across))
-        }));
+) -> Result<Option<Note>, E> {
+    if !seen.scene.faces.iter().any(|face| seen.is_moving(face.body)) {
+        return Ok(Some(Note::NoOutline));
     }
+    let places = ideal_places(seen);
+    let faces = Faces { scene: seen.scene, places: &places, view: &seen.view };
+    let shown = edges(seen).into_iter().filter(|edge| edge.is_shown(&faces));
+    let lines: Vec<[DVec3; 2]> = shown.map(|edge| edge.ends.map(|end| places[end.index()])).collect();
+    let visible = seen.visible(&ideal_scene(seen.scene, seen.view.eye, &places), &lines)?;
     let width = style.hairline;
-    drawing.lines(lines.clone(), 3.0 * width, style.background);
-    drawing.lines(lines, width, style.ink);
+    drawing.lines(visible.clone(), 3.0 * width, style.background);
+    drawing.lines(visible, width, style.ink);
+    Ok(None)
 }
 
 /// How the rest shape of a body is placed.
@@ -114,7 +74,7 @@ fn standing(line: &WorldLine, center: DVec3) -> Standing {
 }
 
 /// The position of each vertex at rest, relative to the eye.
-fn ideal_places(seen: &SeenScene<'_>) -> Vec<DVec3> {
+fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
     let scene = seen.scene;
     let at_rest = rest_positions(scene, seen.view.eye, &seen.frames);
     let geometry = Geometry::of(scene);
@@ -155,88 +115,17 @@ fn ideal_scene(scene: &Scene, eye: DVec3, places: &[DVec3]) -> Scene {
     ideal.rest.clear();
     let body = ideal.bodies.unstated();
     ideal.faces.iter_mut().for_each(|face| face.body = body);
-    ideal.wires.clear();
     ideal
 }
 
-/// The faces of the ideal scene.
+/// The faces of the scene at rest.
 struct Faces<'a> {
     scene: &'a Scene,
     places: &'a [DVec3],
     view: &'a View,
-    /// For each face, the surface that it is part of: faces that are connected by vertices at the
-    /// same positions.
-    surfaces: Vec<usize>,
 }
 
-impl<'a> Faces<'a> {
-    fn new(scene: &'a Scene, places: &'a [DVec3], view: &'a View) -> Self {
-        Self { scene, places, view, surfaces: surfaces(scene) }
-    }
-
-    /// True if a face in the pixels around a point of an edge hides it.
-    ///
-    /// [`VisibleLines`] tolerates what is a little nearer, and what is beside the point, since
-    /// faces of the surface that ends at an edge are seen so. A silhouette continues behind its own
-    /// surface, nearer to it than that tolerance, so each of these faces is tested exactly.
-    fn hide(&self, visible: &VisibleLines<'_>, edge: &Edge, place: DepthPoint) -> bool {
-        let point = visible.point(place);
-        let is_own = |face: usize| edge.faces.iter().any(|&(own, _)| own == face);
-        let is_connected =
-            |face: usize| edge.faces.iter().any(|&(own, _)| self.surfaces[own] == self.surfaces[face]);
-        let behind = |face: usize| if is_connected(face) { JUST_BEHIND } else { BEHIND };
-        self.hides_by_plane(visible, edge, place)
-            || visible.faces_around([place[0], place[1]]).any(|face| {
-                !is_own(face)
-                    && self.is_behind(face, point, behind(face))
-                    && self.covers(visible, face, place)
-            })
-    }
-
-    /// True if the face in the pixel of a point of an edge is part of another surface, or the edge
-    /// is not where its surface ends, and the point is behind the plane of the face.
-    fn hides_by_plane(&self, visible: &VisibleLines<'_>, edge: &Edge, place: DepthPoint) -> bool {
-        let Some(face) = visible.face_at([place[0], place[1]]) else { return false };
-        let is_own = edge.faces.iter().any(|&(own, _)| own == face);
-        let is_of_surface = edge.faces.iter().any(|&(own, _)| self.surfaces[own] == self.surfaces[face]);
-        let is_turned_away = edge.faces.len() > 1 && edge.faces.iter().all(|&(own, _)| !self.normal(own).1);
-        if is_own || (is_of_surface && !is_turned_away) {
-            return false;
-        }
-        self.is_behind(face, visible.point(place), BEHIND)
-    }
-
-    /// True if a point, relative to the eye, is behind the plane of a face, by more than `least` of
-    /// its distance.
-    fn is_behind(&self, face: usize, point: DVec3, least: f64) -> bool {
-        let outline = self.scene.face_contours(&self.scene.faces[face]).next();
-        let Some(corner) = outline.and_then(<[VertexId]>::first) else { return false };
-        let (normal, is_front) = self.normal(face);
-        let height = normal.dot(point - self.places[corner.index()]);
-        (if is_front { height } else { -height }) < -least * point.length()
-    }
-
-    /// True if a face covers a point of the picture; false if a part of it is behind the eye.
-    fn covers(&self, visible: &VisibleLines<'_>, face: usize, [x, y, _]: DepthPoint) -> bool {
-        let mut is_inside = false;
-        for contour in self.scene.face_contours(&self.scene.faces[face]) {
-            let Some(last) = contour.last() else { continue };
-            let mut from = visible.depth_point(self.places[last.index()]);
-            for corner in contour {
-                let to = visible.depth_point(self.places[corner.index()]);
-                if self.view.is_perspective && to[2] <= 0.0 {
-                    return false;
-                }
-                let crosses = (from[1] <= y) != (to[1] <= y);
-                if crosses && from[0] + (to[0] - from[0]) * (y - from[1]) / (to[1] - from[1]) > x {
-                    is_inside = !is_inside;
-                }
-                from = to;
-            }
-        }
-        is_inside
-    }
-
+impl Faces<'_> {
     /// The normal of a face, and whether the eye is on its side.
     fn normal(&self, face: usize) -> (DVec3, bool) {
         let Some(outline) = self.scene.face_contours(&self.scene.faces[face]).next() else {
@@ -248,48 +137,6 @@ impl<'a> Faces<'a> {
             if self.view.is_perspective { -self.places[outline[0].index()] } else { -self.view.forward };
         (normal, normal.dot(toward) > 0.0)
     }
-
-    /// True if one surface continues on both sides of a point on a line, though possibly made of
-    /// faces that do not share this edge: differently subdivided, or inserted into each other.
-    fn go_on(&self, visible: &VisibleLines<'_>, place: DepthPoint, across: Point) -> bool {
-        let point = visible.point(place);
-        let side = |by: f64| {
-            let face = visible.face_at([place[0] + by * across[0], place[1] + by * across[1]])?;
-            let corner = self.scene.face_contours(&self.scene.faces[face]).next()?.first()?;
-            let (normal, is_front) = self.normal(face);
-            let height = normal.dot(point - self.places[corner.index()]).abs();
-            (height <= FLAT * point.length()).then_some(if is_front { normal } else { -normal })
-        };
-        matches!((side(ASIDE), side(-ASIDE)), (Some(one), Some(other)) if one.dot(other) > CREASE)
-    }
-}
-
-/// The surface that each face is part of, by the row of one of its vertices.
-fn surfaces(scene: &Scene) -> Vec<usize> {
-    // A forest: the parent of each vertex, itself for a root.
-    let mut parents: Vec<usize> = (0..scene.vertices.len()).collect();
-    fn root(parents: &mut [usize], mut vertex: usize) -> usize {
-        while parents[vertex] != vertex {
-            parents[vertex] = parents[parents[vertex]];
-            vertex = parents[vertex];
-        }
-        vertex
-    }
-    let mut join = |a: usize, b: usize| {
-        let (a, b) = (root(&mut parents, a), root(&mut parents, b));
-        parents[a] = b;
-    };
-    // Only looked up, so its order does not matter.
-    let mut known = HashMap::new();
-    for (row, vertex) in scene.vertices.iter().enumerate() {
-        join(*known.entry(vertex.position.to_array().map(f64::to_bits)).or_insert(row), row);
-    }
-    let first = |face: &Face| scene.contours.corners(face.contours.clone())[0].index();
-    for face in &scene.faces {
-        let corners = scene.contours.corners(face.contours.clone());
-        corners.iter().for_each(|corner| join(first(face), corner.index()));
-    }
-    scene.faces.iter().map(|face| root(&mut parents, first(face))).collect()
 }
 
 /// An edge of faces, stored once.
@@ -300,13 +147,14 @@ struct Edge {
 }
 
 /// Edges of moving bodies, in the order of the scene.
-fn edges(scene: &Scene, is_moving: &dyn Fn(BodyId) -> bool) -> Vec<Edge> {
+fn edges<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<Edge> {
+    let scene = seen.scene;
     // A vertex repeated for another colour is at the same position.
     let spot = |vertex: VertexId| scene.vertices[vertex.index()].position.to_array().map(f64::to_bits);
     let mut edges: Vec<Edge> = Vec::new();
     // Only looked up, so its order does not matter.
     let mut known = HashMap::new();
-    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_moving(face.body)) {
+    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| seen.is_moving(face.body)) {
         for [a, b] in face_edges(scene, face) {
             let (from, to) = (spot(a), spot(b));
             let key = (from.min(to), from.max(to), face.body);

@@ -1,39 +1,60 @@
 //! Explanations of pixels: what they have in common in every renderer.
 //!
-//! The types hold what is explained; [`text`] and [`json`] write it, for people and for scripts.
+//! One set of structs holds what is explained: [`Explanation::json`] serialises it for scripts,
+//! [`Explanation::text`] words it for people.
 
-pub mod json;
 pub mod text;
 
-use ugimage::{Development, DevelopmentSteps, Filter, LinearFrame, Quantizer, display_pixel};
+use serde::Serialize;
+use ugimage::{Filter, LinearFrame, Quantizer, display_pixel};
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
-use ugscene::Scene;
+use ugphysics::{attenuation, linear_srgb_to_xyz};
+use ugscene::{Scene, SeenColors};
 
 use crate::{Background, PictureOptions};
 
-/// The part of a pixel's explanation that all renderers share.
-#[derive(Clone, Debug)]
-pub struct ExplainedPixel {
+pub use text::WriteSample;
+
+/// The explanation of a pixel. `S`: what a renderer tells of a sample.
+#[derive(Clone, Debug, Serialize)]
+pub struct Explanation<S> {
     /// Column and row from the upper left.
-    pub place: [u32; 2],
+    pub pixel: [u32; 2],
     /// Size of the picture.
     pub size: [u32; 2],
-    /// Samples along a side of a pixel.
-    pub samples: u32,
-    /// The surfaces that its samples show, each with its number of samples, in order of first
-    /// occurrence. A sample of a translucent surface also counts for the surfaces behind it.
-    pub covers: Vec<(ExplainedItem, usize)>,
+    /// Columns and rows of samples in a pixel.
+    pub samples: [u32; 2],
+    /// The surfaces that its samples show, in order of first occurrence. A sample of a translucent
+    /// surface also counts for the surfaces behind it.
+    pub covers: Vec<Cover>,
     /// Number of samples in which the background is visible, also through translucent surfaces and
     /// in mirrors.
-    pub n_free: usize,
+    pub background_samples: usize,
     /// True if nothing in the scene moves.
     pub is_at_rest: bool,
+    /// The command lines that produced the scene, oldest first.
+    pub history: Vec<String>,
+    /// How motion changes colours; `None` if it does not.
+    #[serde(rename = "brightness_law", serialize_with = "text::law_name")]
+    pub colors: Option<SeenColors>,
+    /// The covered sample nearest to the centre of the pixel.
+    pub sample: Option<S>,
     /// From the samples to the bytes.
+    #[serde(flatten)]
     pub steps: PixelSteps,
 }
 
+/// A surface that samples of a pixel show.
+#[derive(Clone, Debug, Serialize)]
+pub struct Cover {
+    /// The surface.
+    pub item: ExplainedItem,
+    /// Number of samples.
+    pub samples: usize,
+}
+
 /// A face or wire.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExplainedItem {
     /// `face` or `wire`.
     pub kind: &'static str,
@@ -41,12 +62,55 @@ pub struct ExplainedItem {
     pub id: u32,
     /// Its name, if it has one.
     pub name: Option<String>,
-    /// File and line of its statement, where known.
-    pub place: Option<(String, usize)>,
+    /// File of its statement, where known.
+    pub file: Option<String>,
+    /// Line of its statement, where known.
+    pub line: Option<usize>,
+}
+
+/// A surface as it is seen.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExplainedSurface {
+    /// Its face or wire.
+    pub item: ExplainedItem,
+    /// Velocity of its body.
+    pub velocity: [f64; 3],
+    /// Speed of the body.
+    pub beta: f64,
+    /// Lorentz factor γ of the body.
+    pub gamma: f64,
+    /// The own time of a body that is not inertial.
+    pub own_time: Option<f64>,
+    /// Time and position of emission, relative to the eye, in the frame of the camera.
+    pub emission: ExplainedEvent,
+    /// The emission event in the rest frame of the body and the axes of the scene.
+    pub emission_at_rest: ExplainedEvent,
+    /// Angle in degrees between the line of sight and the motion, in the frame of the camera;
+    /// `None` at rest and for light that is mirrored or refracted.
+    pub angle_deg: Option<f64>,
+    /// That angle in the rest frame of the body.
+    pub angle_at_rest_deg: Option<f64>,
+    /// Doppler factor, from the surface to the eye.
+    #[serde(rename = "D")]
+    pub doppler: f64,
+    /// Its lit colour; `None` for a translucent surface of which only the light is known.
+    pub color: Option<SampleColor>,
+    /// Its own light: linear red, green and blue.
+    pub linear: [f64; 3],
+}
+
+/// An event.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ExplainedEvent {
+    /// Time; `None` if contraction or time of flight was left out.
+    pub t: Option<f64>,
+    /// Position.
+    pub x: [f64; 3],
 }
 
 /// The colour of a sample, interpolated and lit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
 pub enum SampleColor {
     /// A hue, saturation and value; coloured light is separate.
     Hue {
@@ -58,9 +122,10 @@ pub enum SampleColor {
         value: f64,
         /// Level of red, green and blue light, if lights are coloured; otherwise it is in the
         /// value.
-        level: Option<[f64; 3]>,
+        light_level: Option<[f64; 3]>,
         /// `None` for greys.
-        wavelength: Option<Wavelength>,
+        #[serde(flatten)]
+        wavelength: Option<HueWavelength>,
     },
     /// CIE X, Y, Z, and chromaticity x, y.
     Light {
@@ -72,29 +137,55 @@ pub enum SampleColor {
 }
 
 /// The wavelength a hue stands for.
-#[derive(Clone, Copy, Debug)]
-pub struct Wavelength {
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct HueWavelength {
     /// Wavelength at rest.
-    pub rest_nm: f64,
+    pub rest_wavelength_nm: f64,
     /// Wavelength as seen.
-    pub seen_nm: f64,
+    pub seen_wavelength_nm: f64,
+    /// True at the end of the range of hues, which stands for all wavelengths beyond.
+    pub is_at_end_of_range: bool,
     /// Attenuation of the hue, (P17).
     pub attenuation: f64,
-    /// True at the end of the range of hues, which stands for all wavelengths beyond.
-    pub is_at_end: bool,
 }
 
 /// From the samples of the pixel to its bytes.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct PixelSteps {
-    /// The filter that weights samples, including those of neighbouring pixels.
-    pub filter: Filter,
-    /// Mean linear red, green and blue, and the covered part.
-    pub mean: [f32; 4],
+    /// Name of the filter that weights samples, including those of neighbouring pixels.
+    pub filter: &'static str,
+    /// Columns and rows of samples that have a weight.
+    pub filter_samples: [usize; 2],
+    /// Mean linear red, green and blue.
+    pub mean_linear: [f32; 3],
+    /// The covered part.
+    pub covered: f32,
     /// How light was developed, if it was not clipped per sample.
-    pub development: Option<(Development, DevelopmentSteps)>,
+    pub development: Option<DevelopedPixel>,
     /// Red, green, blue, alpha.
     pub bytes: [u8; 4],
+}
+
+/// The steps of the development of a pixel.
+#[derive(Clone, Debug, Serialize)]
+pub struct DevelopedPixel {
+    /// Exposure in stops.
+    pub stops: f64,
+    /// Name of the tone curve.
+    pub tone_curve: &'static str,
+    /// Linear red, green and blue after the exposure.
+    pub exposed: [f64; 3],
+    /// After the tone curve.
+    pub toned: [f64; 3],
+    /// After gamut mapping: each channel 0…1.
+    pub in_gamut: [f64; 3],
+}
+
+impl<S: WriteSample> Explanation<S> {
+    /// The explanation as JSON, ending with a line break.
+    pub fn json(&self) -> String {
+        serde_json::to_string_pretty(self).expect("all keys are strings") + "\n"
+    }
 }
 
 impl PixelSteps {
@@ -106,15 +197,52 @@ impl PixelSteps {
         is_clipped: bool,
         whole: impl FnOnce() -> LinearFrame,
     ) -> Self {
-        let [red, green, blue, part] = mean;
-        let light = [red, green, blue];
+        let [red, green, blue, covered] = mean;
+        let mean_linear = [red, green, blue];
         let development = (!is_clipped).then(|| picture.development(whole));
-        let [red, green, blue] = development.map_or(light, |development| development.apply(light));
+        let [red, green, blue] =
+            development.map_or(mean_linear, |development| development.apply(mean_linear));
         let is_opaque = picture.background != Background::Transparent;
-        let bytes = display_pixel(&Quantizer::new(), [red, green, blue, part], is_opaque);
-        let development = development.map(|development| (development, development.steps(light)));
-        Self { filter: picture.filter, mean, development, bytes }
+        let bytes = display_pixel(&Quantizer::new(), [red, green, blue, covered], is_opaque);
+        let development = development.map(|development| {
+            let steps = development.steps(mean_linear);
+            DevelopedPixel {
+                stops: development.stops,
+                tone_curve: development.tone.name(),
+                exposed: steps.exposed,
+                toned: steps.toned,
+                in_gamut: steps.shown,
+            }
+        });
+        let n = match picture.filter {
+            Filter::Box => picture.samples as usize,
+            filter => filter.n_samples(picture.samples),
+        };
+        Self {
+            filter: picture.filter.name(),
+            filter_samples: [n; 2],
+            mean_linear,
+            covered,
+            development,
+            bytes,
+        }
     }
+}
+
+/// The surfaces that samples show. `samples`: the rows of the faces and wires of each; `item`: the
+/// face or wire of a row.
+pub fn covers<Rows: IntoIterator<Item = u32>>(
+    samples: impl Iterator<Item = Rows>,
+    item: impl Fn(u32) -> ExplainedItem,
+) -> Vec<Cover> {
+    let mut covers: Vec<(u32, Cover)> = Vec::new();
+    for row in samples.flatten() {
+        match covers.iter_mut().find(|(shown, _)| *shown == row) {
+            Some((_, cover)) => cover.samples += 1,
+            None => covers.push((row, Cover { item: item(row), samples: 1 })),
+        }
+    }
+    covers.into_iter().map(|(_, cover)| cover).collect()
 }
 
 /// The sample nearest to the centre of a pixel; of several the last, as for channels. `place`:
@@ -143,13 +271,35 @@ impl ExplainedItem {
         let name = |name: Option<ugscene::NameId>| name.map(|name| scene.names.get(name).to_owned());
         let Some(face) = scene.faces.get(row) else {
             let wire = scene.wires.get(row - scene.faces.len());
-            return Self { kind: "wire", id, name: name(wire.and_then(|wire| wire.name)), place: None };
+            let name = name(wire.and_then(|wire| wire.name));
+            return Self { kind: "wire", id, name, file: None, line: None };
         };
         let place = parsed.origins.faces.get(row).and_then(|span| {
-            let place =
-                Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()?;
-            Some((place.file, place.line))
+            Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()
         });
-        Self { kind: "face", id, name: name(face.name), place }
+        let (file, line) = place.map(|place| (place.file, place.line)).unzip();
+        Self { kind: "face", id, name: name(face.name), file, line }
+    }
+}
+
+impl SampleColor {
+    /// The colour of linear red, green and blue light.
+    pub fn of_light(light: [f64; 3]) -> Self {
+        let xyz = linear_srgb_to_xyz(light);
+        let sum: f64 = xyz.iter().sum();
+        let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
+        Self::Light { xyz, chromaticity }
+    }
+}
+
+impl HueWavelength {
+    /// Wavelengths at rest and as seen in nm. `hue`: in degrees; `None` if its wavelength was given.
+    pub fn new(rest_wavelength_nm: f64, seen_wavelength_nm: f64, hue: Option<f64>) -> Self {
+        Self {
+            rest_wavelength_nm,
+            seen_wavelength_nm,
+            is_at_end_of_range: hue.is_some_and(|hue| !(-60.0 < hue && hue < 300.0)),
+            attenuation: attenuation(seen_wavelength_nm),
+        }
     }
 }

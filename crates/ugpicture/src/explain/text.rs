@@ -1,103 +1,180 @@
 //! Explanations as text: a title of up to 13 characters at the left, then what it is.
 
-use std::fmt::{self, Write};
+use std::fmt::Display;
 
-use glam::DVec3;
-use ugimage::Filter;
+use serde::{Serialize, Serializer};
 use ugscene::{ColorScale, SeenColors};
 
-use super::{ExplainedItem, ExplainedPixel, PixelSteps, SampleColor};
+use super::{ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, SampleColor};
 
-/// An explanation. `write_sample`: writes what the renderer tells of a sample.
-pub fn explanation(pixel: &ExplainedPixel, write_sample: impl FnOnce(&mut String) -> fmt::Result) -> String {
-    let mut out = String::new();
-    // Writing into a string does not fail.
-    let _ = write_explanation(&mut out, pixel, write_sample);
-    out
+/// A sample, explained by one of the renderers.
+pub trait WriteSample: Serialize + Sized {
+    /// Writes what follows the heading about the sample.
+    fn write(&self, out: &mut Lines, explanation: &Explanation<Self>);
+
+    /// Column and row of the sample in pixels.
+    fn place(&self) -> [f64; 2];
 }
 
-fn write_explanation(
-    out: &mut String,
-    pixel: &ExplainedPixel,
-    write_sample: impl FnOnce(&mut String) -> fmt::Result,
-) -> fmt::Result {
-    let ExplainedPixel { place: [x, y], size: [width, height], samples: n, .. } = pixel;
-    writeln!(out, "pixel {x} {y} of {width} x {height}, {n} x {n} samples")?;
-    let n_samples = (n * n) as usize;
-    for (item, count) in &pixel.covers {
-        writeln!(out, "    {count} of {n_samples}: {}", described(item))?;
+/// Lines of text.
+#[derive(Clone, Debug, Default)]
+pub struct Lines(String);
+
+impl<S: WriteSample> Explanation<S> {
+    /// The explanation as text.
+    pub fn text(&self) -> String {
+        let Self { pixel: [x, y], size: [width, height], samples: [columns, rows], .. } = self;
+        let mut out = Lines::default();
+        out.line(format!("pixel {x} {y} of {width} x {height}, {columns} x {rows} samples"));
+        for cover in &self.covers {
+            out.line(format!("    {} of {}: {}", cover.samples, columns * rows, described(&cover.item)));
+        }
+        if self.background_samples > 0 {
+            out.line(format!("    {} of {}: background", self.background_samples, columns * rows));
+        }
+        if let Some(sample) = &self.sample {
+            out.line(format!("\nthe covered sample nearest to the centre, at {}", numbers(&sample.place())));
+            sample.write(&mut out, self);
+        }
+        self.write_steps(&mut out);
+        out.0
     }
-    if pixel.n_free > 0 {
-        writeln!(out, "    {} of {n_samples}: background", pixel.n_free)?;
+
+    /// From the samples of a pixel to its bytes.
+    fn write_steps(&self, out: &mut Lines) {
+        let steps = &self.steps;
+        let [columns, rows] = steps.filter_samples;
+        let by = match steps.filter {
+            "box" => String::new(),
+            filter => format!(", of {columns} x {rows} samples by the filter {filter}"),
+        };
+        let [light, covered] = [numbers(&steps.mean_linear), number(steps.covered)];
+        out.line("\nthe pixel");
+        out.row("mean", format!("{light} linear, {covered} of it covered{by}"));
+        if let Some(development) = &steps.development {
+            let (stops, tone_curve) = (number(development.stops), development.tone_curve);
+            out.row("exposure", format!("{stops} stops: {}", numbers(&development.exposed)));
+            out.row("tone curve", format!("{tone_curve}: {}", numbers(&development.toned)));
+            out.row("gamut", numbers(&development.in_gamut));
+        }
+        let [red, green, blue, alpha] = steps.bytes;
+        out.row("bytes", format!("{red} {green} {blue}, alpha {alpha}"));
     }
-    write_sample(out)?;
-    write_pixel(out, &pixel.steps, pixel.samples)
 }
 
-/// A line: a title, and a text.
-///
-/// # Errors
-/// Errors that `out` returns.
-pub fn row(out: &mut String, title: &str, text: impl fmt::Display) -> fmt::Result {
-    writeln!(out, "{title:<14}{text}")
-}
-
-/// An event; without a time if an effect was left out.
-pub fn event(time: Option<f64>, place: [f64; 3], frame: &str) -> String {
-    let time = time.map_or("none, as an effect was left out".to_owned(), number);
-    format!("t {time}, x {} ({frame})", numbers(&place))
-}
-
-/// The motion of a body. `is_all_at_rest`: as that of everything else.
-pub fn body(beta: DVec3, gamma: f64, is_all_at_rest: bool) -> String {
-    if is_all_at_rest {
-        return "everything is at rest".to_owned();
+impl Lines {
+    /// A line without a title.
+    pub fn line(&mut self, text: impl Display) {
+        self.0 += &format!("{text}\n");
     }
-    if beta.length() == 0.0 {
-        return "at rest".to_owned();
+
+    /// A line: a title, and a text.
+    pub fn row(&mut self, title: &str, text: impl Display) {
+        self.line(format!("{title:<14}{text}"));
     }
-    format!("velocity {}, beta {}, gamma {}", numbers(&beta.to_array()), number(beta.length()), number(gamma))
+
+    /// A list: a row for each of the first `most` items, then how many more there are.
+    pub fn rows<T>(&mut self, title: &str, items: &[T], most: usize, text: impl Fn(&T) -> String) {
+        items.iter().take(most).for_each(|item| self.row(title, text(item)));
+        if items.len() > most {
+            self.row("", format!("and {} more", items.len() - most));
+        }
+    }
+
+    /// A surface, the motion of its body, and the event of emission. `is_all_at_rest`: nothing in
+    /// the scene moves.
+    pub fn surface(&mut self, surface: &ExplainedSurface, is_all_at_rest: bool) {
+        self.row(surface.item.kind, described(&surface.item));
+        let body = match surface.beta {
+            _ if is_all_at_rest => "everything is at rest".to_owned(),
+            0.0 => "at rest".to_owned(),
+            beta => format!(
+                "velocity {}, beta {}, gamma {}",
+                numbers(&surface.velocity),
+                number(beta),
+                number(surface.gamma)
+            ),
+        };
+        self.row("body", body);
+        if let Some(own_time) = surface.own_time {
+            self.row("own time", number(own_time));
+        }
+        let event = |event: ExplainedEvent, frame: &str| {
+            let t = event.t.map_or("none, as an effect was left out".to_owned(), number);
+            format!("t {t}, x {} ({frame})", numbers(&event.x))
+        };
+        self.row("emission", event(surface.emission, "camera frame, from the eye"));
+        self.row("", event(surface.emission_at_rest, "rest frame"));
+        if let Some((camera, rest)) = surface.angle_deg.zip(surface.angle_at_rest_deg) {
+            let (camera, rest) = (number(camera), number(rest));
+            let text =
+                format!("{camera}° from the motion in the camera frame, {rest}° in the rest frame (P6)");
+            self.row("seen at", text);
+        }
+    }
+
+    /// The Doppler factor and the law of colours. `equation`: of the factor; `colors`: as they are
+    /// seen, `None` at rest.
+    pub fn doppler(&mut self, doppler: f64, equation: &str, colors: Option<&SeenColors>) {
+        self.row("D", format!("{} ({equation})", number(doppler)));
+        let Some(seen) = colors else {
+            return self.row("colours", "at rest: neither shifted nor changed in brightness");
+        };
+        let shift = match (seen.doppler, seen.scale) {
+            (false, _) => "wavelengths not shifted",
+            (true, ColorScale::Hues { .. }) => "wavelengths divided by D (P11)",
+            (true, ColorScale::Spectra { .. }) => "spectra shifted by D (P11)",
+        };
+        let (law, power) = match seen.scale {
+            ColorScale::Hues { law, .. } => (format!("by the law `{}`", law.name()), law.factor(doppler)),
+            ColorScale::Spectra { flux: true } => ("D^5 per wavelength".to_owned(), libm::pow(doppler, 5.0)),
+            ColorScale::Spectra { flux: false } => ("by the law `none`".to_owned(), 1.0),
+        };
+        let lights = if seen.lights { "; the light of lamps is in them (P14)" } else { "" };
+        let power = number(power);
+        self.row("colours", format!("as seen: {shift}, brightness {law}: times {power} (P12){lights}"));
+    }
+
+    /// The colour of a sample: its numbers, and the wavelength at rest and as seen.
+    pub fn color(&mut self, color: &SampleColor) {
+        match color {
+            SampleColor::Light { xyz, chromaticity } => {
+                self.row("colour", format!("X Y Z {}, lit", numbers(xyz)));
+                if let Some(chromaticity) = chromaticity {
+                    self.row("", format!("chromaticity x y {}", numbers(chromaticity)));
+                }
+            }
+            SampleColor::Hue { hue, saturation, value, light_level, wavelength } => {
+                let lit = light_level.map_or(", lit".to_owned(), |level| {
+                    format!(", times red, green, blue light {}", numbers(&level))
+                });
+                let [hue, saturation, value] = [hue, saturation, value].map(|&x| number(x));
+                let Some(wavelength) = wavelength else {
+                    return self.row("colour", format!("grey, value {value}{lit}"));
+                };
+                self.row("colour", format!("hue {hue}, saturation {saturation}, value {value}{lit}"));
+                self.wavelength(wavelength);
+            }
+        }
+    }
+
+    fn wavelength(&mut self, wavelength: &HueWavelength) {
+        let end =
+            if wavelength.is_at_end_of_range { ", the end of the range, or anything beyond" } else { "" };
+        let [rest, seen] = [wavelength.rest_wavelength_nm, wavelength.seen_wavelength_nm].map(number);
+        self.row("wavelength", format!("{rest} nm at rest, {seen} nm seen{end} (P16)"));
+        self.row("attenuation", format!("hue times {} (P17)", number(wavelength.attenuation)));
+    }
 }
 
-/// The angles between the line of sight and the motion, in the frames of the camera and of the
-/// body.
-pub fn angles([camera, rest]: [f64; 2]) -> String {
-    format!(
-        "{}° from the motion in the camera frame, {}° in the rest frame (P6)",
-        number(camera),
-        number(rest)
-    )
-}
-
-/// The line about the law of colours. `seen`: as they are seen; `None` for colours at rest.
-///
-/// # Errors
-/// Errors that `out` returns.
-pub fn write_colors(out: &mut String, seen: Option<&SeenColors>, doppler: f64) -> fmt::Result {
-    let Some(seen) = seen else {
-        return row(out, "colours", "at rest: neither shifted nor changed in brightness");
-    };
-    let shift = match (seen.doppler, seen.scale) {
-        (false, _) => "wavelengths not shifted",
-        (true, ColorScale::Hues { .. }) => "wavelengths divided by D (P11)",
-        (true, ColorScale::Spectra { .. }) => "spectra shifted by D (P11)",
-    };
-    let (law, power) = match seen.scale {
-        ColorScale::Hues { law, .. } => (format!("by the law `{}`", law.name()), law.factor(doppler)),
-        ColorScale::Spectra { flux: true } => ("D^5 per wavelength".to_owned(), libm::pow(doppler, 5.0)),
-        ColorScale::Spectra { flux: false } => ("by the law `none`".to_owned(), 1.0),
-    };
-    let lights = if seen.lights { "; the light of lamps is in them (P14)" } else { "" };
-    row(out, "colours", format!("as seen: {shift}, brightness {law}: times {} (P12){lights}", number(power)))
-}
-
-/// Name of the brightness law of colours as seen, for scripts.
-pub fn law_name(seen: &SeenColors) -> &'static str {
-    match seen.scale {
+/// Serialises the brightness law of colours as seen by its name.
+pub(super) fn law_name<S: Serializer>(colors: &Option<SeenColors>, out: S) -> Result<S::Ok, S::Error> {
+    let name = colors.map(|seen| match seen.scale {
         ColorScale::Hues { law, .. } => law.name(),
         ColorScale::Spectra { flux: true } => "D^5",
         ColorScale::Spectra { flux: false } => "none",
-    }
+    });
+    name.serialize(out)
 }
 
 /// A light level: one number if the light is white.
@@ -109,77 +186,22 @@ pub fn level(level: &[f64; 3]) -> String {
     }
 }
 
-/// The lines about the colour of a sample: its numbers, and the wavelength at rest and as seen.
-///
-/// # Errors
-/// Errors that `out` returns.
-pub fn write_color(out: &mut String, color: &SampleColor) -> fmt::Result {
-    match color {
-        SampleColor::Light { xyz, chromaticity } => {
-            row(out, "colour", format!("X Y Z {}, lit", numbers(xyz)))?;
-            if let Some(chromaticity) = chromaticity {
-                row(out, "", format!("chromaticity x y {}", numbers(chromaticity)))?;
-            }
-            Ok(())
-        }
-        SampleColor::Hue { hue, saturation, value, level, wavelength } => {
-            let Some(wavelength) = wavelength else {
-                return row(out, "colour", format!("grey, value {}{}", number(*value), lit(level)));
-            };
-            let text = format!(
-                "hue {}, saturation {}, value {}{}",
-                number(*hue),
-                number(*saturation),
-                number(*value),
-                lit(level)
-            );
-            row(out, "colour", text)?;
-            let end = if wavelength.is_at_end { ", the end of the range, or anything beyond" } else { "" };
-            let (rest_nm, seen_nm) = (number(wavelength.rest_nm), number(wavelength.seen_nm));
-            row(out, "wavelength", format!("{rest_nm} nm at rest, {seen_nm} nm seen{end} (P16)"))?;
-            row(out, "attenuation", format!("hue times {} (P17)", number(wavelength.attenuation)))
-        }
-    }
-}
-
-fn lit(level: &Option<[f64; 3]>) -> String {
-    level.map_or(", lit".to_owned(), |level| format!(", times red, green, blue light {}", numbers(&level)))
-}
-
-/// From the samples of a pixel to its bytes. `samples`: along a side of a pixel.
-fn write_pixel(out: &mut String, steps: &PixelSteps, samples: u32) -> fmt::Result {
-    let [red, green, blue, part] = steps.mean.map(f64::from);
-    writeln!(out, "\nthe pixel")?;
-    let by = match steps.filter {
-        Filter::Box => String::new(),
-        filter => {
-            format!(", of {n} x {n} samples by the filter {}", filter.name(), n = filter.n_samples(samples))
-        }
-    };
-    row(out, "mean", format!("{} linear, {} of it covered{by}", numbers(&[red, green, blue]), number(part)))?;
-    if let Some((development, steps)) = &steps.development {
-        row(out, "exposure", format!("{} stops: {}", number(development.stops), numbers(&steps.exposed)))?;
-        row(out, "tone curve", format!("{}: {}", development.tone.name(), numbers(&steps.toned)))?;
-        row(out, "gamut", numbers(&steps.shown))?;
-    }
-    let [red, green, blue, alpha] = steps.bytes;
-    row(out, "bytes", format!("{red} {green} {blue}, alpha {alpha}"))
-}
-
 /// A face or wire, with its name and where it is in the text of the scene.
 pub fn described(item: &ExplainedItem) -> String {
     let name = item.name.as_ref().map_or(String::new(), |name| format!(" `{name}`"));
-    let place = item.place.as_ref().map_or(String::new(), |(file, line)| format!(", {file}:{line}"));
+    let place = item.file.as_ref().zip(item.line);
+    let place = place.map_or(String::new(), |(file, line)| format!(", {file}:{line}"));
     format!("{}{name}, id {}{place}", item.kind, item.id)
 }
 
 /// Numbers with blanks between them.
-pub fn numbers(all: &[f64]) -> String {
+pub fn numbers<T: Copy + Into<f64>>(all: &[T]) -> String {
     all.iter().map(|&x| number(x)).collect::<Vec<_>>().join(" ")
 }
 
 /// Six significant digits.
-pub fn number(x: f64) -> String {
+pub fn number(x: impl Into<f64>) -> String {
+    let x: f64 = x.into();
     let rounded: f64 = format!("{x:.5e}").parse().unwrap_or(x);
     let size = rounded.abs();
     if size != 0.0 && !(1e-4..1e9).contains(&size) { format!("{rounded:e}") } else { format!("{rounded}") }

@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugraster::{Area, Bins, FragmentWriter, TRANSPARENT_VALUES, Tile};
+use ugraster::{Area, Bins, FragmentWriter, ShapeTarget, TRANSPARENT_VALUES, Tile};
 use ugscene::Face;
 
 use super::film::{Film, Form, Lengths, center};

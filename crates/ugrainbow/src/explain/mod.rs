@@ -1,16 +1,19 @@
 //! Explains the colour of a pixel: from the face and its motion to the bytes.
 
-mod json;
 mod text;
 
 use glam::DVec3;
+use serde::Serialize;
 use uglight::{Interpolation, Swatch};
 use ugparse::{Diagnostics, Parsed, Source};
-use ugphysics::{attenuation, doppler_at, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue};
-use ugpicture::explain::nearest;
+use ugphysics::{doppler_at, srgb_decode, srgb_encode, wavelength_to_hue};
+use ugpicture::explain::{
+    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, PixelSteps, SampleColor,
+    covers, nearest,
+};
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
-use ugscene::{Geometry, RestPosition, SeenPosition, Stage, VertexId};
+use ugscene::{Geometry, RestPosition, SeenPosition, VertexId};
 
 use crate::config::Config;
 use crate::depth_cue::prepare;
@@ -22,83 +25,58 @@ use crate::render::warnings;
 use crate::render_layers::RenderLayers;
 use crate::setup::Setup;
 
-pub use json::json;
-pub use text::text;
-pub use ugpicture::explain::{ExplainedItem, ExplainedPixel, PixelSteps, SampleColor, Wavelength};
-
-/// The explanation of a pixel.
-#[derive(Clone, Debug)]
-pub struct Explanation {
-    /// The facts common to all renderers.
-    pub pixel: ExplainedPixel,
-    /// The command lines that produced the scene, oldest first.
-    pub history: Vec<String>,
-    /// The stage of its positions and colours.
-    pub stage: Stage,
-    /// The covered sample nearest to the centre of the pixel.
-    pub sample: Option<ExplainedSample>,
-}
-
 /// The explanation of a sample.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct ExplainedSample {
     /// Column and row of the sample in pixels.
     pub place: [f64; 2],
     /// The surface it shows.
-    pub item: ExplainedItem,
-    /// Velocity of its body.
-    pub beta: DVec3,
-    /// Lorentz factor γ of the body.
-    pub gamma: f64,
-    /// Time and position of emission, relative to the eye, in the frame of the camera.
-    pub emission: (f64, DVec3),
-    /// The own time of a body that is not inertial.
-    pub own_time: Option<f64>,
-    /// The emission event in the rest frame of the body and the axes of the scene; without a time
-    /// if contraction or time of flight was left out.
-    pub rest: (Option<f64>, DVec3),
-    /// Angle in degrees between the line of sight and the motion, in the frames of the camera and
-    /// of the body; `None` at rest.
-    pub angles_deg: Option<[f64; 2]>,
-    /// Doppler factor.
-    pub doppler: f64,
-    /// Its colour; `None` for a translucent surface, of which only the light is known.
-    pub color: Option<SampleColor>,
+    #[serde(flatten)]
+    pub surface: ExplainedSurface,
     /// Corners of the face, or ends of the wire.
     pub corners: Vec<ExplainedCorner>,
-    /// Its linear red, green and blue.
-    pub light: [f32; 3],
     /// The part of its light that depth cueing leaves.
-    pub cue: Option<f32>,
+    pub depth_cue: Option<f32>,
     /// All surfaces that the sample shows, from front to back; empty if it is a single opaque one.
     pub layers: Vec<LayerShown>,
 }
 
 /// One of the surfaces that a sample shows.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct LayerShown {
     /// The face or wire.
     pub item: ExplainedItem,
     /// The part of the light from behind that is transmitted.
     pub translucency: f32,
-    /// Its own light, before weighting by 1 − translucency.
-    pub light: [f32; 3],
+    /// Its own light, before weighting by 1 − translucency: linear red, green and blue.
+    pub linear: [f32; 3],
 }
 
 /// A corner, between which colour and light are interpolated.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct ExplainedCorner {
     /// Name of the vertex.
-    pub name: String,
-    /// Hue in degrees, saturation, value; or linear red, green, blue if given as light.
-    pub color: [f64; 3],
-    /// True if the colour is given as light.
-    pub is_light: bool,
+    pub vertex: String,
+    /// Hue in degrees, saturation, value; `None` for a colour given as light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hue_saturation_value: Option<[f64; 3]>,
+    /// Linear red, green and blue of a colour given as light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub linear: Option<[f64; 3]>,
     /// Level of red, green and blue light.
-    pub level: [f64; 3],
+    pub light_level: [f64; 3],
     /// The contribution of each light; empty for wires and for faces with a light level of their
     /// own.
-    pub lights: Vec<(String, [f64; 3])>,
+    pub lights: Vec<LightPart>,
+}
+
+/// The contribution of a light to a corner.
+#[derive(Clone, Debug, Serialize)]
+pub struct LightPart {
+    /// Name of the light, see [`uglight::light_names`].
+    pub light: String,
+    /// Level of its red, green and blue light.
+    pub level: [f64; 3],
 }
 
 /// Explains a pixel of the picture that `config` describes.
@@ -109,7 +87,7 @@ pub fn explain(
     config: &Config,
     source: &Source,
     pixel: [u32; 2],
-) -> Result<(Explanation, Diagnostics), Error> {
+) -> Result<(Explanation<ExplainedSample>, Diagnostics), Error> {
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.exact.is_some() {
         return Err(Error::ExplainExact);
@@ -130,21 +108,18 @@ pub fn explain(
     let whole = || pixels::light(&setup, &layers, config).0;
     let teller = Teller { setup: &setup, config, source, parsed: &parsed };
     let explanation = Explanation {
-        pixel: ExplainedPixel {
-            place: pixel,
-            size: picture.size,
-            samples: picture.samples,
-            covers: teller.covers(&samples),
-            n_free: (picture.samples * picture.samples) as usize
-                - samples.iter().filter(|sample| !is_free(sample)).count(),
-            is_at_rest: !ugscene::has_moving_bodies(setup.scene())
-                && !ugscene::has_moving_lights(setup.scene()),
-            steps: PixelSteps::new(picture, mean, !setup.is_uncut, whole),
-        },
+        pixel,
+        size: picture.size,
+        samples: [picture.samples; 2],
+        covers: covers(samples.iter().map(shown_items), |item| teller.item(item)),
+        background_samples: (picture.samples * picture.samples) as usize
+            - samples.iter().filter(|sample| !is_free(sample)).count(),
+        is_at_rest: !ugscene::has_moving_bodies(setup.scene()) && !ugscene::has_moving_lights(setup.scene()),
+        history: parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
+        colors: parsed.scene.stage.seen_colors().copied(),
         sample: nearest(&samples, |sample| sample.place, pixel, picture.samples)
             .map(|sample| teller.shown(sample)),
-        history: parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
-        stage: parsed.scene.stage,
+        steps: PixelSteps::new(picture, mean, !setup.is_uncut, whole),
     };
     Ok((explanation, warnings(source, parsed)))
 }
@@ -173,6 +148,14 @@ fn stack(sample: &ProbedSample) -> Vec<Layer> {
     stack
 }
 
+/// The faces and wires that a sample shows, each once, even if its edges are in the sample as well.
+fn shown_items(sample: &ProbedSample) -> Vec<u32> {
+    let mut items: Vec<u32> = stack(sample).iter().map(|layer| layer.tag).collect();
+    items.sort_unstable();
+    items.dedup();
+    items
+}
+
 /// True if the background is visible at a sample.
 fn is_free(sample: &ProbedSample) -> bool {
     stack(sample).iter().all(|layer| layer.pass > 0.0)
@@ -187,23 +170,6 @@ struct Teller<'a> {
 }
 
 impl Teller<'_> {
-    fn covers(&self, samples: &[ProbedSample]) -> Vec<(ExplainedItem, usize)> {
-        let mut counts: Vec<(u32, usize)> = Vec::new();
-        for sample in samples {
-            // Each face is counted once, even if its edges are in the sample as well.
-            let mut tags: Vec<u32> = stack(sample).iter().map(|layer| layer.tag).collect();
-            tags.sort_unstable();
-            tags.dedup();
-            for tag in tags {
-                match counts.iter_mut().find(|(item, _)| *item == tag) {
-                    Some((_, count)) => *count += 1,
-                    None => counts.push((tag, 1)),
-                }
-            }
-        }
-        counts.into_iter().map(|(item, count)| (self.item(item), count)).collect()
-    }
-
     fn item(&self, item: u32) -> ExplainedItem {
         ExplainedItem::new(item, self.setup.scene(), self.parsed, self.source)
     }
@@ -217,23 +183,33 @@ impl Teller<'_> {
         let geometry = Geometry::of(self.setup.scene());
         let RestPosition(rest) = geometry.rest(SeenPosition(place), velocity);
         let rest_time = (geometry == Geometry::default()).then(|| -rest.length());
-        let angle = |line: DVec3| line.angle_between(velocity.direction()).to_degrees();
+        let angle = |line: DVec3| {
+            (!velocity.is_zero()).then(|| line.angle_between(velocity.direction()).to_degrees())
+        };
         let doppler = doppler_at(place, velocity);
         let n = f64::from(self.config.picture.samples);
-        ExplainedSample {
-            place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
+        let surface = ExplainedSurface {
             item: self.item(seen.item),
-            beta: velocity.beta(),
+            velocity: velocity.beta().to_array(),
+            beta: velocity.beta().length(),
             gamma: velocity.gamma(),
             own_time: emission.own_time,
-            emission: (emission.time, place),
-            rest: (rest_time, emission.scene_from_axes * rest),
-            angles_deg: (!velocity.is_zero()).then(|| [angle(place), angle(rest)]),
+            emission: ExplainedEvent { t: Some(emission.time), x: place.to_array() },
+            emission_at_rest: ExplainedEvent {
+                t: rest_time,
+                x: (emission.scene_from_axes * rest).to_array(),
+            },
+            angle_deg: angle(place),
+            angle_at_rest_deg: angle(rest),
             doppler,
             color: values.map(|values| self.color(values, doppler)),
+            linear: light.map(f64::from),
+        };
+        ExplainedSample {
+            place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
+            surface,
             corners: self.corners(seen.item),
-            light,
-            cue: self.setup.grid.fade.map(|_| self.setup.grid.light_left(seen.key)),
+            depth_cue: self.setup.grid.fade.map(|_| self.setup.grid.light_left(seen.key)),
             layers: self.layers(sample),
         }
     }
@@ -263,7 +239,7 @@ impl Teller<'_> {
         let shown = |layer: Layer| LayerShown {
             item: self.item(layer.tag),
             translucency: layer.pass,
-            light: layer.light,
+            linear: layer.light,
         };
         stack.into_iter().map(shown).collect()
     }
@@ -271,13 +247,8 @@ impl Teller<'_> {
     /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
         let layout = PackedLayout::new(&self.setup.appearance.palette, &self.setup.lighting);
-        let (Plain { tint, saturation, value }, level) = match layout.color(values) {
-            Interpolated::Light(light) => {
-                let xyz = linear_srgb_to_xyz(light);
-                let sum: f64 = xyz.iter().sum();
-                let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
-                return SampleColor::Light { xyz, chromaticity };
-            }
+        let (Plain { tint, saturation, value }, light_level) = match layout.color(values) {
+            Interpolated::Light(light) => return SampleColor::of_light(light),
             Interpolated::Hue { color, level } => (color, level),
         };
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
@@ -289,14 +260,10 @@ impl Teller<'_> {
         let is_shifted = self.setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler);
         let wavelength = (!swatch.is_grey()).then(|| {
             let seen_nm = self.setup.appearance.palette.wavelength_nm(&swatch);
-            Wavelength {
-                rest_nm: if is_shifted { seen_nm * doppler } else { seen_nm },
-                seen_nm,
-                attenuation: attenuation(seen_nm),
-                is_at_end: interpolation == Interpolation::Hue && !(-60.0 < hue && hue < 300.0),
-            }
+            let rest_nm = if is_shifted { seen_nm * doppler } else { seen_nm };
+            HueWavelength::new(rest_nm, seen_nm, (interpolation == Interpolation::Hue).then_some(hue))
         });
-        SampleColor::Hue { hue, saturation, value, level, wavelength }
+        SampleColor::Hue { hue, saturation, value, light_level, wavelength }
     }
 
     fn corners(&self, item: u32) -> Vec<ExplainedCorner> {
@@ -345,12 +312,16 @@ impl Teller<'_> {
             1.0 => hsv.value,
             factor => srgb_encode(factor * srgb_decode(hsv.value)),
         };
+        let light = swatch.light.map(|light| light.to_array());
         ExplainedCorner {
-            name: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
-            color: swatch.light.map_or([hsv.hue, hsv.saturation, value], |light| light.to_array()),
-            is_light: swatch.light.is_some(),
-            level: level.to_array(),
-            lights: lights.into_iter().map(|(name, level)| (name, level.to_array())).collect(),
+            vertex: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
+            hue_saturation_value: light.is_none().then_some([hsv.hue, hsv.saturation, value]),
+            linear: light,
+            light_level: level.to_array(),
+            lights: lights
+                .into_iter()
+                .map(|(light, level)| LightPart { light, level: level.to_array() })
+                .collect(),
         }
     }
 }

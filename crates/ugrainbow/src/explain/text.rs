@@ -1,75 +1,50 @@
 //! An explanation as text.
 
-use std::fmt::{self, Write};
+use ugpicture::explain::text::{Lines, described, level, number, numbers};
+use ugpicture::explain::{Explanation, WriteSample};
 
-use ugpicture::explain::text::{
-    angles, body, described, event, level, number, numbers, row, write_color, write_colors,
-};
-
-use super::{ExplainedCorner, ExplainedSample, Explanation};
+use super::{ExplainedCorner, ExplainedSample};
 
 /// Corners listed; a face may have thousands.
 const MAX_CORNERS: usize = 8;
 
-/// The explanation as text.
-pub fn text(explanation: &Explanation) -> String {
-    ugpicture::explain::text::explanation(&explanation.pixel, |out| match &explanation.sample {
-        Some(sample) => write_sample(out, sample, explanation),
-        None => Ok(()),
-    })
-}
+impl WriteSample for ExplainedSample {
+    fn place(&self) -> [f64; 2] {
+        self.place
+    }
 
-fn write_sample(out: &mut String, shown: &ExplainedSample, explanation: &Explanation) -> fmt::Result {
-    let [x, y] = shown.place;
-    writeln!(out, "\nthe covered sample nearest to the centre, at {} {}", number(x), number(y))?;
-    row(out, shown.item.kind, described(&shown.item))?;
-    row(out, "body", body(shown.beta, shown.gamma, explanation.pixel.is_at_rest))?;
-    if let Some(own_time) = shown.own_time {
-        row(out, "own time", number(own_time))?;
+    fn write(&self, out: &mut Lines, explanation: &Explanation<Self>) {
+        let surface = &self.surface;
+        out.surface(surface, explanation.is_at_rest);
+        out.doppler(surface.doppler, "P10", explanation.colors.as_ref());
+        out.rows("corner", &self.corners, MAX_CORNERS, corner_text);
+        if let Some(color) = &surface.color {
+            out.color(color);
+        }
+        out.row("light", format!("{} linear", numbers(&surface.linear)));
+        if let Some(cue) = self.depth_cue {
+            out.row("depth cueing", format!("leaves {} of it", number(cue)));
+        }
+        for (idx, layer) in self.layers.iter().enumerate() {
+            let (pass, light) = (number(layer.translucency), numbers(&layer.linear));
+            let title = if idx == 0 { "layers" } else { "behind it" };
+            out.row(title, format!("{}: translucency {pass}, light {light}", described(&layer.item)));
+        }
     }
-    row(
-        out,
-        "emission",
-        event(Some(shown.emission.0), shown.emission.1.to_array(), "camera frame, from the eye"),
-    )?;
-    row(out, "", event(shown.rest.0, shown.rest.1.to_array(), "rest frame"))?;
-    if let Some(angles_deg) = shown.angles_deg {
-        row(out, "seen at", angles(angles_deg))?;
-    }
-    row(out, "D", format!("{} (P10)", number(shown.doppler)))?;
-    write_colors(out, explanation.stage.seen_colors(), shown.doppler)?;
-    for corner in shown.corners.iter().take(MAX_CORNERS) {
-        row(out, "corner", corner_text(corner))?;
-    }
-    if shown.corners.len() > MAX_CORNERS {
-        row(out, "", format!("and {} more", shown.corners.len() - MAX_CORNERS))?;
-    }
-    if let Some(color) = &shown.color {
-        write_color(out, color)?;
-    }
-    row(out, "light", format!("{} linear", numbers(&shown.light.map(f64::from))))?;
-    if let Some(cue) = shown.cue {
-        row(out, "depth cueing", format!("leaves {} of it", number(f64::from(cue))))?;
-    }
-    for (idx, layer) in shown.layers.iter().enumerate() {
-        let (pass, light) = (number(f64::from(layer.translucency)), numbers(&layer.light.map(f64::from)));
-        let title = if idx == 0 { "layers" } else { "behind it" };
-        row(out, title, format!("{}: translucency {pass}, light {light}", described(&layer.item)))?;
-    }
-    Ok(())
 }
 
 fn corner_text(corner: &ExplainedCorner) -> String {
-    let color = if corner.is_light {
-        format!("linear {}", numbers(&corner.color))
-    } else {
-        let [hue, saturation, value] = corner.color.map(number);
-        format!("hue {hue}, saturation {saturation}, value {value}")
+    let color = match (corner.linear, corner.hue_saturation_value) {
+        (Some(light), _) => format!("linear {}", numbers(&light)),
+        (_, hsv) => {
+            let [hue, saturation, value] = hsv.unwrap_or_default().map(number);
+            format!("hue {hue}, saturation {saturation}, value {value}")
+        }
     };
-    let mut text = format!("`{}` {color}; lit {}", corner.name, level(&corner.level));
+    let mut text = format!("`{}` {color}; lit {}", corner.vertex, level(&corner.light_level));
     if corner.lights.len() > 1 {
         let parts: Vec<String> =
-            corner.lights.iter().map(|(light, part)| format!("{} {light}", level(part))).collect();
+            corner.lights.iter().map(|part| format!("{} {}", level(&part.level), part.light)).collect();
         text += &format!(" = {}", parts.join(" + "));
     }
     text

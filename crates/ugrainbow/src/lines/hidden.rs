@@ -1,17 +1,11 @@
 //! The visible parts of lines.
 
-use ugpicture::visible_runs;
+use ugpicture::visible_parts;
 
 use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
 
 /// Cells along a side of the grid by which faces far from all lines are skipped.
 const CELLS: usize = 256;
-
-/// Distance in samples between the rays that decide which parts of a line are occluded.
-const STEP: f64 = 0.5;
-
-/// Most rays along a straight piece; no picture is longer.
-const MOST_STEPS: f64 = 1e6;
 
 /// Decides which parts of a line are visible.
 pub struct Visibility<'a> {
@@ -22,7 +16,7 @@ pub struct Visibility<'a> {
 
 enum Occlusion<'a> {
     Polygons(Occluders),
-    Rays(&'a (dyn Fn([f64; 2], f64) -> bool + Sync)),
+    Rays(&'a (dyn Fn(DepthPoint) -> bool + Sync)),
 }
 
 impl<'a> Visibility<'a> {
@@ -33,11 +27,7 @@ impl<'a> Visibility<'a> {
     }
 
     /// Occlusion by rays. `is_hidden`: true if a point of the picture is occluded at a depth key.
-    pub fn by_rays(
-        is_hidden: &'a (dyn Fn([f64; 2], f64) -> bool + Sync),
-        size: [u32; 2],
-        margin: f64,
-    ) -> Self {
+    pub fn by_rays(is_hidden: &'a (dyn Fn(DepthPoint) -> bool + Sync), size: [u32; 2], margin: f64) -> Self {
         Self { occlusion: Occlusion::Rays(is_hidden), picture: picture(size, margin) }
     }
 
@@ -48,7 +38,7 @@ impl<'a> Visibility<'a> {
         };
         match &self.occlusion {
             Occlusion::Polygons(occluders) => occluders.visible(a, b, within),
-            Occlusion::Rays(is_hidden) => by_rays(a, b, within, is_hidden),
+            Occlusion::Rays(is_hidden) => visible_parts([a, b], within, is_hidden),
         }
     }
 }
@@ -60,26 +50,6 @@ fn picture(size: [u32; 2], margin: f64) -> Option<Convex> {
 
 fn along(a: DepthPoint, b: DepthPoint, part: f64) -> DepthPoint {
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * part)
-}
-
-/// Tests the middles of short steps.
-fn by_rays(
-    a: DepthPoint,
-    b: DepthPoint,
-    [start, end]: [f64; 2],
-    is_hidden: &(dyn Fn([f64; 2], f64) -> bool + Sync),
-) -> Vec<[f64; 2]> {
-    let length = libm::hypot(b[0] - a[0], b[1] - a[1]) * (end - start);
-    // At least one, and in range.
-    let n_steps = (length / STEP).ceil().clamp(1.0, MOST_STEPS) as u32;
-    let at = |step: u32| {
-        if step == n_steps { end } else { start + (end - start) * f64::from(step) / f64::from(n_steps) }
-    };
-    let is_visible = |step: u32| {
-        let [x, y, key] = along(a, b, 0.5 * (at(step) + at(step + 1)));
-        !is_hidden([x, y], key)
-    };
-    visible_runs(n_steps, is_visible).into_iter().map(|run| [at(run.start), at(run.end)]).collect()
 }
 
 /// Faces that may occlude lines, in convex parts.

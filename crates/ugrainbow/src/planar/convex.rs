@@ -1,11 +1,8 @@
 //! Convex polygons in the picture plane that are planar in depth.
 
-use ugpicture::clip_line;
+use ugpicture::{DepthPoint, clip_line};
 
 use super::clip::clip_edges;
-
-/// Column, row and depth key; the key is larger for what is nearer.
-pub type DepthPoint = [f64; 3];
 
 /// Areas below this many square pixels count as empty: rounding makes such slivers along shared
 /// edges.

@@ -1,6 +1,8 @@
 //! Polygons in the picture plane cut to the picture, and into convex flat parts.
 
-use super::convex::{Convex, DepthPoint, clip, doubled_area, sides};
+use ugpicture::DepthPoint;
+
+use super::convex::{Convex, clip, doubled_area, sides};
 
 /// Clips a contour to the picture and a `margin` around it.
 pub fn clipped_to_picture(mut contour: Vec<DepthPoint>, size: [u32; 2], margin: f64) -> Vec<DepthPoint> {

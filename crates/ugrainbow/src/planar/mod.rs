@@ -9,6 +9,7 @@ mod decompose;
 
 pub use box_index::BoxIndex;
 pub use clip::clip_edges;
-pub use convex::{Convex, DepthOrder, DepthPoint, doubled_area, sides};
+pub use convex::{Convex, DepthOrder, doubled_area, sides};
 pub use cover::is_covered;
 pub use decompose::{clipped_to_picture, convex_parts};
+pub use ugpicture::DepthPoint;

@@ -2,6 +2,7 @@
 
 use ugraster::{Corner, TRANSPARENT_VALUES};
 
+use crate::lines::between;
 use crate::planar::{Convex, DepthPoint, clipped_to_picture, convex_parts, doubled_area, sides};
 
 /// Margin around the picture, in pixels, to which polygons are clipped.
@@ -62,14 +63,14 @@ impl Patch {
             .iter()
             .flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)))
             .filter(|(a, b)| (a.y <= y) != (b.y <= y))
-            .map(|(a, b)| mixed(a, b, (y - a.y) / (b.y - a.y)))
+            .map(|(a, b)| between(a, b, (y - a.y) / (b.y - a.y)))
             .collect();
         crossings.sort_by(|a, b| a.x.total_cmp(&b.x));
         let distance = |pair: &[Corner<TRANSPARENT_VALUES>]| (pair[0].x - x).max(x - pair[1].x).max(0.0);
         let nearest = crossings.chunks_exact(2).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let here = match nearest {
             Some([left, right]) if right.x > left.x => {
-                mixed(left, right, ((x - left.x) / (right.x - left.x)).clamp(0.0, 1.0))
+                between(left, right, ((x - left.x) / (right.x - left.x)).clamp(0.0, 1.0))
             }
             Some([left, ..]) => *left,
             _ => self.contours[0][0],
@@ -91,20 +92,6 @@ impl Patch {
         };
         let first = values(self.contours.first()?.first()?);
         self.contours.iter().flatten().all(|corner| values(corner) == first).then_some(first)
-    }
-}
-
-fn mixed(
-    a: &Corner<TRANSPARENT_VALUES>,
-    b: &Corner<TRANSPARENT_VALUES>,
-    part: f64,
-) -> Corner<TRANSPARENT_VALUES> {
-    let mix = |a: f64, b: f64| a + (b - a) * part;
-    Corner {
-        x: mix(a.x, b.x),
-        y: mix(a.y, b.y),
-        key: mix(a.key, b.key),
-        values: std::array::from_fn(|i| mix(a.values[i], b.values[i])),
     }
 }
 

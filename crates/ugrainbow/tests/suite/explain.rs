@@ -85,8 +85,9 @@ fn the_last_step_is_the_picture() {
 
 fn check_parts(told: &Value) {
     let covers = told["covers"].as_array().unwrap();
-    let sum: f64 = covers.iter().map(|cover| number(&cover["part"])).sum();
-    assert!((sum + number(&told["background_part"]) - 1.0).abs() < 1e-12);
+    let sum: u64 = covers.iter().map(|cover| cover["samples"].as_u64().unwrap()).sum();
+    let [columns, rows] = [0, 1].map(|axis| told["samples"][axis].as_u64().unwrap());
+    assert_eq!(sum + told["background_samples"].as_u64().unwrap(), columns * rows);
     assert_eq!(covers.is_empty(), told["sample"].is_null());
 }
 

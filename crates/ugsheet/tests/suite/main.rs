@@ -179,16 +179,17 @@ fn the_program_reads_files_and_standard_input() {
 fn errors_have_messages_and_exit_status() {
     let folder = folder();
     fs::write(folder.path().join("text.png"), "no picture").unwrap();
-    let figure = Format::Pdf.encode(&picture("figure", 90, 70, 5).frame, &Metadata::default());
-    fs::write(folder.path().join("good.pdf"), &figure).unwrap();
-    // An object that is not read before the sheet is written.
-    let width = figure.windows(9).position(|bytes| bytes == b"/Width 90").unwrap();
-    let broken = [&figure[..width], b"/Width <z", &figure[width + 9..]].concat();
-    fs::write(folder.path().join("bad.pdf"), broken).unwrap();
+    for format in [Format::Pdf, Format::Svg, Format::Eps] {
+        let file = format.encode(&picture("figure", 90, 70, 5).frame, &Metadata::default());
+        fs::write(folder.path().join(format!("figure.{}", format.name())), file).unwrap();
+    }
     for (args, status, message) in [
         ("text.png", 1, "`text.png`: not a PNG file"),
         ("rest.png none.png", 1, "none.png"),
-        ("good.pdf bad.pdf", 1, "`bad.pdf`: invalid PDF"),
+        ("rest.png figure.pdf", 1, "`figure.pdf` is a PDF file, and a sheet consists of PNG files"),
+        ("figure.svg", 1, "each with `\\includegraphics` in a `minipage`"),
+        ("figure.eps", 1, "`figure.eps` is a PostScript file"),
+        ("--tiles figure.pdf", 1, "`figure.pdf` is a PDF file"),
         ("-label x rest.png fast.png", 2, "1 label for 2 pictures: give -label once"),
         ("-cap 漢 rest.png", 2, "the font has no `漢`"),
         ("-fo sheet.exr rest.png", 2, "name one with -dt"),

@@ -1,0 +1,37 @@
+//! The tests of several crates, in one program: `cargo test -p ugtests MODULE` runs those of a module.
+
+#![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, its helpers too")]
+
+mod acceleration;
+mod determinism;
+mod docs;
+mod documents;
+mod exact;
+mod faces;
+mod figures;
+mod film;
+mod golden;
+mod help;
+mod history;
+mod hostile;
+mod laws;
+mod light;
+mod limits;
+mod look;
+mod mesh;
+mod notes;
+mod oracle;
+mod own_time;
+mod photon;
+mod postscript;
+mod processors;
+mod prompt;
+mod reader;
+mod stage;
+mod stop;
+mod tidy;
+mod untrusted;
+mod warp;
+mod world_lines;
+mod worlds;
+mod z_skipped;
