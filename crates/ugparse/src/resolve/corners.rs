@@ -1,5 +1,6 @@
 //! Resolves the corners of faces and wires.
 
+use rayon::prelude::*;
 use ugscene::VertexId;
 
 use super::undefined::read_again;
@@ -15,10 +16,11 @@ pub(super) fn link_corners(scope: &mut Scope<'_>) -> bool {
     let names = std::mem::take(&mut scope.vertex_names);
     let mut rows = std::mem::take(&mut scope.vertex_rows);
     rows.resize(names.len(), NO_ROW);
-    let corners = scope.contours.all_corners_mut();
+    let (corners, _) = scope.contours.parts_mut();
     let in_order = rows.iter().enumerate().all(|(number, &row)| number == row as usize);
-    if !in_order {
-        ugparallel::for_each_mut(corners, LEAST_ROWS, |_, corner| *corner = VertexId(rows[corner.index()]));
+    if !scope.is_linked && !in_order {
+        let corners = corners.par_iter_mut().with_min_len(LEAST_ROWS);
+        corners.for_each(|corner| *corner = VertexId(rows[corner.index()]));
     }
     let is_complete = in_order || !corners.contains(&VertexId(NO_ROW));
     scope.vertex_names = names;
