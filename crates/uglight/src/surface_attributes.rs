@@ -82,6 +82,11 @@ impl SurfaceAttributes {
         self.rows[vertex.index()]
     }
 
+    /// True if a vertex has a colour of a display.
+    pub fn has_display(&self) -> bool {
+        self.rows.iter().any(|&row| self.swatches[row as usize].is_display)
+    }
+
     /// The row of a colour of the scene, or of white.
     pub fn row_of(&self, color: Option<ColorId>) -> u32 {
         color.map_or(self.white, row)
