@@ -1,11 +1,11 @@
-//! Maintenance tasks: generate scenes, run benchmarks, measure accuracy.
+//! Maintenance tasks: generate scenes, run benchmarks, draw figures, install.
 //!
 //! ```text
 //! cargo xtask teapot > scenes/teapot.ug
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
 //! cargo xtask bench
 //! cargo xtask bench photon --against ../before/target/release
-//! cargo xtask geometry > tables.md
+//! cargo xtask instructions
 //! cargo xtask gallery
 //! cargo xtask plots figures
 //! cargo xtask directions > scenes/directions.ug
@@ -22,10 +22,10 @@ mod bench;
 mod cluster;
 mod directions;
 mod gallery;
-mod geometry;
 mod globe;
 mod hostile;
 mod install;
+mod instructions;
 mod mesh;
 mod plot;
 mod plots;
@@ -88,9 +88,11 @@ enum Task {
     ///
     /// Requires hyperfine, which Debian and Homebrew have a package of.
     Bench(bench::Args),
-    /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
-    /// Markdown
-    Geometry(geometry::Args),
+    /// Count the instructions that the programs execute on fixed work, and compare with
+    /// xtask/instructions.csv, as Markdown
+    ///
+    /// Requires valgrind, the Debian package valgrind.
+    Instructions(instructions::Args),
     /// Draw the plots of the papers, as SVG and PNG
     Plots {
         /// Folder of the files
@@ -153,7 +155,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
         Task::Bench(args) => bench::write(&mut out, args)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
-        Task::Geometry(args) => geometry::write(&mut out, args)?,
+        Task::Instructions(args) => instructions::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Plots { folder } => plots::write(folder)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,

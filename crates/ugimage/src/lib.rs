@@ -45,6 +45,7 @@ mod develop;
 mod eps;
 mod exr;
 pub mod figure;
+mod fill;
 mod filter;
 mod format;
 mod frame;
