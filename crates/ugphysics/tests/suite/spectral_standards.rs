@@ -1,7 +1,7 @@
 //! The observer, the illuminant and black bodies, against published numbers.
 
 use ugphysics::spectrum::{Spectrum, daylight, integrate, observer, planck};
-use ugphysics::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};
+use ugphysics::WHITE_XYZ;
 
 #[track_caller]
 fn check(found: f64, expected: f64, tolerance: f64) {

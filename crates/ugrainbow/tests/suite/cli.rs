@@ -101,7 +101,7 @@ fn bad_usage_ends_with_2() {
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
     check("-vec", "this format has only pixels: with -vec write -dt eps, ps, pdf or svg");
     check("-zz", "there is no option");
-    for both in ["-bg .5 -tb", "-ih -wi", "-dp -tb", "-vec -dp"] {
+    for both in ["-bg .5 -tb", "-ih -wi"] {
         check(both, "cannot be given together");
     }
 }
