@@ -5,6 +5,7 @@
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
 //! cargo xtask bench
 //! cargo xtask bench photon --against ../before/target/release
+//! cargo xtask instructions
 //! cargo xtask geometry > tables.md
 //! cargo xtask gallery
 //! cargo xtask plots figures
@@ -26,6 +27,7 @@ mod geometry;
 mod globe;
 mod hostile;
 mod install;
+mod instructions;
 mod mesh;
 mod plot;
 mod plots;
@@ -88,6 +90,11 @@ enum Task {
     ///
     /// Requires hyperfine, which Debian and Homebrew have a package of.
     Bench(bench::Args),
+    /// Count the instructions that the programs execute on fixed work, and compare with
+    /// xtask/instructions.csv, as Markdown
+    ///
+    /// Requires valgrind, the Debian package valgrind.
+    Instructions(instructions::Args),
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
@@ -153,6 +160,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
         Task::Bench(args) => bench::write(&mut out, args)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
+        Task::Instructions(args) => instructions::write(&mut out, args)?,
         Task::Geometry(args) => geometry::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Plots { folder } => plots::write(folder)?,

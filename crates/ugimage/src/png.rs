@@ -157,6 +157,7 @@ impl<'a> Image<'a> {
         rows: impl Iterator<Item = R>,
         mut fill: impl FnMut(R, &mut [u8]),
     ) -> Result<Vec<u8>, EncodingError> {
+        let is_stored = matches!(compression, png::Compression::NoCompression);
         let mut file = Vec::new();
         let mut encoder = Encoder::new(&mut file, self.size[0], self.size[1]);
         encoder.set_color(if self.is_opaque { ColorType::Rgb } else { ColorType::Rgba });
@@ -169,13 +170,20 @@ impl<'a> Image<'a> {
             encoder.add_itxt_chunk(XMP.into(), area.xmp(self.size))?;
         }
         let mut writer = encoder.write_header()?;
-        let mut stream = writer.stream_writer_with_size(CHUNK)?;
-        let mut bytes = vec![0; self.stride()];
-        for row in rows {
-            fill(row, &mut bytes);
-            stream.write_all(&bytes)?;
+        if is_stored {
+            // The stream copies bytes slowly.
+            let mut bytes = vec![0; self.stride() * self.size[1] as usize];
+            rows.zip(bytes.chunks_exact_mut(self.stride())).for_each(|(row, bytes)| fill(row, bytes));
+            writer.write_image_data(&bytes)?;
+        } else {
+            let mut stream = writer.stream_writer_with_size(CHUNK)?;
+            let mut bytes = vec![0; self.stride()];
+            for row in rows {
+                fill(row, &mut bytes);
+                stream.write_all(&bytes)?;
+            }
+            stream.finish()?;
         }
-        stream.finish()?;
         writer.finish()?;
         Ok(file)
     }

@@ -106,6 +106,11 @@ impl Appearance {
         self.spectra.is_some() || self.hue_shift == HueShift::NONE
     }
 
+    /// True if a face may be drawn with colours of a display as light.
+    pub fn draws_display(&self) -> bool {
+        self.palette.has_display() && self.surface.has_display()
+    }
+
     /// True if colours are spectra.
     #[inline]
     pub fn is_spectral(&self) -> bool {

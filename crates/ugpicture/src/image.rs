@@ -1,7 +1,7 @@
 //! A rendered picture.
 
 use rayon::prelude::*;
-use ugimage::{Compression, Development, Frame, LinearFrame, Metadata};
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, Quantizer, display_pixel};
 
 use crate::options::PictureOptions;
 use crate::output::Output;
@@ -31,13 +31,27 @@ impl Image {
             return (Self::Light(light), None);
         }
         let development = (!is_clipped).then(|| options.development(|| &light));
-        if let Some(development) = development {
-            light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
-                [*red, *green, *blue] = development.apply([*red, *green, *blue]);
-            });
-        }
         let is_deep = options.output.format().is_deep();
-        (if is_deep { Self::Light(light) } else { Self::Display(light.to_display()) }, development)
+        let image = match development.map(Development::converter) {
+            Some(convert) if is_deep => {
+                light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
+                    [*red, *green, *blue] = convert([*red, *green, *blue]);
+                });
+                Self::Light(light)
+            }
+            Some(convert) => {
+                let quantizer = Quantizer::new();
+                let shown = |&[red, green, blue, part]: &[f32; 4]| {
+                    let [red, green, blue] = convert([red, green, blue]);
+                    display_pixel(&quantizer, [red, green, blue, part], light.is_opaque())
+                };
+                let pixels = light.pixels().par_iter().with_min_len(CHUNK).map(shown).collect();
+                Self::Display(Frame::new([light.width(), light.height()], light.is_opaque(), pixels))
+            }
+            None if is_deep => Self::Light(light),
+            None => Self::Display(light.to_display()),
+        };
+        (image, development)
     }
 
     /// As 8-bit pixels.

@@ -184,12 +184,11 @@ fn colors_of<const N: usize>(
 ) -> impl Fn(f64) -> [[f64; 3]; N] + Sync {
     let lights = spectra.each_ref().map(LightSpectrum::new);
     move |ln_doppler| {
-        std::array::from_fn(|idx| {
-            xyz_to_linear_srgb(match *range == ALL_NM {
-                true => spectra[idx].shifted(libm::exp(ln_doppler)),
-                false => shifted(&lights[idx], range, ln_doppler),
-            })
-        })
+        let xyz = match *range == ALL_NM {
+            true => Spectrum::all_shifted(spectra.each_ref(), libm::exp(ln_doppler)),
+            false => lights.each_ref().map(|light| shifted(light, range, ln_doppler)),
+        };
+        xyz.map(xyz_to_linear_srgb)
     }
 }
 

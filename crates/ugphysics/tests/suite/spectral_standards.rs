@@ -1,7 +1,7 @@
 //! The observer, the illuminant and black bodies, against published numbers.
 
-use ugphysics::spectrum::{Spectrum, daylight, integrate, observer, planck};
 use ugphysics::WHITE_XYZ;
+use ugphysics::spectrum::{Spectrum, daylight, integrate, observer, planck};
 
 #[track_caller]
 fn check(found: f64, expected: f64, tolerance: f64) {
