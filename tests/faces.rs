@@ -4,14 +4,10 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use ugimage::{LinearFrame, Samples};
 use uglight::ColorShift;
-use uglorentz::Pieces;
-use ugparse::{Options, Source};
-use ugphoton::RayOptions;
-use ugrainbow::{Channel, Output, PictureOptions};
-use ugscene::{MotionOptions, Scene};
+use ugrainbow::Channel;
 use ugtesting::Random;
+use ugtests::worlds::picture::{Drawn, Picture, Renderer};
 
 const SIZE: [u32; 2] = [64, 48];
 
@@ -89,66 +85,18 @@ fn lights(random: &mut Random, unit: f64, shift: ColorShift) -> String {
     )
 }
 
-fn read(text: &[u8]) -> Scene {
-    let parsed = ugparse::read(&Source::new("world.ug", text), &Options::default(), None);
-    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
-}
-
-fn picture() -> PictureOptions {
-    let output = Output::Color(ugimage::Format::Exr);
-    PictureOptions {
-        size: SIZE,
-        samples: 1,
-        channels: vec![Channel::Id],
-        output,
-        ..PictureOptions::default()
-    }
-}
-
-fn by_rays(text: &str, shift: ColorShift) -> LinearFrame {
-    let config = ugphoton::Config {
-        motion: MotionOptions::default(),
-        shift,
-        picture: picture(),
-        rays: RayOptions { depth: 0, shadows: false, ..RayOptions::default() },
-        ..ugphoton::Config::default()
-    };
-    ugphoton::light(read(text.as_bytes()), &config).unwrap()
-}
-
-fn seen(text: &str, pieces: Pieces) -> Scene {
-    let config = uglorentz::Config { pieces, size: SIZE, ..uglorentz::Config::default() };
-    let (scene, _) = uglorentz::apply(read(text.as_bytes()), &config).unwrap();
-    // Through text, as between programs.
-    read(&ugparse::write(&scene))
-}
-
-fn exact(text: &str, shift: ColorShift) -> LinearFrame {
-    let config = ugrainbow::Config { picture: picture(), exact: Some(shift), ..ugrainbow::Config::default() };
-    ugrainbow::light(&seen(text, Pieces::PerEdge(1)), &config).unwrap()
-}
-
-/// In the pipe, after cutting, every piece has an id of its own.
-fn by_pipe(text: &str, shift: ColorShift) -> LinearFrame {
-    let config = ugdoppler::Config { shift, keep: true, ..ugdoppler::Config::default() };
-    let (scene, _) = ugdoppler::apply(seen(text, Pieces::UpTo(1e-4)), &config).unwrap();
-    let config = ugrainbow::Config { picture: picture(), ..ugrainbow::Config::default() };
-    ugrainbow::light(&read(&ugparse::write(&scene)), &config).unwrap()
-}
-
-fn ids(frame: &LinearFrame) -> &[u32] {
-    match &frame.planes().iter().find(|plane| plane.name == "id").unwrap().samples {
-        Samples::Whole(ids) => ids,
-        Samples::Float(_) => panic!("ids are whole numbers"),
-    }
+fn drawn(text: &str, renderer: Renderer, shift: ColorShift) -> Drawn {
+    let picture = Picture::of_scene(text.to_owned(), shift).like_pipe().by(renderer);
+    let picture = Picture { size: SIZE, channels: vec![Channel::Id], ..picture };
+    picture.draw().unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The pixels off an edge in the ray tracer's picture, and how many of them differ by more than
 /// `tolerance` of the brightest channel, and the largest difference.
-fn compare(rays: &LinearFrame, other: &LinearFrame, tolerance: f64) -> (usize, usize, f64) {
-    let (width, ids) = (SIZE[0] as usize, ids(rays));
-    let brightest =
-        rays.pixels().iter().flat_map(|pixel| &pixel[..3]).fold(0.0_f64, |most, &part| most.max(part.into()));
+fn compare(rays: &Drawn, other: &Drawn, tolerance: f64) -> (usize, usize, f64) {
+    let (width, ids) = (SIZE[0] as usize, rays.ids());
+    let (light, other) = (rays.light(), other.light());
+    let brightest = light.iter().flatten().fold(0.0_f64, |most, &part| most.max(part.into()));
     let (mut n, mut n_wrong, mut most) = (0, 0, 0.0_f64);
     for (row, column) in (1..SIZE[1] as usize - 1).flat_map(|row| (1..width - 1).map(move |x| (row, x))) {
         let at = row * width + column;
@@ -157,7 +105,7 @@ fn compare(rays: &LinearFrame, other: &LinearFrame, tolerance: f64) -> (usize, u
         if ids[at] == 0 || !is_off_edge {
             continue;
         }
-        let pair = rays.pixels()[at].iter().zip(&other.pixels()[at]).take(3);
+        let pair = light[at].iter().zip(other[at]);
         let difference = pair.map(|(a, b)| f64::from((a - b).abs())).fold(0.0, f64::max) / brightest;
         (n, n_wrong, most) = (n + 1, n_wrong + usize::from(difference > tolerance), most.max(difference));
     }
@@ -178,7 +126,8 @@ fn exact_pictures_are_those_of_rays() {
         let world = world(&mut random, unit, seed % 2 == 1);
         for shift in shifts() {
             let text = world.clone() + &lights(&mut random.clone(), unit, shift);
-            let (n, n_wrong, most) = compare(&by_rays(&text, shift), &exact(&text, shift), EXACT);
+            let of = |renderer| drawn(&text, renderer, shift);
+            let (n, n_wrong, most) = compare(&of(Renderer::Rays), &of(Renderer::Exact), EXACT);
             assert_eq!(n_wrong, 0, "world {seed}, {shift:?}: of {n} pixels, by {most:.1e}\n{text}");
             n_all += n;
         }
@@ -196,7 +145,8 @@ fn pictures_of_the_pipe_at_rest_are_those_of_rays() {
         let world = world(&mut random, unit, false);
         for shift in shifts() {
             let text = world.clone() + &lights(&mut random.clone(), unit, shift);
-            let (n, n_wrong, most) = compare(&by_rays(&text, shift), &by_pipe(&text, shift), PIPE);
+            let of = |renderer| drawn(&text, renderer, shift);
+            let (n, n_wrong, most) = compare(&of(Renderer::Rays), &of(Renderer::Pipe), PIPE);
             assert_eq!(n_wrong, 0, "world {seed}, {shift:?}: of {n} pixels, by {most:.1e}\n{text}");
             n_all += n;
         }

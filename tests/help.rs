@@ -195,7 +195,7 @@ fn examples_in_help_work() {
 /// A shell asks for completions: options with their meaning, and a slash where files are meant.
 #[test]
 fn programs_complete_command_lines() {
-    let folder = programs::of_this_profile();
+    let folder = programs::folder();
     let completed = |program: &str, words: &[&str]| {
         let output = Command::new(folder.join(program)).arg("--complete").args(words).output().unwrap();
         assert!(output.status.success() && output.stderr.is_empty());

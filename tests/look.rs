@@ -80,7 +80,6 @@ fn options_that_are_given_come_first() {
     check(&["ugphoton", "-look=light", "-br", "photon"], &["-vr", "-ex", "auto", "-tc", "filmic"]);
     check(&["ugdoppler", "-look=light", "-gw"], &["-vr"]);
     check(&["ugphoton", "-look=shape", "-br", "photon"], &["--no-doppler", "-vr"]);
-    check(&["ugrainbow", "-look=light", "-dp"], &[]);
     for linear in [["-dt", "exr"], ["-fo", "light.pfm"], ["-fo", "light.HDR"]] {
         check(&[&["ugphoton", "-look=light"], &linear[..]].concat(), &["-sp", "-vr"]);
     }

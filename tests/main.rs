@@ -22,7 +22,6 @@ mod mesh;
 mod notes;
 mod oracle;
 mod own_time;
-mod photon;
 mod postscript;
 mod processors;
 mod prompt;

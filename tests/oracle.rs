@@ -2,8 +2,7 @@
 //! the rest frames, see [`ugtests::oracle`] and [`ugtests::agreement`].
 
 use glam::DVec3;
-use ugtests::agreement::{MOST_FACES, Wrong, color_of, compare, face_of, painted, recolored};
-use ugtests::explanation::{are_edges_near, is_at_slit};
+use ugtests::agreement::{MOST_FACES, color_of, compare, face_of, painted, recolored};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::outline;
 use ugtests::picture::save;
@@ -175,57 +174,4 @@ fn outline_errors_are_within_the_bound() {
             assert!(errors.angle <= bound && errors.angle > bound / 10.0, "{name} {bound}: {errors:?}");
         }
     }
-}
-
-/// A post in front of two walls that meet a tenth of a pixel from one of its edges. Edges displaced
-/// by half a pixel explain that either wall is visible there, but not further inside the post or
-/// through it.
-#[test]
-fn edges_explain_what_they_can_and_no_more() {
-    // 100 pixels across a film 2 wide: a pixel is a fiftieth of the distance.
-    const SCENE: &str = "cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 90 90;
-        v a -0.2 5 -9; v b 0.2 5 -9; v c 0.2 5 9; v d -0.2 5 9; f (a b c d);
-        v e -9 10 -9; v f 0.42 10 -9; v g 0.42 10 9; v h -9 10 9; f (e f g h);
-        v i 9 10 -9; v j 9 10 9; f (f i j g);
-        v k -9 12 -9; v l 9 12 -9; v m 9 12 9; v n -9 12 9; f (k l m n);";
-    let scene = scenes::parse(SCENE.as_bytes());
-    let oracle = Oracle::new(&scene, DVec3::ZERO, None, false);
-    let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, [100, 100]);
-    let is_explained = |x: u32, shown: Option<usize>, reach: f64| {
-        let wrong = Wrong { pixel: [x, 50], is_at_boundary: true, shown: Ok(shown), expected: Some(0) };
-        are_edges_near(&oracle, &camera, &wrong, reach, 1e-4)
-    };
-    // The post ends at 52.0 and the walls meet at 52.1; the centre of pixel 51 is half a pixel
-    // inside.
-    assert_eq!(oracle.faces(&[camera.direction(51.5, 50.5)]), [Some(0)]);
-    assert!(is_explained(51, Some(1), 0.65) && is_explained(51, Some(2), 0.65));
-    assert!(!is_explained(51, Some(2), 0.55), "the walls meet farther away");
-    assert!(!is_explained(51, Some(3), 0.65), "it has no edge here, and the walls occlude it");
-    assert!(!is_explained(51, None, 0.65) && !is_explained(50, Some(2), 0.65));
-}
-
-/// A long edge of the upper face coincides with shorter edges of faces below it. Slits are possible
-/// there, but not next to the edge, nor where both sides have the same vertices, nor around a
-/// corner.
-#[test]
-fn slits_are_where_edges_have_different_vertices() {
-    const SCENE: &str = "cam -ep 0 0 0 -vc 0 9 0 -ud 0 0 1 -va 90 90;
-        v a -8 10 0; v b 0 10 0; v c 4 10 0; v d 8 10 0; v e -8 10 8; v f 0 10 8; v g 8 10 8;
-        v h -8 10 -8; v i 0 10 -8; v j 4 10 -8; v k 8 10 -8;
-        f (a b f e); f (b d g f); f (h i b a); f (i j c b); f (j k d c);";
-    let scene = scenes::parse(SCENE.as_bytes());
-    let oracle = Oracle::new(&scene, DVec3::ZERO, None, false);
-    let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, [100, 100]);
-    let is_slit = |x: u32, y: u32| {
-        let expected = oracle.faces(&[camera.direction(f64::from(x) + 0.5, f64::from(y) + 0.5)])[0];
-        let wrong = Wrong { pixel: [x, y], is_at_boundary: true, shown: Ok(None), expected };
-        assert!(expected.is_some());
-        is_at_slit(&oracle, &camera, &wrong, 0.6)
-    };
-    assert!(
-        is_slit(60, 50) && is_slit(60, 49) && is_slit(80, 50),
-        "along the edge of length 8 next to edges of length 4"
-    );
-    assert!(!is_slit(60, 51) && !is_slit(30, 50) && !is_slit(30, 49) && !is_slit(70, 60));
-    assert!(!is_slit(49, 50), "this face shares all its vertices with the others");
 }

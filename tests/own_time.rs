@@ -4,15 +4,14 @@
 //! A clock is a face whose Y is a hundredth of its own time.
 
 use glam::DVec3;
-use ugimage::LinearFrame;
 use uglight::ColorShift;
 use uglorentz::Pieces;
-use ugphoton::RayOptions;
 use ugphysics::{Brightness, Event, Lorentz, Velocity, compose};
-use ugrainbow::{Output, PictureOptions};
+use ugrainbow::Output;
 use ugscene::{Anchor, ColorValue, MotionOptions, Scene};
 use ugtests::pipe;
 use ugtests::scenes::parse;
+use ugtests::worlds::picture::{Picture, Renderer};
 
 /// The largest time that a clock shows, and the number of times in a unit of Y.
 const RANGE: f64 = 1000.0;
@@ -250,33 +249,23 @@ fn lamps_light_with_the_colour_they_had() {
     }
 }
 
-/// The picture of the pipe, and that by rays.
-fn pictures(scene: &Scene, shift: ColorShift) -> [LinearFrame; 2] {
-    let output = Output::Color(ugimage::Format::Exr);
-    let picture = PictureOptions { size: [80, 60], samples: 1, output, ..PictureOptions::default() };
+/// The light of the pipe, and that by rays.
+fn pictures(text: &str, shift: ColorShift) -> [Vec<[f32; 3]>; 2] {
     let motion = MotionOptions { time: 6.0, anchor: Some(Anchor::Origin), ..MotionOptions::default() };
-    let lorentz = uglorentz::Config { time: 6.0, anchor: motion.anchor, ..Default::default() };
-    let (seen, _) = uglorentz::apply(scene.clone(), &lorentz).unwrap();
-    let doppler = ugdoppler::Config { shift, tolerance: 0.0, keep: true, ..Default::default() };
-    let (colored, _) = ugdoppler::apply(seen, &doppler).unwrap();
-    let config = ugrainbow::Config { picture: picture.clone(), ..Default::default() };
-    let by_pipe = ugrainbow::light(&colored, &config).unwrap();
-    let rays = RayOptions { depth: 0, shadows: false, ..RayOptions::default() };
-    let config = ugphoton::Config { picture, motion, shift, rays, ..Default::default() };
-    [by_pipe, ugphoton::light(scene.clone(), &config).unwrap()]
+    let picture = Picture { motion, size: [80, 60], ..Picture::of_scene(text.to_owned(), shift).like_pipe() };
+    [Renderer::Pipe, Renderer::Rays].map(|renderer| picture.clone().by(renderer).draw().unwrap().light())
 }
 
 /// The scene, with the statements of three colours.
-fn faces(colors: &str) -> Scene {
-    let text = format!(
+fn faces(colors: &str) -> String {
+    format!(
         "c_rgb red 1 .1 .1; c_rgb pale .8 .8 .9; {colors}
          motion turning -at 2.5 0 .5 -spin 0 .4 0 -vel -.2 .3 0;
          v a -1 0 -1; v b 1 0 -1; v c 1 0 1; v d -1 0 1; f (a b c d) tick <.4 .2 0>;
          v e 2 0 0; v f 3 0 0; v g 3 0 1; v h 2 0 1; f (e f g h) wave <turning>;
          v i -3 1 -2; v j 4 1 -2; v k 4 1 2; v l -3 1 2; f (i j k l) still;
          l 1; cam -ep 1 -6 .5 -vc 1 0 .5;"
-    );
-    parse(text.as_bytes())
+    )
 }
 
 /// Faces of three bodies change, in steps and linearly: rays draw what the pipe draws, but for
@@ -289,9 +278,9 @@ fn rays_draw_what_the_pipe_draws() {
     );
     for shift in [ColorShift::NONE, ColorShift::SPECTRA] {
         let [pipe, rays] = pictures(&scene, shift);
-        let is_off = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).any(|k| (a[k] - b[k]).abs() > 4e-3);
-        let n_off = pipe.pixels().iter().zip(rays.pixels()).filter(|&pair| is_off(pair)).count();
-        let n_lit = rays.pixels().iter().filter(|pixel| pixel[0] > 0.0).count();
+        let is_off = |(a, b): (&[f32; 3], &[f32; 3])| (0..3).any(|k| (a[k] - b[k]).abs() > 4e-3);
+        let n_off = pipe.iter().zip(&rays).filter(|&pair| is_off(pair)).count();
+        let n_lit = rays.iter().filter(|pixel| pixel[0] > 0.0).count();
         assert!(n_lit > 2500 && n_off < 60, "{shift:?}: {n_off} of {n_lit}");
     }
 }
@@ -306,7 +295,7 @@ fn constant_tables_are_plain_colours() {
     );
     for shift in [ColorShift::hues(true, Brightness::Report), ColorShift::SPECTRA] {
         for (expected, found) in pictures(&plain, shift).iter().zip(pictures(&table, shift)) {
-            assert_eq!(expected.pixels(), found.pixels(), "{shift:?}");
+            assert_eq!(*expected, found, "{shift:?}");
         }
     }
 }

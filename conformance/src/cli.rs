@@ -78,7 +78,7 @@ struct ScoreArgs {
 struct ImageArgs {
     /// Name of the picture
     #[arg(value_parser = one_of(picture::CASES.iter().map(|case| case.name), picture_case))]
-    case: &'static str,
+    case: &'static PictureCase,
 
     #[command(flatten)]
     common: CommonArgs,
@@ -143,8 +143,8 @@ struct DrawArgs {
     image: ImageArgs,
 }
 
-fn picture_case(name: &str) -> Result<&'static str, String> {
-    picture::case(name).map(|case| case.name).ok_or_else(|| {
+fn picture_case(name: &str) -> Result<&'static PictureCase, String> {
+    picture::case(name).ok_or_else(|| {
         let names = picture::CASES.iter().map(|case| case.name);
         format!("unknown picture; choose one of {}", names.collect::<Vec<_>>().join(", "))
     })
@@ -202,9 +202,8 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             return Ok(card.counts()[1] == 0);
         }
         Command::ScoreImage(image) => {
-            let case = known(image.case)?;
             let input = context.input()?;
-            let (text, is_right) = score_image(case, &input.text)
+            let (text, is_right) = score_image(image.case, &input.text)
                 .map_err(|problem| Failure::failed(format!("{}: {problem}", input.name)))?;
             context.write_text(&text)?;
             return Ok(is_right);
@@ -221,9 +220,9 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
                 ));
             }
             let drawn_by = if *rays { DrawnBy::Rays } else { DrawnBy::Pipe };
-            context.write(&known(image.case)?.draw(drawn_by).map_err(Failure::failed)?)?;
+            context.write(&image.case.draw(drawn_by).map_err(Failure::failed)?)?;
         }
-        Command::Mesh(image) => context.write(&known(image.case)?.mesh().map_err(Failure::failed)?)?,
+        Command::Mesh(image) => context.write(&image.case.mesh().map_err(Failure::failed)?)?,
         Command::Table(TableArgs { table, .. }) => {
             context.write_text(&table().map_err(Failure::failed)?)?;
         }
@@ -254,10 +253,6 @@ fn no_command(word: Option<&Path>) -> Failure {
         Some(word) => format!("`{}` is not a command; {commands}", word.display()),
         None => format!("a command is missing; {commands}"),
     })
-}
-
-fn known(name: &str) -> Result<&'static PictureCase, Failure> {
-    picture::case(name).ok_or_else(|| Failure::usage("unknown picture"))
 }
 
 /// Writes all questions as text.

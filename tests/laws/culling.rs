@@ -60,6 +60,7 @@ fn pictures_stay_the_same_to_the_pixel() {
                 velocity: Some(beta),
                 camera: camera.clone(),
                 pieces: uglorentz::Pieces::UpTo(5e-3),
+                color_error: f64::INFINITY,
                 ..Default::default()
             };
             let mut pipe = pipe(lorentz);

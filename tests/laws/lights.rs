@@ -62,7 +62,9 @@ fn light_at_rest_in_a_moving_body_moves_along() {
     for velocity in ["0.6 0.3 -0.2", "0 -0.99 0"] {
         let beta: Vec<f64> = velocity.split(' ').map(|part| part.parse().unwrap()).collect();
         let seen = |lights: &str| {
-            let mut config = uglorentz::Config { in_place: true, time: 0.3, ..uglorentz::Config::default() };
+            let pieces = uglorentz::Pieces::PerEdge(4);
+            let mut config =
+                uglorentz::Config { in_place: true, time: 0.3, pieces, ..uglorentz::Config::default() };
             config.velocity = Some(DVec3::from_slice(&beta));
             numbers(&doppler(&lorentz(&room(lights), &config), &lit()))
         };
@@ -250,7 +252,9 @@ fn no_speed_breaks_it() {
     {
         let lights = with_velocity(&format!("<0 {light} 0>"));
         let velocity = Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap();
-        let config = uglorentz::Config { velocity: Some(velocity.beta()), ..uglorentz::Config::default() };
+        let pieces = uglorentz::Pieces::PerEdge(4);
+        let config =
+            uglorentz::Config { velocity: Some(velocity.beta()), pieces, ..uglorentz::Config::default() };
         for law in [Brightness::Report, Brightness::Bolometric] {
             let seen = doppler(
                 &lorentz(&room(&lights), &config),

@@ -1,5 +1,5 @@
-//! Laws that name a quantity (P12) hold in linear light: powers of D, sums over lamps, intensities
-//! and cosines, through the pipe and by rays.
+//! Laws that name a quantity (P12) hold in linear light: powers of D and cosines, through the pipe and
+//! by rays. Sums over lamps are in `tests/src/worlds/light.rs`.
 
 use glam::DVec3;
 use ugphoton::{CameraOptions, PictureOptions};
@@ -10,8 +10,8 @@ use ugphysics::{
 use ugtests::pipe::{doppler, lorentz};
 use ugtests::scenes;
 
-/// The laws that name a quantity, with the powers of D and of D_l.
-const LAWS: [(Brightness, i32, i32); 2] = [(Brightness::Photon, 3, 1), (Brightness::Bolometric, 4, 2)];
+/// The laws that name a quantity, with the powers of D.
+const LAWS: [(Brightness, i32); 2] = [(Brightness::Photon, 3), (Brightness::Bolometric, 4)];
 
 /// The ways to a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +108,7 @@ fn light_is_multiplied_by_a_power_of_d() {
         for color in COLORS {
             let Hsv { hue, saturation, value } = color;
             let text = format!("c own {value} {hue} {saturation};\n{}", square(v, toward, None, "own 1"));
-            for (law, power, _) in LAWS {
+            for (law, power) in LAWS {
                 for (engine, shifts) in ENGINES.iter().flat_map(|&engine| [(engine, false), (engine, true)]) {
                     let nm = hue_to_wavelength(hue) / if shifts { factor } else { 1.0 };
                     let shown = Hsv { hue: wavelength_to_hue(nm), ..color }.attenuated(attenuation(nm));
@@ -125,77 +125,12 @@ fn light_is_multiplied_by_a_power_of_d() {
     }
 }
 
-/// Light with a lamp of statement `lamp` on a coloured square.
-fn lit(engine: Engine, lamps: &[&str], law: Brightness, shifts: bool) -> DVec3 {
-    let (v, toward) = MOTIONS[3];
-    let normal = DVec3::new(-0.8, 0.5, 0.3);
-    let colors = "c own 0.7 130 0.4; c warm 0.9 60 0.5; c cool 0.8 170 0.7;";
-    let text = format!("{colors}\n{}\n{}", square(v, toward, Some(normal), "own"), lamps.join("\n"));
-    seen(engine, &text, toward, law, shifts)
-}
-
-#[test]
-fn two_lamps_are_the_sum_of_each() {
-    let at_rest = ["l 0.4;", "l 0.7 -2 1 2 warm;", "l 1.3 -1 3 2 0 cool;", "l 0.2 -5 0 0;"];
-    let moving = ["l 0.7 -2 1 2 <0.1 0.2 0>;", "l 1.3 -1 3 2 0 cool <0 -0.2 0.1>;"];
-    let check = |engine, lamps: &[&str], shifts| {
-        for (law, ..) in LAWS {
-            for (at, one) in lamps.iter().enumerate() {
-                for other in &lamps[at + 1..] {
-                    let sum: DVec3 =
-                        [one, other].map(|lamp| lit(engine, &[lamp], law, shifts)).into_iter().sum();
-                    let both = lit(engine, &[one, other], law, shifts);
-                    assert_light(both, sum, 1e-5, &format!("{engine:?} {law:?} {one} {other} {shifts}"));
-                }
-            }
-        }
-    };
-    for engine in ENGINES {
-        // Hues are shifted by one D.
-        check(engine, &at_rest, false);
-        check(engine, &[at_rest[0], at_rest[3]], true);
-    }
-    for engine in WITH_MOVING_LAMPS {
-        check(engine, &moving, false);
-        check(engine, &moving, true);
-    }
-}
-
-#[test]
-fn twice_the_intensity_is_twice_the_light() {
-    for (law, ..) in LAWS {
-        for lamp in ["", "-2 1 2", "-1 3 2 0 cool"] {
-            for engine in ENGINES {
-                let [one, three] =
-                    [0.25, 0.75].map(|level| lit(engine, &[&format!("l {level} {lamp};")], law, true));
-                assert_light(three, 3.0 * one, 1e-6, &format!("{engine:?} {law:?} {lamp}"));
-            }
-        }
-        for lamp in ["<0.1 0.2 0>", "-2 1 2 warm <0.1 0.2 0>", "-1 3 2 0 <0.5 0 0>"] {
-            for engine in WITH_MOVING_LAMPS {
-                let [one, three] =
-                    [0.25, 0.75].map(|level| lit(engine, &[&format!("l {level} {lamp};")], law, true));
-                assert_light(three, 3.0 * one, 1e-6, &format!("{engine:?} {law:?} {lamp}"));
-            }
-        }
-    }
-    // A light level of a face is an intensity.
-    for engine in ENGINES {
-        let (v, toward) = MOTIONS[3];
-        let of = |level: f64| {
-            let text = format!("c own 0.7 130 0.4;\n{}", square(v, toward, None, &format!("own {level}")));
-            seen(engine, &text, toward, Brightness::Photon, true)
-        };
-        assert_light(of(0.75), 3.0 * of(0.25), 1e-6, &format!("{engine:?}"));
-    }
-}
-
 #[test]
 fn light_falls_with_the_cosine() {
     let (v, toward) = MOTIONS[3];
     let normal = -place(v, toward).normalize();
     let aside = normal.any_orthonormal_vector();
-    for (law, power, _) in LAWS {
+    for (law, power) in LAWS {
         let factor = doppler_at(toward, Velocity::from_beta(v).unwrap());
         for engine in ENGINES {
             for degrees in [0.0_f64, 20.0, 45.0, 60.0, 85.0, 100.0] {
@@ -206,33 +141,6 @@ fn light_falls_with_the_cosine() {
                 let expected = libm::pow(factor, f64::from(power)) * 0.6 * cos.max(0.0) * srgb_decode(0.5);
                 let found = seen(engine, &text, toward, law, true);
                 assert_light(found, DVec3::splat(expected), 1e-5, &format!("{engine:?} {law:?} {degrees}"));
-            }
-        }
-    }
-}
-
-/// (P14): D_l from the lamp to the surface, D from the surface to the eye, all on one line.
-#[test]
-fn both_doppler_factors_multiply_light() {
-    for (body, lamp, d, d_lamp) in [
-        (0.6, 0.0, 0.5, 0.5),
-        (-0.6, 0.0, 2.0, 2.0),
-        (-0.6, 0.6, 2.0, 4.0),
-        (0.6, -0.6, 0.5, 0.25),
-        (0.0, 0.6, 1.0, 2.0),
-        (0.6, 0.6, 0.5, 1.0),
-    ] {
-        // From the direction of the eye, and from a lamp on the line of sight behind the eye.
-        for place in ["-1 0 0", "-300 0 0 0"] {
-            let v = DVec3::new(body, 0.0, 0.0);
-            let text = format!("c own 0.4;\n{}l 0.5 {place} <{lamp} 0 0>;", square(v, DVec3::X, None, "own"));
-            for (law, power, of_lamp) in LAWS {
-                for engine in WITH_MOVING_LAMPS {
-                    let factor = libm::pow(d, f64::from(power)) * libm::pow(d_lamp, f64::from(of_lamp));
-                    let expected = DVec3::splat(0.5 * factor * srgb_decode(0.4));
-                    let found = seen(engine, &text, DVec3::X, law, true);
-                    assert_light(found, expected, 1e-5, &format!("{engine:?} {law:?} {body} {lamp} {place}"));
-                }
             }
         }
     }

@@ -16,7 +16,6 @@ mod outlines;
 mod rest;
 mod silhouettes;
 mod switches;
-mod unseen;
 
 use std::collections::HashMap;
 

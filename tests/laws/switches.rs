@@ -25,7 +25,9 @@ fn still() -> (String, HashMap<String, DVec3>) {
 }
 
 fn seen(text: &str, change: impl FnOnce(&mut uglorentz::Config)) -> Vec<u8> {
-    let mut config = uglorentz::Config { velocity: Some(BETA), eye: Some(EYE), ..Default::default() };
+    // What is divided between the points is not looked at.
+    let pieces = uglorentz::Pieces::PerEdge(1);
+    let mut config = uglorentz::Config { velocity: Some(BETA), eye: Some(EYE), pieces, ..Default::default() };
     change(&mut config);
     pipe::lorentz(text.as_bytes(), &config)
 }
@@ -143,7 +145,7 @@ fn wavelengths_are_divided_by_d() {
 #[test]
 fn a_colour_depends_on_the_direction_it_is_seen_in_only() {
     let (text, points) = still();
-    let near_by = seen(&text, |config| config.pieces = uglorentz::Pieces::PerEdge(1));
+    let near_by = seen(&text, |_| {});
     // Every vertex is moved along its ray.
     let mut random = Random(3);
     let mut scene = parse(&near_by);

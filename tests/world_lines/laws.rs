@@ -7,9 +7,9 @@ use ugtests::picture::assert_same;
 use ugtests::pipe::Pipe;
 use ugtests::scenes::parse;
 use ugtests::world_lines::statement::words;
-use ugtests::world_lines::{Path, Statement, Stretch};
+use ugtests::world_lines::{Path, Statement};
 
-use super::{World, is_free, options, seen};
+use super::{World, options, seen};
 
 /// A cube with colours, lamps and a camera; `MOTION` is the motion of the cube.
 const CUBE: &str = "c red 1 20 .8; c blue .8 230;
@@ -83,36 +83,6 @@ fn a_camera_on_an_inertial_body_has_its_velocity() {
     }
 }
 
-/// A stretch of acceleration or spin in two parts.
-#[test]
-fn parts_of_a_stretch_are_the_stretch() {
-    let mut random = Random(6);
-    for _ in 0..30 {
-        let mut world = World::default();
-        let middle = random.in_ball(3.0);
-        let motion = Statement::random(&mut random, middle, 0.8);
-        world.add(&mut random, motion.clone(), middle, 3);
-        let mut parts = world.clone();
-        let halves = |pieces: &[Stretch]| -> Vec<Stretch> {
-            let split = |piece: &Stretch| {
-                let middle = 0.3 * piece.from + 0.7 * piece.to;
-                let (before, behind) = (Stretch { to: middle, ..*piece }, Stretch { from: middle, ..*piece });
-                if piece.to.is_finite() { vec![behind, before] } else { vec![*piece] }
-            };
-            pieces.iter().flat_map(split).collect()
-        };
-        parts.motions[0].spins = halves(&motion.spins);
-        if let Path::Free { velocity, accelerations } = motion.path {
-            parts.motions[0].path = Path::Free { velocity, accelerations: halves(&accelerations) };
-        }
-        let config = options(random.in_ball(8.0), random.between(-3.0, 3.0));
-        let (whole, parts) = (seen(&world.text(), &config), seen(&parts.text(), &config));
-        for (a, b) in whole.vertices.iter().zip(&parts.vertices) {
-            assert!((a.position - b.position).length() < 1e-12 * (1.0 + a.position.length()), "{a:?} {b:?}");
-        }
-    }
-}
-
 /// What rides on a body without turning on it, is the body.
 #[test]
 fn a_rider_without_spin_equals_its_carrier() {
@@ -158,44 +128,6 @@ fn twins_meet() {
     let scene = seen(&riding, &options(DVec3::new(0.0, 0.0, 0.05), 8.0));
     let seen_at = scene.vertices.iter().find(|vertex| scene.names.get(vertex.name) == "e").unwrap().position;
     assert!((seen_at - DVec3::new(3.0, 4.0, 0.0)).length() < 1e-11, "{seen_at}");
-}
-
-/// The whole world with another velocity: what a camera sees is the same. Every motion gets the
-/// velocity composed with that of the frame; the axes of bodies turn (Wigner), so velocities are
-/// along one line.
-#[test]
-fn a_boost_of_the_world_changes_no_position() {
-    let mut random = Random(8);
-    for _ in 0..40 {
-        let direction = random.direction();
-        let frame = random.between(-0.8, 0.8);
-        let compose = |v: f64| (v + frame) / (1.0 + v * frame);
-        let mut world = World::default();
-        for _ in 0..3 {
-            let middle = random.in_ball(3.0);
-            let mut motion = Statement::random(&mut random, middle, 0.8);
-            while !is_free(&motion) {
-                motion = Statement::random(&mut random, middle, 0.8);
-            }
-            let Path::Free { velocity, .. } = &mut motion.path else { unreachable!() };
-            *velocity = random.between(-0.8, 0.8) * direction;
-            world.add(&mut random, motion, middle, 2);
-        }
-        let camera = random.between(-0.8, 0.8);
-        let mut other = world.clone();
-        for motion in &mut other.motions {
-            let Path::Free { velocity, .. } = &mut motion.path else { unreachable!() };
-            *velocity = compose(velocity.dot(direction)) * direction;
-        }
-        // The eye is at the common origin.
-        let config = options(DVec3::ZERO, random.between(-3.0, 3.0));
-        let with =
-            |camera: f64| uglorentz::Config { camera_velocity: Some(camera * direction), ..config.clone() };
-        let (here, there) = (seen(&world.text(), &with(camera)), seen(&other.text(), &with(compose(camera))));
-        for (a, b) in here.vertices.iter().zip(&there.vertices) {
-            assert!((a.position - b.position).length() < 1e-10 * (1.0 + a.position.length()), "{a:?} {b:?}");
-        }
-    }
 }
 
 /// With `-in`, a body that hardly turns is where one that does not turn is, whatever the camera

@@ -13,7 +13,7 @@ mod vertices;
 use glam::DVec3;
 use ugscene::{Anchor, Scene};
 use ugtests::world_lines::statement::words;
-use ugtests::world_lines::{Body, Observer, Path, Statement, Triangle};
+use ugtests::world_lines::{Body, Observer, Statement, Triangle};
 
 /// Own times that are integrated.
 const RANGE: [f64; 2] = [-40.0, 25.0];
@@ -92,9 +92,4 @@ fn observer(eye: DVec3, velocity: DVec3, time: f64) -> Observer {
 fn seen(text: &str, config: &uglorentz::Config) -> Scene {
     let seen = ugtests::pipe::lorentz_scene(text.as_bytes(), config);
     seen.unwrap_or_else(|error| panic!("{error}\n{text}")).0
-}
-
-/// Does a motion, or one that it is on, accelerate?
-fn is_free(motion: &Statement) -> bool {
-    matches!(motion.path, Path::Free { .. })
 }

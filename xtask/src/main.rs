@@ -5,6 +5,7 @@
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
 //! cargo xtask bench
 //! cargo xtask bench photon --against ../before/target/release
+//! cargo xtask instructions
 //! cargo xtask geometry > tables.md
 //! cargo xtask gallery
 //! cargo xtask plots figures
@@ -26,6 +27,7 @@ mod geometry;
 mod globe;
 mod hostile;
 mod install;
+mod instructions;
 mod mesh;
 mod plot;
 mod plots;
@@ -37,6 +39,7 @@ mod teapot;
 mod worlds;
 
 use clap::{Parser, Subcommand};
+use std::error::Error;
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -87,6 +90,11 @@ enum Task {
     ///
     /// Requires hyperfine, which Debian and Homebrew have a package of.
     Bench(bench::Args),
+    /// Count the instructions that the programs execute on fixed work, and compare with
+    /// xtask/instructions.csv, as Markdown
+    ///
+    /// Requires valgrind, the Debian package valgrind.
+    Instructions(instructions::Args),
     /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
     /// Markdown
     Geometry(geometry::Args),
@@ -129,7 +137,7 @@ fn main() -> ExitCode {
     match run(&Args::parse().task) {
         Ok(()) => ExitCode::SUCCESS,
         // The other end of the pipe was closed (`| head`): not an error.
-        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) if is_broken_pipe(&*error) => ExitCode::SUCCESS,
         Err(error) => {
             // If standard error is closed, too, nothing can be reported.
             let _ = writeln!(io::stderr(), "xtask: {error}");
@@ -138,32 +146,29 @@ fn main() -> ExitCode {
     }
 }
 
-fn run(task: &Task) -> io::Result<()> {
+fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
+    error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
+}
+
+fn run(task: &Task) -> Result<(), Box<dyn Error>> {
     let mut out = BufWriter::new(io::stdout().lock());
     match task {
         Task::Teapot { squares } => teapot::write(&mut out, *squares)?,
         Task::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
         Task::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
-        Task::Directions { beta } => {
-            directions::write(&mut out, *beta).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Directions { beta } => directions::write(&mut out, *beta)?,
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
-        Task::Bench(args) => {
-            bench::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Bench(args) => bench::write(&mut out, args)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
-        Task::Geometry(args) => {
-            geometry::write(&mut out, args).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Instructions(args) => instructions::write(&mut out, args)?,
+        Task::Geometry(args) => geometry::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,
-        Task::Plots { folder } => {
-            plots::write(folder).map_err(|error| io::Error::other(error.to_string()))?;
-        }
+        Task::Plots { folder } => plots::write(folder)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => cluster::check()?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }
-    out.flush()
+    Ok(out.flush()?)
 }

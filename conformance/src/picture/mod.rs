@@ -25,6 +25,7 @@ use camera::Sight;
 pub use export::{cameras, objects};
 
 /// A case of the suite: a picture to be drawn and measured.
+#[derive(Debug)]
 pub struct PictureCase {
     /// Its name, one word.
     pub name: &'static str,
@@ -51,7 +52,7 @@ pub enum DrawnBy {
 }
 
 /// Options of this project's programs.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, Default)]
 struct DrawOptions {
     /// Colours are shifted.
     shift: bool,

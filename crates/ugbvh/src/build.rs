@@ -8,6 +8,7 @@
 
 use fearless_simd::Level;
 use glam::DVec3;
+use rayon::prelude::*;
 
 use crate::frame::{Frame, MAX_COORDINATE, exponent, power_of_two};
 use crate::nodes::{Block, IS_BLOCK, Node, WIDTH};
@@ -128,22 +129,18 @@ fn with_margins(
     margin: impl Fn(&Positions, usize) -> Option<f64> + Sync,
 ) -> Bvh {
     let frame = Frame::new(low, high);
-    let corners =
-        ugparallel::map(positions.len(), RANGE, |row| frame.to_box(positions[row]).map(|x| x as f32));
+    let corner = |position: &[f64; 3]| frame.to_box(*position).map(|x| x as f32);
+    let corners = positions.par_iter().with_min_len(RANGE).map(corner).collect();
     let mesh = Mesh { triangles, corners };
     let mut items = mesh.items(|triangle| Some((margin(&positions, triangle)? * frame.scale) as f32));
     let mut tree = Subtree::default();
     build_node(&mut items, 0, 0, &mut tree);
     let Subtree { nodes, leaves } = tree;
-    let mut blocks = vec![Block::EMPTY; leaves.len()];
-    ugparallel::for_each_mut(&mut blocks, RANGE / WIDTH, |idx, block| {
-        *block = mesh.block(leaves[idx], &items)
-    });
-    let mut sorted = vec![Triangle { corners: [0; 3], index: 0 }; items.len()];
-    ugparallel::for_each_mut(&mut sorted, RANGE, |row, triangle| {
-        let index = items[row].triangle;
-        *triangle = Triangle { corners: triangles[index as usize], index };
-    });
+    let leaves = leaves.par_iter().with_min_len(RANGE / WIDTH);
+    let blocks = leaves.map(|leaf| mesh.block(*leaf, &items)).collect();
+    let triangle =
+        |item: &Item| Triangle { corners: triangles[item.triangle as usize], index: item.triangle };
+    let sorted = items.par_iter().with_min_len(RANGE).map(triangle).collect();
     Bvh {
         level: Level::new(),
         frame,
@@ -168,11 +165,9 @@ fn bounds(
         ]
     };
     let empty = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    let ranges = triangles.len().div_ceil(RANGE);
-    let parts = ugparallel::map(ranges, 1, |range| {
-        let first = range * RANGE;
+    let parts = triangles.par_chunks(RANGE).enumerate().map(|(range, triangles)| {
         let mut bounds = empty;
-        for (row, triangle) in triangles.iter().enumerate().skip(first).take(RANGE) {
+        for (row, triangle) in (range * RANGE..).zip(triangles) {
             let Some(margin) = margin(positions, row) else { continue };
             for &corner in triangle {
                 let [low, high] =
@@ -182,7 +177,7 @@ fn bounds(
         }
         bounds
     });
-    let [low, high] = parts.into_iter().fold(empty, union);
+    let [low, high] = parts.collect::<Vec<_>>().into_iter().fold(empty, union);
     (low[0] <= high[0]).then_some((low, high))
 }
 
@@ -214,12 +209,13 @@ pub fn is_regular(positions: &[[f64; 3]], triangle: [u32; 3]) -> bool {
 impl Mesh<'_> {
     /// All triangles that have a margin, in box coordinates, with their bounds.
     fn items(&self, margin: impl Fn(usize) -> Option<f32> + Sync) -> Vec<Item> {
-        let mut items = vec![Item { bounds: Bounds::EMPTY, margin: 0.0, triangle: 0 }; self.triangles.len()];
-        ugparallel::for_each_mut(&mut items, RANGE, |triangle, item| {
+        let item = |triangle: usize| {
             let margin = margin(triangle);
             let bounds = margin.map_or(Bounds::EMPTY, |margin| self.bounds(triangle).grown(margin));
-            *item = Item { bounds, margin: margin.unwrap_or(0.0), triangle: triangle as u32 };
-        });
+            Item { bounds, margin: margin.unwrap_or(0.0), triangle: triangle as u32 }
+        };
+        let rows = (0..self.triangles.len()).into_par_iter().with_min_len(RANGE);
+        let mut items: Vec<Item> = rows.map(item).collect();
         items.retain(|item| item.bounds.0[0] < f32::INFINITY);
         items
     }
@@ -275,7 +271,7 @@ fn build_node(items: &mut [Item], first: usize, depth: u32, tree: &mut Subtree) 
             tree.nodes[idx].children_mut()[child] = build_node(items, first, depth + 1, tree);
         }
     }
-    ugparallel::for_jobs(&mut tasks, |_, (_, first, items, subtree)| {
+    tasks.par_iter_mut().with_max_len(1).for_each(|(_, first, items, subtree)| {
         build_node(items, *first, depth + 1, subtree);
     });
     for (child, _, _, subtree) in tasks {

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use uglight::{Irradiance, Lamps, ScatteringTime, SurfaceElement};
 use ugpipe::Progress;
 use ugscene::{
-    Face, Light, LightKind, LightMotion, RestFrames, Scene, VertexId, WorldLinePoint, seen_normal,
+    Face, Light, LightKind, LightMotion, RestFrames, Scene, SeenVertices, VertexId, seen_normal,
     shading_normal,
 };
 
@@ -25,13 +25,12 @@ pub(crate) struct VertexIrradiance {
 /// vertices of their own there, unless the vertex carries a normal, and so do faces with a light
 /// level of their own.
 ///
-/// `rest`: position of each vertex, (P4). `points`: of bodies on world lines, see
-/// [`ugscene::world_line_points`]. Returns the originals of the new vertices, and the normal
+/// `rest`: position of each vertex, (P4). Returns the originals of the new vertices, and the normal
 /// to light each vertex with; `None` where it is not lit.
 pub(crate) fn split(
     scene: &mut Scene,
     rest: &[DVec3],
-    points: &[Option<WorldLinePoint>],
+    vertices: &SeenVertices,
 ) -> (Vec<VertexId>, Vec<Option<DVec3>>) {
     /// How a vertex is lit.
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -41,9 +40,8 @@ pub(crate) fn split(
         Flat([i64; 3]),
     }
     let normals: Vec<Option<DVec3>> =
-        scene.faces.par_iter().map(|face| face_normal(scene, face, rest, points)).collect();
-    let faces = scene.faces.iter().map(|face| face.contours.clone());
-    let users: Vec<_> = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone())).collect();
+        scene.faces.par_iter().map(|face| face_normal(scene, face, rest, vertices)).collect();
+    let users: Vec<_> = scene.drawn().map(|drawn| drawn.contours).collect();
     let originals = ugscene::split_corners(scene, users.into_iter(), |user, _, vertex| {
         let Some(&Some(seen)) = normals.get(user) else { return Some(Kind::Unlit) };
         Some(match vertex.normal {
@@ -63,20 +61,14 @@ pub(crate) fn split(
 }
 
 /// The rest normal of the side that is seen; `None` for a face that is not lit.
-fn face_normal(
-    scene: &Scene,
-    face: &Face,
-    rest: &[DVec3],
-    points: &[Option<WorldLinePoint>],
-) -> Option<DVec3> {
+fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3], vertices: &SeenVertices) -> Option<DVec3> {
     if scene.light_level(face).is_some() {
         return None;
     }
     let outline = scene.face_contours(face).next()?;
     let corners = outline.iter().map(|corner| rest[corner.index()]);
     let first = outline.first()?.index();
-    let toward_eye =
-        points.get(first).and_then(Option::as_ref).map_or(-rest[first], |point| point.toward_eye);
+    let toward_eye = vertices.on_world_line(first).map_or(-rest[first], |point| point.toward_eye);
     Some(seen_normal(corners, toward_eye))
 }
 
@@ -89,21 +81,17 @@ impl VertexIrradiance {
         scene: &Scene,
         eye: DVec3,
         frames: &RestFrames,
-        rest: &[DVec3],
+        (seen, rest): (&SeenVertices, &[DVec3]),
         normals: &[Option<DVec3>],
         is_spectral: bool,
         progress: &dyn Progress,
     ) -> Self {
         let lamps = Lamps::new(scene, eye, is_spectral).over_time(scene, eye, is_spectral);
-        let bodies = ugscene::vertex_bodies(scene);
-        let own_time = |row: usize, body| {
-            let seen = scene.vertices[row].position - eye;
-            Some(WorldLinePoint::new(frames.world_line(body)?, seen)?.own_time)
-        };
-        let of_vertex = (rest.par_iter().zip(normals).zip(&bodies).enumerate())
+        let of_vertex = (rest.par_iter().zip(normals).zip(&seen.bodies).enumerate())
             .map(|(row, ((&point, normal), &body))| {
                 progress.check().ok()?;
-                let time = own_time(row, body).map_or(ScatteringTime::Delay(0.0), ScatteringTime::Own);
+                let own = seen.on_world_line(row).map(|point| ScatteringTime::Own(point.own_time));
+                let time = own.unwrap_or(ScatteringTime::Delay(0.0));
                 let surface = SurfaceElement { point, time, normal: (*normal)?, body };
                 Some(surface.irradiances(&lamps, frames))
             })

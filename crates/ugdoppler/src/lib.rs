@@ -51,7 +51,7 @@ use uglight::{
 use ugpipe::Progress;
 use ugscene::{
     Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Geometry, Provenance, RelativeMotion,
-    RestFrames, Scene, Shares,
+    RestFrames, Scene, SeenVertices, Shares,
 };
 
 #[cfg(feature = "cli")]
@@ -156,19 +156,24 @@ fn color(
     let mixing_note = ugscene::Note::mixed_colors(&scene);
     // Only for lamps, and for the angles at which colours of faces meet.
     let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
-    let rest = if needs_rest { ugscene::rest_positions(&scene, eye, frames) } else { Vec::new() };
+    let seen = SeenVertices::new(&scene, eye, frames);
+    let rest = if needs_rest { seen.rest_positions(&scene, eye, frames) } else { Vec::new() };
+    let factors = doppler_factors(&scene, eye, frames, &seen);
+    let vertices = LitVertices { seen, rest, factors };
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
-        let shares = ugscene::vertex_shares(&scene, &rest).into_iter();
+        let shares = ugscene::vertex_shares(&scene, &vertices.rest).into_iter();
         let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
-        let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut shares, progress)?;
-        let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
+        let (light, factors) =
+            light_vertices(&mut scene, config, (eye, frames), vertices, &mut shares, progress)?;
+        let used = vertices::used(&scene);
         let lit = light.map(|light| lit_spectra(&scene, shift, &shares, &factors, &light));
         xyz_statements::write(&mut scene, config, shift, &shares, &factors, &used, lit.as_deref())
     } else {
         let shift = config.shift.of_hues();
-        let mut colors = uglight::vertex_colors(&scene, &rest);
-        let light = light_vertices(&mut scene, config, (eye, frames), rest, &mut colors, progress)?;
-        let (factors, used) = (doppler_factors(&scene, eye, frames), vertices::used(&scene));
+        let mut colors = uglight::vertex_colors(&scene, &vertices.rest);
+        let (light, factors) =
+            light_vertices(&mut scene, config, (eye, frames), vertices, &mut colors, progress)?;
+        let used = vertices::used(&scene);
         let lit = light.map(|light| lit_colors(&scene, shift, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
         let mut statements = HueStatements::new(&mut scene, config, shift);
@@ -193,23 +198,34 @@ fn color(
     Ok((scene, notes))
 }
 
-/// The irradiance of every vertex, if it is asked for and the scene has lamps. Vertices where it
-/// differs between faces are repeated, together with their row of `of_vertex`.
+/// The vertices of a scene as they are seen.
+struct LitVertices {
+    seen: SeenVertices,
+    /// Rest positions; empty if they are not needed.
+    rest: Vec<DVec3>,
+    /// Doppler factors.
+    factors: Vec<f64>,
+}
+
+/// The irradiance of every vertex, if it is asked for and the scene has lamps, and the Doppler
+/// factor of every vertex. Vertices where the irradiance differs between faces are repeated, together
+/// with their row of `of_vertex`.
 fn light_vertices<T: Clone>(
     scene: &mut Scene,
     config: &Config,
     (eye, frames): (DVec3, &RestFrames),
-    mut rest: Vec<DVec3>,
+    LitVertices { mut seen, mut rest, mut factors }: LitVertices,
     of_vertex: &mut Vec<T>,
     progress: &dyn Progress,
-) -> Result<Option<VertexIrradiance>, Error> {
+) -> Result<(Option<VertexIrradiance>, Vec<f64>), Error> {
     if !config.light || scene.lights.is_empty() {
-        return Ok(None);
+        return Ok((None, factors));
     }
-    let (originals, normals) =
-        irradiance::split(scene, &rest, &ugscene::world_line_points(scene, eye, frames));
+    let (originals, normals) = irradiance::split(scene, &rest, &seen);
     for original in originals {
+        seen.copy(original);
         rest.push(rest[original.index()]);
+        factors.push(factors[original.index()]);
         of_vertex.push(of_vertex[original.index()].clone());
     }
     let (n_lights, n_vertices) = (scene.lights.len(), normals.iter().flatten().count());
@@ -217,9 +233,9 @@ fn light_vertices<T: Clone>(
         return Err(Error::TooManyLights { n_lights, n_vertices });
     }
     let is_spectral = config.shift.is_spectral();
-    let light = VertexIrradiance::new(scene, eye, frames, &rest, &normals, is_spectral, progress);
+    let light = VertexIrradiance::new(scene, eye, frames, (&seen, &rest), &normals, is_spectral, progress);
     progress.check()?;
-    Ok(Some(light))
+    Ok((Some(light), factors))
 }
 
 /// The colour as seen of every vertex with light on it; `None` where it is not lit.

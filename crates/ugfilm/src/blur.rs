@@ -6,7 +6,7 @@ use ugpipe::sha256;
 
 use crate::error::Error;
 use crate::note::Note;
-use crate::pipe::{FilmSubject, Pipe};
+use crate::pipe::{DrawnLight, FilmSubject, Pipe};
 
 /// How long the shutter is open.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,43 +53,60 @@ impl Shot {
     /// It is the mean of moments, which has no annotations but a caption, no channels and no
     /// vectors.
     pub fn check(&self) -> Result<(), Error> {
-        let PictureOptions { annotations, channels, output, .. } = &self.frame.picture;
-        let has_more = annotations.legend || annotations.outline || annotations.grid;
-        let has_more = has_more || !channels.is_empty() || matches!(output, Output::Vector(_));
-        if has_more && !self.moments.is_empty() { Err(Error::Mean) } else { Ok(()) }
+        let is_light = self.moments.is_empty() || is_made_of_light(&self.frame.picture);
+        if is_light { Ok(()) } else { Err(Error::Mean) }
     }
 
-    /// Draws the frame.
+    /// Draws the frame. `light`: what [`Pipe::light`] returns for it, if that is known.
     ///
     /// # Errors
     /// The scene or panorama cannot be drawn with these options, or the mean of its moments cannot
     /// have what they ask for.
-    pub fn draw(self, subject: FilmSubject<'_>) -> Result<(Rendering, Vec<Note>), Error> {
-        if self.moments.is_empty() {
+    pub fn draw(
+        self,
+        subject: FilmSubject<'_>,
+        light: Option<DrawnLight>,
+    ) -> Result<(Rendering, Vec<Note>), Error> {
+        let light = light.filter(|_| is_made_of_light(&self.frame.picture));
+        if self.moments.is_empty() && light.is_none() {
             return self.frame.draw(subject);
         }
-        Ok((self.mean(subject)?, Vec::new()))
-    }
-
-    /// Draws the mean light of all moments, developed and annotated as the frame.
-    fn mean(self, subject: FilmSubject<'_>) -> Result<Rendering, Error> {
         self.check()?;
-        let whole = &self.frame.picture;
         let metadata = self.metadata(subject);
-        let canvas = Canvas::new(whole)?;
-        let mut sum = Sum::default();
-        for mut moment in self.moments {
-            moment.picture.size = canvas.options().size;
-            sum.add(&moment.light(subject)?);
-        }
+        let canvas = Canvas::new(&self.frame.picture)?;
+        let (frame, mut notes) = match light {
+            Some(light) => light,
+            None => (self.mean(subject)?, Vec::new()),
+        };
         let drawn = Drawn::<Error> {
-            content: DrawnContent::Light { frame: sum.mean(), is_clipped: false },
+            content: DrawnContent::Light { frame, is_clipped: false },
             brightest: 0.0,
-            notes: Vec::new(),
+            notes: notes.iter().filter_map(Note::of_picture).cloned().collect(),
             annotated: Annotated { is_shifted: false, subject: ugpicture::Subject::Pixels },
         };
-        canvas.finish(drawn, metadata, &())
+        let mut picture = canvas.finish(drawn, metadata, &())?;
+        if self.moments.is_empty() {
+            notes.retain(|note| note.of_picture().is_none());
+            notes.extend(self.frame.notes(&mut picture));
+        }
+        Ok((picture, notes))
     }
+
+    /// The mean light of all moments.
+    fn mean(&self, subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
+        let mut sum = Sum::default();
+        for moment in &self.moments {
+            sum.add(&moment.light(subject)?.0);
+        }
+        Ok(sum.mean())
+    }
+}
+
+/// True if a picture with these options can be made of its light, without the scene.
+pub fn is_made_of_light(picture: &PictureOptions) -> bool {
+    let PictureOptions { annotations, channels, output, .. } = picture;
+    let needs_scene = annotations.legend || annotations.outline || annotations.grid;
+    !needs_scene && channels.is_empty() && !matches!(output, Output::Vector(_))
 }
 
 /// The record in the file. No single pipe draws it, so it has none of the lines that

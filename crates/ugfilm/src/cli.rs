@@ -16,7 +16,7 @@ use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
 use crate::blur::MotionBlur;
-use crate::film::{Film, MeasuredExposure, Summary, Target};
+use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
 use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, valid_since};
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
@@ -175,7 +175,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         if args.follow {
             follow(scene, &mut script)?;
         }
-        if args.print.is_none() {
+        if args.print.is_none() && !context.is_quiet() {
             let unseen = Sight::new(scene, &script).unseen(&frames);
             tell_unseen(&unseen, context);
             forecast.empty = unseen.frames;
@@ -183,20 +183,22 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     let (subject, format) = (read.subject(), output.frame_format());
     let blur = args.blur.map(|open| MotionBlur { open, n_moments: args.moments });
+    let mut light = HeldLight::default();
     if script.fixed("ex").as_deref() == Some("auto") {
-        let film = Film { subject, script: &script, format, blur, valid_since: None };
+        let film =
+            Film { subject, script: &script, format, blur, valid_since: None, light: HeldLight::default() };
         let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
         let measured = exposure(&film, names, args.print.is_some(), context)?;
         let stops = measured.stops.to_string();
         context.note(&format!("one exposure for all frames: -ex {stops}"));
         tell_wrong(&measured.wrong, measured.n_frames, "measured", context);
-        forecast.wrong = measured.wrong;
+        (forecast.wrong, light) = (measured.wrong, measured.light);
         script.set("ex", vec![stops]);
     }
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
         script.set("ex", vec!["0".to_owned()]);
     }
-    let mut film = Film { subject, script: &script, format, blur, valid_since: None };
+    let mut film = Film { subject, script: &script, format, blur, valid_since: None, light };
     if let Some(number) = args.print {
         let input = args.common.input().map(shell_path);
         let chosen = frames.into_iter().filter(|&frame| number == 0 || frame == number);
@@ -246,7 +248,7 @@ fn exposure(
     context: &Context,
 ) -> Result<MeasuredExposure, Failure> {
     film.size()?;
-    let key = film.exposure_key()?;
+    let key = names.map_or(Ok(None), |_| film.exposure_key())?;
     let Some((names, key)) = names.zip(key) else { return film.exposure(&context.steps()) };
     if let Some(stops) = kept_exposure(names, &key) {
         return Ok(MeasuredExposure { stops, ..MeasuredExposure::default() });

@@ -146,9 +146,10 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
     for (row, &[red, green, blue, _]) in pixels.iter().enumerate() {
         let [r, g, b] = [red, green, blue].map(|part| f64::from(part) / 255.0);
         let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        luma[row] = (16.0 + 219.0 * y).round() as u8;
-        blue_plane[row] = (128.0 + 224.0 * (b - y) / 1.8556).round() as u8;
-        red_plane[row] = (128.0 + 224.0 * (r - y) / 1.5748).round() as u8;
+        // None is negative, so truncation rounds to the nearest.
+        luma[row] = (16.5 + 219.0 * y) as u8;
+        blue_plane[row] = (128.5 + 224.0 * (b - y) / 1.8556) as u8;
+        red_plane[row] = (128.5 + 224.0 * (r - y) / 1.5748) as u8;
     }
 }
 

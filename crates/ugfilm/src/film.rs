@@ -1,6 +1,8 @@
 //! From a scene and a script to a film.
 
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use std::time::SystemTime;
 
 use ugimage::{
@@ -11,13 +13,13 @@ use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::{Motion, Picture};
 
 use crate::animation::{Palette, Shape};
-use crate::blur::{MotionBlur, Shot};
+use crate::blur::{MotionBlur, Shot, is_made_of_light};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
 use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
 use crate::levels::WrongBrightness;
 use crate::note::Note;
-use crate::pipe::{FilmSubject, Pipe};
+use crate::pipe::{DrawnLight, FilmSubject, Pipe};
 use crate::script::{DONE_TO_LIGHT, Script};
 use crate::work::in_order;
 
@@ -29,6 +31,9 @@ const MOST_MEASURED: u32 = 48;
 
 /// Longest side of these frames, in pixels.
 const MEASURED_SIDE: u32 = 128;
+
+/// Memory for the light of the frames of a film whose exposure is chosen, in bytes.
+const MOST_LIGHT: u64 = 1 << 29;
 
 /// A film that can be drawn.
 pub struct Film<'s> {
@@ -42,7 +47,12 @@ pub struct Film<'s> {
     pub blur: Option<MotionBlur>,
     /// Since when files of frames may have been drawn; older ones are of another scene.
     pub valid_since: Option<SystemTime>,
+    /// See [`MeasuredExposure::light`].
+    pub light: HeldLight,
 }
+
+/// The light of frames by number, which are removed as they are developed.
+pub type HeldLight = Mutex<BTreeMap<u32, DrawnLight>>;
 
 /// The outcome of all frames.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -64,7 +74,7 @@ pub struct Summary {
 }
 
 /// The exposure of a film.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Debug, Default)]
 pub struct MeasuredExposure {
     /// In stops.
     pub stops: f64,
@@ -72,6 +82,8 @@ pub struct MeasuredExposure {
     pub n_frames: usize,
     /// Those whose brightness is wrong at this exposure.
     pub wrong: WrongBrightness,
+    /// The light of frames that were measured in full size.
+    pub light: HeldLight,
 }
 
 /// The outcome of a frame.
@@ -123,7 +135,12 @@ impl Film<'_> {
     }
 
     fn file(&self, frame: u32) -> Result<Vec<u8>, Failure> {
-        Ok(self.shot(frame)?.draw(self.subject).map_err(Failure::of)?.0.into_file())
+        Ok(self.draw(frame, self.shot(frame)?)?.0.into_file())
+    }
+
+    fn draw(&self, frame: u32, shot: Shot) -> Result<(Rendering, Vec<Note>), Failure> {
+        let light = self.light.lock().unwrap_or_else(PoisonError::into_inner).remove(&frame);
+        shot.draw(self.subject, light).map_err(Failure::of)
     }
 
     fn is_done(&self, path: &Path, metadata: &Metadata) -> bool {
@@ -185,19 +202,30 @@ impl Film<'_> {
         )
     }
 
-    /// Small pictures of frames spread over the film.
-    fn small<T: Send>(
+    /// Pictures of frames spread over the film.
+    fn spread_pictures<T: Send>(
         &self,
         step: (&'static str, &Steps<'_>),
         draw: impl Fn(Pipe) -> Result<T, Error> + Sync,
-    ) -> Result<Vec<T>, Failure> {
+    ) -> Result<Vec<(u32, T)>, Failure> {
         let mut pictures = Vec::new();
-        let small = |frame| draw(self.pipe(frame)?.small(MEASURED_SIDE)).map_err(Failure::of);
-        self.each(step, &self.spread(MOST_MEASURED), small, |_, picture| {
-            pictures.push(picture);
+        let draw = |frame| draw(self.pipe(frame)?).map_err(Failure::of);
+        self.each(step, &self.spread(MOST_MEASURED), draw, |frame, picture| {
+            pictures.push((frame, picture));
             Ok(())
         })?;
         Ok(pictures)
+    }
+
+    /// True if the light of all frames fits in memory and is all that pictures are made of, so that
+    /// they need not be drawn again when the exposure is known.
+    fn holds_light(&self) -> Result<bool, Failure> {
+        let first = about(1, self.pipe(1))?;
+        let [width, height] = first.picture.size.map(u64::from);
+        let n_frames = u64::from(self.script.n_frames);
+        let bytes = (width * height).saturating_mul(n_frames * size_of::<[f32; 4]>() as u64);
+        let is_short = n_frames <= MOST_MEASURED.into() && bytes <= MOST_LIGHT;
+        Ok(is_short && self.blur.is_none() && first.draws_polygons() && is_made_of_light(&first.picture))
     }
 
     /// The automatic exposure of all lit pixels of the film, in stops.
@@ -206,15 +234,23 @@ impl Film<'_> {
     /// A frame cannot be drawn.
     pub fn exposure(&self, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
         let mut picture = about(1, self.pipe(1))?.picture;
-        let frames = self.small(("measuring", steps), |pipe| pipe.light(self.subject))?;
-        let pixels: Vec<[f32; 4]> = frames.iter().flat_map(LinearFrame::pixels).copied().collect();
+        let is_held = self.holds_light()?;
+        let frames = self.spread_pictures(("measuring", steps), |pipe| {
+            let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
+            let (light, notes) = pipe.light(self.subject)?;
+            Ok((thinned(&light), is_held.then_some((light, notes))))
+        })?;
+        let pixels: Vec<[f32; 4]> =
+            frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
         let stops = auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), picture.tone);
         picture.exposure = Some(Exposure::Stops(stops));
-        let mut wrong = WrongBrightness::default();
-        for (number, frame) in self.spread(MOST_MEASURED).into_iter().zip(&frames) {
-            levels_note(frame, &picture).iter().for_each(|note| wrong.add(number, note));
+        let mut exposure = MeasuredExposure { stops, n_frames: frames.len(), ..MeasuredExposure::default() };
+        let mut held = BTreeMap::new();
+        for (number, (measured, light)) in frames {
+            levels_note(&measured, &picture).iter().for_each(|note| exposure.wrong.add(number, note));
+            held.extend(light.map(|light| (number, light)));
         }
-        Ok(MeasuredExposure { stops, n_frames: frames.len(), wrong })
+        Ok(MeasuredExposure { light: Mutex::new(held), ..exposure })
     }
 
     /// A hash of all that the exposure depends on: the commands of the measured frames, and the
@@ -236,8 +272,10 @@ impl Film<'_> {
 
     /// The colours of a GIF.
     fn palette(&self, steps: &Steps<'_>) -> Result<Palette, Failure> {
-        let frames = self.small(("choosing colours", steps), |pipe| pixels(pipe.draw(self.subject)?.0))?;
-        Ok(Palette::new(&frames.iter().flat_map(Frame::pixels).copied().collect::<Vec<_>>()))
+        let frames = self.spread_pictures(("choosing colours", steps), |pipe| {
+            pixels(pipe.small(MEASURED_SIDE).draw(self.subject)?.0)
+        })?;
+        Ok(Palette::new(&frames.iter().flat_map(|(_, frame)| frame.pixels()).copied().collect::<Vec<_>>()))
     }
 
     /// Writes frames as numbered files. Frames whose files were made by the same commands of the
@@ -272,7 +310,7 @@ impl Film<'_> {
         if self.is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
-        let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
+        let (picture, notes) = self.draw(frame, shot)?;
         Context::write_now(path, &picture.into_file())?;
         Ok(Outcome::Drawn(notes))
     }
@@ -316,7 +354,7 @@ impl Film<'_> {
                 Outcome::Done,
             ));
         }
-        let (picture, notes) = shot.draw(self.subject).map_err(Failure::of)?;
+        let (picture, notes) = self.draw(frame, shot)?;
         if let Some((path, _)) = &kept {
             Context::write_now(path, &picture.clone().into_file())?;
         }
@@ -398,6 +436,15 @@ impl Film<'_> {
         })?;
         Ok(summary)
     }
+}
+
+/// Pixels in columns and rows at equal distances, at most [`MEASURED_SIDE`] of each.
+fn thinned(light: &LinearFrame) -> LinearFrame {
+    let sides = [light.width() as usize, light.height() as usize];
+    let step = sides[0].max(sides[1]).div_ceil(MEASURED_SIDE as usize);
+    let rows = light.pixels().chunks_exact(sides[0]).step_by(step);
+    let pixels = rows.flat_map(|row| row.iter().step_by(step)).copied().collect();
+    LinearFrame::new(sides.map(|side| side.div_ceil(step) as u32), light.is_opaque(), pixels)
 }
 
 fn pixels(picture: Rendering) -> Result<Frame, Error> {

@@ -1,14 +1,13 @@
 //! The programs of a frame, one after the other.
 
 use ugimage::{LinearFrame, Metadata};
-use ugpicture::{AnnotationOptions, PictureOptions, Rendering};
+use ugpicture::{AnnotationOptions, Canvas, PictureOptions, Rendering};
 use ugpipe::Progress;
 use ugscene::{Provenance, Remarks, Scene};
 
 use crate::error::Error;
 use crate::note::Note;
 use crate::program::{Item, Program};
-#[cfg(feature = "cli")]
 
 /// The subject of a film.
 #[derive(Clone, Copy)]
@@ -18,6 +17,9 @@ pub enum FilmSubject<'s> {
     /// A panorama, with the words for its origin.
     Panorama(&'s ugwarp::Opened, &'s str),
 }
+
+/// The light of a frame, and the notes of the programs that drew it.
+pub type DrawnLight = (LinearFrame, Vec<Note>);
 
 /// The programs that draw a frame.
 #[derive(Clone, Debug)]
@@ -97,14 +99,27 @@ impl Pipe {
         Ok((picture, notes))
     }
 
-    /// The light of the frame, without exposure and annotations.
+    /// The light of the frame without exposure and annotations, above the rows of a caption.
     ///
     /// # Errors
     /// See [`Pipe::draw`].
-    pub fn light(&self, subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
+    pub fn light(&self, subject: FilmSubject<'_>) -> Result<DrawnLight, Error> {
         let mut pipe = self.clone();
+        pipe.picture.size = Canvas::new(&self.picture)?.options().size;
         pipe.picture.keep_light();
-        pipe.draw(subject)?.0.into_light().ok_or(Error::NoPixels)
+        let (picture, notes) = pipe.draw(subject)?;
+        Ok((picture.into_light().ok_or(Error::NoPixels)?, notes))
+    }
+
+    /// True if the scene is drawn as polygons. The light of few pixels then takes about as long as
+    /// that of many.
+    pub fn draws_polygons(&self) -> bool {
+        matches!(self.programs.last(), Some(Program::Rainbow(_)))
+    }
+
+    /// Moves the notes on a picture by the last program.
+    pub fn notes(&self, picture: &mut Rendering) -> Vec<Note> {
+        self.programs.last().map_or_else(Vec::new, |program| program.notes(picture))
     }
 
     /// The same frame in a picture of at most `side` pixels a side, without annotations, which

@@ -123,9 +123,13 @@ impl Program {
             }
             _ => return Ok(None),
         };
-        let program = self.provenance().program;
-        let notes = std::mem::take(&mut picture.notes).into_iter();
-        let notes = notes.map(|note| Note::Picture(program, note)).collect();
+        let notes = self.notes(&mut picture);
         Ok(Some((Item::Picture(picture), notes)))
+    }
+
+    /// Moves the notes on a picture that it drew.
+    pub fn notes(&self, picture: &mut Rendering) -> Vec<Note> {
+        let program = self.provenance().program;
+        picture.notes.drain(..).map(|note| Note::Picture(program, note)).collect()
     }
 }

@@ -106,22 +106,35 @@ pub struct DevelopmentSteps {
 impl Development {
     /// Converts one pixel and returns the result of every step.
     pub fn steps(&self, light: [f32; 3]) -> DevelopmentSteps {
-        let gain = libm::exp2(self.stops);
+        self.steps_with(libm::exp2(self.stops), light)
+    }
+
+    #[inline]
+    fn steps_with(&self, gain: f64, light: [f32; 3]) -> DevelopmentSteps {
         let exposed = light.map(|channel| f64::from(channel) * gain);
         let toned = self.toned(exposed);
         DevelopmentSteps { exposed, toned, shown: into_gamut(toned) }
     }
 
-    /// Converts one pixel: each channel of the result is 0…1. With the default settings, light
-    /// already in that range keeps its bits.
+    /// Converts one pixel; see [`Development::converter`].
     pub fn apply(&self, light: [f32; 3]) -> [f32; 3] {
-        let is_plain = self.stops == 0.0 && self.tone == Tone::Clip;
-        if is_plain && light.iter().all(|channel| (0.0..=1.0).contains(channel)) {
-            return light;
-        }
-        self.steps(light).shown.map(|channel| channel as f32)
+        self.converter()(light)
     }
 
+    /// Converts pixels: each channel of a result is 0…1. With the default settings, light already
+    /// in that range keeps its bits.
+    pub fn converter(self) -> impl Fn([f32; 3]) -> [f32; 3] + Sync {
+        let gain = libm::exp2(self.stops);
+        let is_plain = self.stops == 0.0 && self.tone == Tone::Clip;
+        move |light| {
+            if is_plain && light.iter().all(|channel| (0.0..=1.0).contains(channel)) {
+                return light;
+            }
+            self.steps_with(gain, light).shown.map(|channel| channel as f32)
+        }
+    }
+
+    #[inline]
     fn toned(&self, exposed: [f64; 3]) -> [f64; 3] {
         let before = luminance(exposed);
         // Negative and NaN luminance becomes black.
@@ -139,6 +152,7 @@ impl Development {
 /// Gamut mapping of a colour of luminance 0…1: mixes it with the grey of its own luminance, as
 /// little as possible. This keeps luminance and dominant wavelength, since the colour moves
 /// straight towards white in the chromaticity diagram.
+#[inline]
 fn into_gamut(rgb: [f64; 3]) -> [f64; 3] {
     // The clamp removes rounding: the weights of luminance add up to 1 only approximately.
     let grey = luminance(rgb).clamp(0.0, 1.0);

@@ -8,7 +8,7 @@
 //! colours encoded with the sRGB transfer function. All computations use linear light. Only
 //! [`Quantizer`] converts it to bytes, and it rounds exactly to the nearest of the 256 levels.
 //!
-//! The writers ([`Format::encode`], [`Format::encode_linear`], [`grey_postscript`]) return the
+//! The writers ([`Format::encode`], [`Format::encode_linear`]) return the
 //! whole file as a `Vec<u8>`. They do no I/O and read no clock. Everything in the file besides
 //! pixels is passed in a [`Metadata`], so the same frame and metadata give the same bytes.
 //!
@@ -23,7 +23,6 @@
 //! | [`Format::Pfm`] | linear light, 32-bit floats | over black |
 //! | [`Format::Hdr`] | linear light ≥ 0, 8-bit mantissas with a shared exponent | over black |
 //! | [`Format::Eps`], [`Format::Ps`] | DeviceRGB, PostScript level 2 | over white |
-//! | [`grey_postscript`] | luminance, PostScript level 1 | over white |
 //!
 //! "Over white" means that transparent pixels are composited over a white background. In page
 //! formats one pixel is one point (1/72 inch).
@@ -46,10 +45,10 @@ mod develop;
 mod eps;
 mod exr;
 pub mod figure;
+mod fill;
 mod filter;
 mod format;
 mod frame;
-mod grey;
 mod hdr;
 mod history;
 pub mod label;
@@ -74,7 +73,6 @@ pub use develop::{Development, DevelopmentSteps, Tone, auto_exposure};
 pub use filter::Filter;
 pub use format::Format;
 pub use frame::Frame;
-pub use grey::grey_postscript;
 pub use history::read_history;
 pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;

@@ -60,8 +60,10 @@ impl LinearFrame {
         let [width, height] = size;
         assert!(width > 0 && height > 0, "a frame has at least one pixel");
         assert_eq!(pixels.len(), width as usize * height as usize, "a frame has all its pixels");
-        let is_finite = |pixel: &[f32; 4]| pixel.iter().all(|number| number.is_finite());
-        for pixel in pixels.iter_mut().filter(|pixel| !is_finite(pixel)) {
+        // Without branches, so that several numbers are compared at once.
+        let is_odd =
+            |pixel: &[f32; 4]| pixel.iter().fold(false, |is_odd, number| is_odd | !number.is_finite());
+        for pixel in pixels.iter_mut().filter(|pixel| is_odd(pixel)) {
             let least = if pixel.iter().any(|number| number.is_infinite()) { 0.0 } else { -f32::MAX };
             *pixel = pixel.map(|number| if number.is_nan() { 0.0 } else { number.clamp(least, f32::MAX) });
         }
@@ -117,12 +119,8 @@ impl LinearFrame {
     /// The frame display-encoded with 8 bits per channel; light outside 0…1 is clipped.
     pub fn to_display(&self) -> Frame {
         let quantizer = Quantizer::new();
-        let empty = if self.is_opaque { Frame::opaque } else { Frame::clear };
-        let mut frame = empty(self.width, self.height);
-        for (pixel, light) in frame.pixels_mut().iter_mut().zip(&self.pixels) {
-            *pixel = display_pixel(&quantizer, *light, self.is_opaque);
-        }
-        frame
+        let level = |&light: &[f32; 4]| display_pixel(&quantizer, light, self.is_opaque);
+        Frame::new([self.width, self.height], self.is_opaque, self.pixels.iter().map(level).collect())
     }
 }
 

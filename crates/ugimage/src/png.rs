@@ -6,6 +6,7 @@ use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
 use ugphysics::srgb_encode;
 
+use crate::fill::fill_while;
 use crate::{Frame, LinearFrame, Metadata};
 
 /// Keyword of the chunk `iTXt` with XMP metadata.
@@ -55,7 +56,7 @@ pub fn draw_png(
     let image = Image::of_8_bits([width, height], is_opaque, metadata);
     let width = width as usize;
     let mut pixels = vec![[0; 4]; width * height as usize];
-    let file = ugparallel::fill_while(&mut pixels, band_height * width, draw, |bands| {
+    let file = fill_while(&mut pixels, band_height * width, draw, |bands| {
         let rows = bands.flat_map(|band| band.chunks_exact(width));
         image.encode(compression.into(), rows, copy_row)
     });
@@ -156,6 +157,7 @@ impl<'a> Image<'a> {
         rows: impl Iterator<Item = R>,
         mut fill: impl FnMut(R, &mut [u8]),
     ) -> Result<Vec<u8>, EncodingError> {
+        let is_stored = matches!(compression, png::Compression::NoCompression);
         let mut file = Vec::new();
         let mut encoder = Encoder::new(&mut file, self.size[0], self.size[1]);
         encoder.set_color(if self.is_opaque { ColorType::Rgb } else { ColorType::Rgba });
@@ -168,13 +170,20 @@ impl<'a> Image<'a> {
             encoder.add_itxt_chunk(XMP.into(), area.xmp(self.size))?;
         }
         let mut writer = encoder.write_header()?;
-        let mut stream = writer.stream_writer_with_size(CHUNK)?;
-        let mut bytes = vec![0; self.stride()];
-        for row in rows {
-            fill(row, &mut bytes);
-            stream.write_all(&bytes)?;
+        if is_stored {
+            // The stream copies bytes slowly.
+            let mut bytes = vec![0; self.stride() * self.size[1] as usize];
+            rows.zip(bytes.chunks_exact_mut(self.stride())).for_each(|(row, bytes)| fill(row, bytes));
+            writer.write_image_data(&bytes)?;
+        } else {
+            let mut stream = writer.stream_writer_with_size(CHUNK)?;
+            let mut bytes = vec![0; self.stride()];
+            for row in rows {
+                fill(row, &mut bytes);
+                stream.write_all(&bytes)?;
+            }
+            stream.finish()?;
         }
-        stream.finish()?;
         writer.finish()?;
         Ok(file)
     }

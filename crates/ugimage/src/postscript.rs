@@ -74,17 +74,12 @@ pub fn over_white(frame: &Frame) -> Vec<[u8; 3]> {
         return frame.pixels().iter().map(|&[r, g, b, _]| [r, g, b]).collect();
     }
     let quantizer = Quantizer::new();
-    let linear = decode_table();
+    let linear: [f64; 256] = std::array::from_fn(|level| srgb_decode(level as f64 / 255.0));
     let blend = |level: u8, alpha: u8| {
         let alpha = f32::from(alpha) / 255.0;
         quantizer.level(linear[usize::from(level)] as f32 * alpha + (1.0 - alpha))
     };
     frame.pixels().iter().map(|&[r, g, b, a]| [r, g, b].map(|level| blend(level, a))).collect()
-}
-
-/// The linear light of each of the 256 display levels.
-pub fn decode_table() -> [f64; 256] {
-    std::array::from_fn(|level| srgb_decode(level as f64 / 255.0))
 }
 
 /// The run-length encoding of PostScript (PackBits): a length byte n, then n + 1 literal bytes if
@@ -183,7 +178,7 @@ fn digits(word: u32) -> [u8; 5] {
 
 /// Independent decoders, so that the writers are not tested against themselves.
 #[cfg(test)]
-pub(crate) mod decode {
+mod decode {
     /// The text between the lines `start` and `end`.
     pub fn between<'a>(file: &'a [u8], start: &str, end: &str) -> &'a [u8] {
         let find = |from: usize, text: &str| {
@@ -232,15 +227,6 @@ pub(crate) mod decode {
         }
         assert_eq!(bytes.next(), None, "nothing follows the end mark");
         out
-    }
-
-    pub fn hex(text: &[u8]) -> Vec<u8> {
-        let digits: Vec<u8> = text
-            .iter()
-            .filter(|c| !c.is_ascii_whitespace())
-            .map(|&c| u8::try_from(char::from(c).to_digit(16).unwrap()).unwrap())
-            .collect();
-        digits.chunks_exact(2).map(|pair| pair[0] * 16 + pair[1]).collect()
     }
 }
 

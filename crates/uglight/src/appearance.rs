@@ -1,10 +1,8 @@
 //! Colours as they appear in the frame of the camera.
 
-use std::borrow::Cow;
-
 use glam::DVec3;
 use ugphysics::spectrum::Spectrum;
-use ugphysics::{Hsv, srgb_decode, srgb_encode, wavelength_to_hue};
+use ugphysics::{Hsv, srgb_decode, wavelength_to_hue};
 use ugscene::Scene;
 
 use crate::hue_table::HueTable;
@@ -19,24 +17,15 @@ use crate::{
 pub struct SurfaceColor {
     /// The colour, interpolated between the corners of its face, or that of the point itself.
     pub swatch: Swatch,
-    /// What it is where colours are spectra.
-    pub spectrum: SurfaceSpectrum,
-}
-
-/// The spectrum of a colour at a point of a surface.
-#[derive(Clone, Copy, Debug)]
-pub enum SurfaceSpectrum {
-    /// The mean of those of the corners of its face: rows of the colours of vertices
-    /// ([`SurfaceAttributes::row`]) with their weights.
-    Corners([(u32, f64); 3]),
-    /// That of a surface with these linear red, green and blue, of a point alone.  Eq. (P20)
-    Point(DVec3),
+    /// Where colours are spectra, the spectrum is the mean of those of the corners of its face: rows
+    /// of the colours of vertices ([`SurfaceAttributes::row`]) with their weights.
+    pub rows: [(u32, f64); 3],
 }
 
 impl SurfaceColor {
     /// A colour that is the same all around. `row`: of its spectrum.
     pub fn even(swatch: Swatch, row: u32) -> Self {
-        Self { swatch, spectrum: SurfaceSpectrum::Corners([(row, 1.0), (row, 0.0), (row, 0.0)]) }
+        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0)] }
     }
 }
 
@@ -117,6 +106,11 @@ impl Appearance {
         self.spectra.is_some() || self.hue_shift == HueShift::NONE
     }
 
+    /// True if a face may be drawn with colours of a display as light.
+    pub fn draws_display(&self) -> bool {
+        self.palette.has_display() && self.surface.has_display()
+    }
+
     /// True if colours are spectra.
     #[inline]
     pub fn is_spectral(&self) -> bool {
@@ -166,13 +160,6 @@ impl Appearance {
             Interpolation::Wavelength => seen_nm,
         };
         Swatch { tint, ..seen }
-    }
-
-    /// The colour of a point that has one of its own, such as a texel: linear red, green and blue
-    /// in 0…1, opaque.
-    pub fn point_color(&self, linear: DVec3) -> SurfaceColor {
-        let hsv = Hsv::from_rgb(linear.to_array().map(srgb_encode));
-        SurfaceColor { swatch: self.palette.swatch(hsv), spectrum: SurfaceSpectrum::Point(linear) }
     }
 
     /// A colour at rest with its wavelength.
@@ -314,13 +301,15 @@ fn spectral_light(
         Illumination::Lamps(parts, lamps) => (lamps.is_daylight && is_plain(parts))
             .then(|| parts.iter().map(|part| part.level * lamps[part.lamp as usize].intensity).sum()),
     };
-    if let (Some(level), [], SurfaceSpectrum::Corners(rows)) = (of_daylight, filters, color.spectrum) {
+    if let (Some(level), []) = (of_daylight, filters) {
         let ln_doppler = libm::log(doppler);
-        return level * mean(rows, |row| spectra.light(row, ln_doppler, None));
+        return level * mean(color.rows, |row| spectra.light(row, ln_doppler, None));
     }
-    let colors: Vec<_> = filters.iter().map(|filter| strongest(spectra, filter.color.spectrum)).collect();
-    let filter = |(color, filter): (_, &ColorFilter)| SpectralFilter { color, doppler: filter.doppler };
-    let filters: Vec<_> = colors.iter().map(Cow::as_ref).zip(filters).map(filter).collect();
+    let filter = |filter: &ColorFilter| SpectralFilter {
+        color: strongest(spectra, filter.color.rows),
+        doppler: filter.doppler,
+    };
+    let filters: Vec<_> = filters.iter().map(filter).collect();
     let white = [Irradiance { lamp: 0, level: 1.0, doppler: 1.0 }];
     let daylight = of_daylight.map(|level| [Lamp::white(crate::LampPlace::Everywhere, level)]);
     let (parts, lamps) = match (light, &daylight) {
@@ -328,13 +317,7 @@ fn spectral_light(
         (Illumination::Level(_), Some(lamp)) => (&white[..], &lamp[..]),
         (Illumination::Level(_), None) => (&[][..], &[][..]),
     };
-    match color.spectrum {
-        SurfaceSpectrum::Corners(rows) => mean(rows, |row| spectra.lit(row, doppler, parts, lamps, &filters)),
-        SurfaceSpectrum::Point(linear) => {
-            let surface = Spectrum::from_linear_srgb(linear.to_array());
-            spectra.lit_surface(&surface, doppler, parts, lamps, &filters)
-        }
-    }
+    mean(color.rows, |row| spectra.lit(row, doppler, parts, lamps, &filters))
 }
 
 /// The weighted mean of rows. `light`: of a row.
@@ -344,55 +327,7 @@ fn mean(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
 }
 
 /// The spectrum that counts for a filter: the one of the greatest weight.
-fn strongest(spectra: &Spectra, spectrum: SurfaceSpectrum) -> Cow<'_, Spectrum> {
-    match spectrum {
-        SurfaceSpectrum::Corners(rows) => {
-            let row = rows.into_iter().reduce(|best, row| if row.1 > best.1 { row } else { best });
-            Cow::Borrowed(spectra.spectrum(row.map_or(0, |row| row.0)))
-        }
-        SurfaceSpectrum::Point(linear) => Cow::Owned(Spectrum::from_linear_srgb(linear.to_array())),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use glam::DVec3;
-    use ugphysics::Brightness;
-    use ugscene::VertexId;
-
-    use super::*;
-    use crate::SpectralShift;
-
-    /// A point with a colour of its own has the light of a face of that colour.
-    #[test]
-    fn the_colour_of_a_point_is_that_of_a_face() {
-        let text = "c_rgb paint 0.7 0.4 0.2; v a 0 0 0; v b 1 0 0; v c 0 1 0; f (a b c) paint;
-                    c_rgb red 1 0.5 0.4; l lamp 2  0 0 5 1 red;";
-        let source = ugparse::Source::new("t.ug", text);
-        let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
-        let linear = DVec3::from([0.7, 0.4, 0.2].map(srgb_decode));
-        let shifts = [
-            ColorShift::Spectra(SpectralShift { doppler: true, flux: true }),
-            ColorShift::Hues(HueShift { doppler: true, law: Brightness::Photon }),
-            ColorShift::Hues(HueShift::NONE),
-        ];
-        let lamps = Lamps::new(&scene, DVec3::ZERO, true);
-        let received = [Irradiance { lamp: 0, level: 0.7, doppler: 1.3 }];
-        for shift in shifts {
-            let look = Appearance::new(&scene, DVec3::ZERO, Interpolation::Hue, shift, 1.0);
-            let face = &scene.faces[0];
-            let common = look.common(&scene, face);
-            let of_face = look.color_at(&common, [0, 1, 2].map(VertexId::from_index), [0.2, 0.3, 0.5]);
-            let of_point = look.point_color(linear);
-            let filter = |color| [ColorFilter { color, doppler: 1.2 }];
-            for (doppler, n_filters) in [(0.6, 0), (1.0, 1), (1.5, 0), (1.5, 1)] {
-                for received in [Illumination::Level(0.8), Illumination::Lamps(&received, &lamps)] {
-                    let light = |color| look.light(&color, doppler, received, &filter(color)[..n_filters]);
-                    let (face, point) = (light(of_face), light(of_point));
-                    let off = (face - point).length() / face.length();
-                    assert!(off < 1e-3, "{shift:?} {doppler} {n_filters}: {face} {point}");
-                }
-            }
-        }
-    }
+fn strongest(spectra: &Spectra, rows: [(u32, f64); 3]) -> &Spectrum {
+    let row = rows.into_iter().reduce(|best, row| if row.1 > best.1 { row } else { best });
+    spectra.spectrum(row.map_or(0, |row| row.0))
 }

@@ -1,9 +1,11 @@
 //! The colours of the corners of a face, ready to interpolate.
 
+use std::borrow::Borrow;
+
 use glam::DVec3;
 use ugscene::{Face, Scene, VertexId};
 
-use crate::{Appearance, SurfaceColor, SurfaceSpectrum, Swatch};
+use crate::{Appearance, SurfaceColor, Swatch};
 
 /// The common attributes of the corners of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,17 +57,18 @@ impl Appearance {
         let translucency = face.color.map(|color| self.palette.get(color).translucency);
         let is_light =
             self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some() && !swatch.is_display);
-        let is_display = !is_light && self.palette.has_display() && self.mixes_light(swatches().copied());
+        let is_display = !is_light && self.palette.has_display() && self.mixes_light(swatches());
         Common { grey_tint, translucency, is_light, is_display }
     }
 
     /// True if corners with these colours are interpolated in linear light, because one of them was
     /// written as red, green and blue (`c_rgb`) and they differ.
-    pub fn mixes_light(&self, swatches: impl Iterator<Item = Swatch> + Clone) -> bool {
-        let Some(first) = swatches.clone().next() else { return false };
-        let is_even = swatches.clone().all(|swatch| swatch == first);
-        let mut all = swatches;
-        all.any(|swatch| swatch.is_display && (!is_even || self.palette.is_faded(&swatch)))
+    #[inline]
+    pub fn mixes_light<S: Borrow<Swatch>>(&self, swatches: impl Iterator<Item = S> + Clone) -> bool {
+        let mut displays = swatches.clone().filter(|swatch| swatch.borrow().is_display);
+        let Some(display) = displays.clone().next() else { return false };
+        swatches.clone().any(|swatch| swatch.borrow() != display.borrow())
+            || displays.any(|swatch| self.palette.is_faded(swatch.borrow()))
     }
 
     /// As [`Appearance::common`], of a face that moves or not. Colours given as light have no hue
@@ -110,7 +113,7 @@ impl Appearance {
             return even;
         }
         let rows = std::array::from_fn(|at| (rows[at], weights[at]));
-        SurfaceColor { swatch: Swatch::mixed(swatches, weights), spectrum: SurfaceSpectrum::Corners(rows) }
+        SurfaceColor { swatch: Swatch::mixed(swatches, weights), rows }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its

@@ -54,7 +54,7 @@ mod spectral;
 mod surface_attributes;
 mod vertex_color;
 
-pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor, SurfaceSpectrum};
+pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor};
 pub use color::{
     RestColor, display_hue, hsv, hsv_and_factor, is_display, is_light, light, mean_hue, spectra_note,
     spectrum,

@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugscene::{ColorId, Mix, Scene};
 
 use crate::color::encoded_hsv;
-use crate::{Appearance, RestColor, SurfaceColor, SurfaceSpectrum, Swatch};
+use crate::{Appearance, RestColor, SurfaceColor, Swatch};
 
 /// The colour of parts with shares that add up to 1, the second of which may have none: the mean of
 /// their light.
@@ -66,7 +66,7 @@ impl Appearance {
         let [(a, share), (b, rest)] = parts;
         let rows = [(a.index() as u32, share), (b.index() as u32, rest), (a.index() as u32, 0.0)];
         let swatch = if rest == 0.0 { of(a) } else { self.mean_swatch([(of(a), share), (of(b), rest)]) };
-        Some(SurfaceColor { swatch, spectrum: SurfaceSpectrum::Corners(rows) })
+        Some(SurfaceColor { swatch, rows })
     }
 
     /// As [`mean_color`].

@@ -133,7 +133,7 @@ impl Palette {
         self.has_light
     }
 
-    /// True if a face may be drawn with colours of a display as light.
+    /// True if colours of a display may be drawn as light.
     pub fn has_display(&self) -> bool {
         self.has_display
     }

@@ -113,19 +113,6 @@ impl Spectra {
         self.mean(row, |row| self.shift.seen_lit(self.colors[row].spectrum(), doppler, light, lamps, filters))
     }
 
-    /// [`Spectra::lit`] of a surface with a spectrum of its own.
-    pub fn lit_surface(
-        &self,
-        surface: &Spectrum,
-        doppler: f64,
-        light: &[Irradiance],
-        lamps: &[Lamp],
-        filters: &[SpectralFilter<'_>],
-    ) -> DVec3 {
-        let xyz = self.shift.seen_lit(surface, doppler, light, lamps, filters);
-        DVec3::from_array(xyz_to_linear_srgb(xyz.to_array()))
-    }
-
     /// The strongest colour of a row.
     pub fn spectrum(&self, row: u32) -> &Spectrum {
         let parts = self.rows[row as usize].parts();

@@ -6,8 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
-    BodyId, ColorId, ColorValue, RestFrames, Scene, Shares, VertexId, Wire, WorldLinePoint, rest_positions,
-    vertex_shares, world_line_points,
+    BodyId, ColorId, ColorValue, RestFrames, Scene, SeenVertices, Shares, VertexId, Wire, WorldLinePoint,
+    vertex_shares,
 };
 
 use crate::{ColorShift, HueShift, Palette, RestColor, Swatch, VertexColor, vertex_colors};
@@ -22,8 +22,7 @@ pub struct SurfaceAttributes {
     /// Row of white, the default colour; it follows the scene's colours.
     white: u32,
     rest: Vec<DVec3>,
-    /// Of bodies on world lines, see [`world_line_points`].
-    points: Vec<Option<WorldLinePoint>>,
+    seen: SeenVertices,
     frames: RestFrames,
 }
 
@@ -31,8 +30,8 @@ impl SurfaceAttributes {
     /// `scene`: its vertices are part of one body each.
     pub fn new(scene: &Scene, eye: DVec3, palette: &Palette) -> Self {
         let frames = RestFrames::new(scene);
-        let rest = rest_positions(scene, eye, &frames);
-        let points = world_line_points(scene, eye, &frames);
+        let seen = SeenVertices::new(scene, eye, &frames);
+        let rest = seen.rest_positions(scene, eye, &frames);
         let mut swatches = palette.all().to_vec();
         // Scenes have fewer than 2^32 colours.
         let white = swatches.len() as u32;
@@ -42,7 +41,7 @@ impl SurfaceAttributes {
             Some(rows) => rows,
             None => mixed_rows(scene, &rest, palette, &mut swatches),
         };
-        Self { swatches, rows, white, rest, points, frames }
+        Self { swatches, rows, white, rest, seen, frames }
     }
 
     /// The colours that meet in each row.
@@ -83,6 +82,11 @@ impl SurfaceAttributes {
         self.rows[vertex.index()]
     }
 
+    /// True if a vertex has a colour of a display.
+    pub fn has_display(&self) -> bool {
+        self.rows.iter().any(|&row| self.swatches[row as usize].is_display)
+    }
+
     /// The row of a colour of the scene, or of white.
     pub fn row_of(&self, color: Option<ColorId>) -> u32 {
         color.map_or(self.white, row)
@@ -103,7 +107,7 @@ impl SurfaceAttributes {
     /// The vertex as it is seen on the world line of its body; `None` if its body is inertial.
     #[inline]
     pub fn on_world_line(&self, vertex: VertexId) -> Option<&WorldLinePoint> {
-        self.points.get(vertex.index())?.as_ref()
+        self.seen.on_world_line(vertex.index())
     }
 
     /// The rest positions of all vertices, see [`SurfaceAttributes::rest`].
@@ -113,7 +117,7 @@ impl SurfaceAttributes {
 
     /// The greatest rapidity with which a body, or a vertex of a body on a world line, is seen.
     pub fn greatest_rapidity(&self) -> f64 {
-        let on_lines = self.points.iter().flatten().map(|point| point.velocity.rapidity());
+        let on_lines = self.seen.on_world_lines.iter().flatten().map(|point| point.velocity.rapidity());
         on_lines.fold(self.frames.greatest_rapidity(), f64::max)
     }
 

@@ -66,7 +66,7 @@ pub fn apply_with(
     let mut mesh = RefinedMesh::new(motions, points);
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
-    let evenness = Evenness::new(&scene, is_apart);
+    let evenness = Evenness::new(is_apart);
     let max_pieces = adaptive::max_pieces(n_faces, config.size, motions);
     let outcome = match config.pieces {
         Pieces::UpTo(_) => adaptive::cut(&scene, &evenness, &mut mesh, &bounds, max_pieces, progress)?,

@@ -1,5 +1,8 @@
 //! Names, colours and normals of new vertices, and smooth normals.
 
+use std::borrow::Borrow;
+use std::cell::OnceCell;
+
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::{RestColor, VertexColor};
@@ -66,7 +69,7 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
     let shade = |color: VertexColor| match color {
         VertexColor::Named(id) => Shade::of(scene, Some(id)),
         VertexColor::White => Shade::of(scene, None),
-        VertexColor::Mixed(rest) => Shade { color: None, is_mixture: true, rest },
+        VertexColor::Mixed(rest) => Shade::new(None, true, rest),
     };
     let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
     let shares = vertex_shares(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
@@ -74,13 +77,15 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
 }
 
 /// The look of a vertex at rest.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Shade {
     /// The statement it is given by, or `Some(None)` for white; `None` if there is no statement.
     color: Option<Option<ColorId>>,
     /// Colours of several faces are mixed in it.
     is_mixture: bool,
     rest: RestColor,
+    /// Its linear light, once it is needed: the transfer function takes long.
+    linear: OnceCell<DVec3>,
 }
 
 impl Shade {
@@ -88,7 +93,15 @@ impl Shade {
         let name = |id: ColorId| scene.names.get(scene.colors[id.index()].name);
         let is_mixture =
             id.zip(scene.stage.mixtures).is_some_and(|(id, mixtures)| mixtures.contains(name(id)));
-        Shade { color: Some(id), is_mixture, rest: RestColor::new(scene, id) }
+        Self::new(Some(id), is_mixture, RestColor::new(scene, id))
+    }
+
+    fn new(color: Option<Option<ColorId>>, is_mixture: bool, rest: RestColor) -> Shade {
+        Shade { color, is_mixture, rest, linear: OnceCell::new() }
+    }
+
+    fn linear(&self) -> DVec3 {
+        *self.linear.get_or_init(|| self.rest.linear())
     }
 }
 
@@ -168,7 +181,8 @@ impl ColorMixer {
         if let Some(&known) = self.mixed.get(&key) {
             return Some(known);
         }
-        let shade = blend(parts.iter().map(|&(color, weight)| (Shade::of(scene, Some(color)), weight)));
+        let shades: Vec<Shade> = parts.iter().map(|&(color, _)| Shade::of(scene, Some(color))).collect();
+        let shade = blend(shades.iter().zip(parts.iter().map(|&(_, weight)| weight)));
         let parts =
             parts.into_iter().map(|(color, weight)| (Shares::One(Some(color)).of_spectra(scene), weight));
         let shares = sum(parts);
@@ -189,19 +203,19 @@ impl ColorMixer {
             return (Shade::of(scene, color), Shares::One(color).of_spectra(scene));
         }
         let parts = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
-        let shares = sum(parts.clone().map(|(row, weight)| (shades[row as usize].1.clone(), weight)));
-        let parts = parts.map(|(row, weight)| (shades[row as usize].0, weight));
+        let shares = sum(parts.clone().map(|(row, weight)| (&shades[row as usize].1, weight)));
+        let parts = parts.map(|(row, weight)| (&shades[row as usize].0, weight));
         let shade = Self::blend_or_same(parts);
         (shade, shares)
     }
 
     /// The shade of parts if it is one, else their mixture.
-    fn blend_or_same(parts: impl Iterator<Item = (Shade, f64)> + Clone) -> Shade {
+    fn blend_or_same<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
         match parts.clone().next() {
             Some((first, _))
                 if first.color.is_some() && parts.clone().all(|part| part.0.color == first.color) =>
             {
-                first
+                first.clone()
             }
             _ => blend(parts),
         }
@@ -256,11 +270,11 @@ impl ColorMixer {
 }
 
 /// The colours in weighted parts, each once.
-fn sum(parts: impl Iterator<Item = (Shares, f64)>) -> Shares {
-    let parts = parts.flat_map(|(shares, weight)| {
-        shares.parts().map(|(color, share)| (color, weight * share)).collect::<Vec<_>>()
-    });
-    let mut parts: Vec<_> = parts.collect();
+fn sum(weighted: impl Iterator<Item = (impl Borrow<Shares>, f64)>) -> Shares {
+    let mut parts = Vec::new();
+    for (shares, weight) in weighted {
+        parts.extend(shares.borrow().parts().map(|(color, share)| (color, weight * share)));
+    }
     parts.sort_by_key(|&(color, _)| color);
     parts.dedup_by(|(color, share), (before, sum)| {
         let is_same = color == before;
@@ -277,24 +291,24 @@ fn sum(parts: impl Iterator<Item = (Shares, f64)>) -> Shares {
 
 /// The mean of hues ([`uglight::mean_hue`]). If a part is given as light, or as a colour of a
 /// display (`c_rgb`), light is averaged instead.
-fn blend(parts: impl Iterator<Item = (Shade, f64)> + Clone) -> Shade {
-    let (mut linear, mut translucency) = (DVec3::ZERO, 0.0);
+fn blend<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
+    let mut translucency = 0.0;
     let (mut has_light, mut has_display, mut is_mixture) = (false, false, false);
     for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts.clone() {
         translucency += weight * rest.translucency;
-        linear += weight * rest.linear();
         has_light |= rest.light.is_some();
         has_display |= rest.is_display;
         is_mixture |= is_mixed;
     }
     // Weights may add up to more than 1 by rounding.
     let translucency = translucency.min(1.0);
-    let light = has_light.then(|| linear.to_array());
+    let mean = || parts.clone().map(|(shade, weight)| weight * shade.linear()).sum::<DVec3>().to_array();
+    let light = has_light.then(mean);
     let is_display = has_display && !has_light;
     let hsv = if is_display {
-        Hsv::from_rgb(linear.to_array().map(|channel| srgb_encode(channel).min(1.0)))
+        Hsv::from_rgb(mean().map(|channel| srgb_encode(channel).min(1.0)))
     } else {
         uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight)))
     };
-    Shade { color: None, is_mixture, rest: RestColor { hsv, light, is_display, translucency } }
+    Shade::new(None, is_mixture, RestColor { hsv, light, is_display, translucency })
 }

@@ -8,8 +8,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, count, finite, numbers,
-    remedies, whole,
+    CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, finite, remedies, whole,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, Provenance};
@@ -107,11 +106,6 @@ pub struct Args {
     common: CommonArgs,
 }
 
-numbers!(Args {
-    "se" => error, "sc" => color_error: percent, "sl" => light_error: percent,
-    "sd" => equal: count(0..=u32::MAX), "sz" => size: count(1..=u32::MAX)
-} motion camera);
-
 const CAMERA: &str = "Camera";
 
 const EXAMPLES: &str = "Examples:
@@ -138,7 +132,6 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let steps = context.steps();
     steps.step("reading", 0);
     let parsed = ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
-    let boxes = BodyBoxes::new(&parsed.scene);
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
@@ -152,10 +145,12 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     report.warnings().iter().for_each(|warning| context.warn(warning));
     report.notes().iter().for_each(|note| context.note(note));
-    if !context.is_quiet()
-        && let Some(note) = boxes.note(&scene, &config.motion(), &config.camera, config.size)
-    {
-        context.note(&note.words());
+    if !context.is_quiet() && ugscene::may_miss_motion(&scene, &config.camera, config.size) {
+        // Seldom, so the scene at rest is read again rather than kept.
+        let at_rest = ugparse::read(&source, &reading, config.camera.name.as_deref());
+        let boxes = BodyBoxes::new(&at_rest.map_err(pipe::refused)?.scene);
+        let note = boxes.note(&scene, &config.motion(), &config.camera, config.size);
+        note.iter().for_each(|note| context.note(&note.words()));
     }
     report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {

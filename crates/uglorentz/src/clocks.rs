@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use uglight::{RestColor, mean_color};
-use ugscene::{BodyId, Color, ColorId, ColorTable, Mix, Scene};
+use ugscene::{BodyId, Color, ColorId, ColorTable, Drawn, Mix, Scene};
 
 use crate::attributes::free_prefix;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -52,8 +52,7 @@ impl Clocks {
             return Self::default();
         }
         let mut tables: Vec<Vec<ColorId>> = vec![Vec::new(); scene.bodies.len()];
-        let faces = scene.faces.iter().map(|face| (face.body, face.color));
-        for (body, color) in faces.chain(scene.wires.iter().map(|wire| (wire.body, wire.color))) {
+        for Drawn { body, color, .. } in scene.drawn() {
             tables[body.index()].extend(color.filter(|&color| scene.table_of(color).is_some()));
         }
         let lights = |mut colors: Vec<ColorId>| {
@@ -167,10 +166,8 @@ pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
     if !scene.has_changing_surfaces() {
         return;
     }
-    let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.color));
-    let wires = scene.wires.iter().map(|wire| (wire.contours.clone(), wire.color));
     let changing = |color: Option<ColorId>| color.filter(|&color| scene.table_of(color).is_some());
-    let users: Vec<_> = faces.chain(wires).map(|(rows, color)| (rows, changing(color))).collect();
+    let users: Vec<_> = scene.drawn().map(|drawn| (drawn.contours, changing(drawn.color))).collect();
     let rows = users.iter().map(|(rows, _)| rows.clone());
     let copies = ugscene::split_corners(scene, rows, |user, _, vertex| {
         vertex.color.is_none().then_some(users[user].1)

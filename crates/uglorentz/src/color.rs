@@ -51,8 +51,12 @@ pub(crate) fn is_off(a: &Point, b: &Point, motion: &RelativeMotion, bound: f64) 
 /// An upper bound of the relative errors of D and 1/D, interpolated linearly along the edge. (E4)
 pub(crate) fn error(a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
     let chord = Chord::new(a, b, motion);
-    let x = chord.between_samples(1.0);
-    if chord.is_out_of_range(x) { 0.0 } else { chord.total(x).min(chord.total(chord.sampled())) }
+    chord.rough_error().min(chord.total(chord.sampled()))
+}
+
+/// [`error`] without samples, which is larger or the same.
+pub(crate) fn rough_error(a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
+    Chord::new(a, b, motion).rough_error()
 }
 
 struct Chord<'a> {
@@ -73,6 +77,11 @@ impl<'a> Chord<'a> {
     /// (E4)
     fn total(&self, x: f64) -> f64 {
         if x >= 1.0 { f64::INFINITY } else { self.q + (1.0 + self.q) * x / (1.0 - x) }
+    }
+
+    fn rough_error(&self) -> f64 {
+        let x = self.between_samples(1.0);
+        if self.is_out_of_range(x) { 0.0 } else { self.total(x) }
     }
 
     /// Is D, on the whole chord, above [`MOST_SHIFT`] or below its inverse? `x`: an upper bound of

@@ -5,6 +5,8 @@
 //! of the depth error normal to the piece is; of a piece that is seen as a line only the outline
 //! is. An edge is halved if it bends and this is visible in any of its pieces.
 
+use std::cell::LazyCell;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use ugscene::{Face, Scene, VertexId};
@@ -56,17 +58,19 @@ impl Bounds {
         self.clocks.is_off(a, b, motion, self.tolerance(a).tan_half)
     }
 
-    /// The visible parts of a flat piece and its edges; `None` if it is outside the view.
-    pub(crate) fn shown(&self, motion: &RelativeMotion, corners: &[&Point]) -> Option<Shown> {
+    /// True only if a flat piece is outside the view.
+    pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
+        self.view_volume.is_outside(motion, corners)
+    }
+
+    /// The visible parts of a flat piece and its edges.
+    pub(crate) fn shown(&self, motion: &RelativeMotion, corners: &[&Point]) -> Shown {
         if motion.world_line().is_some() {
-            return Some(Shown::All);
-        }
-        if self.view_volume.is_outside(motion, corners) {
-            return None;
+            return Shown::All;
         }
         let angle = corners.first().map_or(0.0, |corner| 2.0 * self.tolerance(corner).tan_half);
         let is_line = edge_on::is_seen_as_line(motion, corners, angle);
-        Some(if is_line { Shown::Outline } else { Shown::OnPiece(edge::slant(corners, motion)) })
+        if is_line { Shown::Outline } else { Shown::OnPiece(edge::slant(corners, motion)) }
     }
 }
 
@@ -217,35 +221,44 @@ impl Criterion<'_, '_> {
         for (mark, (a, b)) in verdict.bends.iter_mut().zip(shape.edges()) {
             *mark = self.bends(a, b);
         }
-        let points: Vec<&Point> = shape.corners().iter().map(|&corner| self.mesh.point(corner)).collect();
-        let Some(shown) = self.bounds.shown(motion, &points) else { return verdict };
+        let corners = shape.corners();
+        let points: [&Point; 4] =
+            std::array::from_fn(|idx| self.mesh.point(corners[idx.min(corners.len() - 1)]));
+        let points = &points[..corners.len()];
+        if self.bounds.is_outside(motion, points) {
+            return verdict;
+        }
+        let shown = LazyCell::new(|| self.bounds.shown(motion, points));
+        let shown = || *shown;
         let shows = &mut verdict.shows;
         for ((mark, bends), (a, b)) in shows.edges.iter_mut().zip(verdict.bends).zip(shape.edges()) {
             *mark = bends && self.shows(a, b, shown);
         }
         shows.inside =
-            !shows.any_edge() && !matches!(shown, Shown::Outline) && self.bends_inside(shape, shown);
+            !shows.any_edge() && self.bends_inside(shape, shown) && !matches!(shown(), Shown::Outline);
         verdict
     }
 
-    /// `shown`: of the piece, for edges inside a face. Errors of edges of the scene are always
-    /// visible: the neighbour may have been modelled with other corners, and two lines subdivided
-    /// differently would leave a slit.
-    fn shows(&self, a: u32, b: u32, shown: Shown) -> bool {
-        let shown = if self.mesh.is_rim(a, b) { Shown::All } else { shown };
+    /// Of an edge that bends. `shown`: of the piece, for edges inside a face. Errors of edges of the
+    /// scene are always visible: the neighbour may have been modelled with other corners, and two
+    /// lines subdivided differently would leave a slit.
+    fn shows(&self, a: u32, b: u32, shown: impl Fn() -> Shown) -> bool {
+        if self.mesh.is_rim(a, b) {
+            return true;
+        }
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
-        edge::shows(from, to, motion, self.bounds.tolerance(from), shown)
+        edge::shows(from, to, motion, self.bounds.tolerance(from), shown())
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
             || self.bounds.is_color_off(from, to, motion)
     }
 
     /// Assumes that no edge bends visibly.
-    fn bends_inside(&self, shape: &Shape, shown: Shown) -> bool {
+    fn bends_inside(&self, shape: &Shape, shown: impl Fn() -> Shown) -> bool {
         match *shape {
             Shape::Triangle(corners) => self.bulges(corners),
             Shape::Quad([a, b, c, d]) => {
-                let bends = |(a, b)| self.bends(a, b) && self.shows(a, b, shown);
+                let bends = |(a, b)| self.bends(a, b) && self.shows(a, b, &shown);
                 [(a, c), (b, d)].into_iter().any(bends)
                     || [[a, b, c], [a, c, d], [b, c, d], [b, d, a]].into_iter().any(|half| self.bulges(half))
             }

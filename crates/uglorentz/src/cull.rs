@@ -26,6 +26,9 @@ impl ViewVolume {
     /// True only if no point between these corners of a body is in the picture, neither as seen nor
     /// as drawn. It is never true of bodies on world lines.
     pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
+        if self.spaces.is_empty() {
+            return false;
+        }
         let corners: Vec<DVec3> = corners.iter().map(|corner| corner.rest).collect();
         self.spaces.iter().any(|space| motion.is_outside(space, &corners))
     }

@@ -133,15 +133,21 @@ pub(crate) fn slant(corners: &[&Point], motion: &RelativeMotion) -> f64 {
     motion.velocity().speed() * (0..n).map(at).fold(0.0, f64::max)
 }
 
-/// All errors of an edge.
-pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown) -> Errors {
+/// All errors of an edge. `color`: the function for that of the colour, if the body is inertial.
+pub(crate) fn errors(
+    a: &Point,
+    b: &Point,
+    motion: &RelativeMotion,
+    shown: Shown,
+    color: impl Fn(&Point, &Point, &RelativeMotion) -> f64,
+) -> Errors {
     if motion.is_at_rest() {
         return Errors::default();
     }
     if let Some(line) = motion.world_line() {
         return world_line::errors(a, b, line);
     }
-    let color = if matches!(shown, Shown::Outline) { 0.0 } else { color::error(a, b, motion) };
+    let color = if matches!(shown, Shown::Outline) { 0.0 } else { color(a, b, motion) };
     if !motion.has_flight_time() {
         return Errors { color, ..Errors::default() };
     }
@@ -151,10 +157,14 @@ pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion, shown: Shown
 
 /// The largest error of an edge relative to its bound; always finite.
 pub(crate) fn excess(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &Tolerance) -> f64 {
-    let Errors { angle, offset, color } = errors(a, b, motion, Shown::All);
-    let color = if tolerance.color == f64::INFINITY { 0.0 } else { color / tolerance.color };
-    let angle = libm::tan(angle / 2.0) / tolerance.tan_half;
-    color.max(angle).max(offset / tolerance.offset).min(f64::MAX)
+    let Errors { angle, offset, color } = errors(a, b, motion, Shown::All, color::rough_error);
+    let shape = (libm::tan(angle / 2.0) / tolerance.tan_half).max(offset / tolerance.offset);
+    let relative = |error: f64| if tolerance.color == f64::INFINITY { 0.0 } else { error / tolerance.color };
+    let mut color = relative(color);
+    if color > shape && motion.world_line().is_none() {
+        color = relative(color::error(a, b, motion));
+    }
+    color.max(shape).min(f64::MAX)
 }
 
 /// Rules 1 and 2.

@@ -10,7 +10,7 @@ use crate::pieces::{Cut, Shape, shape};
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::{Point, RelativeMotion};
 use crate::report::{LargestError, RemainingErrors};
-use crate::{early_accept, edge_on, interior};
+use crate::{color, early_accept, edge_on, interior};
 
 /// The largest visible errors of all edges and faces of a subdivided scene.
 pub(crate) fn measure(scene: &Scene, mesh: &RefinedMesh, bounds: &Bounds) -> RemainingErrors {
@@ -78,7 +78,10 @@ impl ErrorMeter<'_, '_> {
         let Some(first) = corners.first() else { return Errors::default() };
         let motion = self.mesh.motion(first.0);
         let points: Vec<&Point> = corners.iter().map(|corner| self.mesh.point(corner.0)).collect();
-        let Some(shown) = self.bounds.shown(motion, &points) else { return Errors::default() };
+        if self.bounds.is_outside(motion, &points) {
+            return Errors::default();
+        }
+        let shown = self.bounds.shown(motion, &points);
         let (inside, shown) = self.inside(face, motion, &points, shown);
         let ends = self
             .scene
@@ -98,7 +101,7 @@ impl ErrorMeter<'_, '_> {
         let (low, high) = (a.min(b), a.max(b));
         let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         let shown = if self.mesh.is_rim(low, high) { Shown::All } else { shown };
-        let errors = edge::errors(from, to, motion, shown);
+        let errors = edge::errors(from, to, motion, shown, color::error);
         let light = self.bounds.near_lamps.error(from, to, motion);
         let at = [Some(low), Some(high), None];
         Errors {

@@ -25,9 +25,7 @@ pub(crate) fn refuse_vertices_at_eye(
     if !points.par_iter().any(is_at_eye) {
         return Ok(());
     }
-    let faces = scene.faces.iter().map(|face| face.contours.clone());
-    let users = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone()));
-    let mut used = users.flat_map(|rows| scene.contours.corners(rows));
+    let mut used = scene.drawn().flat_map(|drawn| scene.contours.corners(drawn.contours));
     match used.find(|vertex| is_at_eye(&points[vertex.index()])) {
         None => Ok(()),
         Some(vertex) => {

@@ -2,6 +2,8 @@
 
 use std::io::{self, Write};
 
+use rayon::prelude::*;
+
 /// An output stream with the pieces that wait to be sent.
 ///
 /// While the pieces of one round are formatted, those of the round before are sent. So at most two
@@ -36,7 +38,11 @@ impl<'o> ChunkedWriter<'o> {
     ) -> io::Result<()> {
         let mut pieces = std::mem::take(&mut self.spare);
         pieces.resize_with(n_pieces, Vec::new);
-        let sent = ugparallel::for_jobs_while(&mut pieces, make, || self.send());
+        let sent = rayon::in_place_scope(|scope| {
+            let jobs = pieces.par_iter_mut().with_max_len(1).enumerate();
+            scope.spawn(|_| jobs.for_each(|(idx, piece)| make(idx, piece)));
+            self.send()
+        });
         self.spare = std::mem::replace(&mut self.ready, pieces);
         sent
     }

@@ -45,8 +45,8 @@ impl<'t> Name<'t> {
 pub(crate) struct NumberedNames<'t> {
     stems: Vec<Stem<'t>>,
     stem_rows: FxHashMap<&'t [u8], usize>,
-    /// The last stem used.
-    last: usize,
+    /// The last two stems used: the corners of a face are often in two rows of a grid.
+    recent: [usize; 2],
     others: FxHashMap<&'t [u8], u32>,
     len: u32,
     /// Number of entries by which the tables may still grow.
@@ -75,9 +75,8 @@ impl<'t> NumberedNames<'t> {
     pub fn enter(&mut self, name: Name<'t>) -> u32 {
         if let Some(len) = name.stem {
             let stem = &name.text[..len];
-            if let Some(last) = self.stems.get(self.last)
-                && last.text == stem
-                && let Some(&entry @ 1..) = last.entries.get(name.number as usize)
+            if let Some(row) = self.recent(stem)
+                && let Some(&entry @ 1..) = self.stems[row].entries.get(name.number as usize)
             {
                 return entry - 1;
             }
@@ -97,8 +96,8 @@ impl<'t> NumberedNames<'t> {
 
     fn enter_slowly(&mut self, name: Name<'t>) -> u32 {
         let Some(len) = name.stem else { return self.enter_other(name.text) };
-        self.last = self.stem(&name.text[..len]);
-        let entries = &mut self.stems[self.last].entries;
+        let row = self.stem(&name.text[..len]);
+        let entries = &mut self.stems[row].entries;
         let idx = name.number as usize;
         if idx >= entries.len() {
             let wanted = (idx + 1).max(2 * entries.len()).min(entries.len() + self.room);
@@ -126,13 +125,21 @@ impl<'t> NumberedNames<'t> {
         })
     }
 
+    /// The row of a stem, if it was used lately.
+    #[inline]
+    fn recent(&self, text: &[u8]) -> Option<usize> {
+        let is_it = |row: &usize| self.stems.get(*row).is_some_and(|stem| stem.text == text);
+        self.recent.into_iter().find(is_it)
+    }
+
     fn stem(&mut self, text: &'t [u8]) -> usize {
-        if self.stems.get(self.last).is_some_and(|stem| stem.text == text) {
-            return self.last;
-        }
-        *self.stem_rows.entry(text).or_insert_with(|| {
-            self.stems.push(Stem { text, entries: Vec::new() });
-            self.stems.len() - 1
+        self.recent(text).unwrap_or_else(|| {
+            let row = *self.stem_rows.entry(text).or_insert_with(|| {
+                self.stems.push(Stem { text, entries: Vec::new() });
+                self.stems.len() - 1
+            });
+            self.recent = [row, self.recent[0]];
+            row
         })
     }
 
@@ -141,9 +148,9 @@ impl<'t> NumberedNames<'t> {
     pub fn enter_all(&mut self, other: &NumberedNames<'t>) -> Vec<u32> {
         let mut numbers = vec![0; other.len()];
         for stem in &other.stems {
-            self.last = self.stem(stem.text);
+            let row = self.stem(stem.text);
             for (idx, &entry) in stem.entries.iter().enumerate().filter(|(_, entry)| **entry != 0) {
-                numbers[entry as usize - 1] = self.enter_numbered(idx);
+                numbers[entry as usize - 1] = self.enter_numbered(row, idx);
             }
         }
         for (&name, &number) in &other.others {
@@ -152,9 +159,9 @@ impl<'t> NumberedNames<'t> {
         numbers
     }
 
-    /// The number of the name that consists of the last stem and `idx`.
-    fn enter_numbered(&mut self, idx: usize) -> u32 {
-        let stem = &mut self.stems[self.last];
+    /// The number of the name that consists of the stem in row `row` and `idx`.
+    fn enter_numbered(&mut self, row: usize, idx: usize) -> u32 {
+        let stem = &mut self.stems[row];
         if let Some(&entry @ 1..) = stem.entries.get(idx) {
             return entry - 1;
         }

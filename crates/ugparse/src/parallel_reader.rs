@@ -7,6 +7,7 @@
 //! other error, a part fails; then the whole text is parsed again on one thread, which gives the
 //! diagnostics.
 
+use rayon::prelude::*;
 use ugscene::{BodyId, ColorId, Contours, Illum, IllumId, LightMotion, NameId, SurfaceId, VertexId};
 
 use crate::Options;
@@ -27,7 +28,7 @@ pub(crate) fn read_document<'t>(
     options: &Options,
     findings: &mut Vec<Diagnostic>,
 ) -> Document<'t> {
-    let n_parts = ugparallel::n_threads().min(text.len() / MIN_PART);
+    let n_parts = rayon::current_num_threads().min(text.len() / MIN_PART);
     if n_parts > 1
         && let Some((document, warnings)) = read_parts(text, n_parts, options)
     {
@@ -45,7 +46,8 @@ fn read_parts<'t>(
     let mut cuts: Vec<usize> = (0..=n_parts).map(|part| cut(text, part, n_parts)).collect();
     cuts.dedup();
     let read_part = |part: usize| read_part(&text[..cuts[part + 1]], cuts[part], options);
-    let parts: Option<Vec<_>> = ugparallel::map(cuts.len() - 1, 1, read_part).into_iter().collect();
+    let parts = (0..cuts.len() - 1).into_par_iter().with_max_len(1).map(read_part);
+    let parts: Option<Vec<_>> = parts.collect();
     let (mut documents, warnings): (Vec<_>, Vec<_>) = parts?.into_iter().unzip();
     let scopes = documents.iter_mut().filter_map(|document| document.scopes.pop()).collect();
     let document = Document {
@@ -312,7 +314,7 @@ fn join_tables<'t, T: Send>(
     for (offset, range) in offsets.iter().zip(ends.windows(2)) {
         if !offset.is_same {
             let rows = &mut rows[range[0]..range[1]];
-            ugparallel::for_each_mut(rows, MIN_ROWS, |_, row| change(row, offset));
+            rows.par_iter_mut().with_min_len(MIN_ROWS).for_each(|row| change(row, offset));
         }
     }
     Rows { rows, spans: join_rows(spans) }
@@ -352,7 +354,8 @@ fn join_contours(parts: &mut [Scope<'_>], first_rows: &[u32], other_rows: &[Vec<
     for (part, (corner_range, end_range)) in of_corners.windows(2).zip(of_ends.windows(2)).enumerate() {
         let rows = part.checked_sub(1).map_or(first_rows, |other| &other_rows[other][..]);
         let corners = &mut corners[corner_range[0]..corner_range[1]];
-        ugparallel::for_each_mut(corners, MIN_ROWS, |_, corner| *corner = VertexId(rows[corner.index()]));
+        let corners = corners.par_iter_mut().with_min_len(MIN_ROWS);
+        corners.for_each(|corner| *corner = VertexId(rows[corner.index()]));
         let first_corner = corner_range[0] as u32;
         if first_corner > 0 {
             contour_ends[end_range[0]..end_range[1]].iter_mut().for_each(|end| *end += first_corner);

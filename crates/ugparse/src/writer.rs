@@ -173,7 +173,7 @@ impl<'s> Tables<'s, '_> {
             .enumerate()
             .map(|(idx, rows)| self.take_block(idx * BLOCK_ROWS, rows, item))
             .collect();
-        for round in blocks.chunks(BLOCKS_PER_THREAD * ugparallel::n_threads()) {
+        for round in blocks.chunks(BLOCKS_PER_THREAD * rayon::current_num_threads()) {
             match round {
                 // Waking a thread would take longer than formatting a small table.
                 [block] => self.chunked_writer.append(|out| write(block, out)),

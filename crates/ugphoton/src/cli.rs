@@ -13,10 +13,7 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kind_named, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, count, number, numbers, one_of,
-    whole,
-};
+use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
@@ -157,11 +154,6 @@ pub struct Args {
     common: CommonArgs,
 }
 
-numbers!(Args {
-    "rd" => rd: count(0..=64), "rc" => rc: part, "film-shutter" => film_shutter: distance,
-    "stereo" => stereo: distance, "ad" => ad: part
-} motion picture lens);
-
 const COLOR: &str = "Colour";
 const RAYS: &str = "Rays";
 
@@ -254,9 +246,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
         return write_report(report, &explanation, &warnings, context);
     }
-    if let Some(format) = config.picture.output.format() {
-        refuse_terminal(format, context)?;
-    }
+    refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());

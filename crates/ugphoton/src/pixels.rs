@@ -384,26 +384,23 @@ impl<'a> Painting<'a> {
 
     fn pixel(&self, samples: &Samples, weights: &[f32], [column, row]: [u32; 2]) -> [f32; 4] {
         let (n, margin) = (self.samples, self.filter.margin());
-        let width = samples.columns.len();
-        let first = |pixel: u32| i64::from(pixel * n) - i64::from(margin * n);
-        let (left, top) = (first(column), first(row));
-        let (mut sum, mut total) = ([0.0_f32; 4], 0.0_f32);
-        // A filter does not reach into the frame beside.
-        let [columns, rows] = [(0, column), (1, row)].map(|(axis, pixel)| {
+        // The weights of traced samples, and the place of the first of these. A filter does not
+        // reach into the frame beside.
+        let used = |axis: usize, pixel: u32, traced: &Range<u32>| {
             let frame = frame_around(pixel, self.size[axis], self.frames[axis]);
-            frame.start * n..frame.end * n
-        });
-        let inside = |range: &Range<u32>, frame: &Range<u32>, at: i64| {
-            u32::try_from(at).ok().filter(|at| range.contains(at) && frame.contains(at))
+            let first = i64::from(pixel * n) - i64::from(margin * n);
+            let [start, end] = [traced.start.max(frame.start * n), traced.end.min(frame.end * n)]
+                .map(|at| (i64::from(at) - first).clamp(0, weights.len() as i64));
+            (&weights[start as usize..end as usize], (first + start - i64::from(traced.start)) as usize)
         };
-        for (at, &down) in weights.iter().enumerate() {
-            let Some(y) = inside(&samples.rows, &rows, top + at as i64) else { continue };
-            let line = &samples.light[(y - samples.rows.start) as usize * width..][..width];
-            for (at, &across) in weights.iter().enumerate() {
-                let Some(x) = inside(&samples.columns, &columns, left + at as i64) else { continue };
+        let (across, left) = used(0, column, &samples.columns);
+        let (down, top) = used(1, row, &samples.rows);
+        let lines = samples.light.chunks_exact(samples.columns.len()).skip(top);
+        let (mut sum, mut total) = ([0.0_f32; 4], 0.0_f32);
+        for (line, down) in lines.zip(down) {
+            for (sample, across) in line[left..].iter().zip(across) {
                 let weight = down * across;
                 if weight != 0.0 {
-                    let sample = line[(x - samples.columns.start) as usize];
                     (0..4).for_each(|channel| sum[channel] += weight * sample[channel]);
                     total += weight;
                 }

@@ -5,7 +5,8 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec3;
-use uglight::{Appearance, ColorShift, Interpolation, Lamp, Lamps};
+use rayon::prelude::*;
+use uglight::{Appearance, ColorShift, Common, Interpolation, Lamp, Lamps};
 use ugphysics::{Event, Medium, RestFrame, WorldLine};
 use ugpicture::PictureOptions;
 use ugscene::{BodyId, Face, Geometry, HueScale, RestFrames, Scene, SurfaceProperties, View};
@@ -48,6 +49,8 @@ pub struct Scenery<'a> {
     eye_media: Media,
     /// The colours of the scene, and how motion changes them.
     pub appearance: Appearance,
+    /// What the colours of the corners of each face have in common.
+    pub face_colors: Vec<Common>,
     /// Which secondary rays are traced.
     pub rays: RayOptions,
     /// The lights, or the default ones.
@@ -121,6 +124,10 @@ impl<'a> Scenery<'a> {
             let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
             return Err(Error::MovingMedium { name: name.to_string() });
         }
+        let is_moving =
+            |body| surface.frames().world_line(body).is_some() || !surface.velocity(body).is_zero();
+        let common = |face: &Face| appearance.common_in_motion(&scene, face, is_moving(face.body));
+        let face_colors = scene.faces.par_iter().map(common).collect();
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
@@ -146,6 +153,7 @@ impl<'a> Scenery<'a> {
             eye_media,
             has_absorption,
             appearance,
+            face_colors,
             rays,
             lamps,
             lamp_motions,

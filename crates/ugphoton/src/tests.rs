@@ -102,7 +102,7 @@ fn hits_are_those_of_testing_every_body() {
             let k = random.direction();
             let forward = *random.pick(&[
                 Event { t: 1.0, x: k },
-                medium.step(WaveVector { frequency: 1.0, k: k * medium.index }.out_of_frame(velocity)),
+                medium.step(WaveVector { frequency: 1.0, k: k * medium.index }.in_frame(-velocity)),
             ]);
             let origin = Event { t: -random.between(0.0, 40.0), x: random.in_cube(12.0) };
             let step = Event { t: -forward.t, x: -forward.x };

@@ -139,8 +139,10 @@ impl World {
             rows[part_of_body[face.body.index()]].push(row as u32);
         }
         let parts = first_bodies.into_iter().zip(rows).filter(|(_, rows)| !rows.is_empty());
+        // A vertex is part of one body, and so of one part.
+        let mut vertices = vec![u32::MAX; faces.rest.len()];
         let part = |(body, rows): (BodyId, Vec<u32>)| {
-            Part::new(faces, *frames.of(body), frames.world_line(body), &rows)
+            Part::new(faces, *frames.of(body), frames.world_line(body), &rows, &mut vertices)
         };
         let (mut parts, on_world_lines): (Vec<Part>, Vec<Part>) =
             parts.map(part).partition(|part| part.motion.is_none());
@@ -357,12 +359,13 @@ impl Part {
         frame: RestFrame,
         line: Option<&Arc<WorldLine>>,
         rows: &[u32],
+        known: &mut [u32],
     ) -> Self {
         let triangle = |&row: &u32| whole_triangle(scene, row);
         let cut = |&row: &u32| face_triangles(scene, rest, row);
         let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
         let triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
-        let (places, corners) = vertices(&triangles, rest);
+        let (places, corners) = vertices(&triangles, rest, known);
         let bvh = Bvh::new(&places, &corners);
         let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
         let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
@@ -501,29 +504,20 @@ impl Part {
 }
 
 /// The places of the vertices of some triangles alone, and the rows of their corners among them.
-fn vertices(triangles: &[FaceTriangle], rest: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    /// With fewer triangles per vertex of the scene, a table of all vertices takes longer.
-    const DENSE: usize = 8;
-    let corners = || triangles.iter().flat_map(|triangle| triangle.corners);
-    if triangles.len() >= rest.len() / DENSE {
-        let mut rows = vec![u32::MAX; rest.len()];
-        corners().for_each(|corner| rows[corner.index()] = 0);
-        let mut places = Vec::new();
-        for (row, place) in rows.iter_mut().zip(rest).filter(|(row, _)| **row == 0) {
+/// `rows`: for each vertex of the scene, its row in its part, as far as it is known, else `u32::MAX`.
+fn vertices(triangles: &[FaceTriangle], rest: &[DVec3], rows: &mut [u32]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+    let mut places = Vec::new();
+    let mut row = |corner: VertexId| {
+        let row = &mut rows[corner.index()];
+        if *row == u32::MAX {
             // Scenes have fewer than 2^32 vertices.
             *row = places.len() as u32;
-            places.push(*place);
+            places.push(rest[corner.index()]);
         }
-        let row = |corner: VertexId| rows[corner.index()];
-        return (places, triangles.par_iter().map(|triangle| triangle.corners.map(row)).collect());
-    }
-    let mut used: Vec<u32> = corners().map(|corner| corner.0).collect();
-    used.par_sort_unstable();
-    used.dedup();
-    let places = used.par_iter().map(|&vertex| rest[vertex as usize]).collect();
-    // Every corner is among them.
-    let row = |corner: VertexId| used.binary_search(&corner.0).unwrap_or_default() as u32;
-    (places, triangles.par_iter().map(|triangle| triangle.corners.map(row)).collect())
+        *row
+    };
+    let corners = triangles.iter().map(|triangle| triangle.corners.map(&mut row)).collect();
+    (places, corners)
 }
 
 /// A face with three corners, which need not be cut.

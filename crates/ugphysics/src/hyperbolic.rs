@@ -46,15 +46,4 @@ impl HyperbolicMotion {
     pub fn velocity(&self, proper_time: f64) -> Result<Velocity, VelocityError> {
         Velocity::from_rapidity(self.acceleration, self.acceleration.length() * proper_time)
     }
-
-    /// The proper time from rest until the body has travelled x = `distance` ≥ 0: aτ = acosh(1 + a
-    /// x).  Eq. (P32)
-    ///
-    /// The acceleration must not be 0; without one the result is NaN or infinite.
-    #[must_use]
-    pub fn proper_time_to(&self, distance: f64) -> f64 {
-        let a = self.acceleration.length();
-        // acosh(1 + s) = 2 asinh √(s/2), which is accurate for small s too.
-        2.0 * libm::asinh((0.5 * a * distance).sqrt()) / a
-    }
 }

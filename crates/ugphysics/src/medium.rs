@@ -50,7 +50,7 @@ impl Medium {
     ///
     /// // Fizeau's experiment: glass that moves with 0.1 c drags light along.
     /// let glass = Medium { index: 1.5, velocity: Velocity::from_beta(DVec3::X * 0.1)? };
-    /// let wave = WaveVector { frequency: 1.0, k: DVec3::X * 1.5 }.out_of_frame(glass.velocity);
+    /// let wave = WaveVector { frequency: 1.0, k: DVec3::X * 1.5 }.in_frame(-glass.velocity);
     /// let step = glass.step(wave);
     /// assert!((step.x.x / step.t - 0.71875).abs() < 1e-15);
     /// # Ok::<(), ugphysics::VelocityError>(())
@@ -156,11 +156,5 @@ impl WaveVector {
         let (axis, along) = (v.direction(), self.k.dot(v.direction()));
         let k = self.k + (v.gamma_minus_one() * along - v.proper_speed() * self.frequency) * axis;
         WaveVector { frequency: v.gamma() * self.frequency - v.proper_speed() * along, k }
-    }
-
-    /// The inverse of [`WaveVector::in_frame`].
-    #[must_use]
-    pub fn out_of_frame(self, v: Velocity) -> WaveVector {
-        self.in_frame(-v)
     }
 }

@@ -114,7 +114,7 @@ impl Canvas {
     /// How light brighter than white was brought into range, if there was any.
     fn light_note(&self, brightest: f32, development: Option<Development>) -> Option<Note> {
         let PictureOptions { output, exposure, tone, .. } = self.options;
-        if output.is_linear() {
+        if output.format().is_linear() {
             return None;
         }
         if let (Some(Exposure::Auto), Some(Development { stops, .. })) = (exposure, development) {

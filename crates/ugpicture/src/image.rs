@@ -1,7 +1,7 @@
 //! A rendered picture.
 
 use rayon::prelude::*;
-use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, grey_postscript};
+use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, Quantizer, display_pixel};
 
 use crate::options::PictureOptions;
 use crate::output::Output;
@@ -27,17 +27,31 @@ impl Image {
         options: &PictureOptions,
         is_clipped: bool,
     ) -> (Self, Option<Development>) {
-        if options.output.is_linear() {
+        if options.output.format().is_linear() {
             return (Self::Light(light), None);
         }
         let development = (!is_clipped).then(|| options.development(|| &light));
-        if let Some(development) = development {
-            light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
-                [*red, *green, *blue] = development.apply([*red, *green, *blue]);
-            });
-        }
-        let is_deep = options.output.format().is_some_and(|format| format.is_deep());
-        (if is_deep { Self::Light(light) } else { Self::Display(light.to_display()) }, development)
+        let is_deep = options.output.format().is_deep();
+        let image = match development.map(Development::converter) {
+            Some(convert) if is_deep => {
+                light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
+                    [*red, *green, *blue] = convert([*red, *green, *blue]);
+                });
+                Self::Light(light)
+            }
+            Some(convert) => {
+                let quantizer = Quantizer::new();
+                let shown = |&[red, green, blue, part]: &[f32; 4]| {
+                    let [red, green, blue] = convert([red, green, blue]);
+                    display_pixel(&quantizer, [red, green, blue, part], light.is_opaque())
+                };
+                let pixels = light.pixels().par_iter().with_min_len(CHUNK).map(shown).collect();
+                Self::Display(Frame::new([light.width(), light.height()], light.is_opaque(), pixels))
+            }
+            None if is_deep => Self::Light(light),
+            None => Self::Display(light.to_display()),
+        };
+        (image, development)
     }
 
     /// As 8-bit pixels.
@@ -50,14 +64,9 @@ impl Image {
 
     /// The bytes of a file. Vector formats contain the pixels as an image.
     pub fn into_file(self, output: Output, metadata: &Metadata, compression: Compression) -> Vec<u8> {
-        match (output, self) {
-            (Output::Color(format) | Output::Vector(format), Self::Display(frame)) => {
-                format.encode_with(&frame, metadata, compression)
-            }
-            (Output::Color(format) | Output::Vector(format), Self::Light(frame)) => {
-                format.encode_linear(&frame, metadata, compression)
-            }
-            (Output::Grey, image) => grey_postscript(&image.into_frame(), metadata),
+        match self {
+            Self::Display(frame) => output.format().encode_with(&frame, metadata, compression),
+            Self::Light(frame) => output.format().encode_linear(&frame, metadata, compression),
         }
     }
 }

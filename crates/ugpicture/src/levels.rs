@@ -1,7 +1,7 @@
 //! Levels of a picture: whether it is nearly black or overexposed.
 
 use rayon::prelude::*;
-use ugimage::{Development, Frame, LinearFrame, Quantizer, display_pixel};
+use ugimage::{Development, LinearFrame, Quantizer, display_pixel};
 
 use crate::background::Backdrop;
 use crate::exposure::Exposure;
@@ -10,7 +10,7 @@ use crate::note::Note;
 use crate::options::PictureOptions;
 
 /// Least level of a channel, of 255, that is well visible beside white.
-const VISIBLE: u8 = 24;
+const VISIBLE: u32 = 24;
 
 /// A picture is nearly black if less than one of this many pixels is visible…
 const FEW: u64 = 500;
@@ -27,53 +27,51 @@ const CHUNK: usize = 1 << 14;
 /// How many pixels of a picture, without its annotations, are bright.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LevelCounts {
-    n_pixels: u64,
+    n_pixels: u32,
     /// Not outside the scene; in an opaque picture of 8 bits every pixel counts.
-    n_covered: u64,
+    n_covered: u32,
     /// Covered, and of another colour than the background.
-    n_seen: u64,
-    n_visible: u64,
-    n_white: u64,
+    n_seen: u32,
+    n_visible: u32,
+    n_white: u32,
 }
 
 impl LevelCounts {
     /// Those of 8-bit pixels. `background`: its light as it is in the picture; `None` if it is
     /// transparent.
     pub fn of_pixels(pixels: &[[u8; 4]], background: Option<[f32; 3]>) -> Self {
-        let background = background_level(background, &Quantizer::new());
-        let mut counts = Self::default();
-        pixels.iter().for_each(|&pixel| counts.add(pixel, pixel[3] > 0, background));
-        counts
-    }
-
-    fn of_frame(frame: &Frame, background: Option<[f32; 3]>) -> Self {
-        let chunks = frame.pixels().par_chunks(CHUNK);
-        chunks.map(|pixels| Self::of_pixels(pixels, background)).reduce(Self::default, Self::plus)
+        let background = color_of(background, &Quantizer::new());
+        let of_chunk =
+            |chunk: &[[u8; 4]]| Self::of(chunk.iter().map(|&pixel| (pixel, pixel[3] > 0)), background);
+        pixels.par_chunks(CHUNK).map(of_chunk).reduce(Self::default, Self::plus)
     }
 
     /// Those of light for a display. The fourth channel of an opaque picture is its covered part,
     /// too.
     fn of_light(light: &LinearFrame, background: Option<[f32; 3]>) -> Self {
         let quantizer = Quantizer::new();
-        let background = background_level(background, &quantizer);
-        let of_chunk = |pixels: &[[f32; 4]]| {
-            let mut counts = Self::default();
-            for &pixel in pixels {
-                let level = display_pixel(&quantizer, pixel, light.is_opaque());
-                counts.add(level, pixel[3] > 0.0, background);
-            }
-            counts
-        };
-        light.pixels().par_chunks(CHUNK).map(of_chunk).reduce(Self::default, Self::plus)
+        let shown = |&pixel: &[f32; 4]| display_pixel(&quantizer, pixel, light.is_opaque());
+        let pixels = light.pixels().iter().map(|pixel| (shown(pixel), pixel[3] > 0.0));
+        Self::of(pixels, color_of(background, &quantizer))
     }
 
-    fn add(&mut self, [red, green, blue, alpha]: [u8; 4], is_covered: bool, background: Option<[u8; 3]>) {
-        let is_seen = is_covered && background != Some([red, green, blue]);
-        self.n_pixels += 1;
-        self.n_covered += u64::from(is_covered);
-        self.n_seen += u64::from(is_seen);
-        self.n_visible += u64::from(red.max(green).max(blue) >= VISIBLE && alpha >= VISIBLE);
-        self.n_white += u64::from(is_seen && [red, green, blue] == [255; 3]);
+    /// Those of pixels that are covered or not. Without branches, so that several are counted at
+    /// once.
+    #[inline]
+    fn of(pixels: impl Iterator<Item = ([u8; 4], bool)>, background: u32) -> Self {
+        let mut counts = Self::default();
+        for (pixel, is_covered) in pixels {
+            let all = u32::from_le_bytes(pixel);
+            let is_bright =
+                (all & 255 >= VISIBLE) | (all >> 8 & 255 >= VISIBLE) | (all >> 16 & 255 >= VISIBLE);
+            let is_seen = is_covered & (all & COLOR != background);
+            counts.n_pixels += 1;
+            counts.n_covered += u32::from(is_covered);
+            counts.n_seen += u32::from(is_seen);
+            counts.n_visible += u32::from(is_bright & (all >> 24 >= VISIBLE));
+            counts.n_white += u32::from(is_seen & (all & COLOR == COLOR));
+        }
+        counts
     }
 
     /// The sum of those of two parts of a picture.
@@ -93,29 +91,47 @@ impl LevelCounts {
     /// where surfaces may be white, and is rare with an automatic exposure but for lines.
     pub fn note(&self, picture: &PictureOptions) -> Option<Note> {
         let Self { n_pixels, n_covered, n_seen, n_visible, n_white } = *self;
+        let [n_pixels, n_seen, n_visible, n_white] = [n_pixels, n_seen, n_visible, n_white].map(u64::from);
         if n_covered == 0 {
             return None;
         }
         if n_visible * FEW < n_pixels && n_visible * SMALL_PART <= n_seen {
             return Some(Note::NearlyBlack { is_exposed: picture.exposure.is_some() });
         }
-        let is_chosen = picture.keeps_light() && picture.exposure != Some(Exposure::Auto);
-        (is_chosen && n_white * MANY > n_seen).then_some(Note::Overexposed)
+        (may_be_overexposed(picture) && n_white * MANY > n_seen).then_some(Note::Overexposed)
     }
 }
 
-fn background_level(background: Option<[f32; 3]>, quantizer: &Quantizer) -> Option<[u8; 3]> {
-    background.map(|light| light.map(|channel| quantizer.level(channel)))
+/// Red, green and blue of a pixel.
+const COLOR: u32 = u32::from_le_bytes([255, 255, 255, 0]);
+
+/// The background as it is in pixels; a number that no colour has if it is transparent.
+fn color_of(background: Option<[f32; 3]>, quantizer: &Quantizer) -> u32 {
+    let [red, green, blue] = background.map_or([0.0; 3], |light| light).map(|part| quantizer.level(part));
+    if background.is_none() { u32::MAX } else { u32::from_le_bytes([red, green, blue, 0]) }
+}
+
+fn may_be_overexposed(picture: &PictureOptions) -> bool {
+    picture.keeps_light() && picture.exposure != Some(Exposure::Auto)
+}
+
+/// True if so many pixels are visible that a picture is not nearly black. Few have to be looked at.
+fn is_bright(pixels: &[[u8; 4]]) -> bool {
+    let enough = pixels.len().div_ceil(FEW as usize);
+    let is_visible =
+        |[red, green, blue, alpha]: &&[u8; 4]| u32::from(*alpha.min(red.max(green).max(blue))) >= VISIBLE;
+    pixels.iter().filter(is_visible).take(enough).count() == enough
 }
 
 /// The note on the levels of a developed picture without annotations, see [`LevelCounts::note`].
 pub fn of_image(image: &Image, development: Option<Development>, picture: &PictureOptions) -> Option<Note> {
-    if picture.output.is_linear() {
+    if picture.output.format().is_linear() {
         return None;
     }
     let background = Backdrop::new(picture.background, 1).developed(development);
     let counts = match image {
-        Image::Display(frame) => LevelCounts::of_frame(frame, background),
+        Image::Display(frame) if !may_be_overexposed(picture) && is_bright(frame.pixels()) => return None,
+        Image::Display(frame) => LevelCounts::of_pixels(frame.pixels(), background),
         Image::Light(light) => LevelCounts::of_light(light, background),
     };
     counts.note(picture)
@@ -125,9 +141,9 @@ pub fn of_image(image: &Image, development: Option<Development>, picture: &Pictu
 /// [`LevelCounts::note`].
 pub fn levels_note(light: &LinearFrame, picture: &PictureOptions) -> Option<Note> {
     let development = picture.development(|| light);
-    let mut developed = light.clone();
+    let (mut developed, convert) = (light.clone(), development.converter());
     for [red, green, blue, _] in developed.pixels_mut() {
-        [*red, *green, *blue] = development.apply([*red, *green, *blue]);
+        [*red, *green, *blue] = convert([*red, *green, *blue]);
     }
     of_image(&Image::Light(developed), Some(development), picture)
 }

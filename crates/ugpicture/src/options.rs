@@ -67,7 +67,7 @@ impl Default for PictureOptions {
 impl PictureOptions {
     /// True if light brighter than white is kept: for a file, an exposure, or a tone curve.
     pub fn keeps_light(&self) -> bool {
-        self.output.is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
+        self.output.format().is_linear() || self.exposure.is_some() || self.tone != Tone::Clip
     }
 
     /// Exposure and tone curve together. `frame`: the light of the picture, which is computed for
@@ -119,7 +119,7 @@ impl PictureOptions {
         let channels = if self.background == Background::Transparent { 4 } else { 3 };
         match self.output {
             Output::Vector(_) => 0,
-            _ if self.output.is_linear() => {
+            _ if self.output.format().is_linear() => {
                 // Channels are made of the surface at each pixel.
                 let surface = if self.channels.is_empty() { 0 } else { SURFACE };
                 LIGHT + surface + 4 * (channels + self.channels.len() as u64)
@@ -163,13 +163,13 @@ impl PictureOptions {
         if self.small && !matches!(self.output, Output::Color(Format::Png | Format::Png16)) {
             return Err(Error::NotPng);
         }
-        if !self.channels.is_empty() && format != Some(Format::Exr) {
+        if !self.channels.is_empty() && format != Format::Exr {
             return Err(Error::NotExr);
         }
-        if self.output.is_linear() && (self.exposure.is_some() || self.tone != Tone::Clip) {
+        if format.is_linear() && (self.exposure.is_some() || self.tone != Tone::Clip) {
             return Err(Error::NotDeveloped);
         }
-        if self.background == Background::Transparent && format.is_some_and(|format| !format.has_alpha()) {
+        if self.background == Background::Transparent && !format.has_alpha() {
             return Err(Error::NotTransparent);
         }
         Ok(())

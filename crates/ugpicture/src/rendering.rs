@@ -90,7 +90,7 @@ impl Rendering {
     /// The light of a picture whose format holds light; `None` for others.
     pub fn into_light(self) -> Option<LinearFrame> {
         match self.content {
-            Content::Image(Image::Light(frame)) if self.output.is_linear() => Some(frame),
+            Content::Image(Image::Light(frame)) if self.output.format().is_linear() => Some(frame),
             _ => None,
         }
     }

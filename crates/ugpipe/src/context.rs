@@ -274,12 +274,6 @@ impl Context {
         self.output.path().filter(|path| !is_device(path)).map(Path::to_owned)
     }
 
-    /// Redirects the output to a file that the user did not name, as some programs did in 1988 when
-    /// their output was a terminal. Call it before [`Context::write`].
-    pub fn set_output_name(&mut self, path: impl AsRef<Path>) {
-        self.output.set_path(path.as_ref());
-    }
-
     /// True if `-qt` is given: notes and warnings are not printed.
     pub fn is_quiet(&self) -> bool {
         self.messages.is_quiet()

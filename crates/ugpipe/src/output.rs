@@ -39,10 +39,6 @@ impl Output {
         self.path.as_deref()
     }
 
-    pub(crate) fn set_path(&mut self, path: &Path) {
-        *self = Self::new(Some(path));
-    }
-
     pub(crate) fn is_terminal(&self) -> bool {
         self.path.is_none() && io::stdout().is_terminal()
     }

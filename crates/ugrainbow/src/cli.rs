@@ -14,8 +14,7 @@ use ugpicture::cli::{
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, numbers,
-    one_of,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, one_of,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
@@ -26,9 +25,6 @@ use crate::{PROVENANCE, run_with};
 
 /// Greatest width of lines in pixels.
 const MAX_LINE_WIDTH: f64 = 100.0;
-
-/// Where black-and-white PostScript goes if standard output is a terminal, as in 1988.
-const POSTSCRIPT_FILE: &str = "POSTSCRIPTFILE";
 
 /// Draws a UniGrafix scene
 ///
@@ -53,12 +49,6 @@ pub struct Args {
     #[arg(long, visible_alias = "wavelengths", conflicts_with = "sp")]
     wi: bool,
 
-    /// Write black-and-white PostScript, as in 1988
-    ///
-    /// To the file POSTSCRIPTFILE if standard output is a terminal and there is no -fo.
-    #[arg(long, visible_alias = "grey-postscript", conflicts_with_all = ["dt", "tb"])]
-    dp: bool,
-
     /// Format of the picture [default: by the ending of -fo, else png]
     ///
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
@@ -72,7 +62,7 @@ pub struct Args {
     /// They are sharp at any size. -sz is then the size in points. Faces are painted back to front,
     /// so nearer ones cover those behind; lines are drawn without their hidden parts. Colours
     /// deviate by at most 2 levels of 255.
-    #[arg(long, visible_alias = "vector", conflicts_with_all = ["dp", "explain", "xc"])]
+    #[arg(long, visible_alias = "vector", conflicts_with_all = ["explain", "xc"])]
     vec: bool,
 
     /// Text of captions, legends and grids as text in vector graphics, instead of outlines
@@ -142,7 +132,7 @@ pub struct Args {
     ///
     /// As text, or with `--format json` as JSON: the face, its motion, when and where its light was
     /// emitted, colour and light, and every step to the bytes of the pixel.
-    #[arg(long, value_name = "X,Y", value_parser = pixel, conflicts_with = "dp")]
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
     explain: Option<Pixel>,
 
     #[command(flatten)]
@@ -154,8 +144,6 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
-
-numbers!(Args { "lc" => lc, "lw" => lw: line_width, "dc" => dc } picture);
 
 const EXAMPLES: &str = "Examples:
   ugrainbow ship.ug > rest.png
@@ -266,18 +254,8 @@ impl Args {
     }
 
     fn output(&self, file: Option<&Path>) -> Result<Output, Failure> {
-        match self.pixels(file)? {
-            Output::Color(format) if self.vec => Ok(Output::Vector(format)),
-            output => Ok(output),
-        }
-    }
-
-    /// The output without -vec.
-    fn pixels(&self, file: Option<&Path>) -> Result<Output, Failure> {
-        if self.dp {
-            return Ok(Output::Grey);
-        }
-        picture_format(self.dt, file, self.explain.is_some()).map(Output::Color)
+        let format = picture_format(self.dt, file, self.explain.is_some())?;
+        Ok(if self.vec { Output::Vector(format) } else { Output::Color(format) })
     }
 }
 
@@ -296,8 +274,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         Some(pixel) => Some((pixel, report_format(args.dt, context.output_name())?)),
         None => None,
     };
-    if report.is_none() && context.output_is_terminal() {
-        redirect(config.picture.output, context)?;
+    if report.is_none() {
+        refuse_terminal(config.picture.output.format(), context)?;
     }
     let input = pipe::input(context, &config.reading)?;
     context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
@@ -318,17 +296,5 @@ fn line_width(width: f64) -> Result<f64, String> {
         Ok(width)
     } else {
         Err(format!("a line is more than 0 and at most {MAX_LINE_WIDTH} pixels wide"))
-    }
-}
-
-/// Refuses binary output to a terminal; black-and-white PostScript goes to a file instead.
-fn redirect(output: Output, context: &mut Context) -> Result<(), Failure> {
-    match output {
-        Output::Color(format) | Output::Vector(format) => refuse_terminal(format, context),
-        Output::Grey => {
-            context.set_output_name(POSTSCRIPT_FILE);
-            context.note(&format!("the picture goes to the file {POSTSCRIPT_FILE}"));
-            Ok(())
-        }
     }
 }

@@ -102,7 +102,7 @@ impl<'a, const N: usize> DrawList<'a, N> {
         let chunk = (scene.faces.len() / 64).clamp(least, most);
         let level = Level::new();
         let mut parts: Vec<_> = scene.faces.chunks(chunk).map(|faces| (faces, None)).collect();
-        ugparallel::for_jobs(&mut parts, |idx, (faces, part)| {
+        parts.par_iter_mut().with_max_len(1).enumerate().for_each(|(idx, (faces, part))| {
             *part = Some(Chunk::new(&corners, faces.len(), level).all(idx * chunk, faces, &is_drawn));
         });
         let parts = parts.into_iter().filter_map(|(_, part)| part);

@@ -190,7 +190,8 @@ impl Painter<'_> {
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry();
         let palette = &self.appearance.palette;
-        let is_plain = !palette.has_light() && !palette.has_display() && !palette.has_translucency();
+        let is_plain =
+            !palette.has_light() && !palette.has_translucency() && !self.appearance.draws_display();
         (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 

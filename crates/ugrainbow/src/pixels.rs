@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
 use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
-use ugraster::{Center, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
+use ugraster::{Center, Encoding, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
 use crate::config::Config;
 use crate::front::front;
@@ -15,7 +15,7 @@ use crate::setup::Setup;
 /// Draws the scene as light, or directly as 8-bit levels if no exposure, tone curve or channel is
 /// requested.
 pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (DrawnContent, SampleStats) {
-    let is_deep = config.picture.output.format().is_some_and(|format| format.is_deep());
+    let is_deep = config.picture.output.format().is_deep();
     if !is_deep && !setup.is_uncut {
         let (frame, stats) = display(setup, layers, config);
         return (DrawnContent::Display(frame), stats);
@@ -28,7 +28,7 @@ pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (D
 fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
     let grid = &setup.grid;
     let finish = Display::new(&config.picture);
-    let (pixels, stats) = layers.paint_filtered(grid, config.picture.filter, &setup.shader, &finish);
+    let (pixels, stats) = layers.paint(grid, config.picture.filter, &setup.shader, &finish);
     (Frame::new([grid.width, grid.height], finish.backdrop.is_opaque(), pixels), stats)
 }
 
@@ -57,6 +57,10 @@ impl Resolve<[u8; 4]> for Display {
 }
 
 impl ResolveSingle<[u8; 4]> for Display {
+    fn encoding(&self) -> Encoding {
+        Encoding::Display
+    }
+
     fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [[u8; 4]]) {
         dispatch!(Level::new(), simd => write_levels(simd, keys, levels, pixels));
     }
@@ -106,6 +110,33 @@ fn bytes<S: Simd>(simd: S, levels: &[f32; LANES]) -> i32x16<S> {
     simd.cvt_i32_f32x16(f32x16::from_slice(simd, levels) * 255.0 + ROUNDING_OFFSET as f32)
 }
 
+/// Adds up the light of samples on a background.
+struct Light<'a>(&'a Backdrop);
+
+impl Resolve<[f32; 4]> for Light<'_> {
+    #[inline]
+    fn pixel(&self, all: &PixelSamples<'_>) -> [f32; 4] {
+        mean(self.0, all)
+    }
+
+    fn single(&self) -> Option<&dyn ResolveSingle<[f32; 4]>> {
+        Some(self)
+    }
+}
+
+impl ResolveSingle<[f32; 4]> for Light<'_> {
+    fn encoding(&self) -> Encoding {
+        Encoding::Linear
+    }
+
+    fn pixels(&self, keys: &[f32], light: &[[f32; RUN]; 3], pixels: &mut [[f32; 4]]) {
+        let covered = keys.iter().zip(pixels).enumerate().filter(|(_, (key, _))| **key > f32::NEG_INFINITY);
+        for (idx, (_, pixel)) in covered {
+            *pixel = self.0.pixel(light.each_ref().map(|channel| channel[idx]), 1.0);
+        }
+    }
+}
+
 /// The whole picture as light, with the requested channels.
 pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
     let grid = &setup.grid;
@@ -113,8 +144,7 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
     let backdrop = backdrop(&config.picture);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], backdrop.is_opaque(), pixels);
     if channels.is_empty() || *filter != Filter::Box {
-        let light = |all: &PixelSamples<'_>| mean(&backdrop, all);
-        let (pixels, stats) = layers.paint_filtered(grid, *filter, &setup.shader, &light);
+        let (pixels, stats) = layers.paint(grid, *filter, &setup.shader, &Light(&backdrop));
         let mut frame = frame(pixels);
         if !channels.is_empty() {
             // Channels show the middle of a pixel and are not filtered.

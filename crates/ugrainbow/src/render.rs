@@ -94,7 +94,7 @@ fn draw(
     let config = &Config { picture: canvas.options().clone(), ..config.clone() };
     let drawn = match config.picture.output {
         Output::Vector(format) => vector::draw(scene, config, format, progress)?,
-        Output::Color(_) | Output::Grey => draw_pixels(scene, config, progress)?,
+        Output::Color(_) => draw_pixels(scene, config, progress)?,
     };
     let notes = notes(&drawn, config);
     let DrawnScene { setup, stats, content, .. } = drawn;

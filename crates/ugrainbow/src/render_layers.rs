@@ -16,7 +16,7 @@ use crate::drawlist::DrawList;
 use crate::exact::{CurvedLines, Faces};
 use crate::lines::{LineShape, Occluders, StraightLines, Stroke, Visibility, lines, pieces, strips, strokes};
 use crate::packing::{
-    Pack, PackedLayout, first, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent,
+    Pack, PackedLayout, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent,
 };
 use crate::painter::Painter;
 use crate::shade::Shader;
@@ -71,6 +71,19 @@ macro_rules! with_layers {
     };
 }
 
+/// Expands to an expression with the rasterizer of all layers, whose number of values depends on
+/// their layout.
+macro_rules! with_rasterizer {
+    ($all:expr, $grid:expr, $shader:expr, |$rasterizer:ident| $body:expr) => {{
+        let lit = $all.lit($shader);
+        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
+        with_layers!(&$all.solid, |layers| {
+            let $rasterizer = Rasterizer { grid: $grid, opaque: layers, transparent };
+            $body
+        })
+    }};
+}
+
 /// Faces.
 struct Layers<'a, const N: usize> {
     surfaces: Surfaces<'a, N>,
@@ -92,6 +105,10 @@ impl<'a, const N: usize> Layers<'a, N> {
             Some(_) => Surfaces::Rays(Faces::new(painter, is_one, pack)),
         };
         Self { surfaces, is_drawn: mode.has_faces() }
+    }
+
+    fn n_values(&self) -> usize {
+        N
     }
 
     fn clip_counts(&self) -> ClipCounts {
@@ -191,7 +208,7 @@ impl TransparentLayer for Lit<'_, '_> {
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
     pub fn new(painter: Painter<'a>, mode: &DrawMode) -> Self {
-        let solid = match PackedLayout::new(&painter.appearance.palette, painter.lighting) {
+        let solid = match PackedLayout::new(painter.appearance, painter.lighting) {
             PackedLayout::Plain => Solid::Plain(Layers::new(painter, mode, false, pack_plain)),
             PackedLayout::Colored => Solid::Colored(Layers::new(painter, mode, false, pack_colored)),
             PackedLayout::Mixed => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
@@ -249,29 +266,27 @@ impl<'a> RenderLayers<'a> {
     pub fn paint<P: Copy + Send + Sync>(
         &self,
         grid: &SampleGrid,
+        filter: Filter,
         shader: &Shader,
         resolve: &impl Resolve<P>,
     ) -> (Vec<P>, SampleStats) {
-        let lit = self.lit(shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
         let progress = &Drawing(self.progress);
-        with_layers!(&self.solid, |layers| {
-            Rasterizer { grid, opaque: layers, transparent }.paint(shader, resolve, progress)
+        with_rasterizer!(self, grid, shader, |rasterizer| match filter {
+            Filter::Box => rasterizer.paint(shader, resolve, progress),
+            _ => rasterizer.paint_filtered(filter, shader, resolve, progress),
         })
     }
 
-    /// Like [`RenderLayers::paint`]; `resolve` also receives the surfaces at the centres of pixels.
+    /// Like [`RenderLayers::paint`] without a filter; `resolve` also receives the surfaces at the
+    /// centres of pixels.
     pub fn paint_with_centers<P: Copy + Send + Sync>(
         &self,
         grid: &SampleGrid,
         shader: &Shader,
         resolve: &impl Resolve<P>,
     ) -> (Vec<P>, SampleStats) {
-        let lit = self.lit(shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        let progress = &Drawing(self.progress);
-        with_layers!(&self.solid, |layers| {
-            Rasterizer { grid, opaque: layers, transparent }.paint_with_centers(shader, resolve, progress)
+        with_rasterizer!(self, grid, shader, |rasterizer| {
+            rasterizer.paint_with_centers(shader, resolve, &Drawing(self.progress))
         })
     }
 
@@ -282,34 +297,12 @@ impl<'a> RenderLayers<'a> {
         shader: &Shader,
         pixel: impl Fn(&Center<'_>) -> P + Sync,
     ) -> Vec<P> {
-        let lit = self.lit(shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        let progress = &Drawing(self.progress);
-        with_layers!(&self.solid, |layers| {
-            Rasterizer { grid, opaque: layers, transparent }.paint_centers(pixel, progress)
+        with_rasterizer!(self, grid, shader, |rasterizer| {
+            rasterizer.paint_centers(pixel, &Drawing(self.progress))
         })
     }
 
-    /// Like [`RenderLayers::paint`], with a reconstruction filter.
-    pub fn paint_filtered<P: Copy + Send + Sync>(
-        &self,
-        grid: &SampleGrid,
-        filter: Filter,
-        shader: &Shader,
-        resolve: &impl Resolve<P>,
-    ) -> (Vec<P>, SampleStats) {
-        if filter == Filter::Box {
-            return self.paint(grid, shader, resolve);
-        }
-        let lit = self.lit(shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        let progress = &Drawing(self.progress);
-        with_layers!(&self.solid, |layers| {
-            Rasterizer { grid, opaque: layers, transparent }.paint_filtered(filter, shader, resolve, progress)
-        })
-    }
-
-    /// One pixel as [`RenderLayers::paint_filtered`] draws it.
+    /// One pixel as [`RenderLayers::paint`] draws it.
     pub fn probe_filtered<P: Copy>(
         &self,
         grid: &SampleGrid,
@@ -318,10 +311,8 @@ impl<'a> RenderLayers<'a> {
         resolve: &impl Resolve<P>,
         pixel: [u32; 2],
     ) -> P {
-        let lit = self.lit(shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        with_layers!(&self.solid, |layers| {
-            Rasterizer { grid, opaque: layers, transparent }.probe_filtered(filter, shader, resolve, pixel)
+        with_rasterizer!(self, grid, shader, |rasterizer| {
+            rasterizer.probe_filtered(filter, shader, resolve, pixel)
         })
     }
 
@@ -333,11 +324,7 @@ impl<'a> RenderLayers<'a> {
         resolve: &impl Resolve<P>,
         pixel: [u32; 2],
     ) -> (Vec<ProbedSample>, PixelSamples<'static>, P) {
-        let lit = self.lit(shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        with_layers!(&self.solid, |layers| {
-            Rasterizer { grid, opaque: layers, transparent }.probe(shader, resolve, pixel)
-        })
+        with_rasterizer!(self, grid, shader, |rasterizer| rasterizer.probe(shader, resolve, pixel))
     }
 }
 
@@ -385,11 +372,6 @@ impl RenderLayers<'_> {
     /// The light of values interpolated between corners of an opaque polygon of
     /// [`RenderLayers::for_each_polygon`].
     pub fn shade(&self, shader: &Shader, values: &[f32; TRANSPARENT_VALUES]) -> ShadedSample {
-        match &self.solid {
-            Solid::Plain(_) => shader.plain(&first(values)),
-            Solid::Colored(_) => shader.colored(&first(values)),
-            Solid::Mixed(_) => shader.mixed(&first(values)),
-            Solid::MixedColored(_) => shader.mixed_colored(&first(values)),
-        }
+        shader.opaque(&values[..with_layers!(&self.solid, |layers| layers.n_values())])
     }
 }

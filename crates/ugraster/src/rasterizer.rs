@@ -162,7 +162,7 @@ pub(crate) fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
     progress.begin(parts.len() as u64);
     // Buffers go from part to part: there are as many as threads, and their memory is touched once.
     let buffers = BufferPool::default();
-    ugparallel::for_jobs(&mut parts, |part, (pixels, stats)| {
+    parts.par_iter_mut().with_max_len(1).enumerate().for_each(|(part, (pixels, stats))| {
         if progress.is_stopped() {
             return;
         }

@@ -53,7 +53,7 @@ pub trait Resolve<P>: Sync {
     /// nothing.
     fn pixel(&self, samples: &PixelSamples<'_>) -> P;
 
-    /// A faster way for pixels of one sample, from display-encoded levels, if there is one.
+    /// A faster way for pixels of one sample, if there is one.
     fn single(&self) -> Option<&dyn ResolveSingle<P>> {
         None
     }
@@ -67,9 +67,12 @@ impl<P, F: Fn(&PixelSamples<'_>) -> P + Sync> Resolve<P> for F {
 
 /// Makes pixels of one opaque sample each.
 pub trait ResolveSingle<P> {
+    /// The encoding of the light that it reads.
+    fn encoding(&self) -> Encoding;
+
     /// Sets the pixels of a run. `keys`: depth keys, −∞ where nothing is visible; those pixels must
-    /// stay as they are. `levels`: display-encoded red, green and blue.
-    fn pixels(&self, keys: &[f32], levels: &[[f32; RUN]; 3], pixels: &mut [P]);
+    /// stay as they are. `light`: red, green and blue.
+    fn pixels(&self, keys: &[f32], light: &[[f32; RUN]; 3], pixels: &mut [P]);
 }
 
 /// A row of samples or pixels as planes: red, green, blue, coverage.
@@ -145,7 +148,7 @@ impl<'a, const N: usize> Resolver<'a, N> {
                 continue;
             }
             let values = values.map(|all| &all[run.clone()]);
-            self.shading.shade(values, Encoding::Display, &mut self.run);
+            self.shading.shade(values, single.encoding(), &mut self.run);
             self.stats.count_run(keys, &self.run);
             single.pixels(keys, &self.run.light, pixels);
         }

@@ -5,8 +5,8 @@ use ugphysics::Event;
 
 use crate::default_camera::{rounded, unit_of_rounding};
 use crate::{
-    BodyId, Camera, CameraOptions, MotionError, MotionOptions, PlacedBodies, RelativeMotion, RestPosition,
-    Scene, Vertex, VertexId, View, Wire,
+    BodyId, Camera, CameraOptions, Drawn, MotionError, MotionOptions, PlacedBodies, RelativeMotion,
+    RestPosition, Scene, Vertex, VertexId, View, Wire,
 };
 
 /// About how many boxes a scene is divided into, besides one for each body.
@@ -60,11 +60,9 @@ impl BodyBoxes {
     /// The boxes of a scene.
     pub fn new(scene: &Scene) -> Self {
         let mut bodies = scene.bodies.ids().map(|_| Vec::new()).collect::<Vec<_>>();
-        let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.body));
-        let drawn = faces.chain(scene.wires.iter().map(|wire| (wire.contours.clone(), wire.body)));
         let mut n_parts: usize = 0;
         let mut is_used = vec![false; scene.vertices.len()];
-        for (contours, body) in drawn {
+        for Drawn { contours, body, .. } in scene.drawn() {
             let corners = scene.contours.corners(contours).iter();
             let part = corners.fold(Part::empty(body), |part, corner| {
                 is_used[corner.index()] = true;

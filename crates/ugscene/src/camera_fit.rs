@@ -1,10 +1,10 @@
 //! How far a camera stands back so that what it sees fits into the picture.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::relative_motion::RelativeMotion;
-use crate::{BodyId, RestPosition, SeenPosition};
+use crate::{BodyId, SeenPosition};
 
 /// Passes over moving bodies, whose shape as seen depends a little on the place of the eye. From
 /// the third pass on the distance changes by about a thousandth or less.
@@ -46,14 +46,65 @@ pub(crate) struct Place {
     pub distance: f64,
 }
 
+/// A body in motion, as it is seen from a place of the eye.
+struct SeenBody {
+    /// Seen where it is at rest.
+    middle: DVec3,
+    /// [`RelativeMotion::boosted_rest`] of the middle relative to the eye, and its length.
+    anchor: DVec3,
+    distance: f64,
+    /// The same of displacements from the middle, unless that changes nothing.
+    boosted: Option<DMat3>,
+    /// Along each axis of the frame: the place of the middle, and [`RelativeMotion::seen_part`].
+    along: [(f64, DVec3, f64); 3],
+}
+
+impl SeenBody {
+    fn new(motion: &RelativeMotion, middle: DVec3, eye: DVec3, axes: [DVec3; 3]) -> Self {
+        let boosted = |p: DVec3| motion.boosted_rest(p);
+        let anchor = boosted(motion.rest(SeenPosition(middle - eye)).0);
+        let [x, y, z] = DMat3::IDENTITY.to_cols_array_2d().map(|axis| boosted(motion.turned(axis.into())));
+        let along = axes.map(|axis| {
+            let (normal, flight) = motion.seen_part(axis);
+            (axis.dot(middle), normal, flight)
+        });
+        let boosted = DMat3::from_cols(x, y, z);
+        let boosted = (boosted != DMat3::IDENTITY).then_some(boosted);
+        Self { middle, anchor, distance: anchor.length(), boosted, along }
+    }
+
+    /// Where a point of it is seen, along each axis.
+    fn seen(&self, point: DVec3) -> [f64; 3] {
+        let way = point - self.middle;
+        let way = self.boosted.map_or(way, |boosted| boosted * way);
+        let place = self.anchor + way;
+        // The difference of two lengths a and b is (a² − b²)/(a + b), which does not cancel.
+        let farther = (place + self.anchor).dot(way) / (place.length() + self.distance);
+        self.along.map(|(middle, normal, flight)| middle + (normal.dot(way) - flight * farther))
+    }
+}
+
 impl Frame {
     /// The nearest place from which everything is seen in the filled part of the picture.
     pub(crate) fn fit(&self, subject: &Subject<'_>) -> Place {
         let moves = subject.bodies.iter().flat_map(|(_, motions)| motions).any(|motion| !motion.is_at_rest());
+        let [x, y, z] = self.axes;
+        let axes = [x, y, if self.is_orthographic { DVec3::ZERO } else { z }];
         let mut place = Place { offset: [0.0; 2], distance: 2.0 * self.nearest };
         for _ in 0..if moves { N_PASSES } else { 1 } {
             let eye = self.point(place);
-            let extents = |(point, body): &(DVec3, BodyId)| self.extents(subject, eye, *point, *body);
+            let seen = |(middle, motions): &(DVec3, Vec<RelativeMotion>)| -> Vec<Option<SeenBody>> {
+                let one = |motion: &RelativeMotion| SeenBody::new(motion, *middle, eye, axes);
+                motions.iter().map(|motion| (!motion.is_at_rest()).then(|| one(motion))).collect()
+            };
+            let bodies: Vec<_> = subject.bodies.iter().map(seen).collect();
+            let extents = |&(point, body): &(DVec3, BodyId)| {
+                let at_rest = || self.extents(axes.map(|axis| axis.dot(point)));
+                let of = |body: &Option<SeenBody>| {
+                    body.as_ref().map_or_else(at_rest, |body| self.extents(body.seen(point)))
+                };
+                bodies[body.index()].iter().map(of).reduce(greater).unwrap_or_else(at_rest)
+            };
             let most = subject.points.par_iter().map(extents).reduce(|| [f64::NEG_INFINITY; 4], greater);
             place = self.place(most);
         }
@@ -68,23 +119,9 @@ impl Frame {
     /// At the distance d and with the offset c of the eye, a point at x and at the height z towards
     /// the eye is in the filled part, of half-width t, if |x − c| ≤ t(d − z): if x + tz ≤ td + c and
     /// tz − x ≤ td − c. These are the left sides, across and up.
-    fn extents(&self, subject: &Subject<'_>, eye: DVec3, point: DVec3, body: BodyId) -> [f64; 4] {
-        let (middle, motions) = &subject.bodies[body.index()];
-        let of = |seen: DVec3| {
-            let depth = if self.is_orthographic { 0.0 } else { seen.dot(self.axes[2]) };
-            let [x, y] = [seen.dot(self.axes[0]), seen.dot(self.axes[1])];
-            let [across, up] = self.filled.map(|half| half * depth);
-            [across + x, across - x, up + y, up - y]
-        };
-        let seen = |motion: &RelativeMotion| {
-            if motion.is_at_rest() {
-                return point;
-            }
-            let anchor = motion.rest(SeenPosition(*middle - eye)).0;
-            motion.seen(RestPosition(anchor + motion.turned(point - *middle))).0 + eye
-        };
-        let all = motions.iter().map(|motion| of(seen(motion)));
-        all.reduce(greater).unwrap_or_else(|| of(point))
+    fn extents(&self, [x, y, depth]: [f64; 3]) -> [f64; 4] {
+        let [across, up] = self.filled.map(|half| half * depth);
+        [across + x, across - x, up + y, up - y]
     }
 
     fn place(&self, [right, left, above, below]: [f64; 4]) -> Place {
@@ -103,5 +140,5 @@ impl Frame {
 }
 
 fn greater(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    std::array::from_fn(|idx| a[idx].max(b[idx]))
+    std::array::from_fn(|idx| if b[idx] > a[idx] { b[idx] } else { a[idx] })
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::{Face, Scene, unit_normal};
+use rayon::prelude::*;
 
 /// A face that is less flat than this is drawn as triangles. Below, its triangles differ from its
 /// plane by less than the precision of depth in pictures and of normals.
@@ -55,5 +56,5 @@ pub fn bent_faces(scene: &Scene) -> Vec<BentFace> {
     if scene.contours.corner_count() == 3 * scene.faces.len() || scene.stage.seen_geometry().is_some() {
         return Vec::new();
     }
-    ugparallel::collect(scene.faces.len(), MANY_FACES, |rows, found| found.extend(rows.filter_map(&bent)))
+    (0..scene.faces.len()).into_par_iter().with_min_len(MANY_FACES).filter_map(bent).collect()
 }

@@ -4,7 +4,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
-use crate::{BodyId, RestFrames, RestPosition, Scene, SeenPosition, Vertex, WorldLinePoint, vertex_bodies};
+use crate::{
+    BodyId, RestFrames, RestPosition, Scene, SeenPosition, Vertex, VertexId, WorldLinePoint, vertex_bodies,
+};
 
 /// Which of the two effects are included in the seen positions of a scene: both, unless its stage
 /// says otherwise.
@@ -82,38 +84,71 @@ impl Geometry {
     }
 }
 
+/// The points of bodies that are seen at the vertices of a scene.
+#[derive(Clone, Debug)]
+pub struct SeenVertices {
+    /// The body of each vertex.
+    pub bodies: Vec<BodyId>,
+    /// For each vertex of a body on a world line, the point that is seen there; empty without such
+    /// bodies.
+    pub on_world_lines: Vec<Option<WorldLinePoint>>,
+}
+
+impl SeenVertices {
+    /// `eye`: in scene coordinates.
+    pub fn new(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Self {
+        let bodies = vertex_bodies(scene);
+        let point = |(vertex, &body): (&Vertex, &BodyId)| {
+            WorldLinePoint::new(frames.world_line(body)?, vertex.position - eye)
+        };
+        let vertices = scene.vertices.par_iter().zip(&bodies).filter(|_| frames.have_world_lines());
+        let on_world_lines = vertices.map(point).collect();
+        Self { bodies, on_world_lines }
+    }
+
+    /// The point at a vertex of a body on a world line.
+    #[inline]
+    pub fn on_world_line(&self, row: usize) -> Option<&WorldLinePoint> {
+        self.on_world_lines.get(row)?.as_ref()
+    }
+
+    /// The velocity of the point at a vertex, in the frame of the camera: on a world line that at
+    /// emission; where no point of the body can be seen, that at own time 0.
+    pub fn velocity(&self, row: usize, frames: &RestFrames) -> Velocity {
+        let at_own_time_0 = frames.velocity(self.bodies[row]);
+        self.on_world_line(row).map_or(at_own_time_0, |point| point.velocity)
+    }
+
+    /// Adds a copy of a vertex.
+    pub fn copy(&mut self, original: VertexId) {
+        self.bodies.push(self.bodies[original.index()]);
+        self.on_world_lines.extend(self.on_world_lines.get(original.index()).copied());
+    }
+
+    /// See [`rest_positions`].
+    pub fn rest_positions(&self, scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
+        if !scene.rest.is_empty() {
+            return scene.rest.clone();
+        }
+        if frames.are_at_rest() {
+            return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
+        }
+        let geometry = Geometry::of(scene);
+        let vertices = scene.vertices.par_iter().zip(&self.bodies).enumerate();
+        let rest = |(row, (vertex, &body)): (usize, (&Vertex, &BodyId))| {
+            if frames.world_line(body).is_some() {
+                return self.on_world_line(row).map_or(DVec3::NAN, |point| point.point);
+            }
+            let seen = SeenPosition(vertex.position - eye);
+            frames.of(body).scene_from_boosted() * geometry.rest(seen, frames.velocity(body)).0
+        };
+        vertices.map(rest).collect()
+    }
+}
+
 /// The rest position of every vertex of a scene as seen: relative to the eye, in the rest frame of
 /// its body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25), or (P45)
 /// for bodies on world lines; NaN where such a body cannot be seen.
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
-    if !scene.rest.is_empty() {
-        return scene.rest.clone();
-    }
-    if frames.are_at_rest() {
-        return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
-    }
-    let geometry = Geometry::of(scene);
-    let bodies = vertex_bodies(scene);
-    (scene.vertices.par_iter().zip(bodies.par_iter()))
-        .map(|(vertex, &body)| {
-            if let Some(line) = frames.world_line(body) {
-                let point = WorldLinePoint::new(line, vertex.position - eye);
-                return point.map_or(DVec3::NAN, |point| point.point);
-            }
-            let seen = SeenPosition(vertex.position - eye);
-            frames.of(body).scene_from_boosted() * geometry.rest(seen, frames.velocity(body)).0
-        })
-        .collect()
-}
-
-/// For each vertex of a body on a world line, what is seen there; empty without such bodies.
-pub fn world_line_points(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<Option<WorldLinePoint>> {
-    if !frames.have_world_lines() {
-        return Vec::new();
-    }
-    let vertices = scene.vertices.par_iter().zip(vertex_bodies(scene));
-    let point = |(vertex, body): (&Vertex, BodyId)| {
-        WorldLinePoint::new(frames.world_line(body)?, vertex.position - eye)
-    };
-    vertices.map(point).collect()
+    SeenVertices::new(scene, eye, frames).rest_positions(scene, eye, frames)
 }

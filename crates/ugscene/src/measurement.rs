@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugphysics::{Velocity, aberrate, doppler_at};
 
-use crate::{BodyId, Geometry, RestFrames, Scene, Vertex, vertex_bodies};
+use crate::{Geometry, RestFrames, Scene, SeenVertices, Vertex};
 
 /// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,7 +32,7 @@ pub struct Measurement {
 pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
     let frames = RestFrames::new(scene);
     let has_flight_time = Geometry::of(scene).flight_time;
-    let bodies = vertex_bodies(scene);
+    let vertices = SeenVertices::new(scene, eye, &frames);
     let one = |seen: DVec3, v: Velocity| {
         let distance = seen.length();
         Measurement {
@@ -44,12 +44,9 @@ pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
             velocity: v.beta(),
         }
     };
-    let vertices = scene.vertices.iter().zip(bodies);
-    let of_vertex = |(vertex, body): (&Vertex, BodyId)| {
-        let seen = vertex.position - eye;
-        one(seen, frames.velocity_at(body, seen))
-    };
-    vertices.map(of_vertex).collect()
+    let of_vertex =
+        |(row, vertex): (usize, &Vertex)| one(vertex.position - eye, vertices.velocity(row, &frames));
+    scene.vertices.iter().enumerate().map(of_vertex).collect()
 }
 
 impl Measurement {

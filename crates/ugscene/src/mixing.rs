@@ -28,9 +28,8 @@ pub fn separate_wires(scene: &mut Scene, rows: &[bool]) {
     if scene.wires.is_empty() || !rows.contains(&true) {
         return;
     }
-    let faces = scene.faces.iter().map(|face| face.contours.clone());
     let n_faces = scene.faces.len();
-    let users: Vec<_> = faces.chain(scene.wires.iter().map(|wire| wire.contours.clone())).collect();
+    let users: Vec<_> = scene.drawn().map(|drawn| drawn.contours).collect();
     let has = |vertex: VertexId| rows.get(vertex.index()).copied().unwrap_or_default();
     let copies =
         split_corners(scene, users.into_iter(), |user, vertex, _| has(vertex).then_some(user >= n_faces));

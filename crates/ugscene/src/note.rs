@@ -3,7 +3,10 @@
 use std::fmt;
 
 use crate::words::point;
-use crate::{BodyBoxes, CameraOptions, DefaultCamera, MotionOptions, Scene, TimesInView, n_mixing_vertices};
+use crate::{
+    BodyBoxes, CameraOptions, DefaultCamera, MotionOptions, Scene, TimesInView, VertexId, View,
+    n_mixing_vertices,
+};
 
 /// A note on a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +61,24 @@ impl fmt::Display for Note {
             }
         }
     }
+}
+
+/// False only if nothing moves, or a part of a body that moves in the frame of the scene is in the
+/// picture of a scene as seen. Then [`BodyBoxes::note`], which needs the scene at rest, has nothing
+/// to say. Bodies on world lines, and those that a moving camera sees, are not examined.
+pub fn may_miss_motion(seen: &Scene, options: &CameraOptions, size: [u32; 2]) -> bool {
+    let Some(stage) = seen.stage.seen_geometry() else { return false };
+    let options = CameraOptions { eye: None, ..options.clone() };
+    let Ok(view) = View::new(seen, &options, size) else { return true };
+    let spaces: Vec<_> = view.half_spaces().into_iter().flatten().collect();
+    let is_seen = |corner: &VertexId| {
+        let place = seen.vertices[corner.index()].position - view.eye;
+        spaces.iter().all(|space| place.dot(space.normal) + space.offset >= 0.0)
+    };
+    let moves = |body| seen.bodies.motion(body).uniform_velocity().is_some_and(|own| !own.is_zero());
+    let mut moving = seen.drawn().filter(|drawn| moves(drawn.body));
+    !stage.camera_velocity.is_zero()
+        || !moving.any(|drawn| seen.contours.corners(drawn.contours).iter().any(is_seen))
 }
 
 impl BodyBoxes {

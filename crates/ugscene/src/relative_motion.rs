@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{RestFrame, Velocity, WorldLine, elongated};
+use ugphysics::{RestFrame, Velocity, WorldLine, contracted, elongated};
 
 use crate::{Geometry, HalfSpace, RestPosition, SeenPosition};
 
@@ -118,6 +118,17 @@ impl RelativeMotion {
         if self.geometry.contraction { rest } else { elongated(rest, self.velocity()) }
     }
 
+    /// The part of seen positions p along `n`, as m and f with n·p = m·q − f |q|, where q is the
+    /// [`RelativeMotion::boosted_rest`] of the point.  Eq. (P27)
+    pub(crate) fn seen_part(&self, n: DVec3) -> (DVec3, f64) {
+        if self.has_flight_time() {
+            (elongated(n, self.velocity()), self.proper_speed() * n.dot(self.direction()))
+        } else {
+            // Contraction is linear: what is seen of a flat face is flat.
+            (contracted(n, self.velocity()), 0.0)
+        }
+    }
+
     /// True only if no point between these corners is in the half-space as seen. Eq. (P27) It is
     /// never true of bodies on world lines, whose curves have no bound in closed form.
     ///
@@ -126,15 +137,8 @@ impl RelativeMotion {
         if self.line.is_some() {
             return false;
         }
-        let (normal, flight, places): (DVec3, f64, Vec<DVec3>) = if self.has_flight_time() {
-            let normal = elongated(space.normal, self.velocity());
-            let flight = self.proper_speed() * space.normal.dot(self.direction());
-            (normal, flight, corners.iter().map(|&corner| self.boosted_rest(corner)).collect())
-        } else {
-            // Contraction is linear: what is seen of a flat face is flat.
-            let seen = |&corner: &DVec3| self.seen(RestPosition(corner)).0;
-            (space.normal, 0.0, corners.iter().map(seen).collect())
-        };
+        let (normal, flight) = self.seen_part(space.normal);
+        let places: Vec<DVec3> = corners.iter().map(|&corner| self.boosted_rest(corner)).collect();
         let toward = places.iter().map(|place| place.normalize_or_zero()).sum::<DVec3>().normalize_or_zero();
         let way = |place: DVec3| if flight > 0.0 { place.dot(toward) } else { place.length() };
         let bounds = places.iter().map(|&place| place.dot(normal) - flight * way(place));

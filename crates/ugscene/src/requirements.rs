@@ -39,8 +39,7 @@ pub enum StageError {
 
 /// True if a face or wire moves.
 pub fn has_moving_bodies(scene: &Scene) -> bool {
-    let faces = scene.faces.iter().map(|face| face.body);
-    any_moves(scene, faces.chain(scene.wires.iter().map(|wire| wire.body)))
+    any_moves(scene, scene.drawn().map(|drawn| drawn.body))
 }
 
 /// True if a light moves.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use ugphysics::{BodyEvent, RestFrame, Velocity, WorldLine};
 
-use crate::{BodyId, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
+use crate::{BodyId, Drawn, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
 
 /// The rest frame of each body, relative to the frame of the camera.
 #[derive(Clone, Debug)]
@@ -61,13 +61,6 @@ impl RestFrames {
         self.world_line(body)?.at_event(crate::seen_event(seen)).ok()
     }
 
-    /// The velocity, in the frame of the camera, of the point of a body that is seen at `seen`
-    /// relative to the eye. On a world line it is that at emission; where no point of the body can
-    /// be seen, that at own time 0.
-    pub fn velocity_at(&self, body: BodyId, seen: DVec3) -> Velocity {
-        self.body_event(body, seen).map_or(self.velocity(body), |event| event.velocity)
-    }
-
     /// The rest frame of a body.
     pub fn of(&self, body: BodyId) -> &RestFrame {
         &self.frames[body.index()]
@@ -110,32 +103,26 @@ pub(crate) fn frame(velocity: Velocity, camera: Velocity) -> RestFrame {
 pub fn vertex_bodies(scene: &Scene) -> Vec<BodyId> {
     let mut bodies = vec![scene.bodies.unstated(); scene.vertices.len()];
     // In reverse, so that the first user is written last.
-    for (rows, body) in users(scene).rev() {
-        for corner in scene.contours.corners(rows) {
+    for Drawn { contours, body, .. } in scene.drawn().rev() {
+        for corner in scene.contours.corners(contours) {
             bodies[corner.index()] = body;
         }
     }
     bodies
 }
 
-/// Faces and wires: their contours and body.
-fn users(scene: &Scene) -> impl DoubleEndedIterator<Item = (std::ops::Range<u32>, BodyId)> {
-    let faces = scene.faces.iter().map(|face| (face.contours.clone(), face.body));
-    let wires = scene.wires.iter().map(|wire| (wire.contours.clone(), wire.body));
-    faces.chain(wires)
-}
-
 /// True if all faces and wires are part of one body; [`separate_bodies`] then changes nothing.
 pub fn is_one_body(scene: &Scene) -> bool {
-    let first = users(scene).next().map(|(_, body)| body);
-    scene.bodies.len() == 1 || users(scene).all(|(_, body)| Some(body) == first)
+    let mut bodies = scene.drawn().map(|drawn| drawn.body);
+    let first = bodies.next();
+    scene.bodies.len() == 1 || bodies.all(|body| Some(body) == first)
 }
 
 /// Gives every body its own vertices: where faces or wires of different bodies share a vertex, the
 /// later ones get a copy, named after it.
 pub fn separate_bodies(scene: &mut Scene) {
     if !is_one_body(scene) {
-        let users: Vec<_> = users(scene).collect();
+        let users: Vec<_> = scene.drawn().map(|drawn| (drawn.contours, drawn.body)).collect();
         split_vertices(scene, &users, |_| true);
     }
 }

@@ -18,7 +18,7 @@ use ugpicture::cli::{
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
-    numbers, one_of, remedies, sha256, vector,
+    one_of, remedies, sha256, vector,
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
@@ -82,13 +82,11 @@ pub struct Args {
     #[command(flatten, next_help_heading = COLOR)]
     shift: ShiftArgs,
 
-    /// Spectra of colours: mixture, smooth, blackbody, or three temperatures [default: mixture]
+    /// Spectra of colours: mixture, or three temperatures [default: mixture]
     ///
     /// A picture has three numbers per colour and no infrared or ultraviolet light, so its spectra
     /// are an assumption. mixture: daylight on mixtures of white and pure colours, for photographs.
-    /// smooth: daylight on the surfaces of scenes, for panoramas that were drawn of one. blackbody:
-    /// each colour is a black body. Three temperatures in kelvins, such as 3500 5900 10000: sums of
-    /// black bodies. Implies -sp.
+    /// Three temperatures in kelvins, such as 3500 5900 10000: sums of black bodies. Implies -sp.
     #[arg(long, num_args = 1..=3, value_names = ["BASIS", "T2", "T3"], action = ArgAction::Set,
           conflicts_with = "br", help_heading = COLOR)]
     basis: Option<Vec<String>>,
@@ -170,12 +168,6 @@ pub struct Args {
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
 }
-
-numbers!(Args {
-    "vel" => velocity, "cv" => cv, "ti" => ti, "part" => part, "basis" => basis: |kelvin: f64| Ok(kelvin.to_string()),
-    "highlights" => highlights: stops, "infrared-to" => infrared_to: infrared_end, "ultraviolet-from" => ultraviolet_from: ultraviolet_end,
-    "star-width" => star_width, "white" => white
-} picture lens);
 
 /// Usual wavelengths of pictures of infrared and ultraviolet light, nm.
 const INFRARED_TO: f64 = 1400.0;
@@ -388,9 +380,7 @@ impl Args {
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let config = args.config(context.output_name())?;
     config.check().map_err(Failure::of)?;
-    if let Some(format) = config.picture.output.format() {
-        refuse_terminal(format, context)?;
-    }
+    refuse_terminal(config.picture.output.format(), context)?;
     let input = context.input()?;
     let opened = args.open(&input, context)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
@@ -416,14 +406,12 @@ fn arrangement(word: &str) -> Result<Arrangement, String> {
 fn basis(words: &[String]) -> Result<Basis, Failure> {
     match words {
         [word] if word == "mixture" => Ok(Basis::Mixture),
-        [word] if word == "smooth" => Ok(Basis::Smooth),
-        [word] if word == "blackbody" => Ok(Basis::BlackBody),
         [first, second, third] => {
             let kelvin = |word: &String| finite(word).map_err(Failure::Usage);
             Ok(Basis::Planck([kelvin(first)?, kelvin(second)?, kelvin(third)?]))
         }
         _ => Err(Failure::Usage(format!(
-            "`{}` is no basis: --basis takes mixture, smooth, blackbody or three temperatures",
+            "`{}` is no basis: --basis takes mixture or three temperatures",
             words.join(" ")
         ))),
     }

@@ -153,7 +153,7 @@ impl<'s> Prepared<'s> {
     /// The panorama, if there is nothing else in the sky and each pixel has its final colour, of 8
     /// bits, as soon as its light is known.
     fn alone(&self, sky: Sky<'_>) -> Option<&Layer<'s>> {
-        let is_deep = self.config.picture.output.format().is_some_and(|format| format.is_deep());
+        let is_deep = self.config.picture.output.format().is_deep();
         self.warp.clipped().filter(|_| sky.stars.is_empty() && !is_deep)
     }
 

@@ -55,7 +55,7 @@ const VALUES: [(&str, &[&str]); 22] = [
     ("-ad", &["0.1"]),
     ("-an", &["eye", "origin", "center", "middle"]),
     ("-at", &[MEASURED]),
-    ("--basis", &["smooth", "blackbody", "mixture", "3500 5900 10000"]),
+    ("--basis", &["mixture", "3500 5900 10000"]),
     ("-ch", &["D,time,distance,Z,id,velocity", "id"]),
     ("-cn", &["1", "2"]),
     ("-cols", &["1", "2"]),

@@ -65,9 +65,14 @@ pub struct Picture {
 impl Picture {
     /// By rays with all their light, and one sample a pixel.
     pub fn new(world: &World, shift: ColorShift) -> Self {
+        Self { motion: world.motion(), ..Self::of_scene(world.text(), shift) }
+    }
+
+    /// The picture of a scene, as [`Self::new`].
+    pub fn of_scene(text: String, shift: ColorShift) -> Self {
         Self {
-            text: world.text(),
-            motion: world.motion(),
+            text,
+            motion: MotionOptions::default(),
             renderer: Renderer::Rays,
             size: SIZE,
             samples: 1,

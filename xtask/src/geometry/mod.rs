@@ -204,7 +204,7 @@ fn differences(
         }
     }
     if counts.unexplained > 0 {
-        let folder = crate::bench::target_dir().join("geometry");
+        let folder = ugtests::scenes::target_dir().join("geometry");
         std::fs::create_dir_all(&folder)?;
         picture.save(folder.join(format!("{}-{what}-pipe.png", view.name)))?;
         painted(oracle, &camera).save(folder.join(format!("{}-{what}-expected.png", view.name)))?;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugdoppler::Config;
 use uglight::ColorShift;
-use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio};
+use ugphysics::spectrum::Spectrum;
 use ugphysics::{Velocity, WHITE_XYZ, doppler_at, linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 use ugscene::{ColorValue, Scene, Tint};
 
@@ -106,7 +106,7 @@ fn a_black_body_seen_with_d_is_one_at_d_times_t() {
                 let doppler = doppler_at(scene.vertices[vertex].position, config.velocity);
                 (least, most) = (least.min(doppler), most.max(doppler));
                 let expected = Spectrum::blackbody(kelvin * doppler, 1.0).seen(1.0);
-                let luminance = blackbody_luminance_ratio(kelvin * doppler, kelvin);
+                let luminance = Spectrum::blackbody(kelvin, 1.0).seen(doppler)[1];
                 let found = xyz(&scene, vertex);
                 assert!(
                     (found[1] / luminance - 1.0).abs() <= 1.01 * of_luminance,

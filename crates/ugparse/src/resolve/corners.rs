@@ -1,5 +1,6 @@
 //! Resolves the corners of faces and wires.
 
+use rayon::prelude::*;
 use ugscene::VertexId;
 
 use super::undefined::read_again;
@@ -18,7 +19,8 @@ pub(super) fn link_corners(scope: &mut Scope<'_>) -> bool {
     let (corners, _) = scope.contours.parts_mut();
     let in_order = rows.iter().enumerate().all(|(number, &row)| number == row as usize);
     if !scope.is_linked && !in_order {
-        ugparallel::for_each_mut(corners, LEAST_ROWS, |_, corner| *corner = VertexId(rows[corner.index()]));
+        let corners = corners.par_iter_mut().with_min_len(LEAST_ROWS);
+        corners.for_each(|corner| *corner = VertexId(rows[corner.index()]));
     }
     let is_complete = in_order || !corners.contains(&VertexId(NO_ROW));
     scope.vertex_names = names;

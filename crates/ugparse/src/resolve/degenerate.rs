@@ -1,5 +1,6 @@
 //! Removes degenerate faces and wires, which would draw nothing.
 
+use rayon::prelude::*;
 use ugscene::{Contours, Face, Vertex, VertexId, Wire, newell_normal};
 
 use super::corners::{LEAST_ROWS, is_linked};
@@ -20,8 +21,9 @@ pub(super) fn remove_degenerate_faces(
     let is_whole = |face: &Face| has_corners || is_linked(scope.contours.corners(face.contours.clone()));
     let problem = |face: &Face| degeneracy(&scope.contours, &scope.vertices.rows, face);
     let faces = &scope.faces.rows;
-    let is_degenerate = |row: usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
-    let degenerate = ugparallel::positions(faces.len(), LEAST_ROWS, is_degenerate);
+    let is_degenerate = |&row: &usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
+    let rows = (0..faces.len()).into_par_iter().with_min_len(LEAST_ROWS);
+    let degenerate: Vec<usize> = rows.filter(is_degenerate).collect();
     for &row in &degenerate {
         let problem = problem(&scope.faces.rows[row]).unwrap_or_default();
         let span = scope.faces.spans[row];
@@ -38,8 +40,9 @@ pub(super) fn remove_short_wires(
 ) {
     let wires = &scope.wires.rows;
     let is_whole = |wire: &Wire| has_corners || is_linked(scope.contours.corners(wire.contours.clone()));
-    let is_short = |row: usize| is_whole(&wires[row]) && is_short(&scope.contours, &wires[row]);
-    let short = ugparallel::positions(wires.len(), LEAST_ROWS, is_short);
+    let is_short = |&row: &usize| is_whole(&wires[row]) && is_short(&scope.contours, &wires[row]);
+    let rows = (0..wires.len()).into_par_iter().with_min_len(LEAST_ROWS);
+    let short: Vec<usize> = rows.filter(is_short).collect();
     findings.extend(short.iter().map(|&row| short_wire(text, scope.wires.spans[row])));
     scope.remove_wires(&short);
 }

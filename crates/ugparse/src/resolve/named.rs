@@ -1,5 +1,6 @@
 //! Moves colours and surfaces from the scopes to the scene, and resolves their names.
 
+use rayon::prelude::*;
 use ugscene::{Color, ColorId, Illum, Mix, NameId, Names, Scene, SurfaceId, SurfaceProperties};
 
 use super::corners::LEAST_ROWS;
@@ -106,8 +107,10 @@ pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     }
     let colors: Vec<_> = colors.iter().map(|color| color.map(ColorId::from_index)).collect();
     let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
-    ugparallel::for_each_mut(&mut scope.vertices.rows, LEAST_ROWS, |_, vertex| paint(&mut vertex.color));
-    ugparallel::for_each_mut(&mut scope.faces.rows, LEAST_ROWS, |_, face| paint(&mut face.color));
+    let vertices = scope.vertices.rows.par_iter_mut().with_min_len(LEAST_ROWS);
+    vertices.for_each(|vertex| paint(&mut vertex.color));
+    let faces = scope.faces.rows.par_iter_mut().with_min_len(LEAST_ROWS);
+    faces.for_each(|face| paint(&mut face.color));
     scope.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
     scope.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
     scope.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));

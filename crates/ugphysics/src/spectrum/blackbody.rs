@@ -57,17 +57,3 @@ pub(crate) fn ln_xyz(kelvin: f64) -> [f64; 3] {
     });
     sums.map(|sum| libm::log(sum / SUM_Y) - least)
 }
-
-/// The ratio of the luminances (Y) of two black bodies, given their temperatures in kelvins.
-///
-/// Use it to give the black bodies of a scene physical relative brightness: the scale of each is
-/// its ratio to a common reference.
-///
-/// ```
-/// let ratio = ugphysics::spectrum::blackbody_luminance_ratio(3348.631561, 5800.0);
-/// assert!((ratio - 0.0387105).abs() < 1e-7);
-/// ```
-#[must_use]
-pub fn blackbody_luminance_ratio(kelvin: f64, reference_kelvin: f64) -> f64 {
-    libm::exp(ln_xyz(kelvin)[1] - ln_xyz(reference_kelvin)[1])
-}

@@ -1,5 +1,7 @@
 //! The illuminant of surface colours: D65 in the visible range, a black body outside.
 
+use std::sync::LazyLock;
+
 use crate::spectrum::blackbody::planck;
 
 /// Temperature of the black body that continues daylight, kelvins: the correlated colour
@@ -26,11 +28,13 @@ const STEP_NM: f64 = 5.0;
 /// ```
 #[must_use]
 pub fn daylight(wavelength_nm: f64) -> f64 {
+    static JOINTS: LazyLock<[f64; 2]> = LazyLock::new(|| [FIRST_NM, LAST_NM].map(black_body));
+    // Planck's law, scaled to the table's value at each end.
     if wavelength_nm < FIRST_NM {
-        return tail(wavelength_nm, FIRST_NM, D65[0]);
+        return D65[0] / 100.0 * (black_body(wavelength_nm) / JOINTS[0]);
     }
     if wavelength_nm > LAST_NM {
-        return tail(wavelength_nm, LAST_NM, D65[D65.len() - 1]);
+        return D65[D65.len() - 1] / 100.0 * (black_body(wavelength_nm) / JOINTS[1]);
     }
     let at = (wavelength_nm - FIRST_NM) / STEP_NM;
     // NaN is cast to row 0; the interpolation then gives NaN.
@@ -38,10 +42,8 @@ pub fn daylight(wavelength_nm: f64) -> f64 {
     (D65[row] + (at - row as f64) * (D65[row + 1] - D65[row])) / 100.0
 }
 
-/// Planck's law at [`DAYLIGHT_KELVIN`], scaled to `value`/100 at `joint_nm`.
-fn tail(wavelength_nm: f64, joint_nm: f64, value: f64) -> f64 {
-    let at_joint = planck(joint_nm, DAYLIGHT_KELVIN);
-    value / 100.0 * (planck(wavelength_nm, DAYLIGHT_KELVIN) / at_joint)
+fn black_body(wavelength_nm: f64) -> f64 {
+    planck(wavelength_nm, DAYLIGHT_KELVIN)
 }
 
 /// CIE standard illuminant D65, every 5 nm from 380 to 780 nm (ISO/CIE 11664-2), 100 at 560 nm.

@@ -44,7 +44,7 @@ mod smooth_curve;
 mod upsampling;
 mod weighted_daylight;
 
-pub use blackbody::{blackbody_luminance_ratio, planck};
+pub use blackbody::planck;
 pub use daylight::{DAYLIGHT_KELVIN, daylight};
 pub use doppler_table::{DopplerGrid, DopplerTable, LN_STEP};
 pub use light_spectrum::LightSpectrum;

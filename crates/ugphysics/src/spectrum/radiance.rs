@@ -1,10 +1,12 @@
 //! Spectra, and X, Y, Z of them as seen in motion.
 
+use std::cell::LazyCell;
 use std::sync::Arc;
 
 use crate::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
 use crate::spectrum::reflectance::Reflectance;
+use crate::spectrum::weighted_daylight::WeightedDaylight;
 use crate::spectrum::{blackbody, samples};
 
 /// |ln D| is clamped to this value: beyond it nothing visible is left.
@@ -79,12 +81,20 @@ impl Spectrum {
     /// to e⁻¹⁰⁰…e¹⁰⁰.
     #[must_use]
     pub fn shifted(&self, doppler: f64) -> [f64; 3] {
+        let [xyz] = Self::all_shifted([self], doppler);
+        xyz
+    }
+
+    /// [`Spectrum::shifted`] of each; the daylight on surfaces is weighted by the observer once.
+    #[must_use]
+    pub fn all_shifted<const N: usize>(spectra: [&Self; N], doppler: f64) -> [[f64; 3]; N] {
         let doppler = doppler.clamp(libm::exp(-MAX_LN_DOPPLER), libm::exp(MAX_LN_DOPPLER));
-        match &self.0 {
-            Kind::Reflected(surface) => surface.xyz(doppler),
-            Kind::Blackbody { .. } => self.ln_shifted(doppler).map(libm::exp),
+        let daylight = LazyCell::new(|| WeightedDaylight::new(doppler));
+        spectra.map(|spectrum| match &spectrum.0 {
+            Kind::Reflected(surface) => surface.xyz_under(&daylight),
+            Kind::Blackbody { .. } => spectrum.ln_shifted(doppler).map(libm::exp),
             Kind::Samples(samples) => samples::xyz(samples, doppler),
-        }
+        })
     }
 
     /// ln of [`Spectrum::shifted`]; −∞ where there is no light.

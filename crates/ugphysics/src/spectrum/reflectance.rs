@@ -59,12 +59,7 @@ impl Reflectance {
         self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)))
     }
 
-    /// X, Y, Z of L(λ) = L'(λD) under daylight: (P12) without D⁵.
-    pub(crate) fn xyz(&self, doppler: f64) -> [f64; 3] {
-        self.xyz_under(&WeightedDaylight::new(doppler))
-    }
-
-    /// The same with a light computed beforehand.
+    /// X, Y, Z of L(λ) = L'(λD) under daylight, which is computed beforehand: (P12) without D⁵.
     pub(crate) fn xyz_under(&self, light: &WeightedDaylight) -> [f64; 3] {
         let ends = CURVE_NM.map(|nm| self.at(nm));
         let [ultraviolet, infrared] = &light.outside;

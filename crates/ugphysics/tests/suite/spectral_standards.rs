@@ -1,7 +1,7 @@
 //! The observer, the illuminant and black bodies, against published numbers.
 
 use ugphysics::WHITE_XYZ;
-use ugphysics::spectrum::{Spectrum, blackbody_luminance_ratio, daylight, integrate, observer, planck};
+use ugphysics::spectrum::{Spectrum, daylight, integrate, observer, planck};
 
 #[track_caller]
 fn check(found: f64, expected: f64, tolerance: f64) {
@@ -86,10 +86,9 @@ fn black_bodies_have_the_colours_of_t22() {
     {
         let seen = Spectrum::blackbody(5800.0, 1.0).seen(doppler)[1];
         check(seen / luminance, 1.0, 1e-7 / luminance.min(1.0));
-        check(blackbody_luminance_ratio(5800.0 * doppler, 5800.0) / seen, 1.0, 1e-12);
     }
     // T23: glowing iron ahead and behind at 0.9c, on the line of motion.
-    let iron = |doppler| blackbody_luminance_ratio(1273.15 * doppler, 1273.15);
+    let iron = |doppler| Spectrum::blackbody(1273.15, 1.0).seen(doppler)[1];
     let ahead = 19.0_f64.sqrt();
     check(iron(ahead) / 3505045.8, 1.0, 1e-6);
     check(iron(1.0 / ahead) / 4.2558e-25, 1.0, 1e-4);

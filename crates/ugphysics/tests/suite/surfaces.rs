@@ -20,7 +20,7 @@ fn wave(direction: DVec3) -> WaveVector {
 fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> WaveVector {
     let there = light.in_frame(v);
     let normal = rest_normal * -there.k.dot(rest_normal).signum();
-    Medium::VACUUM.wave_beside(there, normal).expect("a mirror reflects").out_of_frame(v)
+    Medium::VACUUM.wave_beside(there, normal).expect("a mirror reflects").in_frame(-v)
 }
 
 #[test]
@@ -51,7 +51,7 @@ fn t28_moving_glass() {
     {
         let glass = Medium { index, velocity: along_x(speed) };
         let light_in_glass = WaveVector { frequency: 1.0, k: index * DVec3::X };
-        let step = glass.step(light_in_glass.out_of_frame(glass.velocity));
+        let step = glass.step(light_in_glass.in_frame(-glass.velocity));
         near("speed", step.x.x / step.t, light, TEN_DIGITS);
     }
 }
@@ -65,7 +65,6 @@ fn t30_a_year_at_one_g() {
     near("γ", v.gamma(), 1.581845454, TEN_DIGITS);
     near("t", event.t, 1.187312402, TEN_DIGITS);
     near("x", event.x.z, 0.5636424651, TEN_DIGITS);
-    near("back", ship.proper_time_to(event.x.z), 1.0, 1e-14);
     let still = HyperbolicMotion { acceleration: DVec3::ZERO };
     assert_eq!(still.event(3.0), Event { t: 3.0, x: DVec3::ZERO });
 }
@@ -93,7 +92,7 @@ proptest! {
         let scale = v.gamma() * v.gamma();
         near("frequency", there.frequency / vector.t, 1.0, 1e-14 * scale);
         near_vector("direction", there.k / there.frequency, vector.x / vector.t, 1e-14 * scale);
-        let back = there.out_of_frame(v);
+        let back = there.in_frame(-v);
         near("there and back", back.frequency, 1.0, 1e-13 * scale);
     }
 

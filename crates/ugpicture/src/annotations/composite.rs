@@ -1,6 +1,6 @@
 //! Annotations drawn over pixels, or added to a vector figure.
 
-use ugimage::figure::{Element, Figure, Rgb};
+use ugimage::figure::{Element, Figure};
 use ugimage::label::{Drawing, TextForm};
 use ugimage::{Frame, LinearFrame, Quantizer};
 
@@ -45,13 +45,25 @@ impl Annotations {
         match image {
             Image::Display(mut frame) => {
                 self.over.paint(&mut frame);
-                let mut frame = self.taller(frame);
+                if self.has_strips() {
+                    let quantizer = Quantizer::new();
+                    let below = self.background.map_or([0; 4], |light| {
+                        let [red, green, blue] = light.map(|part| quantizer.level(part));
+                        [red, green, blue, 255]
+                    });
+                    frame = Frame::new(self.size, frame.is_opaque(), self.taller(frame.pixels(), below));
+                }
                 self.strips.paint(&mut frame);
                 Image::Display(frame)
             }
             Image::Light(mut frame) => {
                 self.over.paint_light(&mut frame);
-                let mut frame = self.taller_light(frame);
+                if self.has_strips() {
+                    let below =
+                        self.background.map_or([0.0; 4], |[red, green, blue]| [red, green, blue, 0.0]);
+                    frame =
+                        LinearFrame::new(self.size, frame.is_opaque(), self.taller(frame.pixels(), below));
+                }
                 self.strips.paint_light(&mut frame);
                 Image::Light(frame)
             }
@@ -62,28 +74,11 @@ impl Annotations {
         self.scene_rows < self.size[1]
     }
 
-    fn taller(&self, scene: Frame) -> Frame {
-        if !self.has_strips() {
-            return scene;
-        }
-        let empty = if scene.is_opaque() { Frame::opaque } else { Frame::clear };
-        let mut frame = empty(self.size[0], self.size[1]);
-        let (above, below) = frame.pixels_mut().split_at_mut(scene.pixels().len());
-        above.copy_from_slice(scene.pixels());
-        if let Some([red, green, blue]) = self.background_color() {
-            below.fill([red, green, blue, 255]);
-        }
-        frame
-    }
-
-    fn taller_light(&self, scene: LinearFrame) -> LinearFrame {
-        if !self.has_strips() {
-            return scene;
-        }
-        let background = self.background.map_or([0.0; 4], |[red, green, blue]| [red, green, blue, 0.0]);
-        let mut pixels = scene.pixels().to_vec();
-        pixels.resize(self.size[0] as usize * self.size[1] as usize, background);
-        LinearFrame::new(self.size, scene.is_opaque(), pixels)
+    /// The pixels of the scene with strips below them.
+    fn taller<P: Copy>(&self, scene: &[P], below: P) -> Vec<P> {
+        let mut pixels = scene.to_vec();
+        pixels.resize(self.size[0] as usize * self.size[1] as usize, below);
+        pixels
     }
 
     /// Adds the annotations to the vector figure of a scene.
@@ -97,10 +92,5 @@ impl Annotations {
         }
         figure.elements.extend(self.strips.elements(self.text));
         figure
-    }
-
-    fn background_color(&self) -> Option<Rgb> {
-        let quantizer = Quantizer::new();
-        self.background.map(|light| light.map(|part| quantizer.level(part)))
     }
 }

@@ -36,7 +36,7 @@ pub fn draw<E: From<Error>>(
         [low, high].map(|across| grid.point(axis, number, across) - seen.view.eye)
     };
     let both = [0, 1].into_iter().flat_map(|axis| grid.numbers(axis).map(move |number| (axis, number)));
-    let lines = seen.visible(seen.scene, &both.map(line).collect::<Vec<_>>())?;
+    let lines = seen.visible(seen.scene.clone(), &both.map(line).collect::<Vec<_>>())?;
     drawing.lines(lines.clone(), style.hairline, style.faint);
     let mut labels = Labels { grid: &grid, seen, visible: &lines, style, boxes: Vec::new() };
     for axis in 0..2 {

@@ -76,7 +76,7 @@ impl Layout {
     pub fn new(options: &PictureOptions) -> Result<Self, Error> {
         options.check_size()?;
         let annotations = &options.annotations;
-        if annotations.is_any() && options.output.is_linear() {
+        if annotations.is_any() && options.output.format().is_linear() {
             return Err(Error::NotAnnotated);
         }
         let style = Style::new(options.size, None, options.output);
@@ -144,16 +144,12 @@ impl Layout {
                     || scene.map_or_else(Vec::new, velocities),
                     annotated.is_shifted,
                 );
-                self.draw_legend(&motion, style, &mut all.strips)?;
+                let place = [self.size[0], self.scene_rows].map(f64::from);
+                legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
             }
         }
         self.push_caption(style, &mut all.strips);
         Ok(all)
-    }
-
-    fn draw_legend(&self, motion: &MotionSummary, style: &Style, strips: &mut Drawing) -> Result<(), Error> {
-        let place = [f64::from(self.size[0]), f64::from(self.scene_rows)];
-        Ok(legend::draw(motion, style, place, strips)?)
     }
 
     /// A single line is centred, several are left-aligned.

@@ -11,7 +11,7 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 use ugimage::label::Drawing;
-use ugphysics::{Event, WorldLine};
+use ugphysics::Event;
 use ugscene::{
     BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
     vertex_bodies,
@@ -28,6 +28,14 @@ const CREASE: f64 = 0.819;
 /// Cosine of the angle below which faces count as coplanar.
 const COPLANAR: f64 = 0.9999;
 
+/// Corners closer than this many pixels, where the bodies are nearest to the eye, are at the same
+/// place: vertices are repeated for other colours, and parts of a body meet up to the digits in its
+/// text.
+const SAME_PLACE: f64 = 0.1;
+
+/// The same, relative to the greatest coordinate.
+const ROUNDING: f64 = 1e-9;
+
 /// Draws the outlines of moving bodies as they would look at rest. Returns a note if nothing moves.
 pub fn draw<E: From<Error>>(
     seen: &SeenScene<'_, E>,
@@ -39,69 +47,43 @@ pub fn draw<E: From<Error>>(
     }
     let places = ideal_places(seen);
     let faces = Faces { scene: seen.scene, places: &places, view: &seen.view };
-    let shown = edges(seen).into_iter().filter(|edge| edge.is_shown(&faces));
+    let shown = edges(seen, &places).into_iter().filter(|edge| edge.is_shown(&faces));
     let lines: Vec<[DVec3; 2]> = shown.map(|edge| edge.ends.map(|end| places[end.index()])).collect();
-    let visible = seen.visible(&ideal_scene(seen.scene, seen.view.eye, &places), &lines)?;
+    let visible = seen.visible(ideal_scene(seen.scene, seen.view.eye, &places), &lines)?;
     let width = style.hairline;
     drawing.lines(visible.clone(), 3.0 * width, style.background);
     drawing.lines(visible, width, style.ink);
     Ok(None)
 }
 
-/// How the rest shape of a body is placed.
-#[derive(Clone, Copy)]
-struct Standing {
-    /// A turn about a centre, of a body on a world line.
-    turn: Option<(DQuat, DVec3)>,
-    shift: DVec3,
-}
-
-impl Standing {
-    fn shifted(shift: DVec3) -> Self {
-        Self { turn: None, shift }
-    }
-}
-
-/// A body on a world line, turned as its centre is seen.
-fn standing(line: &WorldLine, center: DVec3) -> Standing {
-    match line.emission(center, Event { t: 0.0, x: DVec3::ZERO }) {
-        Ok(emission) => Standing {
-            turn: Some((line.pose(emission.own_time).turn, center)),
-            shift: emission.event.x - center,
-        },
-        Err(_) => Standing::shifted(DVec3::ZERO),
-    }
-}
-
 /// The position of each vertex at rest, relative to the eye.
 fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
-    let scene = seen.scene;
-    let at_rest = rest_positions(scene, seen.view.eye, &seen.frames);
+    let SeenScene { scene, view, frames, .. } = seen;
+    let at_rest = rest_positions(scene, view.eye, frames);
     let geometry = Geometry::of(scene);
     let bodies = vertex_bodies(scene);
-    let shift = |body: BodyId| {
-        let rest = (0..scene.vertices.len()).filter(|&vertex| bodies[vertex] == body);
-        let rest = rest.map(|vertex| at_rest[vertex]);
-        let bounds = rest.fold(None, |bounds: Option<[DVec3; 2]>, place| {
-            Some(bounds.map_or([place; 2], |[low, high]| [low.min(place), high.max(place)]))
-        });
-        let velocity = seen.frames.velocity(body);
-        bounds.filter(|_| seen.is_moving(body)).map(|[low, high]| {
-            let center = 0.5 * low + 0.5 * high;
-            if let Some(line) = seen.frames.world_line(body) {
-                return standing(line, center);
-            }
-            let rest = RestPosition(seen.frames.of(body).scene_from_boosted().inverse() * center);
-            Standing::shifted(geometry.seen(rest, velocity).0 - center)
-        })
+    let mut bounds: Vec<Option<[DVec3; 2]>> = vec![None; scene.bodies.len()];
+    for (&place, body) in at_rest.iter().zip(&bodies) {
+        let bounds = &mut bounds[body.index()];
+        *bounds = Some(bounds.map_or([place; 2], |[low, high]| [low.min(place), high.max(place)]));
+    }
+    // The centre of a moving body at rest, where it is seen, and the turn of the body then.
+    let standing = |body: BodyId| {
+        let [low, high] = bounds[body.index()].filter(|_| seen.is_moving(body))?;
+        let center = 0.5 * low + 0.5 * high;
+        let Some(line) = frames.world_line(body) else {
+            let rest = RestPosition(frames.of(body).scene_from_boosted().inverse() * center);
+            return Some((center, geometry.seen(rest, frames.velocity(body)).0, DQuat::IDENTITY));
+        };
+        let emission = line.emission(center, Event { t: 0.0, x: DVec3::ZERO }).ok();
+        let seen = emission.map(|seen| (seen.event.x, line.pose(seen.own_time).turn));
+        let (place, turn) = seen.unwrap_or((center, DQuat::IDENTITY));
+        Some((center, place, turn))
     };
-    let shifts: Vec<Option<Standing>> = scene.bodies.ids().map(shift).collect();
-    let place = |(vertex, body): (usize, &BodyId)| match shifts[body.index()] {
-        Some(Standing { turn: None, shift }) => at_rest[vertex] + shift,
-        Some(Standing { turn: Some((turn, center)), shift }) => {
-            center + turn * (at_rest[vertex] - center) + shift
-        }
-        None => scene.vertices[vertex].position - seen.view.eye,
+    let standing: Vec<_> = scene.bodies.ids().map(standing).collect();
+    let place = |(vertex, body): (usize, &BodyId)| match standing[body.index()] {
+        Some((center, place, turn)) => place + turn * (at_rest[vertex] - center),
+        None => scene.vertices[vertex].position - view.eye,
     };
     bodies.iter().enumerate().map(place).collect()
 }
@@ -146,17 +128,24 @@ struct Edge {
     faces: Vec<(usize, bool)>,
 }
 
-/// Edges of moving bodies, in the order of the scene.
-fn edges<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<Edge> {
+/// Edges of moving bodies, in the order of the scene. `places`: of the vertices at rest.
+fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<Edge> {
     let scene = seen.scene;
-    // A vertex repeated for another colour is at the same position.
-    let spot = |vertex: VertexId| scene.vertices[vertex.index()].position.to_array().map(f64::to_bits);
+    let moving = scene.faces.iter().filter(|face| seen.is_moving(face.body));
+    let corners = moving.flat_map(|face| scene.contours.corners(face.contours.clone()));
+    let nearest = corners.map(|corner| places[corner.index()].length()).fold(f64::INFINITY, f64::min);
+    let [left, right] = [[0.0, 0.0], [1.0, 0.0]].map(|place| seen.view.point(place, nearest));
+    let spots = spots(places, SAME_PLACE * (right - left).length());
+    let spot = |vertex: VertexId| spots[vertex.index()];
     let mut edges: Vec<Edge> = Vec::new();
     // Only looked up, so its order does not matter.
     let mut known = HashMap::new();
     for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| seen.is_moving(face.body)) {
         for [a, b] in face_edges(scene, face) {
             let (from, to) = (spot(a), spot(b));
+            if from == to {
+                continue;
+            }
             let key = (from.min(to), from.max(to), face.body);
             let edge = *known.entry(key).or_insert_with(|| {
                 edges.push(Edge { ends: [a, b], faces: Vec::new() });
@@ -167,6 +156,27 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<Edge> {
         }
     }
     edges
+}
+
+/// For each place, the row of the first that is no farther from it than `same` along each axis.
+fn spots(places: &[DVec3], same: f64) -> Vec<usize> {
+    let reach = places.iter().map(|place| place.abs().max_element()).fold(0.0, f64::max);
+    let same = same.max(ROUNDING * reach);
+    // The cast saturates.
+    let cell = |place: DVec3| (place / (2.0 * same)).floor().to_array().map(|x| x as i64);
+    // Only looked up, so its order does not matter.
+    let mut known: HashMap<[i64; 3], usize> = HashMap::new();
+    let spot = |(row, &place): (usize, &DVec3)| {
+        let ends = [cell(place - same), cell(place + same)];
+        let near = (0..8).map(|corner| [0, 1, 2].map(|axis| ends[corner >> axis & 1][axis]));
+        let is_same = |&first: &usize| (places[first] - place).abs().max_element() <= same;
+        let first = near.filter_map(|cell| known.get(&cell).copied()).find(is_same);
+        first.unwrap_or_else(|| {
+            known.insert(cell(place), row);
+            row
+        })
+    };
+    places.iter().enumerate().map(spot).collect()
 }
 
 impl Edge {

@@ -46,8 +46,8 @@ impl<'a, E: From<Error>> SeenScene<'a, E> {
 
     /// The parts in the picture of lines at rest that the faces of a scene, seen by this camera, do
     /// not hide. `lines`: their ends relative to the eye.
-    pub fn visible(&self, scene: &Scene, lines: &[[DVec3; 2]]) -> Result<Vec<[Point; 2]>, E> {
-        (self.wires)(&with_wires(scene.clone(), self.view.eye, lines), &self.camera)
+    pub fn visible(&self, scene: Scene, lines: &[[DVec3; 2]]) -> Result<Vec<[Point; 2]>, E> {
+        (self.wires)(&with_wires(scene, self.view.eye, lines), &self.camera)
     }
 
     /// The place in the picture of a point before the eye, relative to it.

@@ -246,7 +246,7 @@ impl Teller<'_> {
 
     /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
-        let layout = PackedLayout::new(&self.setup.appearance.palette, &self.setup.lighting);
+        let layout = PackedLayout::new(&self.setup.appearance, &self.setup.lighting);
         let (Plain { tint, saturation, value }, light_level) = match layout.color(values) {
             Interpolated::Light(light) => return SampleColor::of_light(light),
             Interpolated::Hue { color, level } => (color, level),

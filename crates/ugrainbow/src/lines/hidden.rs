@@ -4,9 +4,6 @@ use ugpicture::visible_parts;
 
 use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
 
-/// Cells along a side of the grid by which faces far from all lines are skipped.
-const CELLS: usize = 256;
-
 /// Decides which parts of a line are visible.
 pub struct Visibility<'a> {
     occlusion: Occlusion<'a>,
@@ -67,10 +64,13 @@ impl Occluders {
         size: [u32; 2],
         margin: f64,
     ) -> Self {
-        let near = Near::new(lines, size);
+        let lines = BoxIndex::new(lines, size);
         let mut all = Vec::new();
         for contours in outlines {
-            if !near.has_line(&contours) {
+            let places = || contours.iter().flatten();
+            let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
+            let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
+            if !lines.has_any_in([low, high]) {
                 continue;
             }
             let outline = contours.into_iter().map(|contour| clipped_to_picture(contour, size, margin));
@@ -117,42 +117,5 @@ pub fn occluded_part(part: &Convex, a: DepthPoint, b: DepthPoint) -> Option<[f64
         (true, false) => Some([start, crossing]),
         (false, true) => Some([crossing, end]),
         (false, false) => None,
-    }
-}
-
-/// The cells of the picture that the bounding boxes of lines touch.
-struct Near {
-    cells: Vec<bool>,
-    size: [f64; 2],
-}
-
-impl Near {
-    fn new(lines: impl Iterator<Item = [[f64; 2]; 2]>, size: [u32; 2]) -> Self {
-        let mut near = Self { cells: vec![false; CELLS * CELLS], size: size.map(f64::from) };
-        for line in lines {
-            let [columns, rows] = near.cells_of(line);
-            for row in rows {
-                near.cells[row * CELLS + columns.start()..=row * CELLS + columns.end()].fill(true);
-            }
-        }
-        near
-    }
-
-    fn has_line(&self, contours: &[Vec<DepthPoint>]) -> bool {
-        let places = || contours.iter().flatten();
-        let low = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::INFINITY, f64::min));
-        let high = [0, 1].map(|axis| places().map(|at| at[axis]).fold(f64::NEG_INFINITY, f64::max));
-        let [columns, mut rows] = self.cells_of([low, high]);
-        rows.any(|row| {
-            self.cells[row * CELLS + columns.start()..=row * CELLS + columns.end()].iter().any(|&is| is)
-        })
-    }
-
-    fn cells_of(&self, [low, high]: [[f64; 2]; 2]) -> [std::ops::RangeInclusive<usize>; 2] {
-        [0, 1].map(|axis| {
-            // The cast saturates, so what is outside lies in the outermost cells.
-            let cell = |x: f64| ((x / self.size[axis] * CELLS as f64) as usize).min(CELLS - 1);
-            cell(low[axis])..=cell(high[axis])
-        })
     }
 }

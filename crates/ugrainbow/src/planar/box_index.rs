@@ -63,6 +63,15 @@ impl BoxIndex {
         found
     }
 
+    /// True if one of the boxes overlaps another box.
+    pub fn has_any_in(&self, asked: [[f64; 2]; 2]) -> bool {
+        let ends = self.ends(asked);
+        let has_any = |(coarser, grid): (usize, &Vec<Vec<usize>>)| {
+            self.cells(ends, coarser).any(|cell| grid[cell].iter().any(|&shape| self.overlaps(shape, asked)))
+        };
+        self.grids.iter().enumerate().any(has_any)
+    }
+
     /// True if the box of this number overlaps another.
     pub fn overlaps(&self, shape: usize, [low, high]: [[f64; 2]; 2]) -> bool {
         let [its_low, its_high] = self.boxes[shape];
@@ -115,6 +124,7 @@ mod tests {
                 };
                 let expected: Vec<usize> = (0..boxes.len()).filter(overlaps).collect();
                 assert_eq!(index.in_box([low, high]), expected, "{low:?} {high:?}");
+                assert_eq!(index.has_any_in([low, high]), !expected.is_empty());
                 n_found += expected.len();
             }
         }

@@ -3,11 +3,11 @@
 mod hues;
 mod transfer;
 
-use fearless_simd::Level;
+use fearless_simd::{Level, Simd, dispatch};
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
 use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading, TRANSPARENT_VALUES};
 
-use crate::packing::{Colored, Mixed, MixedColored, Plain, Transparent};
+use crate::packing::Packed;
 use hues::{Lights, Pure, all_between, decode_all, encode, encode_all};
 use transfer::decode;
 use uglight::Interpolation;
@@ -48,46 +48,26 @@ impl Shader {
         }
     }
 
-    /// The light of a sample in the layout [`Plain`].
-    pub fn plain(&self, &sample: &[f32; 3]) -> ShadedSample {
-        self.lit(Plain::unpack(sample), [1.0; 3])
-    }
-
-    /// The light of a sample in the layout [`Colored`].
-    pub fn colored(&self, &sample: &[f32; 6]) -> ShadedSample {
-        let sample = Colored::unpack(sample);
-        self.lit(sample.color(), sample.level())
-    }
-
-    /// The light of a sample in the layout [`Mixed`].
-    pub fn mixed(&self, &sample: &[f32; 4]) -> ShadedSample {
-        self.mixed_lit(&Mixed::unpack(sample), [1.0; 3])
-    }
-
-    /// The light of a sample in the layout [`MixedColored`].
-    pub fn mixed_colored(&self, &sample: &[f32; 7]) -> ShadedSample {
-        let sample = MixedColored::unpack(sample);
-        self.mixed_lit(&sample.mixed(), sample.level())
-    }
-
-    /// The light of a sample in the layout [`Transparent`], and the part of the light from behind
-    /// that it transmits.
-    pub fn transparent(&self, &sample: &[f32; TRANSPARENT_VALUES]) -> (ShadedSample, f32) {
-        let sample = Transparent::unpack(sample);
-        let opaque = sample.opaque();
-        (self.mixed_lit(&opaque.mixed(), opaque.level()), sample.translucency.clamp(0.0, 1.0))
-    }
-
-    /// A colour given as light already contains that of the lights.
-    fn mixed_lit(&self, sample: &Mixed<f32>, lights: [f32; 3]) -> ShadedSample {
-        if sample.is_light > 0.5 {
-            given(sample.light(), self.ceiling)
-        } else {
-            self.lit(sample.color(), lights)
+    /// The light of a sample of numbers in one of the layouts.
+    #[inline]
+    pub fn opaque(&self, sample: &[f32]) -> ShadedSample {
+        let Packed { color, level, is_light } = Packed::new(sample);
+        if is_light.is_some_and(|is_light| is_light > 0.5) {
+            // It already contains the light of lamps.
+            return given(color, self.ceiling);
         }
+        self.lit(color, level.unwrap_or([1.0; 3]))
     }
 
-    fn lit(&self, Plain { tint, saturation, value }: Plain<f32>, lights: [f32; 3]) -> ShadedSample {
+    /// The light of a transparent sample, and the part of the light from behind that it transmits.
+    pub fn transparent(
+        &self,
+        [opaque @ .., translucency]: &[f32; TRANSPARENT_VALUES],
+    ) -> (ShadedSample, f32) {
+        (self.opaque(opaque), translucency.clamp(0.0, 1.0))
+    }
+
+    fn lit(&self, [tint, saturation, value]: [f32; 3], lights: [f32; 3]) -> ShadedSample {
         let is_product = is_product(lights);
         let fade = if is_product { 1.0 } else { self.fade(tint, saturation) };
         let pure = Pure { hue: self.hue(tint), fade, saturation };
@@ -140,7 +120,7 @@ impl Shader {
     /// Shades a run of samples.
     fn lit_all(
         &self,
-        Plain { tint: tints, saturation: saturations, value: values }: Plain<&[f32]>,
+        [tints, saturations, values]: [&[f32]; 3],
         lights: Lights<'_>,
         encoding: Encoding,
         run: &mut ShadedRun,
@@ -158,9 +138,13 @@ impl Shader {
             run.is_out_of_range = [false; RUN];
             None
         } else {
+            own_fades[..n].fill(1.0);
+            let [low, high] = self.bright_tints();
             for (idx, fade) in own_fades[..n].iter_mut().enumerate() {
-                let is_product = lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
-                *fade = if is_product { 1.0 } else { self.fade(tints[idx], saturations[idx]) };
+                let is_product = || lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
+                if !(low..=high).contains(&tints[idx]) && !is_product() {
+                    *fade = self.fade(tints[idx], saturations[idx]);
+                }
             }
             for (is_out, fade) in run.is_out_of_range.iter_mut().zip(&own_fades) {
                 *is_out = *fade == 0.0;
@@ -244,32 +228,18 @@ impl Shader {
     }
 }
 
-impl Shading<3> for Shader {
-    fn shade(&self, samples: [&[f32]; 3], encoding: Encoding, run: &mut ShadedRun) {
-        self.lit_all(Plain::unpack(samples), None, encoding, run);
-    }
-}
-
-impl Shading<6> for Shader {
-    fn shade(&self, samples: [&[f32]; 6], encoding: Encoding, run: &mut ShadedRun) {
-        let samples = Colored::unpack(samples);
-        self.lit_all(samples.color(), Some(samples.level()), encoding, run);
-    }
-}
-
-impl Shading<4> for Shader {
-    fn shade(&self, samples: [&[f32]; 4], encoding: Encoding, run: &mut ShadedRun) {
-        let samples = Mixed::unpack(samples);
-        self.lit_all(samples.color(), None, encoding, run);
-        set_given(&samples, self.ceiling, encoding, run);
-    }
-}
-
-impl Shading<7> for Shader {
-    fn shade(&self, samples: [&[f32]; 7], encoding: Encoding, run: &mut ShadedRun) {
-        let samples = MixedColored::unpack(samples);
-        self.lit_all(samples.mixed().color(), Some(samples.level()), encoding, run);
-        set_given(&samples.mixed(), self.ceiling, encoding, run);
+impl<const N: usize> Shading<N> for Shader {
+    fn shade(&self, samples: [&[f32]; N], encoding: Encoding, run: &mut ShadedRun) {
+        let Packed { color, level, is_light } = Packed::new(&samples);
+        // Without an early exit, which would prevent vectorization.
+        let all_light =
+            |is_light: &[f32]| is_light.iter().fold(true, |all, is_light| all & (*is_light > 0.5));
+        if !is_light.is_some_and(all_light) {
+            self.lit_all(color, level, encoding, run);
+        }
+        if let Some(is_light) = is_light {
+            set_given(color, is_light, self.ceiling, encoding, run);
+        }
     }
 }
 
@@ -294,22 +264,43 @@ fn times(light: [f32; 3], peak: f32, levels: [f32; 3], ceiling: f32) -> ([f32; 3
 }
 
 /// Replaces the samples whose colours are given as light.
-fn set_given(samples: &Mixed<&[f32]>, ceiling: f32, encoding: Encoding, run: &mut ShadedRun) {
-    let light = samples.light();
-    for (idx, _) in samples.is_light.iter().enumerate().filter(|(_, is_light)| **is_light > 0.5) {
-        let shade = given(light.map(|channel| channel[idx]), ceiling);
-        let light = match encoding {
-            Encoding::Linear => shade.light,
-            Encoding::Display => shade.light.map(|light| srgb_encode(f64::from(light)) as f32),
-        };
-        run.set(idx, ShadedSample { light, ..shade });
+fn set_given(light: [&[f32]; 3], is_light: &[f32], ceiling: f32, encoding: Encoding, run: &mut ShadedRun) {
+    let is_given = |is_light: &f32| *is_light > 0.5;
+    // Without an early exit, which would prevent vectorization.
+    if !is_light.iter().fold(false, |any, is_light| any | is_given(is_light)) {
+        return;
+    }
+    dispatch!(Level::new(), simd => set_given_run(simd, light, is_light, ceiling, run));
+    if encoding == Encoding::Display {
+        for (idx, _) in is_light.iter().enumerate().filter(|(_, is_light)| is_given(is_light)) {
+            run.light.iter_mut().for_each(|light| light[idx] = srgb_encode(f64::from(light[idx])) as f32);
+        }
+    }
+}
+
+#[inline(always)] // Compiled for several instruction sets.
+fn set_given_run<S: Simd>(_: S, light: [&[f32]; 3], is_light: &[f32], ceiling: f32, run: &mut ShadedRun) {
+    let n = is_light.len().min(RUN);
+    let (is_light, [red, green, blue]) = (&is_light[..n], light.map(|channel| &channel[..n]));
+    let [reds, greens, blues] = run.light.each_mut().map(|channel| &mut channel[..n]);
+    let (intensity, is_out_of_range) = (&mut run.intensity[..n], &mut run.is_out_of_range[..n]);
+    for idx in 0..n {
+        let given = given([red[idx], green[idx], blue[idx]], ceiling);
+        let is_given = is_light[idx] > 0.5;
+        reds[idx] = if is_given { given.light[0] } else { reds[idx] };
+        greens[idx] = if is_given { given.light[1] } else { greens[idx] };
+        blues[idx] = if is_given { given.light[2] } else { blues[idx] };
+        intensity[idx] = if is_given { given.intensity } else { intensity[idx] };
+        is_out_of_range[idx] &= !is_given;
     }
 }
 
 /// A sample whose colour is given as light, clipped to `ceiling`.
+#[inline(always)]
 fn given(light: [f32; 3], ceiling: f32) -> ShadedSample {
-    let intensity = light.into_iter().fold(0.0, f32::max);
-    let light = light.map(|channel| channel.min(ceiling));
+    let [red, green, blue] = light;
+    let intensity = 0.0f32.max(red).max(green).max(blue);
+    let light = [red.min(ceiling), green.min(ceiling), blue.min(ceiling)];
     ShadedSample { light, intensity, is_out_of_range: false }
 }
 
@@ -358,7 +349,7 @@ mod tests {
         for step in 0..=3600 {
             let hue = f64::from(step) / 10.0 - 60.0;
             let fade = attenuation(hue_to_wavelength(hue));
-            let shade = shader.plain(&[hue as f32, 1.0, 0.8]);
+            let shade = shader.opaque(&[hue as f32, 1.0, 0.8]);
             assert_light(&shade, exact(hue, 1.0, 0.8 * fade));
             assert_eq!(shade.is_out_of_range, fade == 0.0, "hue {hue}");
         }
@@ -375,10 +366,10 @@ mod tests {
         let shader = Shader::new(Interpolation::Hue, true, false);
         for hue in [-60.0, -59.0, -30.0, -1.0, 0.0, 120.0, 240.0, 250.0, 280.0, 299.0, 300.0] {
             let fade = attenuation(hue_to_wavelength(hue));
-            let mut before = shader.plain(&[hue as f32, 0.0, 0.8]).light;
+            let mut before = shader.opaque(&[hue as f32, 0.0, 0.8]).light;
             for step in 0..=1000 {
                 let saturation = f64::from(step) / 1000.0;
-                let shade = shader.plain(&[hue as f32, saturation as f32, 0.8]);
+                let shade = shader.opaque(&[hue as f32, saturation as f32, 0.8]);
                 assert_light(&shade, parts(hue, saturation, 0.8, fade));
                 // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of
                 // decoding is at most 2.3.
@@ -401,8 +392,8 @@ mod tests {
             for tint in tints {
                 for saturation in [0.0, 1e-6, 0.03, 0.1] {
                     for color in [
-                        shader.plain(&[tint, saturation, 1.0]),
-                        shader.colored(&[tint, saturation, 1.0, 1.0, 1.0, 1.0]),
+                        shader.opaque(&[tint, saturation, 1.0]),
+                        shader.opaque(&[tint, saturation, 1.0, 1.0, 1.0, 1.0]),
                     ] {
                         // Nine tenths of display-encoded white are left.
                         let least = color.light.into_iter().fold(1.0, f32::min);
@@ -418,7 +409,7 @@ mod tests {
         let shader = Shader::new(Interpolation::Wavelength, true, false);
         for nm in [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0] {
             let fade = attenuation(nm);
-            let shade = shader.plain(&[nm as f32, 1.0, 1.0]);
+            let shade = shader.opaque(&[nm as f32, 1.0, 1.0]);
             assert_light(&shade, exact(wavelength_to_hue(nm), 1.0, fade));
             assert_eq!(shade.is_out_of_range, fade == 0.0);
         }
@@ -488,34 +479,34 @@ mod tests {
             {
                 let shader = Shader { level, ..Shader::new(interpolation, is_clipped, acts_on_light) };
                 let plain: Vec<_> = samples.iter().map(|(color, ..)| *color).collect();
-                check_runs(&shader, &plain, |numbers| shader.plain(numbers));
+                check_runs(&shader, &plain, |numbers| shader.opaque(numbers));
                 let colored: Vec<_> =
                     samples.iter().map(|&([a, b, c], [d, e, f], _)| [a, b, c, d, e, f]).collect();
-                check_runs(&shader, &colored, |numbers| shader.colored(numbers));
+                check_runs(&shader, &colored, |numbers| shader.opaque(numbers));
                 let mixed: Vec<_> = samples.iter().map(|&([a, b, c], _, light)| [a, b, c, light]).collect();
-                check_runs(&shader, &mixed, |numbers| shader.mixed(numbers));
+                check_runs(&shader, &mixed, |numbers| shader.opaque(numbers));
                 let mixed: Vec<_> =
                     samples.iter().map(|&([a, b, c], [d, e, f], light)| [a, b, c, d, e, f, light]).collect();
-                check_runs(&shader, &mixed, |numbers| shader.mixed_colored(numbers));
+                check_runs(&shader, &mixed, |numbers| shader.opaque(numbers));
             }
         }
     }
 
     #[test]
     fn grey_has_no_wavelength() {
-        let shade = Shader::new(Interpolation::Wavelength, true, false).plain(&[5000.0, 0.0, 0.5]);
+        let shade = Shader::new(Interpolation::Wavelength, true, false).opaque(&[5000.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
-        let shade = Shader::new(Interpolation::Hue, true, false).plain(&[300.0, 0.0, 0.5]);
+        let shade = Shader::new(Interpolation::Hue, true, false).opaque(&[300.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
     }
 
     #[test]
     fn intensity_is_told_before_clipping() {
         let shader = Shader::new(Interpolation::Hue, true, false);
-        let shade = shader.plain(&[120.0, 0.5, 1.5]);
+        let shade = shader.opaque(&[120.0, 0.5, 1.5]);
         assert_eq!(shade.intensity, 1.5);
         assert_light(&shade, exact(120.0, 0.5, 1.0));
-        let shade = shader.colored(&[0.0, 0.0, 1.0, 0.5, 2.0, 0.0]);
+        let shade = shader.opaque(&[0.0, 0.0, 1.0, 0.5, 2.0, 0.0]);
         assert_eq!(shade.intensity, 2.0);
         assert_light(&shade, [srgb_decode(0.5), 1.0, 0.0]);
     }
@@ -528,7 +519,7 @@ mod tests {
             let own = exact(hue, 0.6, 0.5);
             for (is_clipped, level) in [(false, 0.25), (false, 7.0), (true, 0.25), (true, 7.0)] {
                 let shader = Shader::new(Interpolation::Hue, is_clipped, true);
-                let shade = shader.colored(&[hue as f32, 0.6, 0.5, level, level, level]);
+                let shade = shader.opaque(&[hue as f32, 0.6, 0.5, level, level, level]);
                 let bright = srgb_decode(0.5) * f64::from(level);
                 let scale = f64::from(level) / if is_clipped { bright.max(1.0) } else { 1.0 };
                 // Single precision, of which the level multiplies the errors.
@@ -544,14 +535,14 @@ mod tests {
     fn without_a_ceiling_bright_colours_follow_the_curve() {
         let shader = Shader::new(Interpolation::Hue, false, false);
         for value in [0.25, 1.0, 1.0001, 1.5, 40.0] {
-            let shade = shader.plain(&[120.0, 0.5, value]);
+            let shade = shader.opaque(&[120.0, 0.5, value]);
             let light =
                 Hsv { hue: 120.0, saturation: 0.5, value: f64::from(value) }.to_rgb().map(srgb_decode);
             for (ours, exact) in shade.light.iter().zip(light) {
                 assert!((f64::from(*ours) - exact).abs() < 1e-6 * exact.max(1.0), "{shade:?} {light:?}");
             }
         }
-        assert_eq!(shader.mixed(&[7.0, -0.5, 0.25, 1.0]).light, [7.0, -0.5, 0.25]);
-        assert_eq!(shader.mixed(&[120.0, 0.5, 0.25, 0.0]), shader.plain(&[120.0, 0.5, 0.25]));
+        assert_eq!(shader.opaque(&[7.0, -0.5, 0.25, 1.0]).light, [7.0, -0.5, 0.25]);
+        assert_eq!(shader.opaque(&[120.0, 0.5, 0.25, 0.0]), shader.opaque(&[120.0, 0.5, 0.25]));
     }
 }

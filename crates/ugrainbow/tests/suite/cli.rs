@@ -101,7 +101,7 @@ fn bad_usage_ends_with_2() {
     check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
     check("-vec", "this format has only pixels: with -vec write -dt eps, ps, pdf or svg");
     check("-zz", "there is no option");
-    for both in ["-bg .5 -tb", "-ih -wi", "-dp -tb", "-vec -dp"] {
+    for both in ["-bg .5 -tb", "-ih -wi"] {
         check(both, "cannot be given together");
     }
 }
@@ -150,17 +150,4 @@ fn a_png_is_not_written_to_a_terminal() {
     let (output, _) = on_terminal(&ugrainbow, "-sz 8 8 -fo a.png");
     assert!(output.status.success(), "{}", messages(&output));
     assert!(folder.path().join("a.png").exists());
-}
-
-#[test]
-fn grey_postscript_goes_to_its_file_of_1988() {
-    let folder = tempdir().unwrap();
-    let ugrainbow = UGRAINBOW.in_folder(&folder);
-    let (output, shown) = on_terminal(&ugrainbow, "-sz 8 8 -dp");
-    assert!(output.status.success() && shown.is_empty(), "{}", messages(&output));
-    assert_eq!(messages(&output), "ugrainbow: note: the picture goes to the file POSTSCRIPTFILE\n");
-    let file = fs::read(folder.path().join("POSTSCRIPTFILE")).unwrap();
-    assert!(file.starts_with(b"%!PS-Adobe-2.0 EPSF-2.0\n%%BoundingBox: 0 0 8 8\n"));
-    // Into a pipe it is written like every other format.
-    assert!(ugrainbow.output("-sz 8 8 -dp", SCENE) == file);
 }

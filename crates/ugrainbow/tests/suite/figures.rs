@@ -35,7 +35,7 @@ fn scene_rows(config: &Config) -> u32 {
     let [width, height] = config.picture.size;
     assert_eq!([figure.width(), figure.height()], config.picture.size);
     let is_alike = |rows: &u32| {
-        let alone = with(&config, |picture| {
+        let alone = with(config, |picture| {
             (picture.size, picture.annotations) = ([width, *rows], AnnotationOptions::default())
         });
         figure.pixels().starts_with(draw(SHIP, &alone).pixels())

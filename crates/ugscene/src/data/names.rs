@@ -1,6 +1,6 @@
 //! The names of a scene, in one buffer, and generation of unique names.
 
-use rustc_hash::FxHashSet;
+use rustc_hash::FxHashMap;
 
 use super::ids::NameId;
 
@@ -58,27 +58,32 @@ impl Names {
     }
 }
 
-/// A set of used names, to generate unique ones.
+/// Used names, to generate unique ones.
 #[derive(Clone, Debug, Default)]
 pub struct UniqueNames {
-    taken: FxHashSet<String>,
+    /// For each name the largest number that was appended to it, or 1.
+    taken: FxHashMap<String, u64>,
 }
 
 impl UniqueNames {
     /// Returns `name`, or the first unused of `name_2`, `name_3`, …, and marks it as used.
     pub fn fresh(&mut self, name: &str) -> String {
-        let mut candidate = name.to_string();
-        let mut count = 1u64;
-        while !self.taken.insert(candidate.clone()) {
-            count += 1;
-            candidate = format!("{name}_{count}");
+        let mut fresh = name.to_owned();
+        if let Some(&last) = self.taken.get(name) {
+            let mut count = last;
+            while self.taken.contains_key(&fresh) {
+                count += 1;
+                fresh = format!("{name}_{count}");
+            }
+            self.taken.insert(name.to_owned(), count);
         }
-        candidate
+        self.taken.insert(fresh.clone(), 1);
+        fresh
     }
 }
 
 impl<'a> FromIterator<&'a str> for UniqueNames {
     fn from_iter<I: IntoIterator<Item = &'a str>>(names: I) -> Self {
-        Self { taken: names.into_iter().map(str::to_string).collect() }
+        Self { taken: names.into_iter().map(|name| (name.to_owned(), 1)).collect() }
     }
 }

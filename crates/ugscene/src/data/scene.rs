@@ -308,7 +308,25 @@ pub enum Projection {
     Perspective,
 }
 
+/// The attributes that faces and wires have in common.
+#[derive(Clone, Debug)]
+pub struct Drawn {
+    /// Rows of the contours.
+    pub contours: Range<u32>,
+    /// Its own colour, if it has one.
+    pub color: Option<ColorId>,
+    /// The body it is part of.
+    pub body: BodyId,
+}
+
 impl Scene {
+    /// All faces, then all wires.
+    pub fn drawn(&self) -> impl DoubleEndedIterator<Item = Drawn> + Clone {
+        let faces = self.faces.iter().map(|face| (&face.contours, face.color, face.body));
+        let all = faces.chain(self.wires.iter().map(|wire| (&wire.contours, wire.color, wire.body)));
+        all.map(|(contours, color, body)| Drawn { contours: contours.clone(), color, body })
+    }
+
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(face.contours.clone())
@@ -331,9 +349,7 @@ impl Scene {
     /// True if the colour of a face or wire changes with own time.
     pub fn has_changing_surfaces(&self) -> bool {
         let changes = |color: Option<ColorId>| color.is_some_and(|color| self.table_of(color).is_some());
-        !self.color_tables.is_empty()
-            && (self.faces.iter().any(|face| changes(face.color))
-                || self.wires.iter().any(|wire| changes(wire.color)))
+        !self.color_tables.is_empty() && self.drawn().any(|drawn| changes(drawn.color))
     }
 
     /// The fixed light level of a face, if it has one; such a face is not lit.

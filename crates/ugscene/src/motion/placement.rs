@@ -130,6 +130,8 @@ pub(super) fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
 ///
 /// `scene`: with velocities in the frame of the camera.
 pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts: &[DVec3]) {
+    let mut is_used = vec![false; motions.len()];
+    scene.drawn().for_each(|drawn| is_used[drawn.body.index()] = true);
     let shift_of = |body: BodyId| motions[body.index()].turned_back(shifts[body.index()]);
     let mut lights_everything = Vec::new();
     for light in &mut scene.lights {
@@ -142,9 +144,6 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
     if lights_everything.is_empty() {
         return;
     }
-    let mut is_used = vec![false; motions.len()];
-    let users = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
-    users.for_each(|body| is_used[body.index()] = true);
     let used = scene.bodies.ids().filter(|body| is_used[body.index()]);
     // Those of bodies on world lines stay where they are.
     let (on_lines, used): (Vec<_>, Vec<_>) = used.partition(|&body| scene.bodies.is_on_world_line(body));

@@ -1,7 +1,7 @@
 //! Errors, with the options that correct them.
 
 use ugpipe::Words;
-use ugsky::{Arrangement, BasisError, PanoramaError};
+use ugsky::{Arrangement, PanoramaError};
 
 use crate::Error;
 
@@ -36,10 +36,6 @@ impl Words for Error {
             }
             Self::Stars => {
                 "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60"
-            }
-            Self::Basis(BasisError::BlackBodyRange) => {
-                "the colours of --basis blackbody have infrared and ultraviolet light of their own: leave out \
-                 --infrared and --ultraviolet, or give --basis smooth"
             }
             Self::Read { .. } | Self::Panorama(_) | Self::Basis(_) => "{}",
             Self::CubeSize => {

@@ -52,7 +52,7 @@ fn options_have_two_spellings() {
 
 #[test]
 fn the_same_bytes_on_any_number_of_threads() {
-    let on = |threads: u32| format!("-sz 80 60 -cv 0 .8 0 -va 120 --basis smooth -qt -nt {threads}");
+    let on = |threads: u32| format!("-sz 80 60 -cv 0 .8 0 -va 120 -sp -qt -nt {threads}");
     UGWARP.same(&on(1), &on(2), sky());
     UGWARP.same(&on(1), &on(7), sky());
 }
@@ -66,7 +66,7 @@ fn mistakes_have_answers() {
     check("-gr", 2, "are for scenes");
     check("-cube", 2, "give -sz W H with W = 6 H");
     check("-dt exr -ch time", 2, "the channels of a panorama are D, direction");
-    check("--basis green", 2, "--basis takes mixture, smooth, blackbody or three temperatures");
+    check("--basis green", 2, "--basis takes mixture or three temperatures");
     check("--basis 5000 5000 9000", 2, "are no basis of colours");
     check("-part 10 -10 0 20", 2, "must increase from west to east");
     check("-vc 0 0 0", 1, "no direction to look in");
@@ -138,7 +138,7 @@ fn lists_of_stars_are_drawn() {
     }
     ugwarp.refuses("--stars stars.csv --br photon", sky(), 2, "`-br`");
     ugwarp.refuses("-part -10 10 -5 5", &list, 2, "the input is a list of stars: leave out -from");
-    ugwarp.refuses("--basis smooth", &list, 2, "leave out -br, --basis");
+    ugwarp.refuses("--basis mixture", &list, 2, "leave out -br, --basis");
     ugwarp.refuses("--star-width 0", &list, 2, "0.5 to 50 pixels wide");
     ugwarp.refuses("", "ra,dec,mag,kelvin\n1,2,3,x\n", 1, "<stdin>:2:7");
     ugwarp.refuses("--stars no-such-list.csv", sky(), 1, "No such file");
@@ -200,7 +200,6 @@ fn infrared_light_is_a_second_file() {
     let (all, none) = (mean(""), mean("--infrared-to 831"));
     assert!(all > none + 30.0, "{all} {none}");
     ugwarp.refuses("--infrared infrared.png -br photon", sky(), 2, "-br");
-    ugwarp.refuses("--infrared infrared.png --basis blackbody", sky(), 2, "give --basis smooth");
     ugwarp.refuses("--infrared infrared.png --infrared-to 700", sky(), 2, "more than 830 nm");
     ugwarp.refuses("--ultraviolet no-such-file.png", sky(), 1, "no-such-file.png");
     ugwarp.refuses("--ultraviolet infrared.png", "ra,dec,mag,kelvin\n", 2, "leave out");

@@ -153,12 +153,10 @@ fn a_black_body_sky_stays_one() {
     let spectrum = Spectrum::blackbody(5800.0, 0.4);
     let rgb = xyz_to_linear_srgb(spectrum.seen(1.0));
     let sky = panorama(64, |_| rgb);
-    for (beta, basis) in
-        [(0.5, Basis::BlackBody), (0.9, Basis::BlackBody), (0.3, Basis::Planck([3500.0, 5800.0, 10_000.0]))]
-    {
+    for beta in [0.1, 0.3] {
         let mut config = geometry(ahead(beta), [512, 256], Lens::Panorama);
         config.shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
-        config.basis = basis;
+        config.basis = Basis::Planck([3500.0, 5800.0, 10_000.0]);
         config.picture.channels = vec![Channel::Doppler];
         let frame = light(&sky, &config).unwrap();
         let Samples::Float(factors) = &frame.planes()[0].samples else { panic!("numbers") };
@@ -323,7 +321,7 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     let both = [band(830.0..1e6, 0.4), band(0.0..360.0, 0.4)];
     let (whole, parts) = (seen(0.4, &[]), seen(0.4, &both));
     for (whole, parts) in whole.pixels().iter().zip(parts.pixels()) {
-        // The table of smooth spectra is linear over 2 % of D, across the edges of the ranges.
+        // The edges of the ranges are between entries of the tables.
         let most = whole[..3].iter().fold(0.0, |most: f32, part| most.max(*part));
         assert!((0..3).all(|i| (parts[i] - whole[i]).abs() < 1e-2 * most), "{whole:?} {parts:?}");
     }

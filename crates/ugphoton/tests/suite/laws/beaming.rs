@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec3;
 use ugphoton::{Config, Lens, MotionOptions};
-use ugphysics::spectrum::blackbody_luminance_ratio;
+use ugphysics::spectrum::Spectrum;
 use ugphysics::{Brightness, linear_srgb_to_xyz, srgb_encode};
 
 use crate::laws::drawing::{
@@ -236,9 +236,10 @@ fn the_motion_of_the_sun_makes_a_dipole() {
 /// The temperature of a black body with a luminance relative to that of another.
 fn temperature(luminance: f64, reference: f64) -> f64 {
     let (mut low, mut high) = (0.9 * reference, 1.1 * reference);
+    let of_reference = Spectrum::blackbody(reference, 1.0);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
-        if blackbody_luminance_ratio(middle, reference) < luminance { low = middle } else { high = middle }
+        if of_reference.seen(middle / reference)[1] < luminance { low = middle } else { high = middle }
     }
     low
 }

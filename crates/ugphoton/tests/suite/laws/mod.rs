@@ -266,7 +266,7 @@ fn doppler_factors_multiply_along_a_path() {
         // Reflection is its own reverse: the light before it, from the light after it.
         let there = wave.in_frame(velocity(beta));
         let before = there.k - 2.0 * there.k.dot(normal) * normal;
-        WaveVector { k: before, ..there }.out_of_frame(velocity(beta))
+        WaveVector { k: before, ..there }.in_frame(-velocity(beta))
     };
     let at_eye = WaveVector::in_vacuum(1.0, -toward);
     let between = backwards(at_eye, DVec3::X, 0.1);

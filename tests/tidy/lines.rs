@@ -1,0 +1,178 @@
+//! Lines with code, apart for programs and for tests.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
+
+/// Lines that hold more than comments.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Lines {
+    /// What is compiled into libraries and programs.
+    pub production: usize,
+    /// Items under `#[cfg(test)]`, and all files of tests.
+    pub test: usize,
+}
+
+impl std::ops::AddAssign for Lines {
+    fn add_assign(&mut self, other: Self) {
+        self.production += other.production;
+        self.test += other.test;
+    }
+}
+
+/// The lines of a folder with a manifest. `files`: its sources, and their text; all of `tests/` and
+/// `benches/` are tests, and examples are neither.
+pub fn of_crate(files: &BTreeMap<PathBuf, String>, folder: &Path) -> Lines {
+    let counted: Vec<(&PathBuf, Counted)> = (files.iter())
+        .map(|(path, text)| (path, count(text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))))
+        .collect();
+    let modules_of_tests: Vec<PathBuf> = (counted.iter())
+        .flat_map(|(path, file)| file.test_modules.iter().map(|name| below(path).join(name)))
+        .collect();
+    let mut sum = Lines::default();
+    for (path, file) in counted {
+        let place = path.strip_prefix(folder).unwrap_or(path);
+        let is_test = |module: &PathBuf| path.with_extension("").starts_with(module);
+        if place.starts_with("examples") {
+            continue;
+        }
+        if place.starts_with("tests") || place.starts_with("benches") || modules_of_tests.iter().any(is_test)
+        {
+            sum.test += file.lines.production + file.lines.test;
+        } else {
+            sum += file.lines;
+        }
+    }
+    sum
+}
+
+/// The folder of the modules that a file declares.
+fn below(path: &Path) -> PathBuf {
+    match path.file_name().and_then(|name| name.to_str()) {
+        Some("lib.rs" | "main.rs" | "mod.rs") => path.parent().unwrap_or(path).to_path_buf(),
+        _ => path.with_extension(""),
+    }
+}
+
+#[derive(Default)]
+struct Counted {
+    lines: Lines,
+    /// Names of modules under `#[cfg(test)]` whose text is in a file of its own.
+    test_modules: Vec<String>,
+}
+
+fn count(text: &str) -> Result<Counted, proc_macro2::LexError> {
+    let mut found = Found::default();
+    found.read(text.parse()?, false);
+    let test = found.test.difference(&found.production).count();
+    let lines = Lines { production: found.production.len(), test };
+    Ok(Counted { lines, test_modules: found.test_modules })
+}
+
+/// The numbers of lines with tokens.
+#[derive(Default)]
+struct Found {
+    production: BTreeSet<usize>,
+    test: BTreeSet<usize>,
+    test_modules: Vec<String>,
+}
+
+impl Found {
+    fn read(&mut self, tokens: TokenStream, is_test: bool) {
+        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
+        let mut at = 0;
+        // Whether this item is under `#[cfg(test)]`.
+        let mut is_test_item = false;
+        while at < tokens.len() {
+            if let Some((n_tokens, attribute)) = attribute(&tokens[at..]) {
+                let words: Vec<String> = words(attribute.stream());
+                if words.first().is_some_and(|word| word == "doc") {
+                    at += n_tokens;
+                    continue;
+                }
+                let is_condition = words.first().is_some_and(|word| word == "cfg");
+                is_test_item |=
+                    is_condition && words.contains(&"test".into()) && !words.contains(&"not".into());
+            }
+            let is_test_here = is_test || is_test_item;
+            if let (true, [TokenTree::Ident(word), TokenTree::Ident(name), TokenTree::Punct(end), ..]) =
+                (is_test_here, &tokens[at..])
+                && *word == "mod"
+                && end.as_char() == ';'
+            {
+                self.test_modules.push(name.to_string());
+            }
+            match &tokens[at] {
+                TokenTree::Group(group) => {
+                    self.mark(group.span_open(), is_test_here);
+                    self.read(group.stream(), is_test_here);
+                    self.mark(group.span_close(), is_test_here);
+                    is_test_item &= group.delimiter() != Delimiter::Brace;
+                }
+                token => {
+                    self.mark(token.span(), is_test_here);
+                    is_test_item &= !matches!(token, TokenTree::Punct(end) if end.as_char() == ';');
+                }
+            }
+            at += 1;
+        }
+    }
+
+    fn mark(&mut self, span: Span, is_test: bool) {
+        let lines = if is_test { &mut self.test } else { &mut self.production };
+        lines.extend(span.start().line..=span.end().line);
+    }
+}
+
+/// The attribute at the beginning of these tokens, `#[…]` or `#![…]`: how many tokens it has, and its
+/// brackets.
+fn attribute(tokens: &[TokenTree]) -> Option<(usize, &proc_macro2::Group)> {
+    let is = |token: &TokenTree, sign| matches!(token, TokenTree::Punct(found) if found.as_char() == sign);
+    let n_signs = if tokens.get(1).is_some_and(|token| is(token, '!')) { 2 } else { 1 };
+    match tokens.get(n_signs) {
+        Some(TokenTree::Group(group)) if is(&tokens[0], '#') && group.delimiter() == Delimiter::Bracket => {
+            Some((n_signs + 1, group))
+        }
+        _ => None,
+    }
+}
+
+/// All words of an attribute, in order.
+fn words(tokens: TokenStream) -> Vec<String> {
+    let words = tokens.into_iter().flat_map(|token| match token {
+        TokenTree::Group(group) => words(group.stream()),
+        TokenTree::Ident(word) => vec![word.to_string()],
+        _ => Vec::new(),
+    });
+    words.collect()
+}
+
+#[test]
+fn code_is_told_from_comments_and_tests() {
+    let check = |text: &str, production, test| {
+        assert_eq!(count(text).unwrap().lines, Lines { production, test }, "{text}");
+    };
+    check("", 0, 0);
+    check("//! a\n\n/// b\nfn f() {\n    // c\n    1;\n}\n", 3, 0);
+    check("/* a\n b */ struct A; // c\n", 1, 0);
+    check("const A: &str = \"// a\n// b\";\n", 2, 0);
+    check("fn f() {}\n#[cfg(test)]\nmod tests {\n    /// a\n    fn g() {}\n}\nfn h() {}\n", 2, 4);
+    check("#[cfg(test)]\nuse a::b;\n#[cfg(not(test))]\nuse a::c;\n", 2, 2);
+    check("#[cfg(all(test, unix))]\nfn f(a: [u8; 2]) {\n}\nfn g() {}\n", 1, 3);
+}
+
+#[test]
+fn files_of_test_modules_are_tests() {
+    let files = [
+        ("src/lib.rs", "mod a;\n#[cfg(test)]\nmod tests;\n"),
+        ("src/a.rs", "fn f() {}\n#[cfg(test)]\nmod deep;\n"),
+        ("src/a/deep.rs", "fn f() {}\n"),
+        ("src/tests.rs", "mod more;\n"),
+        ("src/tests/more.rs", "fn f() {}\n"),
+        ("tests/main.rs", "fn f() {}\n"),
+        ("examples/e.rs", "fn main() {}\n"),
+    ];
+    let files = files.map(|(path, text)| (PathBuf::from("/x").join(path), text.to_string()));
+    assert_eq!(of_crate(&files.into(), Path::new("/x")), Lines { production: 2, test: 8 });
+}
