@@ -237,7 +237,7 @@ impl Film<'_> {
         let is_held = self.holds_light()?;
         let frames = self.spread_pictures(("measuring", steps), |pipe| {
             let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
-            let (light, notes) = pipe.light(self.subject)?;
+            let (light, notes) = pipe.light(pipe.size_above_caption()?, self.subject)?;
             Ok((thinned(&light), is_held.then_some((light, notes))))
         })?;
         let pixels: Vec<[f32; 4]> =
