@@ -141,7 +141,7 @@ fn moving_bodies_intersect() {
     }));
 }
 
-/// A reduced form of `cargo xtask geometry`.
+/// The outlines of docs/geometry.md, at one speed each.
 #[test]
 fn outline_errors_are_within_the_bound() {
     for (name, in_place, beta) in [

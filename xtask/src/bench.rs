@@ -10,6 +10,9 @@ use std::process::{Command, Stdio};
 
 use clap::ValueEnum;
 use serde_json::Value;
+use ugtests::scenes;
+
+use crate::programs;
 
 pub type Outcome<T> = Result<T, Box<dyn Error>>;
 
@@ -61,15 +64,15 @@ struct Section {
 
 /// Measures and prints the tables.
 pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
-    let folder = target_dir().join("bench");
+    let folder = scenes::target_dir().join("bench");
     std::fs::create_dir_all(&folder)?;
-    run(Command::new(env!("CARGO")).args(["build", "--quiet", "--release"]))?;
-    let bench = Bench { args, folder: &folder };
+    let programs = programs::released();
+    let bench = Bench { args, programs: &programs, folder: &folder };
     writeln!(out, "{}", machine())?;
     for Section { title, setup, rows } in args.sections() {
         for command in setup {
             run(Command::new("bash")
-                .args(["-c", &bench.with_programs(&programs(), &command)])
+                .args(["-c", &bench.with_programs(&programs, &command)])
                 .current_dir(&folder))?;
         }
         let other = if args.against.is_some() { " other commit, ms | other / this |" } else { "" };
@@ -97,6 +100,8 @@ pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
 
 struct Bench<'a> {
     args: &'a Args,
+    /// The folder of the programs of this commit.
+    programs: &'a Path,
     /// Where files are made.
     folder: &'a Path,
 }
@@ -104,7 +109,9 @@ struct Bench<'a> {
 impl Bench<'_> {
     /// A shell command that finds the programs of a folder first and fails with any part of a pipe.
     fn with_programs(&self, programs: &Path, command: &str) -> String {
-        format!("set -euo pipefail; PATH='{}':\"$PATH\"; {command}", programs.display())
+        let own = std::env::current_exe().unwrap_or_default();
+        let xtask = own.parent().unwrap_or(programs).display();
+        format!("set -euo pipefail; PATH='{}:{xtask}':\"$PATH\"; {command}", programs.display())
     }
 
     /// Median elapsed and mean processor time in milliseconds of a command, with the programs of
@@ -114,7 +121,7 @@ impl Bench<'_> {
         let mut hyperfine = Command::new("hyperfine");
         hyperfine.args(["--shell=bash", "--style=none", "--warmup=1", "--runs", &self.args.runs.to_string()]);
         hyperfine.arg("--export-json").arg(&report).current_dir(self.folder).stdout(Stdio::null());
-        hyperfine.arg(self.with_programs(&programs(), command));
+        hyperfine.arg(self.with_programs(self.programs, command));
         if let Some(other) = &self.args.against {
             hyperfine.arg(self.with_programs(&other.canonicalize()?, command));
         }
@@ -307,17 +314,6 @@ fn world_lines(triangles: u32) -> impl Iterator<Item = Section> {
         setup: setup.clone().into(),
         rows: MOTIONS.map(|(file, name, _)| (name, command.replace("FILE", &format!("{file}.ug")))).into(),
     })
-}
-
-/// Cargo's target folder, in which this program was built.
-pub fn target_dir() -> PathBuf {
-    let exe = std::env::current_exe().unwrap_or_default();
-    exe.ancestors().nth(2).map_or_else(|| PathBuf::from("target"), Path::to_path_buf)
-}
-
-/// The folder of the programs of this commit.
-fn programs() -> PathBuf {
-    target_dir().join("release")
 }
 
 /// Describes processor, number of threads and compiler, as far as they are known.

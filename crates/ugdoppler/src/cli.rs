@@ -8,7 +8,7 @@ use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::Velocity;
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, Progress, ToolArgs, Words, numbers, remedies,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, Progress, ToolArgs, Words, remedies,
 };
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
@@ -77,8 +77,6 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
-
-numbers!(Args { "vel" => vel, "ct" => ct } eye);
 
 const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 -.2 0 -in ship.ug | ugdoppler | ugrainbow > ship.png

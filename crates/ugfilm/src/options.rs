@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::{CommonArgs, Failure, Look, SetNumbers, ToolArgs, parse_words, set_numbers};
+use ugpipe::{CommonArgs, Failure, Look, ToolArgs, parse_words};
 
 use crate::program::Program;
 
@@ -16,12 +16,8 @@ pub struct Tool {
     command: fn() -> Command,
     look: Look,
     /// Parses its words, of which the first is its name.
-    pub parse: fn(&[String]) -> Result<Typed, Failure>,
+    pub parse: fn(&[String]) -> Result<Program, Failure>,
 }
-
-/// The options of a program, parsed: with the numbers of a frame by the names of their options they
-/// are the program of this frame.
-pub type Typed = Box<dyn Fn(&[(&str, Vec<f64>)]) -> Result<Program, Failure> + Send + Sync>;
 
 /// The command line of the program of a crate, a variant of [`Program`] with these options.
 macro_rules! tool {
@@ -30,7 +26,10 @@ macro_rules! tool {
             heading: concat!("Options of ", stringify!($krate)),
             command: $krate::Args::command,
             look: <$krate::Args as ToolArgs>::LOOKS.default,
-            parse: |words| typed(words, |$args: &$krate::Args| Ok(Program::$variant($config?))),
+            parse: |words| {
+                let $args: $krate::Args = parse_words(words.iter().map(OsString::from))?;
+                Ok(Program::$variant($config?))
+            },
         }
     };
 }
@@ -70,18 +69,6 @@ impl PipeArgs {
             _ => PIPE,
         }
     }
-}
-
-fn typed<A>(words: &[String], program: fn(&A) -> Result<Program, Failure>) -> Result<Typed, Failure>
-where
-    A: ToolArgs + SetNumbers + Clone + Send + Sync + 'static,
-{
-    let args: A = parse_words(words.iter().map(OsString::from))?;
-    Ok(Box::new(move |numbers| {
-        let mut args = args.clone();
-        numbers.iter().try_for_each(|(name, numbers)| set_numbers(&mut args, name, numbers))?;
-        program(&args)
-    }))
 }
 
 /// Options that a film has itself or does without, because they write something else than a
@@ -230,30 +217,5 @@ impl FromArgMatches for ProgramOptions {
     fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
         *self = Self::from_arg_matches(matches)?;
         Ok(())
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A new option with numbers is in the list `numbers!` of its arguments.
-    #[test]
-    fn numbers_of_all_options_can_change() {
-        const WORDS: [&str; 11] =
-            ["br", "cam", "cap", "ch", "fl", "from", "infrared", "scene", "stars", "tc", "ultraviolet"];
-        let mut n_options = 0;
-        for tool in TOOLS {
-            let typed = (tool.parse)(&[tool.name().to_owned()]).unwrap();
-            for arg in tool.options().iter().filter(|arg| arg.get_action().takes_values()) {
-                let name = arg.get_long().unwrap();
-                let n_values = arg.get_num_args().map_or(1, |range| range.min_values().max(1));
-                let outcome = typed(&[(name, vec![1.0; n_values])]).map_err(|failure| failure.to_string());
-                let is_fixed = outcome.is_err_and(|problem| problem.contains("has no numbers"));
-                assert_eq!(is_fixed, WORDS.contains(&name), "{} {name}", tool.name());
-                n_options += 1;
-            }
-        }
-        assert!(n_options > 60, "{n_options}");
     }
 }

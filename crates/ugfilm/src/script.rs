@@ -7,8 +7,9 @@ use ugimage::Format;
 use ugpicture::Output;
 use ugpipe::{Failure, shell_word};
 
-use crate::options::{Given, TOOLS, Tool, Typed};
+use crate::options::{Given, TOOLS, Tool};
 use crate::pipe::Pipe;
+use crate::program::Program;
 use crate::timeline::{Ease, Quantity, Timeline};
 
 /// Options that more than one program of a pipe must know; all others are given to the first that
@@ -37,8 +38,8 @@ pub struct Script {
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,
     options: Vec<Setting>,
-    /// The options of the programs, parsed once.
-    typed: OnceLock<Vec<Typed>>,
+    /// The words of the programs of some frame, and what they are.
+    parsed: OnceLock<Vec<(Vec<String>, Program)>>,
 }
 
 /// An option over the film.
@@ -63,7 +64,7 @@ impl Script {
             is_loop: false,
             reading: Vec::new(),
             options: Vec::new(),
-            typed: OnceLock::new(),
+            parsed: OnceLock::new(),
         }
     }
 
@@ -111,7 +112,6 @@ impl Script {
 
     /// Replaces the values of an option over the film, or adds it.
     pub fn set_timeline(&mut self, name: &str, timeline: Timeline) {
-        self.typed = OnceLock::new();
         if let Some(setting) = self.options.iter_mut().find(|setting| setting.name == name) {
             setting.timeline = timeline;
         } else {
@@ -160,9 +160,7 @@ impl Script {
     pub fn pipe(&self, frame: f64, left_out: &[&str], format: Format) -> Result<Pipe, Failure> {
         let mut commands = self.commands(frame, left_out)?;
         commands.set_format(format);
-        let programs = self.typed(frame)?.iter().enumerate();
-        let programs = programs.map(|(row, typed)| typed(&self.numbers(row, frame)));
-        let mut pipe = Pipe::new(programs.collect::<Result<_, _>>()?);
+        let mut pipe = Pipe::new(self.programs(frame)?);
         pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
         pipe.picture.output = match pipe.picture.output {
             Output::Vector(_) => Output::Vector(format),
@@ -174,23 +172,19 @@ impl Script {
         Ok(pipe)
     }
 
-    /// The options of the programs, parsed from the commands of the first frame that needs them.
-    fn typed(&self, frame: f64) -> Result<&[Typed], Failure> {
-        if let Some(typed) = self.typed.get() {
-            return Ok(typed);
+    /// The programs of a frame. Words that are those of an earlier frame are not parsed again.
+    fn programs(&self, frame: f64) -> Result<Vec<Program>, Failure> {
+        let mut parsed = Vec::new();
+        for (row, words) in self.commands(frame, &[CAPTION])?.0.into_iter().enumerate() {
+            let program = match self.parsed.get().map(|parsed| &parsed[row]) {
+                Some((earlier, program)) if *earlier == words => program.clone(),
+                _ => (self.tools[row].parse)(&words)?,
+            };
+            parsed.push((words, program));
         }
-        let commands = self.commands(frame, &[CAPTION])?;
-        let typed = self.tools.iter().zip(&commands.0).map(|(tool, words)| (tool.parse)(words));
-        let typed = typed.collect::<Result<_, _>>()?;
-        Ok(self.typed.get_or_init(|| typed))
-    }
-
-    /// The numbers of a frame among the options of a program that change over the film.
-    fn numbers(&self, row: usize, frame: f64) -> Vec<(&str, Vec<f64>)> {
-        let changes = |setting: &&Setting| setting.owners.contains(&row) && setting.timeline.is_moving();
-        let numbers = |setting: &Setting| setting.timeline.numbers(self.time(frame), self.ease);
-        let settings = self.settings(&[CAPTION]).filter(changes);
-        settings.map(|setting| (setting.name.as_str(), numbers(setting))).collect()
+        let programs = parsed.iter().map(|(_, program)| program.clone()).collect();
+        self.parsed.get_or_init(|| parsed);
+        Ok(programs)
     }
 
     /// The words of the values of an option.

@@ -8,8 +8,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, count, finite, numbers,
-    remedies, whole,
+    CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, finite, remedies, whole,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, Provenance};
@@ -106,11 +105,6 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
-
-numbers!(Args {
-    "se" => error, "sc" => color_error: percent, "sl" => light_error: percent,
-    "sd" => equal: count(0..=u32::MAX), "sz" => size: count(1..=u32::MAX)
-} motion camera);
 
 const CAMERA: &str = "Camera";
 

@@ -13,10 +13,7 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kind_named, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, count, number, numbers, one_of,
-    whole,
-};
+use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 
@@ -156,11 +153,6 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
-
-numbers!(Args {
-    "rd" => rd: count(0..=64), "rc" => rc: part, "film-shutter" => film_shutter: distance,
-    "stereo" => stereo: distance, "ad" => ad: part
-} motion picture lens);
 
 const COLOR: &str = "Colour";
 const RAYS: &str = "Rays";

@@ -12,7 +12,7 @@ use ugimage::label::TextForm;
 use ugimage::{Filter, Format, Tone};
 use ugparse::Diagnostics;
 use ugphysics::Hsv;
-use ugpipe::{Context, Failure, Preset, Words, count, finite, number, numbers, one_of, whole};
+use ugpipe::{Context, Failure, Preset, Words, finite, number, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -105,10 +105,6 @@ fn is_linear(matches: &ArgMatches) -> bool {
     by_name.or_else(ending).is_some_and(Format::is_linear)
 }
 
-numbers!(PictureArgs {
-    "sz" => sz: count(1..=u32::MAX), "aa" => aa: count(1..=16), "bg" => bg, "ex" => ex: stops
-} camera);
-
 impl PictureArgs {
     /// Exposure as a camera finds it, for the looks of a program.
     pub const AUTO_EXPOSURE: Preset = Preset::new(&["ex", "auto"], &["crop"]).with(|all| !is_linear(all));
@@ -171,8 +167,6 @@ pub struct LensArgs {
     #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"])]
     cube: bool,
 }
-
-numbers!(LensArgs { "fish" => fish: fisheye });
 
 impl LensArgs {
     /// The lens that these arguments define.

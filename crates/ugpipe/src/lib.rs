@@ -117,8 +117,6 @@ mod manual;
 #[cfg(feature = "cli")]
 mod messages;
 #[cfg(feature = "cli")]
-mod numbers;
-#[cfg(feature = "cli")]
 mod output;
 mod progress;
 #[cfg(feature = "cli")]
@@ -158,8 +156,6 @@ pub use input::Input;
 pub use look::{Look, LookArgs, Looks, Preset, is_given};
 #[cfg(feature = "cli")]
 pub use manual::{Entry, Group, Manual, Value, manual};
-#[cfg(feature = "cli")]
-pub use numbers::{Assign, SetNumbers, set_numbers};
 pub use progress::{Progress, Stopped};
 #[cfg(feature = "cli")]
 pub use provenance::{sha256, shell_os_word, shell_word};
@@ -169,4 +165,4 @@ pub use run::{main, parse_words};
 pub use steps::Steps;
 pub use text::{is_printable, message, printable, shorten};
 #[cfg(feature = "cli")]
-pub use values::{count, finite, number, one_of, vector, view_angle, whole};
+pub use values::{finite, number, one_of, vector, view_angle, whole};

@@ -85,8 +85,14 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
         let text = completion::completions(&manual::<A>(), &words);
         return io::stdout().write_all(text.as_bytes()).map_or(BAD_INPUT.into(), |()| ExitCode::SUCCESS);
     }
-    let mut command = help::install(argv::prepare(A::command()), A::ESSENTIAL);
-    let (args, matches) = match parse::<A>(&mut command) {
+    let mut command = argv::prepare(A::command());
+    let mut parsed = parse::<A>(&mut command);
+    if let Err(Unparsed::Help(_)) = parsed {
+        // Not before they are needed: making the texts takes longer than parsing.
+        command = help::install(command, A::ESSENTIAL);
+        parsed = parse::<A>(&mut command);
+    }
+    let (args, matches) = match parsed {
         Ok(parsed) => parsed,
         Err(Unparsed::Usage(message)) => return refuse(&command, message),
         Err(Unparsed::Help(text)) => return print_help(&text),

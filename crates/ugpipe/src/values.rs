@@ -69,20 +69,13 @@ pub fn number<T: 'static>(
 ///
 /// Its message states the range, or only its lower end if the upper one is `u32::MAX`.
 pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String> + Clone + Send + Sync {
-    move |word| in_range(word.parse().ok(), &range)
-}
-
-/// The condition of [`whole`] for a number that was not parsed.
-pub fn count(range: RangeInclusive<u32>) -> impl Fn(f64) -> Result<u32, String> {
-    // The conversion saturates.
-    move |number| in_range(u32::try_from(number as i64).ok().filter(|_| number.fract() == 0.0), &range)
-}
-
-fn in_range(number: Option<u32>, range: &RangeInclusive<u32>) -> Result<u32, String> {
-    number.filter(|number| range.contains(number)).ok_or_else(|| match range.clone().into_inner() {
-        (least, u32::MAX) => format!("must be a whole number, {least} or more"),
-        (least, most) => format!("must be a whole number from {least} to {most}"),
-    })
+    move |word| {
+        let number = word.parse().ok().filter(|number| range.contains(number));
+        number.ok_or_else(|| match range.clone().into_inner() {
+            (least, u32::MAX) => format!("must be a whole number, {least} or more"),
+            (least, most) => format!("must be a whole number from {least} to {most}"),
+        })
+    }
 }
 
 /// Value parser of options that take one of several words, which help and completions list:
@@ -206,8 +199,6 @@ mod tests {
         }
         check(1..=u32::MAX, "4294967295", Ok(u32::MAX));
         check(1..=u32::MAX, "0", Err("must be a whole number, 1 or more"));
-        let counts = [16.0, 0.0, 17.0, -1.0, 1.5, 1e300].map(count(1..=16));
-        assert_eq!(counts.map(Result::ok), [Some(16), None, None, None, None, None]);
     }
 
     #[test]

@@ -14,8 +14,7 @@ use ugpicture::cli::{
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, numbers,
-    one_of,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, one_of,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
@@ -145,8 +144,6 @@ pub struct Args {
     #[command(flatten)]
     common: CommonArgs,
 }
-
-numbers!(Args { "lc" => lc, "lw" => lw: line_width, "dc" => dc } picture);
 
 const EXAMPLES: &str = "Examples:
   ugrainbow ship.ug > rest.png

@@ -5,7 +5,7 @@ mod words;
 use clap::{ArgAction, Args};
 use glam::DVec3;
 use ugphysics::Brightness;
-use ugpipe::{Failure, Preset, finite, number, numbers, one_of, vector, view_angle};
+use ugpipe::{Failure, Preset, finite, number, one_of, vector, view_angle};
 
 use crate::{Anchor, CameraOptions, Geometry, MotionOptions};
 
@@ -30,8 +30,6 @@ pub struct EyeArgs {
           allow_hyphen_values = true, value_parser = finite, visible_alias = "eye", help_heading = CAMERA)]
     ep: Option<Vec<f64>>,
 }
-
-numbers!(EyeArgs { "ep" => ep });
 
 impl EyeArgs {
     /// Name of the camera.
@@ -81,8 +79,6 @@ pub struct CameraArgs {
     #[arg(long, visible_alias = "orthographic", help_heading = CAMERA)]
     og: bool,
 }
-
-numbers!(CameraArgs { "vc" => vc, "ud" => ud, "va" => va: view_angle } eye);
 
 impl CameraArgs {
     /// The camera options that these arguments define.
@@ -137,10 +133,6 @@ pub struct MotionArgs {
     #[arg(long = "in", visible_aliases = ["keep-in-view", "in-place"])]
     in_place: bool,
 }
-
-numbers!(MotionArgs {
-    "vel" => velocity, "cv" => camera_velocity, "ti" => time, "an" => anchor: |part: f64| Ok(part.to_string())
-});
 
 impl MotionArgs {
     /// The options that these arguments define, with all effects.

@@ -18,7 +18,7 @@ use ugpicture::cli::{
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
-    numbers, one_of, remedies, sha256, vector,
+    one_of, remedies, sha256, vector,
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
@@ -168,12 +168,6 @@ pub struct Args {
     #[arg(value_name = "FILE")]
     files: Vec<PathBuf>,
 }
-
-numbers!(Args {
-    "vel" => velocity, "cv" => cv, "ti" => ti, "part" => part, "basis" => basis: |kelvin: f64| Ok(kelvin.to_string()),
-    "highlights" => highlights: stops, "infrared-to" => infrared_to: infrared_end, "ultraviolet-from" => ultraviolet_from: ultraviolet_end,
-    "star-width" => star_width, "white" => white
-} picture lens);
 
 /// Usual wavelengths of pictures of infrared and ultraviolet light, nm.
 const INFRARED_TO: f64 = 1400.0;
