@@ -185,10 +185,10 @@ impl Neighbourhood<'_> {
         self.oracle.faces(&directions)
     }
 
-    /// The faces visible at points a fiftieth of the reach apart. Slow; necessary for slits and
+    /// The faces visible at points a twenty-fifth of the reach apart. Slow; necessary for slits and
     /// corners.
     fn grid(&self, center: DVec2) -> Vec<Option<usize>> {
-        const N_STEPS: i32 = 50;
+        const N_STEPS: i32 = 25;
         let steps = || (-N_STEPS..=N_STEPS).map(|step| f64::from(step) / f64::from(N_STEPS));
         let points = steps().flat_map(|y| steps().map(move |x| DVec2::new(x, y)));
         let points = points.filter(|p| p.length() <= 1.0).map(|p| center + p * self.reach);
@@ -200,16 +200,10 @@ impl Neighbourhood<'_> {
     fn has_edge(&self, face: usize, center: DVec2) -> bool {
         /// Relative tolerance of depth, so that faces that share the edge do not occlude it.
         const BESIDE: f64 = 1e-6;
-        has_edge(self.oracle, self.camera, face, center, self.reach, BESIDE)
+        let edges = self.oracle.edges_near(face, self.camera.direction(center.x, center.y), BESIDE);
+        let mut pixels = edges.into_iter().filter_map(|direction| self.camera.pixel(direction));
+        pixels.any(|pixel| pixel.distance(center) <= self.reach)
     }
-}
-
-/// Is an edge of the face within `reach` pixels and not occluded by a face nearer by more than the
-/// fraction `beside`?
-fn has_edge(oracle: &Oracle, camera: &Pinhole, face: usize, center: DVec2, reach: f64, beside: f64) -> bool {
-    let edges = oracle.edges_near(face, camera.direction(center.x, center.y), beside);
-    let mut pixels = edges.into_iter().filter_map(|direction| camera.pixel(direction));
-    pixels.any(|pixel| pixel.distance(center) <= reach)
 }
 
 /// Compares a picture of a [`recolored`] scene with the oracle.
@@ -248,20 +242,6 @@ pub fn compare(actual: &Picture, oracle: &Oracle, camera: &Pinhole, reach: f64) 
         }
     }
     agreement
-}
-
-/// Is the shown face occluded only by faces that are nearer by less than the fraction `part` of the
-/// distance? The face may be up to `reach` pixels from the pixel's centre.
-pub fn are_close(oracle: &Oracle, camera: &Pinhole, wrong: &Wrong, reach: f64, part: f64) -> bool {
-    let center = DVec2::from_array(wrong.pixel.map(f64::from)) + 0.5;
-    let direction = camera.direction(center.x, center.y);
-    let Ok(Some(shown)) = wrong.shown else { return false };
-    let distance = |face: Option<usize>| oracle.distance(face?, direction);
-    let is_hit = match (distance(Some(shown)), distance(wrong.expected)) {
-        (Some(a), Some(b)) => (a - b).abs() <= part * a.min(b),
-        _ => false,
-    };
-    is_hit || has_edge(oracle, camera, shown, center, reach, part)
 }
 
 /// Do two faces coincide in a direction? Crossing rods have faces in common planes.

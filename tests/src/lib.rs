@@ -9,7 +9,6 @@
 //! - [`oracle`]: a slow, independent reference renderer that determines which face each pixel must
 //!   show;
 //! - [`agreement`]: comparison of a picture with the oracle;
-//! - [`explanation`]: known causes of differences between them;
 //! - [`outline`]: errors of drawn edges;
 //! - [`shading`]: the expected colour of a point, from the formulas;
 //! - [`shell`]: shell commands in a folder of their own;
@@ -22,7 +21,6 @@
 
 pub mod agreement;
 pub mod documents;
-pub mod explanation;
 pub mod hostile;
 pub mod oracle;
 pub mod outline;

@@ -59,7 +59,7 @@ fn of_chord(outline: &Outline, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
 }
 
 /// The error of a straight line between two apparent points of one edge.
-pub fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
+fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
     let mut errors = Errors { n_edges: 1, ..Errors::default() };
     for drawn in drawn(ends) {
         let exact = outline.nearest(edge, drawn).normalize();
@@ -69,16 +69,6 @@ pub fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pi
         }
     }
     errors
-}
-
-/// Is the error of a straight line between two apparent points of one edge at most `pixels` within
-/// the picture?
-pub fn is_within(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole, pixels: f64) -> bool {
-    drawn(ends).all(|drawn| {
-        // Points outside the picture, which are most, need no exact direction.
-        let error = |pixel| distance(camera, outline.nearest(edge, drawn).normalize(), pixel);
-        pixel_within(camera, drawn).is_none_or(|pixel| error(pixel) <= pixels)
-    })
 }
 
 /// Directions along a drawn line, in equal steps between the directions of its ends.

@@ -51,7 +51,8 @@ pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
             continue;
         }
         let now = count(&programs, command, folder.path())?;
-        let ratio = now / before.parse::<f64>().unwrap_or(now);
+        // A row without a count fails, too.
+        let ratio = now / before.parse::<f64>().unwrap_or(0.0);
         writeln!(out, "| {work} | {now:.1} | {before} | {ratio:.3} |")?;
         out.flush()?;
         writeln!(blessed, "{work},{command},{now:.1},{why}")?;

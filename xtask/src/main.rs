@@ -1,4 +1,4 @@
-//! Maintenance tasks: generate scenes, run benchmarks, measure accuracy.
+//! Maintenance tasks: generate scenes, run benchmarks, draw figures, install.
 //!
 //! ```text
 //! cargo xtask teapot > scenes/teapot.ug
@@ -6,7 +6,6 @@
 //! cargo xtask bench
 //! cargo xtask bench photon --against ../before/target/release
 //! cargo xtask instructions
-//! cargo xtask geometry > tables.md
 //! cargo xtask gallery
 //! cargo xtask plots figures
 //! cargo xtask directions > scenes/directions.ug
@@ -23,7 +22,6 @@ mod bench;
 mod cluster;
 mod directions;
 mod gallery;
-mod geometry;
 mod globe;
 mod hostile;
 mod install;
@@ -95,9 +93,6 @@ enum Task {
     ///
     /// Requires valgrind, the Debian package valgrind.
     Instructions(instructions::Args),
-    /// Measure errors of outlines in pictures against the oracle, and the number of faces, as
-    /// Markdown
-    Geometry(geometry::Args),
     /// Draw the plots of the papers, as SVG and PNG
     Plots {
         /// Folder of the files
@@ -161,7 +156,6 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Bench(args) => bench::write(&mut out, args)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
         Task::Instructions(args) => instructions::write(&mut out, args)?,
-        Task::Geometry(args) => geometry::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Plots { folder } => plots::write(folder)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,

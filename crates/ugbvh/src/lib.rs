@@ -139,14 +139,6 @@ impl Bvh {
         self.bounds
     }
 
-    /// Memory of the hierarchy in bytes.
-    pub fn n_bytes(&self) -> usize {
-        size_of_val(&*self.positions)
-            + size_of_val(&*self.triangles)
-            + size_of_val(&*self.nodes)
-            + size_of_val(&*self.blocks)
-    }
-
     /// The nearest hit with `range.start` < t < `range.end`. Ties go to the lowest triangle index.
     #[inline(always)]
     pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Hit> {

@@ -210,10 +210,9 @@ pub fn spectra_note(scene: &Scene) -> Option<Note> {
         corners.iter().any(|corner| scene.vertices[corner.index()].color.is_none())
     };
     let vertices = scene.vertices.iter().filter_map(|vertex| vertex.color);
-    let faces = scene.faces.iter().filter(|face| needs_color(&face.contours)).filter_map(|face| face.color);
-    let wires = scene.wires.iter().filter(|wire| needs_color(&wire.contours)).filter_map(|wire| wire.color);
+    let drawn = scene.drawn().filter(|drawn| needs_color(&drawn.contours)).filter_map(|drawn| drawn.color);
     let lights = scene.lights.iter().filter_map(|light| light.color);
-    let color = vertices.chain(faces).chain(wires).chain(lights).find(is_spectrum)?;
+    let color = vertices.chain(drawn).chain(lights).find(is_spectrum)?;
     Some(Note::SpectraAtRest { color: scene.names.get(scene.colors[color.index()].name).to_owned() })
 }
 

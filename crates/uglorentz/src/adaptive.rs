@@ -217,6 +217,9 @@ fn octave(square: f64) -> f64 {
 
 /// The number of edges above the bound at the limit of halvings.
 fn n_too_deep(criterion: &Criterion, outcome: &Outcome) -> usize {
+    if criterion.mesh.points.iter().all(|point| point.generation < MAX_GENERATION) {
+        return 0;
+    }
     let of_pieces = outcome.pieces.iter().flat_map(|piece| piece.shape.edges());
     let edges = of_pieces.chain(outcome.lines.iter().flat_map(Polyline::edges));
     let is_deep = |&(a, b): &(u32, u32)| {

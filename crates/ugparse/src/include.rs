@@ -16,8 +16,8 @@ use crate::grammar::KEYWORDS;
 use crate::mesh;
 use crate::options::{Limit, Options};
 use crate::origin::Origin;
+use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
-use crate::reader::read;
 use crate::refuse_errors;
 use crate::request::{Request, RequestError, RequestKind};
 use crate::source::{LineMark, Source};
@@ -111,7 +111,7 @@ struct Text {
 impl Text {
     fn new(source: Source, options: &Options) -> Result<Self, Diagnostics> {
         let mut findings = Vec::new();
-        let document = read(&source.text, options, &mut findings);
+        let document = read_document(&source.text, options, &mut findings);
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
         Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0 })

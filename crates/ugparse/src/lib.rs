@@ -53,6 +53,7 @@ mod number_text;
 mod numbered;
 mod options;
 mod origin;
+mod parallel_reader;
 #[cfg(feature = "cli")]
 pub mod pipe;
 mod read;
@@ -123,7 +124,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();
-    let mut document = reader::read(text, options, &mut findings);
+    let mut document = parallel_reader::read_document(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
     findings.extend(document.requests.iter().map(include::not_replaced));
     refuse_errors(source, &mut findings)?;

@@ -47,6 +47,21 @@ impl<'t, T> Named<'t, T> {
     pub fn row(&self, name: &[u8]) -> Option<usize> {
         self.rows.get(self.names.get(name)?).copied().flatten().map(|row| row as usize)
     }
+
+    /// Appends the names of the next part of the text, but not its table. Returns the number of
+    /// each of them in this table; `None` if one is defined twice.
+    pub fn append_names(&mut self, part: &mut Self) -> Option<Vec<usize>> {
+        let numbers: Vec<usize> = part.names.list.iter().map(|name| self.names.enter(name)).collect();
+        let first_row = self.spans.len() as u32;
+        for (row, &number) in part.rows.iter().zip(&numbers) {
+            let Some(row) = row else { continue };
+            if self.define(number, first_row + row).is_some() {
+                return None;
+            }
+        }
+        self.spans.append(&mut part.spans);
+        Some(numbers)
+    }
 }
 
 /// Names, numbered in the order in which they are used or defined.

@@ -55,6 +55,8 @@ pub(crate) struct Scope<'t> {
     pub contours: Contours,
     /// Corners that name vertices of instances: `car:a`, `floor#3:b`.
     pub paths: Vec<PathCorner>,
+    /// The corners are already rows of vertices.
+    pub is_linked: bool,
     pub faces: Rows<Face>,
     pub illums: Vec<Illum>,
     pub wires: Rows<Wire>,

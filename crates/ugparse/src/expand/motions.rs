@@ -2,7 +2,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugphysics::{SampledPath, WorldLine, WorldLineError};
-use ugscene::{BodyId, Item, MotionPath, StatedMotion};
+use ugscene::{BodyId, Drawn, Item, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
@@ -172,10 +172,9 @@ impl Expander<'_, '_> {
         if scene.stage.seen_geometry().is_some() || !scene.bodies.has_world_lines() {
             return Ok(());
         }
-        let faces = scene.faces.iter().map(|face| (face.body, face.contours.clone()));
-        let users = faces.chain(scene.wires.iter().map(|wire| (wire.body, wire.contours.clone())));
         let mut checked = FxHashSet::default();
-        for (body, contours) in users.filter(|(body, _)| scene.bodies.is_on_world_line(*body)) {
+        let drawn = scene.drawn().filter(|drawn| scene.bodies.is_on_world_line(drawn.body));
+        for Drawn { body, contours, .. } in drawn {
             for &corner in scene.contours.corners(contours) {
                 if !checked.insert((body, corner)) {
                     continue;

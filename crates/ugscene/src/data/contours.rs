@@ -35,14 +35,19 @@ impl Contours {
         self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
     }
 
-    /// The corners of all contours.
-    pub fn all_corners_mut(&mut self) -> &mut [VertexId] {
-        &mut self.corners
+    /// Corners and ends of all contours.
+    pub fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
+        (&mut self.corners, &mut self.ends)
     }
 
     /// Empty, with room for so many corners and contours.
     pub fn with_capacity(corners: usize, contours: usize) -> Self {
         Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
+    }
+
+    /// Builds contours from all corners and the end of each contour.
+    pub fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
+        Self { corners, ends }
     }
 
     /// Total number of corners.

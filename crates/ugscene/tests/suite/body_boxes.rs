@@ -145,6 +145,41 @@ fn nothing_is_seen_of_what_is_out_of_view() {
     assert!(n_out > 10 && n_points > 10_000, "{n_out} {n_points}");
 }
 
+/// Where a part of a moving body is found in the picture, there is nothing to note.
+#[test]
+fn motion_in_view_is_not_noted() {
+    let mut random = Random(8);
+    let (mut n_in_view, mut n_notes) = (0, 0);
+    for _ in 0..120 {
+        let scene = random_scene(&mut random);
+        let motion = MotionOptions {
+            time: random.between(-30.0, 30.0),
+            in_place: random.one_in(3),
+            ..MotionOptions::default()
+        };
+        let eye = 12.0 * vector(&mut random);
+        let camera = CameraOptions {
+            eye: Some(eye),
+            center: Some(eye + vector(&mut random)),
+            view_angle: Some((random.between(5.0, 60.0), None)),
+            ..CameraOptions::default()
+        };
+        let mut seen = scene.clone();
+        let placed = PlacedBodies::new(&mut seen, &motion, &camera, SIZE).unwrap();
+        let rest = placed.rest_positions(&seen).into_iter().zip(&placed.bodies);
+        for (vertex, (rest, body)) in seen.vertices.iter_mut().zip(rest) {
+            vertex.position = eye + placed.motions[body.index()].seen(RestPosition(rest)).0;
+        }
+        seen.stage.geometry = placed.seen_stage(&motion);
+        let note = BodyBoxes::new(&scene).note(&seen, &motion, &camera, SIZE);
+        let may_miss_motion = ugscene::may_miss_motion(&seen, &camera, SIZE);
+        assert!(may_miss_motion || note.is_none(), "{note:?}");
+        n_in_view += usize::from(!may_miss_motion);
+        n_notes += usize::from(note.is_some());
+    }
+    assert!(n_in_view > 10 && n_notes > 10, "{n_in_view} {n_notes}");
+}
+
 /// The middle of a small body is where it is seen, whatever else is at rest.
 #[test]
 fn the_middle_is_that_of_what_moves() {

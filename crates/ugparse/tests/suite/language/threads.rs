@@ -1,12 +1,12 @@
-//! Names of large texts are resolved, and large scenes are written in pieces, with the same result
-//! for any number of threads.
+//! Large texts are parsed in parts and written in pieces, with the same result for any number of
+//! threads.
 
 use std::fmt::Write;
 use std::io;
 
 use ugparse::{Options, Source};
 
-/// Number of vertices of each kind, and of faces: enough for several threads.
+/// Number of statements in a text of about 2 MB, enough for several parts.
 const ROWS: usize = 12_000;
 
 /// The written scene and all messages for `text`.
@@ -27,9 +27,10 @@ fn outcome(text: &str, n_threads: usize) -> (Vec<u8>, String) {
 }
 
 #[track_caller]
-fn check(text: &str) {
+fn check(text: &str, is_read: bool) {
+    assert!(text.len() > 5 << 19, "{} bytes are too few for five parts", text.len());
     let alone = outcome(text, 1);
-    assert!(!alone.0.is_empty(), "{}", &alone.1[..alone.1.len().min(500)]);
+    assert_eq!(!alone.0.is_empty(), is_read, "{}", &alone.1[..alone.1.len().min(500)]);
     for n_threads in [2, 3, 5] {
         let together = outcome(text, n_threads);
         assert!(alone.0 == together.0, "other bytes on {n_threads} threads");
@@ -80,8 +81,8 @@ fn scene(faces_first: bool) -> String {
 #[test]
 fn any_number_of_threads_reads_the_same() {
     let (ordered, reversed) = (scene(false), scene(true));
-    check(&ordered);
-    check(&reversed);
+    check(&ordered, true);
+    check(&reversed, true);
     // All kinds in turn, with unnamed colours, comments, escapes and unknown statements.
     let mut mixed = String::new();
     for start in (0..ROWS).step_by(100) {
@@ -96,7 +97,40 @@ fn any_number_of_threads_reads_the_same() {
         writeln!(mixed, "f flat{start} (v0 v0 v0);\nw short{start} (v0);").unwrap();
     }
     colors(&mut mixed);
-    check(&mixed.replace("<.5 0 2>", "").replace("<.5 0 1>", "<0 .1 0>"));
+    check(&mixed.replace("<.5 0 2>", "").replace("<.5 0 1>", "<0 .1 0>"), true);
+}
+
+#[test]
+fn the_text_may_be_split_anywhere() {
+    let scene = scene(false);
+    check(&format!("{{ {scene} }} {scene}"), true);
+    check(&format!("def d; {scene} end; i (d -tx 1); {scene}"), true);
+    check(&format!("{scene} def d; v a 0 0 0; end;\n a (d) 3;"), true);
+    check(&format!("({}) {scene}", scene.replace(['(', ')'], "")), true);
+    check(&scene.replace('\n', " "), true);
+    check(&scene.replace(";\n", "\n;\n\n"), true);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_messages() {
+    let scene = scene(false);
+    for mistake in [
+        "f (v0 v1 nobody) nothing;",
+        "v v17 0 0 0;",
+        "v far700000 0 0 0;",
+        "c c1 1;",
+        "surf s1 1 0 0;",
+        "f (v0 v1 v2) c1 s7;",
+        "v w 0 0;",
+        "end;",
+        "{",
+        "i (d);",
+    ] {
+        check(&format!("{scene}{mistake}\n"), false);
+        check(&format!("{mistake}\n{scene}"), false);
+    }
+    let two = "f (v1 v2 one);\n".to_string() + &scene + "f (v1 v2 two);\n";
+    check(&two, false);
 }
 
 /// A scene in the layout of the writer, with comments above and after rows, also at the boundaries
