@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use uglight::{RestColor, mean_color};
-use ugscene::{BodyId, Color, ColorId, ColorTable, Drawn, Mix, Scene};
+use ugscene::{BodyId, Color, ColorId, ColorTable, FaceOrWire, Mix, Scene};
 
 use crate::attributes::free_prefix;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -52,7 +52,7 @@ impl Clocks {
             return Self::default();
         }
         let mut tables: Vec<Vec<ColorId>> = vec![Vec::new(); scene.bodies.len()];
-        for Drawn { body, color, .. } in scene.drawn() {
+        for FaceOrWire { body, color, .. } in scene.drawn() {
             tables[body.index()].extend(color.filter(|&color| scene.table_of(color).is_some()));
         }
         let lights = |mut colors: Vec<ColorId>| {

@@ -7,6 +7,7 @@ use fearless_simd::Level;
 use crate::edges::{Crossing, Scanner};
 use crate::grid::SampleGrid;
 use crate::polygons::{PolygonList, ScreenPoint, ShapeRef, first_center};
+use crate::rows::draw_block;
 use crate::tile::{Area, Tile};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, TriangleQueue, TriangleValues};
 
@@ -169,5 +170,31 @@ pub trait ShapeTarget<const N: usize> {
             let value = |i: usize| ((left.values[i] + across * slopes[i]) * scale) as f32;
             Some((key as f32, std::array::from_fn(value)))
         });
+    }
+}
+
+impl<const N: usize> ShapeTarget<N> for Tile<N> {
+    fn area(&self) -> Area {
+        self.area()
+    }
+
+    #[inline]
+    fn draw_each(
+        &mut self,
+        row: u32,
+        columns: Range<u32>,
+        item: u32,
+        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
+    ) {
+        let mut part = self.part(row, &columns);
+        for (idx, column) in columns.enumerate() {
+            if let Some((key, values)) = sample(column, part.keys[idx]) {
+                part.set(idx, key, values, item);
+            }
+        }
+    }
+
+    fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
+        draw_block(level, block, self.samples(), planes);
     }
 }

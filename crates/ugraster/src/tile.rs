@@ -2,12 +2,6 @@
 
 use std::ops::Range;
 
-use fearless_simd::Level;
-
-use crate::layer::ShapeTarget;
-use crate::rows::draw_block;
-use crate::triangles::{BlockSetup, LazyPlanes};
-
 /// Samples that are drawn together; a tile has as many elements more than samples.
 pub const LANES: usize = 8;
 
@@ -116,9 +110,14 @@ impl<const N: usize> Tile<N> {
         TileSamples { area: *area, keys, values, items }
     }
 
+    /// The samples of the tile.
+    pub(crate) fn area(&self) -> Area {
+        self.area
+    }
+
     /// The samples of part of a row, to be drawn on.
     #[inline]
-    fn part(&mut self, row: u32, columns: &Range<u32>) -> RowPart<'_, N> {
+    pub(crate) fn part(&mut self, row: u32, columns: &Range<u32>) -> RowPart<'_, N> {
         let samples = self.area.indices(row, columns);
         let items = if self.items.is_empty() { &mut [] } else { &mut self.items[samples.clone()] };
         RowPart {
@@ -145,35 +144,9 @@ impl<const N: usize> Tile<N> {
     }
 }
 
-impl<const N: usize> ShapeTarget<N> for Tile<N> {
-    fn area(&self) -> Area {
-        self.area
-    }
-
-    #[inline]
-    fn draw_each(
-        &mut self,
-        row: u32,
-        columns: Range<u32>,
-        item: u32,
-        mut sample: impl FnMut(u32, f32) -> Option<(f32, [f32; N])>,
-    ) {
-        let mut part = self.part(row, &columns);
-        for (idx, column) in columns.enumerate() {
-            if let Some((key, values)) = sample(column, part.keys[idx]) {
-                part.set(idx, key, values, item);
-            }
-        }
-    }
-
-    fn draw_block(&mut self, level: Level, block: &BlockSetup<'_>, planes: &mut LazyPlanes<'_>) {
-        draw_block(level, block, self.samples(), planes);
-    }
-}
-
 /// Part of a row of a [`Tile`].
-struct RowPart<'a, const N: usize> {
-    keys: &'a mut [f32],
+pub(crate) struct RowPart<'a, const N: usize> {
+    pub(crate) keys: &'a mut [f32],
     values: [&'a mut [f32]; N],
     items: &'a mut [u32],
 }
@@ -181,7 +154,7 @@ struct RowPart<'a, const N: usize> {
 impl<const N: usize> RowPart<'_, N> {
     /// Sets what is visible at a sample.
     #[inline(always)]
-    fn set(&mut self, sample: usize, key: f32, values: [f32; N], item: u32) {
+    pub(crate) fn set(&mut self, sample: usize, key: f32, values: [f32; N], item: u32) {
         self.keys[sample] = key;
         if let Some(kept) = self.items.get_mut(sample) {
             *kept = item;

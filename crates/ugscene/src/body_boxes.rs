@@ -5,7 +5,7 @@ use ugphysics::Event;
 
 use crate::default_camera::{rounded, unit_of_rounding};
 use crate::{
-    BodyId, Camera, CameraOptions, Drawn, MotionError, MotionOptions, PlacedBodies, RelativeMotion,
+    BodyId, Camera, CameraOptions, FaceOrWire, MotionError, MotionOptions, PlacedBodies, RelativeMotion,
     RestPosition, Scene, Vertex, VertexId, View, Wire,
 };
 
@@ -62,7 +62,7 @@ impl BodyBoxes {
         let mut bodies = scene.bodies.ids().map(|_| Vec::new()).collect::<Vec<_>>();
         let mut n_parts: usize = 0;
         let mut is_used = vec![false; scene.vertices.len()];
-        for Drawn { contours, body, .. } in scene.drawn() {
+        for FaceOrWire { contours, body, .. } in scene.drawn() {
             let corners = scene.contours.corners(contours).iter();
             let part = corners.fold(Part::empty(body), |part, corner| {
                 is_used[corner.index()] = true;

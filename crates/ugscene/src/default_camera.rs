@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use crate::camera_fit::{Frame, Place, Subject};
 use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film};
 use crate::relative_motion::RelativeMotion;
-use crate::{BodyId, Drawn, Scene};
+use crate::{BodyId, FaceOrWire, Scene};
 
 /// From the view centre to the eye, where z is up: from the front (−y), the right and above. No
 /// axis is within [`CLEAR`] of it.
@@ -95,7 +95,7 @@ impl DefaultCamera {
 /// The positions and bodies of all vertices that are drawn; of all vertices if nothing is.
 fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
     let mut bodies = vec![None; scene.vertices.len()];
-    for Drawn { contours, body, .. } in scene.drawn() {
+    for FaceOrWire { contours, body, .. } in scene.drawn() {
         for corner in scene.contours.corners(contours) {
             bodies[corner.index()].get_or_insert(body);
         }

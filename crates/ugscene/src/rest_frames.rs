@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use ugphysics::{BodyEvent, RestFrame, Velocity, WorldLine};
 
-use crate::{BodyId, Drawn, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
+use crate::{BodyId, FaceOrWire, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
 
 /// The rest frame of each body, relative to the frame of the camera.
 #[derive(Clone, Debug)]
@@ -103,7 +103,7 @@ pub(crate) fn frame(velocity: Velocity, camera: Velocity) -> RestFrame {
 pub fn vertex_bodies(scene: &Scene) -> Vec<BodyId> {
     let mut bodies = vec![scene.bodies.unstated(); scene.vertices.len()];
     // In reverse, so that the first user is written last.
-    for Drawn { contours, body, .. } in scene.drawn().rev() {
+    for FaceOrWire { contours, body, .. } in scene.drawn().rev() {
         for corner in scene.contours.corners(contours) {
             bodies[corner.index()] = body;
         }

@@ -8,12 +8,12 @@ use std::thread;
 
 /// A program that a test runs.
 #[derive(Clone, Debug)]
-pub struct Program {
+pub struct BuiltProgram {
     path: &'static str,
     folder: Option<PathBuf>,
 }
 
-impl Program {
+impl BuiltProgram {
     /// The program at `path`, which cargo passes to tests: `env!("CARGO_BIN_EXE_ugrainbow")`.
     pub const fn new(path: &'static str) -> Self {
         Self { path, folder: None }

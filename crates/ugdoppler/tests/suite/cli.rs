@@ -1,8 +1,8 @@
 //! The program itself: usage, streams, exit status.
 
-use ugtesting::run::{Program, messages};
+use ugtesting::run::{BuiltProgram, messages};
 
-const UGDOPPLER: Program = Program::new(env!("CARGO_BIN_EXE_ugdoppler"));
+const UGDOPPLER: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugdoppler"));
 const SCENE: &str = "{ a licence }\nc green 1 120;\nv a 9 0 0;\nv b 9 1 0;\nv c 9 1 1;\nf (a b c) green;\n";
 
 #[test]

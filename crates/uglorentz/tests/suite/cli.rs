@@ -1,8 +1,8 @@
 //! What a user and a shell see of the program.
 
-use ugtesting::run::{Program, messages};
+use ugtesting::run::{BuiltProgram, messages};
 
-const UGLORENTZ: Program = Program::new(env!("CARGO_BIN_EXE_uglorentz"));
+const UGLORENTZ: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_uglorentz"));
 const TILE: &str = "v a 3 0 1; v b 4 0 1; v c 3 1 1;\nf (a b c) ;\n";
 
 #[test]

@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use ugtesting::run::Program;
+use ugtesting::run::BuiltProgram;
 
-const UGMESH: Program = Program::new(env!("CARGO_BIN_EXE_ugmesh"));
+const UGMESH: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugmesh"));
 const OBJ: &str = "mtllib cube.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 1 1 3\nusemtl red\nf 4 3 2 1\nf 1 2 5\n\
                    usemtl green\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
 const MTL: &str = "newmtl red\nKd 1 0 0\nnewmtl green\nKd 0 1 0\n";

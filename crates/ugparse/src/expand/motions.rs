@@ -2,7 +2,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugphysics::{SampledPath, WorldLine, WorldLineError};
-use ugscene::{BodyId, Drawn, Item, MotionPath, StatedMotion};
+use ugscene::{BodyId, FaceOrWire, Item, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
@@ -174,7 +174,7 @@ impl Expander<'_, '_> {
         }
         let mut checked = FxHashSet::default();
         let drawn = scene.drawn().filter(|drawn| scene.bodies.is_on_world_line(drawn.body));
-        for Drawn { body, contours, .. } in drawn {
+        for FaceOrWire { body, contours, .. } in drawn {
             for &corner in scene.contours.corners(contours) {
                 if !checked.insert((body, corner)) {
                     continue;

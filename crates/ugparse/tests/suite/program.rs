@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 use ugparse::{Options, Source};
-use ugtesting::run::{Program, messages};
+use ugtesting::run::{BuiltProgram, messages};
 
-const UGPARSE: Program = Program::new(env!("CARGO_BIN_EXE_ugparse"));
+const UGPARSE: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugparse"));
 
 fn repository() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))

@@ -1,9 +1,9 @@
 //! The program itself: streams, exit codes, messages, metadata.
 
 use ugimage::PanoramaArea;
-use ugtesting::run::{Program, messages};
+use ugtesting::run::{BuiltProgram, messages};
 
-pub const UGPHOTON: Program = Program::new(env!("CARGO_BIN_EXE_ugphoton"));
+pub const UGPHOTON: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugphoton"));
 const SCENE: &str = "\
 { A square. }
 c green 1 120; l 1;

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use tempfile::TempDir;
 use ugphoton::{Background, Config, PictureOptions, PreparedScene};
-use ugtesting::run::Program;
+use ugtesting::run::BuiltProgram;
 
 use crate::cli::UGPHOTON;
 
@@ -80,7 +80,7 @@ fn samples_of_previews_count_as_whole_pixels() {
 }
 
 /// A folder with the scene in `scene.ug`, and the program in it.
-fn ugphoton() -> (TempDir, Program) {
+fn ugphoton() -> (TempDir, BuiltProgram) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("scene.ug"), SCENE).unwrap();
     let ugphoton = UGPHOTON.in_folder(&folder);

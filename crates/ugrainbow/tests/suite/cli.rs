@@ -6,9 +6,9 @@ use std::process::{Output, Stdio};
 
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use tempfile::tempdir;
-use ugtesting::run::{Program, fed_as_it_is, messages};
+use ugtesting::run::{BuiltProgram, fed_as_it_is, messages};
 
-pub const UGRAINBOW: Program = Program::new(env!("CARGO_BIN_EXE_ugrainbow"));
+pub const UGRAINBOW: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugrainbow"));
 const SCENE: &str = "\
 { A square. }
 { uglorentz 0.1.0: uglorentz -vel .1 0 0 }
@@ -120,7 +120,7 @@ fn bad_scenes_end_with_1() {
 }
 
 /// Runs the program with its standard output on a terminal. Also returns what that received.
-fn on_terminal(ugrainbow: &Program, args: &str) -> (Output, Vec<u8>) {
+fn on_terminal(ugrainbow: &BuiltProgram, args: &str) -> (Output, Vec<u8>) {
     let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&master).unwrap();
     unlockpt(&master).unwrap();

@@ -21,8 +21,8 @@ pub use motion::{MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{
-    Camera, Color, ColorValue, Drawn, Face, Illum, Light, LightKind, LightMotion, Mix, Projection, Scene,
-    Tint, Vertex, Wire,
+    Camera, Color, ColorValue, Face, FaceOrWire, Illum, Light, LightKind, LightMotion, Mix, Projection,
+    Scene, Tint, Vertex, Wire,
 };
 pub use stage::{
     ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,

@@ -310,7 +310,7 @@ pub enum Projection {
 
 /// The attributes that faces and wires have in common.
 #[derive(Clone, Debug)]
-pub struct Drawn {
+pub struct FaceOrWire {
     /// Rows of the contours.
     pub contours: Range<u32>,
     /// Its own colour, if it has one.
@@ -321,10 +321,10 @@ pub struct Drawn {
 
 impl Scene {
     /// All faces, then all wires.
-    pub fn drawn(&self) -> impl DoubleEndedIterator<Item = Drawn> + Clone {
+    pub fn drawn(&self) -> impl DoubleEndedIterator<Item = FaceOrWire> + Clone {
         let faces = self.faces.iter().map(|face| (&face.contours, face.color, face.body));
         let all = faces.chain(self.wires.iter().map(|wire| (&wire.contours, wire.color, wire.body)));
-        all.map(|(contours, color, body)| Drawn { contours: contours.clone(), color, body })
+        all.map(|(contours, color, body)| FaceOrWire { contours: contours.clone(), color, body })
     }
 
     /// The contours of a face, outline first.

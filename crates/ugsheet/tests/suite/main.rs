@@ -7,9 +7,9 @@ use std::fs;
 use ugimage::{Format, Frame, Metadata, PictureLimits, read_png};
 use ugsheet::{Config, Error, Labels};
 use ugtesting::Random;
-use ugtesting::run::Program;
+use ugtesting::run::BuiltProgram;
 
-const UGSHEET: Program = Program::new(env!("CARGO_BIN_EXE_ugsheet"));
+const UGSHEET: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugsheet"));
 
 /// A picture with its pixels.
 #[derive(Clone)]

@@ -1,9 +1,9 @@
 //! The program itself: streams, exit codes, messages, metadata, hostile files.
 
 use ugimage::{Format, Frame, LinearFrame, Metadata, PanoramaArea};
-use ugtesting::run::{Program, messages};
+use ugtesting::run::{BuiltProgram, messages};
 
-const UGWARP: Program = Program::new(env!("CARGO_BIN_EXE_ugwarp"));
+const UGWARP: BuiltProgram = BuiltProgram::new(env!("CARGO_BIN_EXE_ugwarp"));
 
 /// A small panorama as PNG.
 fn sky() -> Vec<u8> {
