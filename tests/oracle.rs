@@ -111,7 +111,7 @@ fn street_is_left_behind() {
 #[test]
 fn lattice_is_flown_through() {
     let lattice = Case::new("lattice");
-    check_all(SPEEDS.map(|speed| Case { beta: Some(speed * DVec3::NEG_Y), ..lattice }));
+    check_all([0.6, 0.99].map(|speed| Case { beta: Some(speed * DVec3::NEG_Y), ..lattice }));
 }
 
 #[test]
