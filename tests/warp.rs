@@ -64,7 +64,7 @@ fn check(colors: &str, shift: ColorShift, basis: Basis) {
     let sky = traced(
         &scene,
         ugphoton::Config {
-            picture: picture(size, 3),
+            picture: picture(size, 2),
             lens: Lens::Panorama,
             shift: rest_shift,
             ..ugphoton::Config::default()
@@ -126,7 +126,7 @@ fn cameras_on_world_lines_see_the_same() {
         let place = DVec3::new(sin, 1.0 - cos, 0.0);
         let camera = CameraOptions { eye: Some(place), center: Some(place + DVec3::Y), ..camera() };
         let motion = MotionOptions { camera_velocity: Some(DVec3::ZERO), ..MotionOptions::default() };
-        let picture = PictureOptions { camera, ..picture(size, 3) };
+        let picture = PictureOptions { camera, ..picture(size, 2) };
         let sky = ugphoton::Config { picture, motion, lens: Lens::Panorama, ..Default::default() };
         let sky = traced(&scene, sky).pixels().to_vec();
         let sky = Panorama::new(size, Texels::Light(sky), Extent::FULL).unwrap();

@@ -185,10 +185,10 @@ impl Neighbourhood<'_> {
         self.oracle.faces(&directions)
     }
 
-    /// The faces visible at points a fiftieth of the reach apart. Slow; necessary for slits and
+    /// The faces visible at points a twenty-fifth of the reach apart. Slow; necessary for slits and
     /// corners.
     fn grid(&self, center: DVec2) -> Vec<Option<usize>> {
-        const N_STEPS: i32 = 50;
+        const N_STEPS: i32 = 25;
         let steps = || (-N_STEPS..=N_STEPS).map(|step| f64::from(step) / f64::from(N_STEPS));
         let points = steps().flat_map(|y| steps().map(move |x| DVec2::new(x, y)));
         let points = points.filter(|p| p.length() <= 1.0).map(|p| center + p * self.reach);

@@ -1,8 +1,10 @@
 //! Commands in the pages of the documentation, as a reader would type them.
 
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::sync::OnceLock;
 
 use crate::scenes;
 
@@ -124,6 +126,23 @@ const PREPARATION: &str = "\
 /// Fills a folder with what a reader has when typing commands: the scenes and stars of the
 /// repository, also in a folder `scenes` in it, and the files that pages take for granted.
 pub fn prepare(folder: &Path, programs: &Path) {
+    static MADE: OnceLock<Vec<(OsString, Vec<u8>)>> = OnceLock::new();
+    copy_scenes(folder);
+    let made = MADE.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        copy_scenes(folder.path());
+        let page = Page::of_commands("preparation", &[]);
+        page.run(PREPARATION, folder.path(), programs).unwrap_or_else(|message| panic!("{message}"));
+        let entries = fs::read_dir(folder.path()).expect("a folder").flatten();
+        let files = entries.filter(|entry| entry.path().is_file());
+        files.map(|file| (file.file_name(), fs::read(file.path()).expect("a file"))).collect()
+    });
+    for (name, bytes) in made {
+        fs::write(folder.join(name), bytes).expect("a copy");
+    }
+}
+
+fn copy_scenes(folder: &Path) {
     for folder in [folder.to_owned(), folder.join("scenes")] {
         fs::create_dir_all(&folder).expect("a folder");
         for name in scenes::names() {
@@ -133,9 +152,6 @@ pub fn prepare(folder: &Path, programs: &Path) {
             fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).expect("a copy");
         }
     }
-    Page::of_commands("preparation", &[])
-        .run(PREPARATION, folder, programs)
-        .unwrap_or_else(|message| panic!("{message}"));
 }
 
 /// Programs that draw pictures.

@@ -76,7 +76,7 @@ impl Shot {
         let canvas = Canvas::new(&self.frame.picture)?;
         let (frame, mut notes) = match light {
             Some(light) => light,
-            None => (self.mean(subject)?, Vec::new()),
+            None => (self.mean(canvas.options().size, subject)?, Vec::new()),
         };
         let drawn = Drawn::<Error> {
             content: DrawnContent::Light { frame, is_clipped: false },
@@ -93,10 +93,10 @@ impl Shot {
     }
 
     /// The mean light of all moments.
-    fn mean(&self, subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
+    fn mean(&self, size: [u32; 2], subject: FilmSubject<'_>) -> Result<LinearFrame, Error> {
         let mut sum = Sum::default();
         for moment in &self.moments {
-            sum.add(&moment.light(subject)?.0);
+            sum.add(&moment.light(size, subject)?.0);
         }
         Ok(sum.mean())
     }

@@ -237,8 +237,8 @@ impl Film<'_> {
         let is_held = self.holds_light()?;
         let frames = self.spread_pictures(("measuring", steps), |pipe| {
             let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
-            let (light, notes) = pipe.light(self.subject)?;
-            Ok((thinned(&light), is_held.then_some((light, notes))))
+            let (light, notes) = pipe.light(pipe.size_above_caption()?, self.subject)?;
+            Ok((coarse(&light), is_held.then_some((light, notes))))
         })?;
         let pixels: Vec<[f32; 4]> =
             frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
@@ -438,13 +438,28 @@ impl Film<'_> {
     }
 }
 
-/// Pixels in columns and rows at equal distances, at most [`MEASURED_SIDE`] of each.
-fn thinned(light: &LinearFrame) -> LinearFrame {
-    let sides = [light.width() as usize, light.height() as usize];
-    let step = sides[0].max(sides[1]).div_ceil(MEASURED_SIDE as usize);
-    let rows = light.pixels().chunks_exact(sides[0]).step_by(step);
-    let pixels = rows.flat_map(|row| row.iter().step_by(step)).copied().collect();
-    LinearFrame::new(sides.map(|side| side.div_ceil(step) as u32), light.is_opaque(), pixels)
+/// The means of square blocks of pixels, so that the longest side is about [`MEASURED_SIDE`].
+fn coarse(light: &LinearFrame) -> LinearFrame {
+    let sides = [light.width(), light.height()];
+    let n = (sides[0].max(sides[1]) / MEASURED_SIDE).max(1);
+    let size = sides.map(|side| side.div_ceil(n));
+    // Light times its weight, the weight, the covered part, and the number of pixels.
+    let mut sums = vec![[0.0_f32; 6]; size[0] as usize * size[1] as usize];
+    for (row, line) in light.pixels().chunks_exact(sides[0] as usize).enumerate() {
+        let blocks = &mut sums[row / n as usize * size[0] as usize..];
+        for (sum, block) in blocks.iter_mut().zip(line.chunks(n as usize)) {
+            for &[red, green, blue, part] in block {
+                let weight = if light.is_opaque() { 1.0 } else { part };
+                let terms = [red * weight, green * weight, blue * weight, weight, part, 1.0];
+                sum.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            }
+        }
+    }
+    let mean = |[red, green, blue, weight, part, count]: [f32; 6]| {
+        let over = |sum: f32| if weight > 0.0 { sum / weight } else { 0.0 };
+        [over(red), over(green), over(blue), part / count]
+    };
+    LinearFrame::new(size, light.is_opaque(), sums.into_iter().map(mean).collect())
 }
 
 fn pixels(picture: Rendering) -> Result<Frame, Error> {

@@ -99,13 +99,21 @@ impl Pipe {
         Ok((picture, notes))
     }
 
-    /// The light of the frame without exposure and annotations, above the rows of a caption.
+    /// The size of the frame without the rows of a caption.
+    ///
+    /// # Errors
+    /// See [`Canvas::new`].
+    pub fn size_above_caption(&self) -> Result<[u32; 2], Error> {
+        Ok(Canvas::new(&self.picture)?.options().size)
+    }
+
+    /// The light of the frame in this size, without exposure and annotations.
     ///
     /// # Errors
     /// See [`Pipe::draw`].
-    pub fn light(&self, subject: FilmSubject<'_>) -> Result<DrawnLight, Error> {
+    pub fn light(&self, size: [u32; 2], subject: FilmSubject<'_>) -> Result<DrawnLight, Error> {
         let mut pipe = self.clone();
-        pipe.picture.size = Canvas::new(&self.picture)?.options().size;
+        pipe.picture.size = size;
         pipe.picture.keep_light();
         let (picture, notes) = pipe.draw(subject)?;
         Ok((picture.into_light().ok_or(Error::NoPixels)?, notes))

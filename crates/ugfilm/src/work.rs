@@ -1,20 +1,11 @@
 //! Draws several frames at the same time and passes them on in the order of the film.
 
-use std::collections::BTreeMap;
-use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::collections::VecDeque;
+use std::sync::{Mutex, MutexGuard, PoisonError, mpsc};
 use std::thread;
 
 use rayon::ThreadPoolBuilder;
 use ugpipe::Failure;
-
-struct State<T> {
-    /// The row that is taken next.
-    next: usize,
-    /// Number of results passed to the consumer.
-    n_consumed: usize,
-    ready: BTreeMap<usize, Result<T, Failure>>,
-    is_stopped: bool,
-}
 
 /// Computes `n_rows` results and consumes them in order, on this thread. Each thread works on one
 /// row with a pool of its own, and waits when it is so far ahead that results would fill memory.
@@ -34,30 +25,22 @@ pub fn in_order<T: Send>(
     }
     let n_threads = rayon::current_num_threads();
     let n_workers = n_threads.min(n_rows).max(1);
-    let state = Mutex::new(State { next: 0, n_consumed: 0, ready: BTreeMap::new(), is_stopped: false });
-    let changed = Condvar::new();
+    // Rows to compute, each with the sender of its result.
+    let (orders, waiting) = mpsc::channel::<(usize, mpsc::Sender<_>)>();
+    let waiting = Mutex::new(waiting);
     let work = || {
         // This thread is one of the pool, so that a worker needs no other if there are enough frames.
         // Without threads of its own a worker uses those of the process.
         let pool = ThreadPoolBuilder::new().num_threads(n_threads / n_workers).use_current_thread();
         let pool = pool.build().ok();
-        loop {
-            let mut now = lock(&state);
-            while !now.is_stopped && now.next < n_rows && now.next >= now.n_consumed + 2 * n_workers {
-                now = changed.wait(now).unwrap_or_else(PoisonError::into_inner);
-            }
-            if now.is_stopped || now.next >= n_rows {
-                return;
-            }
-            let row = now.next;
-            now.next += 1;
-            drop(now);
+        let next = || lock(&waiting).recv();
+        while let Ok((row, sender)) = next() {
             let result = match &pool {
                 Some(pool) => pool.install(|| compute(row)),
                 None => compute(row),
             };
-            lock(&state).ready.insert(row, result);
-            changed.notify_all();
+            // A row before it may have ended the film.
+            let _ = sender.send(result);
         }
     };
     thread::scope(|scope| {
@@ -66,27 +49,27 @@ pub fn in_order<T: Send>(
             // The system starts no thread.
             return one_by_one(n_rows, &compute, consume);
         }
+        let order = |row| {
+            let (sender, result) = mpsc::channel();
+            // The receiver exists until all is done.
+            let _ = orders.send((row, sender));
+            result
+        };
+        let mut rows = 0..n_rows;
+        let mut ordered: VecDeque<_> = rows.by_ref().take(2 * n_workers).map(order).collect();
         let mut outcome = Ok(());
         for row in 0..n_rows {
-            let result = {
-                let mut now = lock(&state);
-                loop {
-                    match now.ready.remove(&row) {
-                        Some(result) => break result,
-                        None => now = changed.wait(now).unwrap_or_else(PoisonError::into_inner),
-                    }
-                }
-            };
+            // There is no result if a worker panics, and the scope passes the panic on.
+            let Some(Ok(result)) = ordered.pop_front().map(|result| result.recv()) else { break };
             outcome = result.and_then(|value| consume(row, value));
-            let mut now = lock(&state);
-            now.n_consumed = row + 1;
-            now.is_stopped = outcome.is_err();
-            drop(now);
-            changed.notify_all();
             if outcome.is_err() {
                 break;
             }
+            ordered.extend(rows.next().map(order));
         }
+        drop(orders);
+        // Of a film that has ended early, rows are left.
+        lock(&waiting).try_iter().for_each(drop);
         outcome
     })
 }
@@ -100,9 +83,8 @@ fn one_by_one<T>(
     (0..n_rows).try_for_each(|row| consume(row, compute(row)?))
 }
 
-fn lock<T>(state: &Mutex<State<T>>) -> MutexGuard<'_, State<T>> {
-    // A panic cannot leave the state inconsistent.
-    state.lock().unwrap_or_else(PoisonError::into_inner)
+fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

@@ -252,9 +252,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();
-    let (drawing, warnings) =
-        PreparedScene::read(&config, &source, provenance, &steps).map_err(Failure::of)?;
-    let drawing = if context.is_quiet() { drawing.quiet() } else { drawing };
+    let (drawing, warnings) = PreparedScene::read(&config, &source, provenance, !context.is_quiet(), &steps)
+        .map_err(Failure::of)?;
     if let Some(file) = preview {
         for side in PreparedScene::PREVIEWS {
             let preview = drawing.preview(side, &steps).map_err(Failure::of)?;

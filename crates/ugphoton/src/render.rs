@@ -61,7 +61,7 @@ pub fn run(
     provenance: Provenance<'_>,
     progress: &dyn Progress,
 ) -> Result<PictureFile, Error> {
-    let (drawing, warnings) = PreparedScene::read(config, source, provenance, progress)?;
+    let (drawing, warnings) = PreparedScene::read(config, source, provenance, true, progress)?;
     let rendering = drawing.picture(progress)?;
     // The file needs its memory.
     drop(drawing);
@@ -84,7 +84,8 @@ impl PreparedScene {
     pub const PREVIEWS: [u32; 3] = [8, 4, 2];
 
     /// Reads a scene; returns warnings about its text as well. `provenance`: for the history in the
-    /// file.
+    /// file. `notes_view`: a note says when bodies outside the picture are in it, which takes longer
+    /// to find than a small picture takes to draw.
     ///
     /// # Errors
     /// See [`Error`].
@@ -92,21 +93,15 @@ impl PreparedScene {
         config: &Config,
         source: &Source,
         provenance: Provenance<'_>,
+        notes_view: bool,
         progress: &dyn Progress,
     ) -> Result<(Self, Diagnostics), Error> {
         let canvas = config.canvas()?;
         progress.step("reading", 0);
         let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-        let boxes = BodyBoxes::new(&parsed.scene);
+        let boxes = notes_view.then(|| BodyBoxes::new(&parsed.scene));
         let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
-        Ok((Self { boxes: Some(boxes), ..drawing }, parsed.warnings))
-    }
-
-    /// The same without the note on bodies that are outside the picture: the times at which they
-    /// are in it take longer to find than a small picture takes to draw.
-    #[must_use]
-    pub fn quiet(self) -> Self {
-        Self { boxes: None, ..self }
+        Ok((Self { boxes, ..drawing }, parsed.warnings))
     }
 
     /// Prepares a scene. `canvas`: of these options.

@@ -3,12 +3,11 @@
 use std::borrow::Cow;
 
 use rayon::prelude::*;
-use ugimage::{Format, LinearFrame, Metadata};
+use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
-    Annotated, Canvas, Drawn, DrawnContent, Error as PictureError, Note, Output, PictureFile, Rendering,
-    Subject, channel_planes,
+    Annotated, Canvas, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, channel_planes,
 };
 use ugpipe::Progress;
 use ugscene::{Provenance, Remarks, Scene};
@@ -120,14 +119,7 @@ pub fn run(
     let metadata = &Metadata { panorama: config.panorama(), ..metadata.clone() };
     let prepared = Prepared::new(sky, config, progress)?;
     let warnings = Diagnostics::new(&Source::new("", ""), Vec::new());
-    let mut file = match prepared.alone(sky) {
-        Some(layer) if prepared.is_plain_png() => {
-            let (bytes, notes) = prepared.png(layer, metadata, progress);
-            progress.check().map_err(PictureError::from)?;
-            PictureFile { bytes, notes, warnings }
-        }
-        _ => prepared.render(sky, metadata, progress)?.pack(warnings, progress),
-    };
+    let mut file = prepared.render(sky, metadata, progress)?.pack(warnings, progress);
     file.notes.splice(0..0, opened.notes.iter().cloned().map(Note::Source));
     Ok(file)
 }
@@ -155,23 +147,6 @@ impl<'s> Prepared<'s> {
     fn alone(&self, sky: Sky<'_>) -> Option<&Layer<'s>> {
         let is_deep = self.config.picture.output.format().is_deep();
         self.warp.clipped().filter(|_| sky.stars.is_empty() && !is_deep)
-    }
-
-    /// True for a PNG file of 8 bits without annotations.
-    fn is_plain_png(&self) -> bool {
-        let picture = &self.config.picture;
-        picture.output == Output::Color(Format::Png) && !picture.annotations.is_any()
-    }
-
-    /// The file of a picture that [`is_plain_png`](Self::is_plain_png), and notes for the user.
-    fn png(&self, layer: &Layer<'s>, metadata: &Metadata, progress: &dyn Progress) -> (Vec<u8>, Vec<Note>) {
-        let picture = &self.config.picture;
-        let (file, statistics, levels) = self.warp.png(layer, progress, metadata, picture.compression());
-        let mut notes = notes(&self.config, &self.warp, &statistics);
-        if !notes.iter().any(|note| note.is_of_empty() || note.is_of_black()) {
-            notes.extend(levels.note(picture));
-        }
-        (file, notes)
     }
 
     fn render(&self, sky: Sky<'_>, metadata: &Metadata, progress: &dyn Progress) -> Result<Rendering, Error> {

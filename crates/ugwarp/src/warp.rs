@@ -4,11 +4,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
-use ugimage::{Compression, Filter, Frame, LinearFrame, Metadata, Quantizer, display_pixel, draw_png};
+use ugimage::{Filter, Frame, LinearFrame, Quantizer, display_pixel};
 use uglight::ColorShift;
 use ugphysics::luminance;
 use ugpicture::lens::{Film, Lens};
-use ugpicture::{Backdrop, Background, Emission, LevelCounts, SeenItem};
+use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
 use ugscene::{CameraError, CameraOptions, View};
 use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
@@ -214,27 +214,6 @@ impl<'s> Warp<'s> {
         let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
         let (pixels, statistics) = drawing.pixels();
         (Frame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
-    }
-
-    /// The same as a PNG file, which is written while the picture is drawn.
-    pub(crate) fn png(
-        &self,
-        layer: &Layer<'s>,
-        progress: &dyn Progress,
-        metadata: &Metadata,
-        compression: Compression,
-    ) -> (Vec<u8>, Statistics, LevelCounts) {
-        let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
-        let (levels, background) = (Mutex::new(LevelCounts::default()), self.backdrop.light());
-        let draw = |band: usize, pixels: &mut [[u8; 4]]| {
-            drawing.band(band, pixels);
-            let counts = LevelCounts::of_pixels(pixels, background);
-            let mut levels = lock(&levels);
-            *levels = levels.plus(counts);
-        };
-        let file = draw_png(self.size, self.backdrop.is_opaque(), BAND, metadata, compression, draw);
-        let levels = *lock(&levels);
-        (file, drawing.statistics(), levels)
     }
 
     /// From light to 8-bit pixels.

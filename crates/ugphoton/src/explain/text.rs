@@ -1,6 +1,6 @@
 //! An explanation as text.
 
-use ugpicture::explain::text::{Lines, level, number, numbers};
+use ugpicture::explain::text::{ExplanationText, level, number, numbers};
 use ugpicture::explain::{Explanation, WriteSample};
 
 use super::{ExplainedLamp, ExplainedMedium, TracedSample, TracedSurface};
@@ -17,7 +17,7 @@ impl WriteSample for TracedSample {
         self.place
     }
 
-    fn write(&self, out: &mut Lines, explanation: &Explanation<Self>) {
+    fn write(&self, out: &mut ExplanationText, explanation: &Explanation<Self>) {
         out.row("light", format!("{} linear, the sum of these surfaces", numbers(&self.linear)));
         if self.background != [0.0; 3] {
             out.row("background", format!("{} of it is seen", numbers(&self.background)));
@@ -32,7 +32,7 @@ impl WriteSample for TracedSample {
 }
 
 fn write_surface(
-    out: &mut Lines,
+    out: &mut ExplanationText,
     at: usize,
     traced: &TracedSurface,
     explanation: &Explanation<TracedSample>,

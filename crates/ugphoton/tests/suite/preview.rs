@@ -20,7 +20,7 @@ cam -ep 0 -6 2 -vc 0 0 .7 -ud 0 0 1;
 ";
 
 fn drawing(config: &Config) -> PreparedScene {
-    PreparedScene::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, &())
+    PreparedScene::read(config, &ugparse::Source::new("scene.ug", SCENE), ugphoton::PROVENANCE, true, &())
         .unwrap()
         .0
 }

@@ -1,6 +1,6 @@
 //! Laws, published numbers and a 200-bit reference for the physics crate.
 //!
-//! Numbers named T01, T02… are facts listed at the end of `docs/physics.md`.
+//! Numbers named T01, T02… are the facts of `docs/physics/facts.csv`.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 

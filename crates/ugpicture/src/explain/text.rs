@@ -10,21 +10,21 @@ use super::{ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWav
 /// A sample, explained by one of the renderers.
 pub trait WriteSample: Serialize + Sized {
     /// Writes what follows the heading about the sample.
-    fn write(&self, out: &mut Lines, explanation: &Explanation<Self>);
+    fn write(&self, out: &mut ExplanationText, explanation: &Explanation<Self>);
 
     /// Column and row of the sample in pixels.
     fn place(&self) -> [f64; 2];
 }
 
-/// Lines of text.
+/// The text of an explanation.
 #[derive(Clone, Debug, Default)]
-pub struct Lines(String);
+pub struct ExplanationText(String);
 
 impl<S: WriteSample> Explanation<S> {
     /// The explanation as text.
     pub fn text(&self) -> String {
         let Self { pixel: [x, y], size: [width, height], samples: [columns, rows], .. } = self;
-        let mut out = Lines::default();
+        let mut out = ExplanationText::default();
         out.line(format!("pixel {x} {y} of {width} x {height}, {columns} x {rows} samples"));
         for cover in &self.covers {
             out.line(format!("    {} of {}: {}", cover.samples, columns * rows, described(&cover.item)));
@@ -41,7 +41,7 @@ impl<S: WriteSample> Explanation<S> {
     }
 
     /// From the samples of a pixel to its bytes.
-    fn write_steps(&self, out: &mut Lines) {
+    fn write_steps(&self, out: &mut ExplanationText) {
         let steps = &self.steps;
         let [columns, rows] = steps.filter_samples;
         let by = match steps.filter {
@@ -62,7 +62,7 @@ impl<S: WriteSample> Explanation<S> {
     }
 }
 
-impl Lines {
+impl ExplanationText {
     /// A line without a title.
     pub fn line(&mut self, text: impl Display) {
         self.0 += &format!("{text}\n");

@@ -1,6 +1,6 @@
 //! An explanation as text.
 
-use ugpicture::explain::text::{Lines, described, level, number, numbers};
+use ugpicture::explain::text::{ExplanationText, described, level, number, numbers};
 use ugpicture::explain::{Explanation, WriteSample};
 
 use super::{ExplainedCorner, ExplainedSample};
@@ -13,7 +13,7 @@ impl WriteSample for ExplainedSample {
         self.place
     }
 
-    fn write(&self, out: &mut Lines, explanation: &Explanation<Self>) {
+    fn write(&self, out: &mut ExplanationText, explanation: &Explanation<Self>) {
         let surface = &self.surface;
         out.surface(surface, explanation.is_at_rest);
         out.doppler(surface.doppler, "P10", explanation.colors.as_ref());
