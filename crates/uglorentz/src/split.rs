@@ -45,9 +45,8 @@ fn split_triangle(
         }
         2 => {
             let (ab, bc) = (mesh.middle(a, b), mesh.middle(b, c));
-            let mut shapes = vec![Shape::Triangle([ab, b, bc])];
-            shapes.extend(halves(mesh, bounds, [a, ab, bc, c]).map(Shape::Triangle));
-            shapes
+            let [first, second] = halves(mesh, bounds, [a, ab, bc, c]);
+            [[ab, b, bc], first, second].map(Shape::Triangle).to_vec()
         }
         _ => quarters(mesh, bounds, [a, b, c]).map(Shape::Triangle).to_vec(),
     }
