@@ -6,7 +6,6 @@ use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
 
 use ugphysics::srgb_encode;
 
-use crate::fill::fill_while;
 use crate::{Frame, LinearFrame, Metadata};
 
 /// Keyword of the chunk `iTXt` with XMP metadata.
@@ -33,34 +32,6 @@ pub fn encode(frame: &Frame, metadata: &Metadata, compression: Compression) -> V
     let rows = || frame.pixels().chunks_exact(frame.width() as usize);
     let file = image.encode(compression.into(), rows(), copy_row);
     image.smaller(file, compression, rows(), copy_row)
-}
-
-/// Draws a frame in bands of rows on all threads, and compresses each band while the next ones are
-/// drawn. Returns a PNG file, the same bytes as [`Format::encode`](crate::Format::encode) of the
-/// whole frame.
-///
-/// `draw` is passed the index of a band, counted from the top, and its pixels, which are all 0. In
-/// an opaque frame it must set every alpha to 255.
-///
-/// # Panics
-/// If a side or the height of bands is 0.
-pub fn draw_png(
-    [width, height]: [u32; 2],
-    is_opaque: bool,
-    band_height: usize,
-    metadata: &Metadata,
-    compression: Compression,
-    draw: impl Fn(usize, &mut [[u8; 4]]) + Sync,
-) -> Vec<u8> {
-    assert!(width > 0 && height > 0, "a frame has at least one pixel");
-    let image = Image::of_8_bits([width, height], is_opaque, metadata);
-    let width = width as usize;
-    let mut pixels = vec![[0; 4]; width * height as usize];
-    let file = fill_while(&mut pixels, band_height * width, draw, |bands| {
-        let rows = bands.flat_map(|band| band.chunks_exact(width));
-        image.encode(compression.into(), rows, copy_row)
-    });
-    image.smaller(file, compression, pixels.chunks_exact(width), copy_row)
 }
 
 /// Copies a row of pixels into the bytes of a PNG row, with alpha if there are four bytes a pixel.
@@ -284,24 +255,6 @@ mod tests {
         assert!(file.len() < n_bytes + n_bytes / 100, "{} of {n_bytes}", file.len());
         let expected: Vec<u8> = frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
         assert_eq!(decode(&file).1, expected);
-    }
-
-    #[test]
-    fn a_frame_that_is_drawn_gives_the_same_file() {
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug".into(), ..Metadata::default() };
-        for frame in test_frames().iter().chain([&noise()]) {
-            let size = [frame.width(), frame.height()];
-            for (height, compression) in
-                [(1, Compression::Fast), (7, Compression::Small), (1000, Compression::Fast)]
-            {
-                let draw = |band: usize, pixels: &mut [[u8; 4]]| {
-                    let first = band * height * size[0] as usize;
-                    pixels.copy_from_slice(&frame.pixels()[first..][..pixels.len()]);
-                };
-                let file = draw_png(size, frame.is_opaque(), height, &metadata, compression, draw);
-                assert!(file == encode(frame, &metadata, compression), "{size:?} {height}");
-            }
-        }
     }
 
     #[test]

@@ -41,11 +41,20 @@ impl Image {
             }
             Some(convert) => {
                 let quantizer = Quantizer::new();
-                let shown = |&[red, green, blue, part]: &[f32; 4]| {
-                    let [red, green, blue] = convert([red, green, blue]);
-                    display_pixel(&quantizer, [red, green, blue, part], light.is_opaque())
-                };
-                let pixels = light.pixels().par_iter().with_min_len(CHUNK).map(shown).collect();
+                let mut pixels = vec![[0; 4]; light.pixels().len()];
+                let chunks = pixels.par_chunks_mut(CHUNK).zip(light.pixels().par_chunks(CHUNK));
+                chunks.for_each(|(pixels, chunk)| {
+                    // Many pixels are like the one before.
+                    let mut last = ([f32::NAN; 4], [0; 4]);
+                    for (shown, &own) in pixels.iter_mut().zip(chunk) {
+                        if own != last.0 {
+                            let [red, green, blue] = convert([own[0], own[1], own[2]]);
+                            let all = [red, green, blue, own[3]];
+                            last = (own, display_pixel(&quantizer, all, light.is_opaque()));
+                        }
+                        *shown = last.1;
+                    }
+                });
                 Self::Display(Frame::new([light.width(), light.height()], light.is_opaque(), pixels))
             }
             None if is_deep => Self::Light(light),

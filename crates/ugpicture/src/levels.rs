@@ -26,7 +26,7 @@ const CHUNK: usize = 1 << 14;
 
 /// How many pixels of a picture, without its annotations, are bright.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct LevelCounts {
+struct LevelCounts {
     n_pixels: u32,
     /// Not outside the scene; in an opaque picture of 8 bits every pixel counts.
     n_covered: u32,
@@ -39,7 +39,7 @@ pub struct LevelCounts {
 impl LevelCounts {
     /// Those of 8-bit pixels. `background`: its light as it is in the picture; `None` if it is
     /// transparent.
-    pub fn of_pixels(pixels: &[[u8; 4]], background: Option<[f32; 3]>) -> Self {
+    fn of_pixels(pixels: &[[u8; 4]], background: Option<[f32; 3]>) -> Self {
         let background = color_of(background, &Quantizer::new());
         let of_chunk =
             |chunk: &[[u8; 4]]| Self::of(chunk.iter().map(|&pixel| (pixel, pixel[3] > 0)), background);
@@ -75,8 +75,7 @@ impl LevelCounts {
     }
 
     /// The sum of those of two parts of a picture.
-    #[must_use]
-    pub fn plus(self, other: Self) -> Self {
+    fn plus(self, other: Self) -> Self {
         Self {
             n_pixels: self.n_pixels + other.n_pixels,
             n_covered: self.n_covered + other.n_covered,
@@ -89,7 +88,7 @@ impl LevelCounts {
     /// [`Note::NearlyBlack`] or [`Note::Overexposed`], if a picture with these options is; `None`
     /// if it shows only the background. White is expected without an exposure or tone curve,
     /// where surfaces may be white, and is rare with an automatic exposure but for lines.
-    pub fn note(&self, picture: &PictureOptions) -> Option<Note> {
+    fn note(&self, picture: &PictureOptions) -> Option<Note> {
         let Self { n_pixels, n_covered, n_seen, n_visible, n_white } = *self;
         let [n_pixels, n_seen, n_visible, n_white] = [n_pixels, n_seen, n_visible, n_white].map(u64::from);
         if n_covered == 0 {
@@ -137,8 +136,8 @@ pub fn of_image(image: &Image, development: Option<Development>, picture: &Pictu
     counts.note(picture)
 }
 
-/// The note on the levels of light as a picture with these options shows it; see
-/// [`LevelCounts::note`].
+/// [`Note::NearlyBlack`] or [`Note::Overexposed`], if light is so as a picture with these options
+/// shows it.
 pub fn levels_note(light: &LinearFrame, picture: &PictureOptions) -> Option<Note> {
     let development = picture.development(|| light);
     let (mut developed, convert) = (light.clone(), development.converter());

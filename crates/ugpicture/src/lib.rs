@@ -7,7 +7,7 @@
 //!   format, and annotations; [`cli`] has them as options of the command line;
 //! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
-//! - [`Exposure`]: how light is brought into the range of a display; [`LevelCounts`]: whether a picture
+//! - [`Exposure`]: how light is brought into the range of a display; [`levels_note`]: whether a picture
 //!   is nearly black or overexposed;
 //! - [`Canvas`]: the shell, which checks options, develops and annotates what a renderer draws,
 //!   and notes what the user should know;
@@ -70,7 +70,7 @@ pub use channel::{Channel, channel_planes};
 pub use emission::{Emission, Emissions, MediumLight, SeenItem, SurfaceSample};
 pub use error::Error;
 pub use exposure::Exposure;
-pub use levels::{LevelCounts, levels_note};
+pub use levels::levels_note;
 pub use limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
 pub use line::{DepthPoint, clip_line, in_picture, visible_parts};
 pub use metadata::metadata;
