@@ -12,8 +12,9 @@ use ugscene::{Color, ColorId, ColorValue, Face, Light, LightKind, LightMotion, S
 use crate::oracle::{Oracle, Pinhole};
 use crate::picture::Picture;
 
-/// The least fraction of the pixels that show the expected face.
-const LEAST_AGREEMENT: f64 = 0.995;
+/// The least fraction of the pixels that show the expected face. The rods of the lattice are few
+/// pixels wide, so many of its pixels are at edges; all others must be explained anyway.
+const LEAST_AGREEMENT: f64 = 0.99;
 
 /// The search stops after this number of wrong pixels.
 const MOST_WRONG: usize = 2000;
