@@ -190,15 +190,18 @@ fn push_colors(
             ids.push(given);
             continue;
         }
-        let base = match shares {
-            Shares::One(None) => "white".to_string(),
-            Shares::One(Some(color)) => scene.names.get(scene.colors[color.index()].name).to_string(),
+        let digits = quantizer.digits(slot.ln_doppler);
+        let name = match shares {
+            Shares::One(None) => format!("white#{digits}"),
+            Shares::One(Some(color)) => {
+                [scene.names.get(scene.colors[color.index()].name), "#", &digits].concat()
+            }
             Shares::Mixed(_) => {
                 n_mixed += 1;
-                format!("mixed{n_mixed}")
+                format!("mixed{n_mixed}#{digits}")
             }
         };
-        let name = names.fresh(&format!("{base}#{}", quantizer.digits(slot.ln_doppler)));
+        let name = names.fresh(&name);
         let translucency = translucency(scene, shares);
         let name = scene.names.add(&name);
         scene.colors.push(Color { name, value: ColorValue::Xyz(xyz), translucency });

@@ -20,7 +20,7 @@ pub(crate) fn words_of_shell(arguments: impl Iterator<Item = OsString>) -> Optio
 }
 
 /// The completions of the last of these words, the first of which follows the name of the program:
-/// a line for each, with its meaning behind a tab, or [`FILES`].
+/// a line for each, with its meaning behind a tab, or a slash where files are meant.
 pub fn completions(manual: &Manual, words: &[String]) -> String {
     let (typed, before) = words.split_last().map_or(("", words), |(last, before)| (last.as_str(), before));
     let mut found: Vec<(&str, &str)> = Vec::new();

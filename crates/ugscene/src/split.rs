@@ -58,7 +58,6 @@ fn vertex_names(scene: &Scene) -> UniqueNames {
 }
 
 fn copy_vertex(scene: &mut Scene, original: VertexId, taken: &mut UniqueNames) -> VertexId {
-    let name = taken.fresh(scene.names.get(scene.vertices[original.index()].name));
-    let name = scene.names.add(&name);
+    let name = taken.add_copy(scene.vertices[original.index()].name, &mut scene.names);
     scene.copy_vertex(original, name)
 }

@@ -1,5 +1,7 @@
 //! The names of a scene, in one buffer, and generation of unique names.
 
+use std::fmt::Write as _;
+
 use rustc_hash::FxHashMap;
 
 use super::ids::NameId;
@@ -68,16 +70,33 @@ pub struct UniqueNames {
 impl UniqueNames {
     /// Returns `name`, or the first unused of `name_2`, `name_3`, …, and marks it as used.
     pub fn fresh(&mut self, name: &str) -> String {
-        let mut fresh = name.to_owned();
-        if let Some(&last) = self.taken.get(name) {
-            let mut count = last;
-            while self.taken.contains_key(&fresh) {
-                count += 1;
-                fresh = format!("{name}_{count}");
-            }
-            self.taken.insert(name.to_owned(), count);
-        }
+        let fresh = self.unused(name);
         self.taken.insert(fresh.clone(), 1);
+        fresh
+    }
+
+    /// Adds a [fresh](Self::fresh) name to the table that has the original.
+    pub fn add_copy(&mut self, original: NameId, table: &mut Names) -> NameId {
+        let fresh = self.unused(table.get(original));
+        let id = table.add(&fresh);
+        self.taken.insert(fresh, 1);
+        id
+    }
+
+    fn unused(&mut self, name: &str) -> String {
+        let mut fresh = String::with_capacity(name.len() + 4);
+        fresh.push_str(name);
+        let Some(&last) = self.taken.get(name) else { return fresh };
+        let mut count = last;
+        while self.taken.contains_key(&fresh) {
+            count += 1;
+            fresh.truncate(name.len());
+            // Writing to a string does not fail.
+            let _ = write!(fresh, "_{count}");
+        }
+        if let Some(last) = self.taken.get_mut(name) {
+            *last = count;
+        }
         fresh
     }
 }

@@ -82,10 +82,9 @@ impl Recount {
         }
         let Some(table) = scene.table_of(id) else { return color };
         let table = table.counted_from(zero);
-        let original = &scene.colors[id.index()];
+        let original = scene.colors[id.index()].name;
         let all = || scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
-        let name = self.names.get_or_insert_with(all).fresh(scene.names.get(original.name));
-        let name = scene.names.add(&name);
+        let name = self.names.get_or_insert_with(all).add_copy(original, &mut scene.names);
         let new = ColorId::from_index(scene.colors.len());
         scene.colors.push(Color { name, ..scene.colors[id.index()].clone() });
         // Ids in ascending order, as the scene requires.
