@@ -79,9 +79,8 @@ fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
         .arg(programs.join(words.next().unwrap_or_default()))
-        .args(words.chain(["-qt"]))
+        .args(words.chain(["-qt", "-nt", "1"]))
         .current_dir(folder)
-        .env("RAYON_NUM_THREADS", "1")
         .output()
         .map_err(|error| format!("valgrind (the Debian package valgrind): {error}"))?;
     let text = String::from_utf8_lossy(&output.stderr);
