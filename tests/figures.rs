@@ -236,7 +236,8 @@ fn vector_figures_show_the_same_as_the_png() {
         let png = on_paper(decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
         let is_clear = pipe.rainbow.picture.background == ugrainbow::Background::Transparent;
-        // A browser starts for seconds: figures with text, smooth areas and transparency are enough.
+        // A browser starts for seconds: figures with text, smooth areas and transparency are
+        // enough.
         let is_for_browser = ["text", "teapot", "transparent"].contains(name);
         let draws = |&(format, tool): &(Format, Tool)| {
             (!is_clear || format.has_alpha()) && (is_for_browser || !matches!(tool, Tool::Chromium))

@@ -78,7 +78,8 @@ fn commands_draw_the_same_whatever_names_are() {
     }
     let path = |name: &str| shell.path(name);
     for name in NAMES {
-        // In captions of films braces are places for numbers, and the font has no signs of direction.
+        // In captions of films braces are places for numbers, and the font has no signs of
+        // direction.
         let caption = name.replace(['{', '}', '\u{202e}', '\u{1b}'], "?");
         fs::copy(path("dice.ug"), path(name)).unwrap();
         let film = |last: &[&str]| {
@@ -549,7 +550,7 @@ fn a_camera_follows_what_moves() {
     assert!(status == Some(2) && messages.contains("leave out -vc"), "{messages}");
 }
 
-/// ffmpeg counts the frames of films that `ugfilm` has it write.
+/// `ffprobe` counts all frames in films that `ugfilm` writes with ffmpeg.
 #[test]
 fn films_by_ffmpeg_have_all_frames() {
     if !tools::has(&[tools::FFMPEG]) {

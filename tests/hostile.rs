@@ -14,8 +14,8 @@ fn assert_none(findings: &[String]) {
     assert!(findings.is_empty(), "{} findings\n\n{}", findings.len(), findings.join("\n\n"));
 }
 
-/// Runs cases of a kind, and checks the part of them whose pipes succeed: cases that are all refused
-/// would test the messages alone.
+/// Runs cases of a kind, and checks the part of them whose pipes succeed: cases that are all
+/// refused would test the messages alone.
 #[track_caller]
 fn check_programs(kind: Kind, n_cases: u64, least: f64) {
     let run = |seed| Case::new(seed, kind).run(programs::folder());

@@ -213,8 +213,8 @@ fn photograph() -> Vec<u8> {
     ugimage::Format::Png.encode(&frame, &ugimage::Metadata::default())
 }
 
-/// The sun of a photograph is no brighter than white, unless `--highlights` says so, and three black
-/// bodies may add up to negative light.
+/// The sun of a photograph is no brighter than white, unless `--highlights` says so, and three
+/// black bodies may add up to negative light.
 #[test]
 fn what_a_photograph_does_not_hold_is_chosen_or_noted() {
     let shell = Shell::new(&[]);

@@ -1,6 +1,6 @@
 //! Instances and arrays, against matrices multiplied here: where each vertex of a random tree of
-//! definitions is, which way round its face is, and whose colour and velocity it has. Every statement
-//! is tested in `crates/ugparse/tests/language`.
+//! definitions is, which way round its face is, and whose colour and velocity it has. Every
+//! statement is tested in `crates/ugparse/tests/language`.
 
 use std::fmt::Write;
 

@@ -272,8 +272,8 @@ pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), Str
     Ok((text, measured.iter().all(picture::MeasuredQuantity::passes)))
 }
 
-/// Draws and measures all pictures. Returns the measurements, with a last line that lists everything
-/// wrong, and whether all are right.
+/// Draws and measures all pictures. Returns the measurements, with a last line that lists
+/// everything wrong, and whether all are right.
 fn check() -> (String, bool) {
     let mut text = String::new();
     let mut wrong: Vec<String> = Vec::new();

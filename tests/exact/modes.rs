@@ -24,8 +24,8 @@ fn at_rest_triangles_are_those_of_the_scanline_mode() {
     ugtests::picture::assert_same("exact-triangles", &scanned, &exact, 12);
 }
 
-/// The scanline mode draws a finely cut scene equally, except for samples at the edges of faces: with
-/// hues, and with spectra.
+/// The scanline mode draws a finely cut scene equally, except for samples at the edges of faces:
+/// with hues, and with spectra.
 #[test]
 fn both_modes_show_the_same_colours() {
     let spectral = BOX.replace("c green 1 120;", "c_bb green 4000 .3;").into_bytes();

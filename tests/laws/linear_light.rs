@@ -1,5 +1,5 @@
-//! Laws that name a quantity (P12) hold in linear light: powers of D and cosines, through the pipe and
-//! by rays. Sums over lamps are in `tests/src/worlds/light.rs`.
+//! Laws that name a quantity (P12) hold in linear light: powers of D and cosines, through the pipe
+//! and by rays. Sums over lamps are in `tests/src/worlds/light.rs`.
 
 use glam::DVec3;
 use ugphoton::{CameraOptions, PictureOptions};

@@ -106,7 +106,8 @@ pub const FISH: Tool =
 pub const TOOLS: [Tool; 11] =
     [GHOSTSCRIPT, POPPLER, RSVG, CHROMIUM, FFMPEG, OIIOTOOL, SCRIPT, MANDOC, BASH, ZSH, FISH];
 
-/// Checks that need the programs of another build, in the folder that the variable `UG_PROGRAMS` names.
+/// Checks that need the programs of another build, in the folder that the variable `UG_PROGRAMS`
+/// names.
 pub const OF_OTHER_BUILD: [&str; 2] = [PROFILES, PROCESSORS];
 /// See [`OF_OTHER_BUILD`].
 pub const PROFILES: &str = "debug and release builds write the same bytes";

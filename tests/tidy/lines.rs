@@ -125,8 +125,8 @@ impl Found {
     }
 }
 
-/// The attribute at the beginning of these tokens, `#[…]` or `#![…]`: how many tokens it has, and its
-/// brackets.
+/// The attribute at the beginning of these tokens, `#[…]` or `#![…]`: how many tokens it has, and
+/// its brackets.
 fn attribute(tokens: &[TokenTree]) -> Option<(usize, &proc_macro2::Group)> {
     let is = |token: &TokenTree, sign| matches!(token, TokenTree::Punct(found) if found.as_char() == sign);
     let n_signs = if tokens.get(1).is_some_and(|token| is(token, '!')) { 2 } else { 1 };

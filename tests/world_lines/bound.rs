@@ -196,8 +196,8 @@ fn errors_of_edges_are_within_the_bound() {
     assert!(all.angle <= 1.0 && all.depth <= 1.0 && all.inside <= 1.0, "{all:?}");
 }
 
-/// Where a spin begins or reverses, D changes abruptly, and linear interpolation between vertices is
-/// wrong. It may be so only along edges whose angle at the eye is at most four times the bound.
+/// Where a spin begins or reverses, D changes abruptly, and linear interpolation between vertices
+/// is wrong. It may be so only along edges whose angle at the eye is at most four times the bound.
 #[test]
 fn doppler_factors_are_wrong_on_short_edges_only() {
     let (bound, color_error) = (2e-3, 0.04);

@@ -9,9 +9,9 @@ use super::{DVec3, options, seen};
 /// A year on board with 1 g, in years: 9.80665 m/s² times 31 557 600 s, divided by c.
 const G: f64 = 9.80665 * 31_557_600.0 / 299_792_458.0;
 
-/// T30: from a ship with 1 g, a wall ahead shows its speed by the Doppler factor, and where it is by
-/// the distance at which the wall is seen. A second wall, which moves, shows when it is there. Then
-/// by rays, as far as single precision tells.
+/// T30: from a ship with 1 g, a wall ahead shows its speed by the Doppler factor, and where it is
+/// by the distance at which the wall is seen. A second wall, which moves, shows when it is there.
+/// Then by rays, as far as single precision tells.
 #[test]
 fn pictures_from_a_ship_with_1_g_are_those_of_its_speed_place_and_time() {
     const AHEAD: f64 = 100.0;

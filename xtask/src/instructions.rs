@@ -1,10 +1,12 @@
-//! Counts the instructions that the programs execute on fixed work, and compares them with the table
+//! Counts the instructions that the programs execute on fixed work, and compares them with the
+//! table
 //! `xtask/instructions.csv`.
 //!
 //! callgrind counts them, on one thread. A count repeats to about a ten-thousandth however busy the
 //! machine is. It depends on the compiler, the C library, and the features of the processor that
 //! valgrind passes on (AVX2 and FMA, but neither AVX-512 nor the instructions for SHA-256), so the
-//! table is for x86-64 processors with AVX2. A count is not a time: waiting for memory is not in it.
+//! table is for x86-64 processors with AVX2. A count is not a time: waiting for memory is not in
+//! it.
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;

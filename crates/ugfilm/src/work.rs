@@ -29,8 +29,8 @@ pub fn in_order<T: Send>(
     let (orders, waiting) = mpsc::channel::<(usize, mpsc::Sender<_>)>();
     let waiting = Mutex::new(waiting);
     let work = || {
-        // This thread is one of the pool, so that a worker needs no other if there are enough frames.
-        // Without threads of its own a worker uses those of the process.
+        // This thread is one of the pool, so that a worker needs no other if there are enough
+        // frames. Without threads of its own a worker uses those of the process.
         let pool = ThreadPoolBuilder::new().num_threads(n_threads / n_workers).use_current_thread();
         let pool = pool.build().ok();
         let next = || lock(&waiting).recv();

@@ -46,8 +46,8 @@ impl Tone {
     }
 
     /// The largest median of an automatic exposure. A filmic curve compresses what is above it, and
-    /// whitens colours there. Found by trial: with it, scenes at rest and photographs keep about the
-    /// brightness that they have without a look.
+    /// whitens colours there. Found by trial: with it, scenes at rest and photographs keep about
+    /// the brightness that they have without a look.
     fn largest_median(self) -> f64 {
         match self {
             Self::Clip => self.white(),

@@ -17,8 +17,8 @@ use crate::{
 pub struct SurfaceColor {
     /// The colour, interpolated between the corners of its face, or that of the point itself.
     pub swatch: Swatch,
-    /// Where colours are spectra, the spectrum is the mean of those of the corners of its face: rows
-    /// of the colours of vertices ([`SurfaceAttributes::row`]) with their weights.
+    /// Where colours are spectra, the spectrum is the mean of those of the corners of its face:
+    /// rows of the colours of vertices ([`SurfaceAttributes::row`]) with their weights.
     pub rows: [(u32, f64); 3],
 }
 

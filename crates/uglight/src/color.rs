@@ -130,8 +130,8 @@ pub(crate) fn encoded_hsv(linear: [f64; 3]) -> Hsv {
     Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0))))
 }
 
-/// Linear light of a surface whose colour is that of a display, under levels of red, green and blue:
-/// they multiply display-encoded channels, as they do of hues.
+/// Linear light of a surface whose colour is that of a display, under levels of red, green and
+/// blue: they multiply display-encoded channels, as they do of hues.
 pub(crate) fn lit_display(linear: DVec3, level: DVec3) -> DVec3 {
     let lit = |channel: f64, level: f64| srgb_decode(srgb_encode(channel) * level);
     DVec3::new(lit(linear.x, level.x), lit(linear.y, level.y), lit(linear.z, level.z))

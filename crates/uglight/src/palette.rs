@@ -32,8 +32,8 @@ pub struct Swatch {
     /// that act on linear light change it instead of the value.
     pub factor: f64,
     /// The light itself, if the colour is given as such (`c_xyz`, `c_rgb`): linear red, green and
-    /// blue, neither clipped nor gamut-mapped. Tint, saturation and value are then the nearest colour
-    /// that a display has.
+    /// blue, neither clipped nor gamut-mapped. Tint, saturation and value are then the nearest
+    /// colour that a display has.
     pub light: Option<DVec3>,
     /// The light was written as red, green and blue of a display (`c_rgb`). Between corners of
     /// different colours it is drawn as such, and lit like a hue: see [`Swatch::lit`]. Otherwise it

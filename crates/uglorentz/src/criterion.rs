@@ -239,9 +239,9 @@ impl Criterion<'_, '_> {
         verdict
     }
 
-    /// Of an edge that bends. `shown`: of the piece, for edges inside a face. Errors of edges of the
-    /// scene are always visible: the neighbour may have been modelled with other corners, and two
-    /// lines subdivided differently would leave a slit.
+    /// Of an edge that bends. `shown`: of the piece, for edges inside a face. Errors of edges of
+    /// the scene are always visible: the neighbour may have been modelled with other corners, and
+    /// two lines subdivided differently would leave a slit.
     fn shows(&self, a: u32, b: u32, shown: impl Fn() -> Shown) -> bool {
         if self.mesh.is_rim(a, b) {
             return true;

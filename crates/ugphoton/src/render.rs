@@ -84,8 +84,8 @@ impl PreparedScene {
     pub const PREVIEWS: [u32; 3] = [8, 4, 2];
 
     /// Reads a scene; returns warnings about its text as well. `provenance`: for the history in the
-    /// file. `notes_view`: a note says when bodies outside the picture are in it, which takes longer
-    /// to find than a small picture takes to draw.
+    /// file. `notes_view`: a note says when bodies outside the picture are in it, which takes
+    /// longer to find than a small picture takes to draw.
     ///
     /// # Errors
     /// See [`Error`].

@@ -211,8 +211,8 @@ fn unshadowed(
 }
 
 /// The part of the light that solids do not absorb along a straight shadow ray from 0 to `end` in
-/// these steps. Where solids are nested, the innermost absorbs, as along the paths of the light that
-/// is seen.  Eq. (P38)
+/// these steps. Where solids are nested, the innermost absorbs, as along the paths of the light
+/// that is seen.  Eq. (P38)
 fn left_by_solids(scenery: &Scenery<'_>, step: Event, mut crossings: Vec<Crossing>, end: f64) -> f64 {
     crossings.sort_by(|a, b| a.s.total_cmp(&b.s));
     // Solids that the ray leaves without having entered them are those it starts in.

@@ -11,8 +11,8 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::scenery::Scenery;
 
-/// Faces in front of a wire by less than this part of its distance do not hide it: it may be an edge
-/// of theirs.
+/// Faces in front of a wire by less than this part of its distance do not hide it: it may be an
+/// edge of theirs.
 const SLACK: f64 = 1e-6;
 
 /// The parts of wires at rest that faces do not hide in a picture of these options from another

@@ -504,7 +504,8 @@ impl Part {
 }
 
 /// The places of the vertices of some triangles alone, and the rows of their corners among them.
-/// `rows`: for each vertex of the scene, its row in its part, as far as it is known, else `u32::MAX`.
+/// `rows`: for each vertex of the scene, its row in its part, as far as it is known, else
+/// `u32::MAX`.
 fn vertices(triangles: &[FaceTriangle], rest: &[DVec3], rows: &mut [u32]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let mut places = Vec::new();
     let mut row = |corner: VertexId| {

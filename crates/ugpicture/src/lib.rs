@@ -7,8 +7,8 @@
 //!   format, and annotations; [`cli`] has them as options of the command line;
 //! - [`lens`]: which direction is seen at a place of the picture;
 //! - [`Backdrop`]: the mean of a pixel's samples on the background;
-//! - [`Exposure`]: how light is brought into the range of a display; [`levels_note`]: whether a picture
-//!   is nearly black or overexposed;
+//! - [`Exposure`]: how light is brought into the range of a display; [`levels_note`]: whether a
+//!   picture is nearly black or overexposed;
 //! - [`Canvas`]: the shell, which checks options, develops and annotates what a renderer draws,
 //!   and notes what the user should know;
 //! - [`Rendering`]: the picture or vector figure that a renderer returns, and its file

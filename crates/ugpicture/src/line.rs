@@ -20,8 +20,8 @@ pub fn clip_line(ends: impl IntoIterator<Item = [f64; 2]>) -> Option<[f64; 2]> {
     (start <= end).then_some([start, end])
 }
 
-/// The part of a line between two points, relative to the eye, that is in the picture and between the
-/// clipping planes.
+/// The part of a line between two points, relative to the eye, that is in the picture and between
+/// the clipping planes.
 pub fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
     let sides = view.half_spaces().into_iter().flatten();
     let [start, end] = clip_line(sides.map(|side| [a, b].map(|end| side.normal.dot(end) + side.offset)))?;

@@ -11,10 +11,10 @@
 //!
 //! - **Options.** The options of 1988 keep their syntax, with one dash and separate values,
 //!   including negative numbers: `-vel -.9 0 0`. For clap they are ordinary long options
-//!   ([`finite`], [`number`], [`whole`] and [`vector`] parse their numbers); the second dash is added before
-//!   clap parses them. An option with a variable number of values (`num_args = 1..=2`) takes the
-//!   required values and then only numbers, so a file name may follow it; only `num_args` has to be
-//!   declared for that.
+//!   ([`finite`], [`number`], [`whole`] and [`vector`] parse their numbers); the second dash is
+//!   added before clap parses them. An option with a variable number of values (`num_args = 1..=2`)
+//!   takes the required values and then only numbers, so a file name may follow it; only `num_args`
+//!   has to be declared for that.
 //! - **Help.** `-h` is one screenful with the options that [`ToolArgs::ESSENTIAL`] names and two
 //!   examples; `--help` has everything. Both are made of the clap definitions, and so is the
 //!   [`Manual`] for man pages and completions. The examples are the `after_help` of the program.

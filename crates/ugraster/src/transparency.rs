@@ -113,8 +113,8 @@ pub struct TransparencyBuffer {
 }
 
 impl TransparencyBuffer {
-    /// Draws and blends a transparent layer in front of a tile, given by its samples and their depth
-    /// keys.
+    /// Draws and blends a transparent layer in front of a tile, given by its samples and their
+    /// depth keys.
     pub fn draw(
         &mut self,
         layer: &dyn TransparentLayer,

@@ -117,8 +117,8 @@ impl Frame {
     }
 
     /// At the distance d and with the offset c of the eye, a point at x and at the height z towards
-    /// the eye is in the filled part, of half-width t, if |x − c| ≤ t(d − z): if x + tz ≤ td + c and
-    /// tz − x ≤ td − c. These are the left sides, across and up.
+    /// the eye is in the filled part, of half-width t, if |x − c| ≤ t(d − z): if x + tz ≤ td + c
+    /// and tz − x ≤ td − c. These are the left sides, across and up.
     fn extents(&self, [x, y, depth]: [f64; 3]) -> [f64; 4] {
         let [across, up] = self.filled.map(|half| half * depth);
         [across + x, across - x, up + y, up - y]

@@ -1,11 +1,11 @@
 //! Hostile inputs for the programs, and what must hold whatever they are given.
 //!
-//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) and the
-//! command lines of a pipe, possible or malformed and extreme. [`Case::run`] runs it with the programs
-//! and checks what no input may break:
+//! A [`Case`] follows from its number alone: an input (a scene, a mesh, pictures or panoramas) and
+//! the command lines of a pipe, possible or malformed and extreme. [`Case::run`] runs it with the
+//! programs and checks what no input may break:
 //!
-//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and the memory that
-//!   the size of its input and output allows;
+//! - a program ends by itself, with status 0, 1 or 2, within [`PROCESSOR_LIMIT`] and the memory
+//!   that the size of its input and output allows;
 //! - limits of the shell (address space, the size of files) cause errors, not panics;
 //! - with status 0 it has written something, and the next program reads it;
 //! - with another status it has written nothing to standard output, and says why;

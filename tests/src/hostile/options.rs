@@ -27,8 +27,8 @@ pub const FRAMES: &str = "frame_";
 /// A second output file.
 pub const MEASURED: &str = "measured.csv";
 
-/// Options that are not chosen at random: of files and help, names that may be unknown, and those that
-/// decide how long it takes.
+/// Options that are not chosen at random: of files and help, names that may be unknown, and those
+/// that decide how long it takes.
 const EXCLUDED: [&str; 18] = [
     "-h",
     "-V",

@@ -10,9 +10,9 @@
 //! | `share/doc/ugtools` | the pages of the documentation, and the record of what was installed |
 //!
 //! Pages are made from the definitions of the options, as the help is, and completions are scripts
-//! that ask the program (`ugpipe::completions`). clap_mangen and clap_complete do not fit: both write
-//! options with two dashes, the pages lack second names and join the lines of examples, and the
-//! completions do not know where the three numbers of `-vel` end.
+//! that ask the program (`ugpipe::completions`). clap_mangen and clap_complete do not fit: both
+//! write options with two dashes, the pages lack second names and join the lines of examples, and
+//! the completions do not know where the three numbers of `-vel` end.
 
 mod completions;
 mod man;

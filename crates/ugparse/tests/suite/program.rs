@@ -315,8 +315,8 @@ fn tidy_formats() {
     );
     check("v\x0Ba 0\x0C0 0;\r\nv b 0 0 1;\r\n", "v a 0 0 0;\nv b 0 0 1;\n");
     check(";;v a 0 0 0;;", "v a 0 0 0;\n");
-    // A carriage return without a line feed ends a line, too: the comment must not become part of the
-    // directive.
+    // A carriage return without a line feed ends a line, too: the comment must not become part of
+    // the directive.
     check("# pragma\r{ one\ntwo } v a 0 0 0; { a }\r{ b }", "# pragma\n{ one\ntwo }\nv a 0 0 0; { a }\n{ b }\n");
     // Numbers are as short as possible, with the same value.
     check("v a +1.50 -0 1E3;", "v a 1.5 -0 1000;\n");

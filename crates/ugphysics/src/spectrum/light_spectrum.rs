@@ -52,8 +52,8 @@ impl LightSpectrum {
         light * self.scale
     }
 
-    /// X, Y, Z of L(λ) = C(λ) S(λD): of this light S, received with D = `doppler` and weakened on the
-    /// way by C, without a factor for the radiance.  Eq. (P14), (P19)
+    /// X, Y, Z of L(λ) = C(λ) S(λD): of this light S, received with D = `doppler` and weakened on
+    /// the way by C, without a factor for the radiance.  Eq. (P14), (P19)
     ///
     /// Errors of daylight and light behind filters are below 2.5·10⁻⁴ of the largest of X, Y and Z,
     /// of black bodies 7·10⁻⁵, of a spectral line 8·10⁻⁴; measured.

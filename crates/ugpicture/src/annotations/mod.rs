@@ -53,8 +53,8 @@ pub enum Subject<'a, E> {
     Pixels,
 }
 
-/// Finds the parts of the wires of a scene that its faces do not hide from a camera, in a picture of
-/// the size of the subject, in pixels.
+/// Finds the parts of the wires of a scene that its faces do not hide from a camera, in a picture
+/// of the size of the subject, in pixels.
 pub type VisibleWires<'a, E> = dyn Fn(&Scene, &CameraOptions) -> Result<Vec<[Point; 2]>, E> + 'a;
 
 /// The areas of an annotated picture.

@@ -293,7 +293,8 @@ impl SampleColor {
 }
 
 impl HueWavelength {
-    /// Wavelengths at rest and as seen in nm. `hue`: in degrees; `None` if its wavelength was given.
+    /// Wavelengths at rest and as seen in nm. `hue`: in degrees; `None` if its wavelength was
+    /// given.
     pub fn new(rest_wavelength_nm: f64, seen_wavelength_nm: f64, hue: Option<f64>) -> Self {
         Self {
             rest_wavelength_nm,

@@ -36,8 +36,8 @@ pub(super) fn count_from_eye(
         if motion.world_line().is_some() {
             return 0.0;
         }
-        // With `-in`, a body is displaced in its rest frame in space alone, so its clock still shows
-        // 0 at time 0 of the scene at the origin.
+        // With `-in`, a body is displaced in its rest frame in space alone, so its clock still
+        // shows 0 at time 0 of the scene at the origin.
         let zero = if options.in_place { DVec3::ZERO } else { eye + anchor_point(options, eye, center) };
         let event = observer.event(options.time) + Event { t: 0.0, x: eye - zero };
         Lorentz::boost(motion.in_scene()).inverse().apply(event).t

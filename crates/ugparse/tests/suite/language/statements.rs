@@ -216,8 +216,8 @@ fn lax_passes_on_unknown_statements() {
             "statement `#` is passed on unread"
         ]
     );
-    // A carriage return without a line feed ends the line of a directive, so a comment after it is on a
-    // line of its own.
+    // A carriage return without a line feed ends the line of a directive, so a comment after it is
+    // on a line of its own.
     let directive = crate::language::flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
     assert!(directive.contains("# pragma\n") && !directive.contains("# pragma {"), "{directive}");
     assert_eq!(crate::language::flat(&directive), directive);

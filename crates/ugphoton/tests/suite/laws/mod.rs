@@ -88,8 +88,8 @@ fn check_delay(glass: &str, delay: f64) {
             x - 500.0
         )
     };
-    // Light that arrives at time 0 left at −20 − delay, when the edge was at 0.8 times that plus its
-    // place at time 0.
+    // Light that arrives at time 0 left at −20 − delay, when the edge was at 0.8 times that plus
+    // its place at time 0.
     let at = 0.8 * (20.0 + delay);
     for (offset, is_lit) in [(1e-6, true), (-1e-6, false)] {
         let found = seen(&format!("{HEAD}{glass}{}", edge(at + offset)), DVec3::NEG_Z).x;
