@@ -292,8 +292,8 @@ done
 trace water-0.8c -in -rd 64 -rc .05 <(water .8)
 
 # Cars at 0.6c, from a camera at rest and from one that moves at 0.5c.
-uglorentz -an center -cv 0 0 0 traffic.ug | draw traffic-a-standing
-uglorentz -an center traffic.ug | draw traffic-b-driving
+uglorentz -cv 0 0 0 traffic.ug | draw traffic-a-standing
+uglorentz traffic.ug | draw traffic-b-driving
 
 # Glass at rest and at 0.9c; edges alone, and both.
 draw glass-a-rest glass.ug

@@ -35,9 +35,9 @@ film() {
 
 # Three wheels and their shadows: one stands, one turns, one rolls. From the left, from the front and
 # from the right.
-film wheels-left 50 -rays -aa 2 -look shape -in -ti -.4..4.3 -ep -7.5 -5 2.6 -vc 1.2 0 .5 -va 40 wheels.ug
-film wheels-front 50 -rays -aa 2 -look shape -in -ti -.4..4.3 -ep .6 -9 2 -vc 1 0 .6 -va 46 wheels.ug
-film wheels-right 50 -rays -aa 2 -look shape -in -ti -.42..1 -ep 11 -7 3 -vc 1.6 0 .4 -va 38 wheels.ug
+film wheels-left 50 -rays -aa 2 -look shape -ti 10.3..15 -ep -7.5 -5 2.6 -vc 1.2 0 .5 -va 40 wheels.ug
+film wheels-front 50 -rays -aa 2 -look shape -ti 8.8..13.5 -ep .6 -9 2 -vc 1 0 .6 -va 46 wheels.ug
+film wheels-right 50 -rays -aa 2 -look shape -ti 11.4..12.8 -ep 11 -7 3 -vc 1.6 0 .4 -va 38 wheels.ug
 
 # A camera on a circle at 0.8c, among houses and under stars: one revolution.
 film carousel 60 -rays -aa 3 -ti 0..18.8496 -loop -ex -2.5 carousel.ug

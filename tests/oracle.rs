@@ -44,6 +44,8 @@ fn check(case: Case) -> Result<(), String> {
     pipe.lorentz.velocity = case.beta;
     pipe.lorentz.camera_velocity = case.camera;
     pipe.lorentz.in_place = case.in_place;
+    // The oracle's bodies are those of one velocity.
+    pipe.lorentz.anchor = (!case.in_place).then_some(uglorentz::Anchor::Eye);
     pipe.lorentz.eye = case.eye;
     // Colours are not shifted.
     pipe.lorentz.color_error = f64::INFINITY;

@@ -8,6 +8,7 @@ use glam::{DMat4, DVec3, DVec4};
 use ugscene::Scene;
 use ugtesting::Random;
 use ugtests::scenes;
+use ugtests::worlds::spacetime::boost;
 
 /// A transformation in words, its matrix, and whether it mirrors.
 type Step = (String, DMat4, bool);
@@ -70,8 +71,8 @@ struct Place {
     is_mirrored: bool,
     /// That of the innermost instance that has one.
     color: Option<usize>,
-    /// That of the outermost instance that has one.
-    velocity: Option<f64>,
+    /// The scene from the frame in which velocities are stated.
+    frame: DMat4,
 }
 
 /// What a face has to be.
@@ -79,7 +80,7 @@ struct Place {
 struct Expected {
     corners: [DVec3; 3],
     color: Option<usize>,
-    velocity: f64,
+    velocity: DVec3,
 }
 
 /// A definition: a face of its own, and what it places.
@@ -109,6 +110,12 @@ fn color(random: &mut Random) -> usize {
 
 fn speed(random: &mut Random) -> f64 {
     random.between(0.1, 0.9)
+}
+
+/// The boost by a velocity along x, turned with the instance.
+fn stated(speed: Option<f64>, placed: DMat4) -> DMat4 {
+    let speed = speed.unwrap_or(0.0);
+    boost(speed * placed.transform_vector3(DVec3::X).normalize())
 }
 
 impl Definition {
@@ -155,7 +162,8 @@ impl Definition {
         if place.is_mirrored {
             corners.swap(1, 2);
         }
-        let velocity = place.velocity.or(self.velocity).unwrap_or(0.0);
+        let moving = place.frame * stated(self.velocity, place.matrix);
+        let velocity = moving.w_axis.truncate() / moving.w_axis.w;
         faces.push(Expected { corners, color: self.color.or(place.color), velocity });
         for placed in &self.placed {
             let (size, step) = placed.array.as_ref().map_or((1, None), |(size, step)| (*size, Some(step)));
@@ -165,7 +173,7 @@ impl Definition {
                     matrix: place.matrix * matrix,
                     is_mirrored: place.is_mirrored ^ is_mirror,
                     color: placed.color.or(place.color),
-                    velocity: place.velocity.or(placed.velocity),
+                    frame: place.frame * stated(placed.velocity, place.matrix),
                 };
                 all[placed.definition].expand(all, &inner, faces);
                 if let Some((_, more, mirrors)) = step {
@@ -190,8 +198,8 @@ fn check(scene: &Scene, expected: &[Expected], text: &str) {
         }
         let color = face.color.map(|color| scene.names.get(scene.colors[color.index()].name));
         assert_eq!(color, expected.color.map(|row| ["k0", "k1", "k2"][row]), "{text}");
-        let beta = scene.bodies.velocity(face.body).beta().x;
-        assert!((beta - expected.velocity).abs() < 1e-15, "{beta}: {expected:?}\n{text}");
+        let beta = scene.bodies.velocity(face.body).beta();
+        assert!((beta - expected.velocity).length() < 1e-13, "{beta}: {expected:?}\n{text}");
     }
 }
 
@@ -208,7 +216,8 @@ fn instances_are_where_their_matrices_say() {
         }
         text += &scene.text();
         let mut expected = Vec::new();
-        let place = Place { matrix: DMat4::IDENTITY, is_mirrored: false, color: None, velocity: None };
+        let place =
+            Place { matrix: DMat4::IDENTITY, is_mirrored: false, color: None, frame: DMat4::IDENTITY };
         scene.expand(&all, &place, &mut expected);
         check(&scenes::parse(text.as_bytes()), &expected, &text);
         n_faces += expected.len();

@@ -115,6 +115,8 @@ fn check(case: Case) {
     scene.wires.clear();
     let mut pipe = exact(case.beta);
     pipe.lorentz.in_place = case.in_place;
+    // The oracle's bodies are those of one velocity.
+    pipe.lorentz.anchor = (!case.in_place).then_some(uglorentz::Anchor::Eye);
     pipe.lorentz.eye = case.eye;
     pipe.lorentz.camera_velocity = case.camera;
     pipe.lorentz.smooth = case.is_smooth;

@@ -94,7 +94,7 @@ fn a_lamp_in_motion_has_the_published_irradiance() {
         let lamp = gamma * (7.0 + 11.0 * beta);
         let doppler = ((1.0 + beta) / (1.0 - beta)).sqrt();
         let surface = square(DVec3::ZERO, DVec3::X, None, "white");
-        let text = format!("c white 1;\n{surface}l {:?} {lamp:?} 0 0 0 1 <{beta} 0 0>;", 0.25 / PI);
+        let text = format!("c white 1;\n{surface}l {:?} {lamp:?} 0 0 0 1 <{beta} 0 0 -at 0 0 0>;", 0.25 / PI);
         for engine in WITH_MOVING_LAMPS {
             let of = |law| seen(engine, &text, DVec3::X, law, false).y;
             let ratio = of(Brightness::Bolometric) / irradiance;
@@ -127,7 +127,7 @@ fn any_lamp_has_the_irradiance_of_p14() {
         let expected = 1.7 * libm::pow(d * d_lamp, 4.0) * cos / (4.0 * PI * distance * distance);
         let surface = square(v, toward, None, "white");
         let text = format!(
-            "c white 1;\n{surface}l {:?} {} 0 2 <{}>;",
+            "c white 1;\n{surface}l {:?} {} 0 2 <{} -at 0 0 0>;",
             1.7 / (16.0 * PI),
             point(lamp),
             point(v_lamp)

@@ -63,8 +63,8 @@ fn light_at_rest_in_a_moving_body_moves_along() {
         let beta: Vec<f64> = velocity.split(' ').map(|part| part.parse().unwrap()).collect();
         let seen = |lights: &str| {
             let pieces = uglorentz::Pieces::PerEdge(4);
-            let mut config =
-                uglorentz::Config { in_place: true, time: 0.3, pieces, ..uglorentz::Config::default() };
+            let anchor = Some(uglorentz::Anchor::Eye);
+            let mut config = uglorentz::Config { anchor, time: 0.3, pieces, ..uglorentz::Config::default() };
             config.velocity = Some(DVec3::from_slice(&beta));
             numbers(&doppler(&lorentz(&room(lights), &config), &lit()))
         };

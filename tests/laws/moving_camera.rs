@@ -48,7 +48,9 @@ fn bodies_are_lit_in_the_axes_of_the_scene() {
             camera.y,
             camera.z
         );
-        let lorentz = uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+        let mut lorentz = uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+        // The side that is seen is the one at rest.
+        lorentz.anchor = Some(uglorentz::Anchor::Eye);
         let seen = pipe::lorentz(text.as_bytes(), &lorentz);
         let middle = parse(&seen).vertices.iter().map(|vertex| vertex.position).sum::<DVec3>() / 3.0;
         let mut pipe = Pipe::default().shape().view_angle(1e-3);

@@ -22,8 +22,10 @@ fn a_pipe_at_rest_draws_what_ugrainbow_alone_draws() {
     for name in names {
         let text = scenes::text(&name);
         let scene = scenes::parse(&text);
-        if scene.bodies.has_world_lines() || !scene.color_tables.is_empty() {
-            continue; // `-vel` does not override motions, and colours that change are seen late.
+        let has_moving_lights = ugscene::has_moving_lights(&scene);
+        if scene.bodies.has_world_lines() || !scene.color_tables.is_empty() || has_moving_lights {
+            // `-vel` overrides neither motions nor those of lights; changing colours are seen late.
+            continue;
         }
         let mut pipe = Pipe::new(DVec3::ZERO, [240, 180]);
         pipe.lorentz.camera_velocity = Some(DVec3::ZERO);

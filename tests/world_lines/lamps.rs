@@ -132,7 +132,42 @@ fn a_lamp_on_an_inertial_body_has_its_velocity() {
                 let scene = parse(&pipe::doppler(&pipe::lorentz(text.as_bytes(), &config), &lit()));
                 ["a", "b", "c"].map(|name| color(&scene, name))
             };
-            assert_eq!(draw("<m>"), draw("<.3 .5 -.2>"), "{body} {in_place}");
+            assert_eq!(draw("<m>"), draw("<.3 .5 -.2 -at 0 0 0>"), "{body} {in_place}");
+        }
+    }
+}
+
+/// What lights a body depends neither on another body of its velocity nor on the order of their
+/// motions.
+#[test]
+fn lamps_belong_to_the_body_they_light() {
+    let body = |name: &str, x: f64| {
+        format!(
+            "v {name}1 {x} 0 -1; v {name}2 {} 0 -1; v {name}3 {x} 0 1; f ({name}1 {name}2 {name}3) green <{name}>;",
+            x + 2.0
+        )
+    };
+    let light = |motions: &str, bodies: &[String]| {
+        let text = format!(
+            "c green .8 120; l 1.5 0 -3 4 0; cam -ep 0 -12 0 -vc 0 0 0; {motions} {}",
+            bodies.concat()
+        );
+        let config = uglorentz::Config { in_place: true, ..uglorentz::Config::default() };
+        let scene = parse(&pipe::doppler(&pipe::lorentz(text.as_bytes(), &config), &lit()));
+        ["b1", "b2", "b3"].map(|name| color(&scene, name))
+    };
+    let [a, b] = [body("a", -5.0), body("b", 1.0)];
+    let alone = light("motion b -vel .6 0 0;", std::slice::from_ref(&b));
+    assert!(alone[0].1 > 0.1, "{alone:?}");
+    for motions in
+        ["motion a -vel .6 0 0; motion b -vel .6 0 0;", "motion b -vel .6 0 0; motion a -vel .6 0 0;"]
+    {
+        let both = light(motions, &[a.clone(), b.clone()]);
+        for ((nm, value), (nm_alone, value_alone)) in both.into_iter().zip(alone) {
+            assert!(
+                (nm - nm_alone).abs() < 1e-9 && (value - value_alone).abs() < 1e-12,
+                "{motions} {both:?}"
+            );
         }
     }
 }

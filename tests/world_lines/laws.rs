@@ -36,13 +36,14 @@ fn cube(motion: &str) -> Vec<u8> {
 /// Motions without acceleration and spin, however they are written, are the velocity.
 #[test]
 fn no_spin_and_no_acceleration_are_inertial_motion_byte_for_byte() {
-    let velocity = cube("<.3 .5 -.2>");
     for options in [
         "-vel .3 .5 -.2",
         "-vel .3 .5 -.2 -spin 0 0 0",
         "-at 1 2 3 -acc 0 0 0 -vel .3 .5 -.2 -acc 0 0 0 -3 -1",
         "-vel .3 .5 -.2 -spin 0 0 0 1 2 -acc 0 0 0 1 2",
     ] {
+        let velocity = if options.starts_with("-at 1 2 3") { "<.3 .5 -.2 -at 1 2 3>" } else { "<.3 .5 -.2>" };
+        let velocity = cube(velocity);
         let named = [format!("motion m {options};\n").as_bytes(), &cube("<m>")].concat();
         let on = format!("motion n -on m -at 1 1 1; motion m {options};\n");
         let on = [on.as_bytes(), &cube("<n>")].concat();
@@ -72,7 +73,9 @@ fn no_spin_and_no_acceleration_are_inertial_motion_byte_for_byte() {
 #[test]
 fn a_camera_on_an_inertial_body_has_its_velocity() {
     for (motion, beta) in [("-vel .3 .5 -.2", DVec3::new(0.3, 0.5, -0.2)), ("", DVec3::ZERO)] {
-        let text = format!("motion car {motion}; motion turning -spin 0 0 .2; motion going -acc .1 .2 0;\n");
+        let text = format!(
+            "motion car -at 2 -6 1 {motion}; motion turning -spin 0 0 .2; motion going -acc .1 .2 0;\n"
+        );
         for body in ["<turning>", "<going>", "<.2 0 .5>", ""] {
             let mut pipe = pipe(0.7);
             let text = text.clone() + std::str::from_utf8(&cube(body)).unwrap();
@@ -258,5 +261,21 @@ fn a_camera_sees_its_own_body_as_it_is() {
         let scene = seen(&format!("{text} cam -vc 0 0 0 <m0>;"), &options(eye, random.between(-3.0, 3.0)));
         let found = scene.vertices[0].position;
         assert!((found - DVec3::new(1.0, 2.0, 3.0)).length() < 1e-11, "{found}");
+    }
+}
+
+/// A planet runs about the point that its text states, at the time that it states, for every eye.
+#[test]
+fn orbits_do_not_depend_on_the_eye() {
+    let text = "motion p -at 5 0 0 -orbit 0 0 0 0 0 1 .1; v a 5 0 0; v b 5.1 0 0; v c 5 .1 0; f (a b c) <p>;";
+    for eye in [DVec3::new(0.0, -15.0, 7.0), DVec3::new(3.0, 9.0, -2.0)] {
+        for time in [0.0, 20.0, 50.0, 90.0] {
+            let config = uglorentz::Config { anchor: None, ..options(eye, time) };
+            let scene = seen(text, &config);
+            let place = scene.vertices[0].position;
+            let angle = 0.1 * (time - (place - eye).length());
+            let expected = 5.0 * DVec3::new(libm::cos(angle), libm::sin(angle), 0.0);
+            assert!((place - expected).length() < 1e-12, "{eye} {time}: {place}");
+        }
     }
 }

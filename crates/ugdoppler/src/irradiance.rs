@@ -3,6 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{Irradiance, Lamps, ScatteringTime, SurfaceElement};
+use ugphysics::InertialFrame;
 use ugpipe::Progress;
 use ugscene::{
     Face, Light, LightKind, LightMotion, RestFrames, Scene, SeenVertices, VertexId, seen_normal,
@@ -103,7 +104,13 @@ impl VertexIrradiance {
 /// Replaces all lights by one ambient light of intensity 1, because the colours include the light
 /// already: a renderer then draws them unchanged. Comments beside the lights are kept.
 pub(crate) fn replace_lights(scene: &mut Scene) {
-    scene.lamp_shifts.clear();
+    for body in scene.bodies.ids() {
+        if let Some(&frame) =
+            scene.bodies.motion(body).inertial_frame().filter(|frame| frame.shift.x != DVec3::ZERO)
+        {
+            scene.bodies.set_frame(body, InertialFrame::new(frame.velocity));
+        }
+    }
     scene.lights = vec![Light {
         name: None,
         intensity: 1.0,

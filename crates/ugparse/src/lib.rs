@@ -134,8 +134,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     if stage.is_at_rest() {
         findings.extend(rgb_as_hsv::warning(text, &document.scopes));
     }
-    let lamp_shifts = std::mem::take(&mut document.lamp_shifts);
-    let mut scene = Scene { stage, lamp_shifts, ..Scene::default() };
+    let mut scene = Scene { stage, ..Scene::default() };
     let links = resolve::resolve(text, &mut document.scopes, &mut scene, &options.limits, &mut findings);
     refuse_errors(source, &mut findings)?;
 

@@ -57,7 +57,6 @@ fn read_parts<'t>(
         first_statement: documents.iter().find_map(|document| document.first_statement),
         comments: documents.into_iter().flat_map(|document| document.comments).collect(),
         stage: None,
-        lamp_shifts: Vec::new(),
     };
     Some((document, warnings.concat()))
 }

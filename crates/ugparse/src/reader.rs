@@ -1,7 +1,7 @@
 //! Parses a text into scopes, statement by statement. After an error it continues behind the next
 //! `;`.
 
-use ugscene::{LampShift, Stage};
+use ugscene::Stage;
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
@@ -32,8 +32,6 @@ pub(crate) struct Document<'t> {
     pub requests: Vec<RequestStatement>,
     /// The stage of the scene and where it is stated, taken out of the escapes.
     pub stage: Option<(Stage, Span)>,
-    /// Part of the same statement.
-    pub lamp_shifts: Vec<LampShift>,
 }
 
 /// A comment: the text between its braces.

@@ -8,7 +8,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugphysics::{Velocity, WorldLine};
+use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
     Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Illum, IllumId, Light,
     LightKind, LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, Wire,
@@ -332,7 +332,9 @@ impl<'t> Scope<'t> {
             kind,
             color: self.color(text, light.color),
             motion: light.motion.map_or(LightMotion::WithWhatItLights, |motion| {
-                LightMotion::Body(self.bodies.of_reference(text, motion))
+                // A lamp with a velocity of its own is at its position at time 0.
+                let at = if let LightKind::Local { position, .. } = kind { position } else { DVec3::ZERO };
+                LightMotion::Body(self.bodies.of_reference(text, motion, at))
             }),
         };
         self.lights.push(light, span);
@@ -475,29 +477,32 @@ fn lossy(text: &[u8], span: Span) -> String {
     String::from_utf8_lossy(span.of(text)).into_owned()
 }
 
-/// Bodies indexed by velocity or name, each once.
+/// Bodies indexed by frame or name, each once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyTable<'t> {
     pub bodies: Bodies,
-    /// Keys are the bits of β.
-    rows: FxHashMap<[u64; 3], BodyId>,
-    /// The last result, because consecutive faces mostly share a body.
+    rows: FxHashMap<FrameBits, BodyId>,
+    /// The last result for the bits of β, with the origin as reference point, because consecutive
+    /// faces mostly share a body.
     last: Option<([u64; 3], BodyId)>,
     /// Bodies with a name, whose motion is not known before all statements are read, and where the
     /// name is used first.
     named: FxHashMap<&'t [u8], (BodyId, Span)>,
 }
 
+/// The bits of velocity, reference point, turn and displacement.
+type FrameBits = ([[u64; 3]; 4], u64);
+
 impl<'t> BodyTable<'t> {
     /// The body of a face or wire with this motion, if it has one.
     pub fn of_stated(&mut self, text: &'t [u8], motion: Option<MotionReference>) -> BodyId {
-        motion.map_or(self.bodies.unstated(), |motion| self.of_reference(text, motion))
+        motion.map_or(self.bodies.unstated(), |motion| self.of_reference(text, motion, DVec3::ZERO))
     }
 
-    /// The body with this motion; adds it if it is new.
-    pub fn of_reference(&mut self, text: &'t [u8], motion: MotionReference) -> BodyId {
+    /// The body with this motion; adds it if it is new. `at`: the reference point if none is stated.
+    pub fn of_reference(&mut self, text: &'t [u8], motion: MotionReference, at: DVec3) -> BodyId {
         match motion {
-            MotionReference::Velocity(velocity) => self.moving_with(velocity),
+            MotionReference::Frame(frame) => self.moving_with(frame.about(at)),
             MotionReference::Named(name) => self.named(text, name),
         }
     }
@@ -520,55 +525,49 @@ impl<'t> BodyTable<'t> {
         names
     }
 
-    /// The body with this velocity; adds it if it is new.
-    pub fn moving_with(&mut self, velocity: Velocity) -> BodyId {
-        let bits = bits(velocity.beta());
-        self.known(bits).unwrap_or_else(|| self.add(bits, velocity))
+    /// The name of each body that has one.
+    pub fn name_of_each(&self) -> Vec<Option<(&'t [u8], Span)>> {
+        let mut names = vec![None; self.bodies.len()];
+        self.named.iter().for_each(|(&name, &(body, span))| names[body.index()] = Some((name, span)));
+        names
     }
 
-    /// The body with this velocity in units of c; adds it if it is new. `None` if the velocity is
-    /// invalid.
+    /// The body without a name in this frame; adds it if it is new.
+    pub fn moving_with(&mut self, frame: InertialFrame) -> BodyId {
+        let InertialFrame { velocity, at, turn, shift } = frame;
+        let key = ([velocity.beta(), at, turn, shift.x].map(bits), (shift.t + 0.0).to_bits());
+        let bodies = &mut self.bodies;
+        *self.rows.entry(key).or_insert_with(|| bodies.push(None, WorldLine::inertial(frame)))
+    }
+
+    /// The body with this velocity in units of c and the origin as reference point; adds it if it
+    /// is new. `None` if the velocity is invalid.
     pub fn moving_with_beta(&mut self, beta: DVec3) -> Option<BodyId> {
         let bits = bits(beta);
-        if let Some(id) = self.known(bits) {
-            return Some(id);
-        }
-        Some(self.add(bits, Velocity::from_beta(beta).ok()?))
-    }
-
-    fn known(&mut self, bits: [u64; 3]) -> Option<BodyId> {
         match self.last {
             Some((last, id)) if last == bits => Some(id),
             _ => {
-                let id = *self.rows.get(&bits)?;
+                let id = self.moving_with(InertialFrame::new(Velocity::from_beta(beta).ok()?));
                 self.last = Some((bits, id));
                 Some(id)
             }
         }
     }
 
-    fn add(&mut self, bits: [u64; 3], velocity: Velocity) -> BodyId {
-        let id = self.bodies.push(None, WorldLine::inertial(velocity));
-        self.rows.insert(bits, id);
-        self.last = Some((bits, id));
-        id
-    }
-
     /// Adds the bodies of another table where they are new, and returns the rows of all of them in
     /// this one.
     pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
-        let mut names = vec![None; other.bodies.len()];
-        other.named.iter().for_each(|(&name, &(body, span))| names[body.index()] = Some((name, span)));
-        let enter = |body: BodyId| match (names[body.index()], other.bodies.stated_velocity(body)) {
+        let names = other.name_of_each();
+        let enter = |body: BodyId| match (names[body.index()], other.bodies.motion(body).inertial_frame()) {
             (Some((name, span)), _) => self.enter_name(name, span),
-            (None, Some(velocity)) => self.moving_with(velocity),
-            (None, None) => self.bodies.unstated(),
+            (None, Some(&frame)) if body != other.bodies.unstated() => self.moving_with(frame),
+            _ => self.bodies.unstated(),
         };
         other.bodies.ids().map(enter).collect()
     }
 }
 
-fn bits(beta: DVec3) -> [u64; 3] {
+fn bits(vector: DVec3) -> [u64; 3] {
     // Adding 0 makes -0 the same as 0.
-    (beta + DVec3::ZERO).to_array().map(f64::to_bits)
+    (vector + DVec3::ZERO).to_array().map(f64::to_bits)
 }

@@ -2,14 +2,12 @@
 //!
 //! ```text
 //! (ugstage 1 geometry as-seen eye 0 -12 3 time -5 camera-velocity 0.6 0 0 no-contraction
-//!  lamp-shift 0.9 0 0 2 0 0 colors as-seen hues law report no-doppler lights mixtures mix#)
+//!  colors as-seen hues law report no-doppler lights mixtures mix#)
 //! ```
 
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity};
-use ugscene::{
-    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
-};
+use ugscene::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
 
 use crate::diagnostic::Diagnostic;
 use crate::number_text::push_number;
@@ -35,7 +33,6 @@ const TIME: &str = "time";
 const CAMERA_VELOCITY: &str = "camera-velocity";
 const NO_CONTRACTION: &str = "no-contraction";
 const NO_FLIGHT_TIME: &str = "no-flight-time";
-const LAMP_SHIFT: &str = "lamp-shift";
 const HUES: &str = "hues";
 const WAVELENGTHS: &str = "wavelengths";
 const SPECTRA: &str = "spectra";
@@ -78,9 +75,7 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
                 );
             } else {
                 match read(text, span) {
-                    Ok((stage, lamp_shifts)) => {
-                        (document.stage, document.lamp_shifts) = (Some((stage, span)), lamp_shifts);
-                    }
+                    Ok(stage) => document.stage = Some((stage, span)),
                     Err(finding) => findings.push(finding),
                 }
             }
@@ -115,24 +110,24 @@ fn earlier(text: &[u8], span: Span) -> Option<Diagnostic> {
 }
 
 /// Parses the statement at `span`, parentheses included.
-fn read(text: &[u8], span: Span) -> Result<(Stage, Vec<LampShift>), Diagnostic> {
+fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
     let mut words = Words::new(text, span);
     words.next();
     words.version()?;
-    let (mut stage, mut lamp_shifts) = (Stage::default(), Vec::new());
+    let mut stage = Stage::default();
     while let Some(word) = words.next() {
         words.once(word)?;
         match word.as_str() {
-            GEOMETRY => stage.geometry = geometry(&mut words, &mut lamp_shifts)?,
+            GEOMETRY => stage.geometry = geometry(&mut words)?,
             COLORS => stage.colors = colors(&mut words)?,
             MIXTURES => stage.mixtures = Some(words.mixtures()?),
             _ => return Err(unknown(word, &[GEOMETRY, COLORS, MIXTURES])),
         }
     }
-    Ok((stage, lamp_shifts))
+    Ok(stage)
 }
 
-fn geometry(words: &mut Words<'_>, lamp_shifts: &mut Vec<LampShift>) -> Result<GeometryStage, Diagnostic> {
+fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
     if !words.is_as_seen()? {
         return Ok(GeometryStage::AtRest);
     }
@@ -145,11 +140,6 @@ fn geometry(words: &mut Words<'_>, lamp_shifts: &mut Vec<LampShift>) -> Result<G
         flight_time: true,
     };
     while let Some(word) = words.next_of_part() {
-        // There is one for each body.
-        if word.as_str() == LAMP_SHIFT {
-            lamp_shifts.push(words.lamp_shift(word, lamp_shifts)?);
-            continue;
-        }
         words.once(word)?;
         match word.as_str() {
             EYE => eye = Some(words.point()?),
@@ -160,16 +150,7 @@ fn geometry(words: &mut Words<'_>, lamp_shifts: &mut Vec<LampShift>) -> Result<G
             _ => {
                 return Err(unknown(
                     word,
-                    &[
-                        EYE,
-                        TIME,
-                        CAMERA_VELOCITY,
-                        NO_CONTRACTION,
-                        NO_FLIGHT_TIME,
-                        LAMP_SHIFT,
-                        COLORS,
-                        MIXTURES,
-                    ],
+                    &[EYE, TIME, CAMERA_VELOCITY, NO_CONTRACTION, NO_FLIGHT_TIME, COLORS, MIXTURES],
                 ));
             }
         }
@@ -351,17 +332,6 @@ impl<'t> Words<'t> {
         })
     }
 
-    /// The velocity of a body, and the shift of lamps for it. `others`: of other bodies.
-    fn lamp_shift(&mut self, word: Word<'t>, others: &[LampShift]) -> Result<LampShift, Diagnostic> {
-        let (velocity, shift) = (self.velocity(word)?, self.point()?);
-        if others.iter().any(|other| other.velocity == velocity) {
-            return Err(Diagnostic::error(word.span, "the lamp shift of this velocity is given twice")
-                .label("again here")
-                .help("remove one of them"));
-        }
-        Ok(LampShift { velocity, shift })
-    }
-
     fn mixtures(&mut self) -> Result<Mixtures, Diagnostic> {
         let example = "mix#";
         let Some(word) = self.next() else { return Err(self.missing("the prefix of mixtures", example)) };
@@ -379,7 +349,7 @@ impl<'t> Words<'t> {
 }
 
 /// Writes the statement, parentheses included, without parts at rest and default values.
-pub(crate) fn write(stage: &Stage, lamp_shifts: &[LampShift], out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
+pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
     out.extend_from_slice(format!("({KEYWORD} {VERSION}").as_bytes());
     let mut add = |word: &str, values: &[f64]| {
         out.push(b' ');
@@ -404,10 +374,6 @@ pub(crate) fn write(stage: &Stage, lamp_shifts: &[LampShift], out: &mut Vec<u8>,
         }
         if !seen.flight_time {
             add(NO_FLIGHT_TIME, &[]);
-        }
-        for LampShift { velocity, shift } in lamp_shifts {
-            let [vx, vy, vz] = velocity.beta().to_array();
-            add(LAMP_SHIFT, &[vx, vy, vz, shift.x, shift.y, shift.z]);
         }
     }
     if let Some(seen) = stage.seen_colors() {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugphysics::{Event, Piece, Velocity};
+use ugphysics::{Event, InertialFrame, Piece, Velocity};
 use ugscene::{Camera, SurfaceProperties};
 
 use crate::source::Span;
@@ -45,11 +45,33 @@ pub(crate) enum Statement {
     Call(CallStatement),
 }
 
-/// `<x y z>`, a velocity, or `<NAME>`, a motion.
+/// `<x y z …>`, a velocity, or `<NAME>`, a motion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum MotionReference {
-    Velocity(Velocity),
+    Frame(StatedFrame),
     Named(Span),
+}
+
+/// A velocity, with what else the text states of the frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StatedFrame {
+    pub velocity: Velocity,
+    pub at: Option<DVec3>,
+    pub turn: DVec3,
+    pub shift: Event,
+}
+
+impl StatedFrame {
+    pub const fn new(velocity: Velocity) -> Self {
+        let InertialFrame { turn, shift, .. } = InertialFrame::REST;
+        Self { velocity, at: None, turn, shift }
+    }
+
+    /// `default`: the reference point if none is stated.
+    pub fn about(self, default: DVec3) -> InertialFrame {
+        let Self { velocity, at, turn, shift } = self;
+        InertialFrame { velocity, at: at.unwrap_or(default), turn, shift }
+    }
 }
 
 /// A motion; of the options that may not be combined, the last.
@@ -64,7 +86,7 @@ pub(crate) struct MotionStatement {
     pub orbit: Option<(DVec3, DVec3, f64)>,
     pub path: Option<PathStatement>,
     /// The motion that it is part of.
-    pub on: Option<Span>,
+    pub on: Option<MotionReference>,
     pub shift: Event,
 }
 

@@ -100,6 +100,17 @@ impl Transform {
         if self.map.matrix3 == DMat3::IDENTITY { d } else { self.map.transform_vector3(d) }
     }
 
+    /// A vector turned as the map turns it, with its own length: velocities are not scaled. `None` if
+    /// the map collapses it.
+    pub fn turned(&self, d: DVec3) -> Option<DVec3> {
+        if self.map.matrix3 == DMat3::IDENTITY || d == DVec3::ZERO {
+            return Some(d);
+        }
+        let is_turn = (self.map.matrix3.transpose() * self.map.matrix3).abs_diff_eq(DMat3::IDENTITY, 1e-12);
+        let image = self.map.transform_vector3(d);
+        if is_turn { Some(image) } else { Some(unit(image)? * d.length()) }
+    }
+
     /// A length that has no direction, above 0: it is scaled as the cube root of volumes, and stays
     /// above 0 in a map that collapses volumes.
     pub fn mean_length(&self, length: f64) -> f64 {

@@ -4,10 +4,10 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
-use ugphysics::{Event, Piece};
+use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
-    BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light, LightKind,
-    MotionPath, NameId, Projection, Scene, StatedMotion, SurfaceProperties,
+    BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light,
+    LightKind, MotionPath, NameId, Projection, Scene, StatedMotion, SurfaceProperties,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -128,7 +128,7 @@ impl<'s> Tables<'s, '_> {
             Writer::on(out, self.scene, comments, |w| {
                 if !stage.is_at_rest() {
                     w.comments_at(Item::Stage, false);
-                    stage_statement::write(stage, &self.scene.lamp_shifts, &mut w.out, &mut w.numbers);
+                    stage_statement::write(stage, &mut w.out, &mut w.numbers);
                     w.comments_at(Item::Stage, true);
                     w.out.push(b'\n');
                 }
@@ -303,19 +303,53 @@ impl<'s> Writer<'s> {
         }
     }
 
-    /// Writes the motion of a face, wire or light.
+    /// Writes the motion of a face or wire.
     fn body(&mut self, body: BodyId) {
         if self.body != Some(body) {
             self.body = Some(body);
-            self.motion_text.clear();
-            let bodies = &self.scene.bodies;
-            if bodies.statement(body).is_some() {
-                push_motion_name(&mut self.motion_text, self.scene, body);
-            } else if let Some(velocity) = bodies.stated_velocity(body) {
-                push_velocity(&mut self.motion_text, &mut self.numbers, velocity);
-            }
+            let before = self.out.len();
+            self.motion_of(body, DVec3::ZERO);
+            self.motion_text = self.out.split_off(before);
         }
         self.out.extend_from_slice(&self.motion_text);
+    }
+
+    /// Writes the motion of a body. `at`: its reference point, if none is written.
+    fn motion_of(&mut self, body: BodyId, at: DVec3) {
+        let bodies = &self.scene.bodies;
+        if bodies.statement(body).is_some() {
+            push_motion_name(&mut self.out, self.scene, body);
+        } else if let (Some(_), Some(frame)) =
+            (bodies.stated_velocity(body), bodies.motion(body).inertial_frame())
+        {
+            let is_seen = self.scene.stage.seen_geometry().is_some();
+            self.frame(frame, (!is_seen).then_some(at));
+        }
+    }
+
+    /// Writes ` <x y z …>`. `at`: the reference point, if none is written; `None` if it has no
+    /// meaning.
+    fn frame(&mut self, frame: &InertialFrame, at: Option<DVec3>) {
+        push_velocity(&mut self.out, &mut self.numbers, frame.velocity);
+        self.out.pop();
+        if at.is_some_and(|at| frame.at != at) {
+            self.text(" -at");
+            self.point(frame.at);
+        }
+        if frame.turn != DVec3::ZERO {
+            self.text(" -turn");
+            self.point(frame.turn);
+        }
+        self.shift(frame.shift);
+        self.out.push(b'>');
+    }
+
+    fn shift(&mut self, shift: Event) {
+        if shift != StatedMotion::NO_SHIFT {
+            self.text(" -shift");
+            self.number(shift.t);
+            self.point(shift.x);
+        }
     }
 
     fn contours(&mut self, contours: &Contours, rows: std::ops::Range<u32>) {
@@ -411,7 +445,7 @@ impl<'s> Writer<'s> {
         let Some(motion) = bodies.statement(body) else { return };
         self.text("motion");
         bodies[body].name.into_iter().for_each(|name| self.name(name));
-        let StatedMotion { at, path, spins, shift } = motion;
+        let StatedMotion { at, path, spins, on, shift } = motion;
         if *at != DVec3::ZERO {
             self.text(" -at");
             self.point(*at);
@@ -441,17 +475,20 @@ impl<'s> Writer<'s> {
                 }
                 self.text(")");
             }
-            MotionPath::On(carrier) => {
+        }
+        match on {
+            None => {}
+            Some(Carrier::Body(body)) => {
                 self.text(" -on");
-                bodies[*carrier].name.into_iter().for_each(|name| self.name(name));
+                bodies[*body].name.into_iter().for_each(|name| self.name(name));
+            }
+            Some(Carrier::Frame(frame)) => {
+                self.text(" -on");
+                self.frame(frame, Some(DVec3::ZERO));
             }
         }
         spins.iter().for_each(|piece| self.piece(" -spin", piece, f64::NEG_INFINITY));
-        if *shift != StatedMotion::NO_SHIFT {
-            self.text(" -shift");
-            self.number(shift.t);
-            self.point(shift.x);
-        }
+        self.shift(*shift);
         self.text(";");
     }
 
@@ -478,7 +515,8 @@ impl<'s> Writer<'s> {
             }
         }
         self.optional_color(light.color);
-        light.motion.body().into_iter().for_each(|body| self.body(body));
+        let place = if let LightKind::Local { position, .. } = light.kind { position } else { DVec3::ZERO };
+        light.motion.body().into_iter().for_each(|body| self.motion_of(body, place));
         self.text(";");
     }
 

@@ -136,8 +136,10 @@ impl BodyBoxes {
 /// Copies the bodies of a scene, with the names of those whose motions have statements.
 fn copy_bodies(scene: &Scene, out: &mut Scene) {
     let bodies = &scene.bodies;
-    if let Some(velocity) = bodies.stated_velocity(bodies.unstated()) {
-        out.bodies.set_velocity(out.bodies.unstated(), velocity);
+    if let (Some(_), Some(frame)) =
+        (bodies.stated_velocity(bodies.unstated()), bodies.motion(bodies.unstated()).inertial_frame())
+    {
+        out.bodies.set_frame(out.bodies.unstated(), *frame);
     }
     for body in bodies.ids().skip(1) {
         let line = bodies.motion(body).clone();

@@ -119,9 +119,12 @@ pub struct MotionArgs {
           allow_hyphen_values = true, value_parser = finite)]
     time: f64,
 
-    /// Fixed point of the contraction: eye, origin, center or X Y Z [default: eye]
+    /// Fixed point of the contraction: eye, origin, center or X Y Z
     ///
-    /// center is the centre of the bounding box of each body.
+    /// At time 0 of the scene this point of each body is where the scene has it. The default is the
+    /// reference point of each body (-at of its motion, the origin of its instance), and the eye
+    /// for -vel. center is the centre of the bounding box of each body. Orbits and paths stay where
+    /// they are stated.
     #[arg(long = "an", visible_alias = "anchor", value_name = "POINT", num_args = 1..=3,
           action = ArgAction::Set, allow_hyphen_values = true)]
     anchor: Option<Vec<String>>,

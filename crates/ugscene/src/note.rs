@@ -75,7 +75,8 @@ pub fn may_miss_motion(seen: &Scene, options: &CameraOptions, size: [u32; 2]) ->
         let place = seen.vertices[corner.index()].position - view.eye;
         spaces.iter().all(|space| place.dot(space.normal) + space.offset >= 0.0)
     };
-    let moves = |body| seen.bodies.motion(body).uniform_velocity().is_some_and(|own| !own.is_zero());
+    let frame = |body| seen.bodies.motion(body).inertial_frame();
+    let moves = |body| frame(body).is_some_and(|own| !own.velocity.is_zero());
     let mut moving = seen.drawn().filter(|drawn| moves(drawn.body));
     !stage.camera_velocity.is_zero()
         || !moving.any(|drawn| seen.contours.corners(drawn.contours).iter().any(is_seen))

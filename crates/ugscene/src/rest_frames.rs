@@ -12,7 +12,7 @@ use crate::{BodyId, FaceOrWire, Scene, axes_from_scene, camera_velocity, split_v
 pub struct RestFrames {
     /// In the order of [`Scene::bodies`].
     frames: Vec<RestFrame>,
-    /// For each body, see [`RestFrames::lamp_shift`]; empty if all are 0.
+    /// For each body, see [`RestFrames::lamp_shift`].
     lamp_shifts: Vec<DVec3>,
     /// For each body, see [`RestFrames::world_line`]; empty if all are `None`.
     world_lines: Vec<Option<Arc<WorldLine>>>,
@@ -29,15 +29,11 @@ impl RestFrames {
         let camera = camera_velocity(scene);
         let frame = |body| frame(scene.bodies.stated_velocity(body).unwrap_or(velocity), camera);
         let frames: Vec<RestFrame> = scene.bodies.ids().map(frame).collect();
-        let shift = |frame: &RestFrame| {
-            let own = scene.lamp_shifts.iter().find(|shift| shift.velocity == frame.velocity());
-            own.map_or(DVec3::ZERO, |own| own.shift)
-        };
-        let of_body = |(body, frame)| {
-            if scene.bodies.is_on_world_line(body) { DVec3::ZERO } else { shift(frame) }
-        };
-        let are_shifted = !scene.lamp_shifts.is_empty();
-        let lamp_shifts = scene.bodies.ids().zip(&frames).filter(|_| are_shifted).map(of_body).collect();
+        // At rest, shifts are displacements of bodies in the scene.
+        let is_seen = scene.stage.seen_geometry().is_some();
+        let shift = |body| scene.bodies.motion(body).inertial_frame().map(|frame| frame.shift.x);
+        let shift = |body| shift(body).filter(|_| is_seen).unwrap_or_default();
+        let lamp_shifts = scene.bodies.ids().map(shift).collect();
         Self { frames, lamp_shifts, world_lines: world_lines(scene) }
     }
 
@@ -75,7 +71,7 @@ impl RestFrames {
     /// this body, in the axes of the scene.
     #[inline]
     pub fn lamp_shift(&self, body: BodyId) -> DVec3 {
-        self.lamp_shifts.get(body.index()).copied().unwrap_or_default()
+        self.lamp_shifts[body.index()]
     }
 
     /// The greatest rapidity of a body.

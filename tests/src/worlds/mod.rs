@@ -16,6 +16,7 @@ mod light;
 mod mirror;
 mod parts;
 pub mod picture;
+mod placement;
 mod renderers;
 mod solids;
 pub mod spacetime;
@@ -62,6 +63,7 @@ pub const LAWS: &[Law] = &[
     law("unseen-bodies", unseen::unseen_bodies),
     law("unused-statements", unseen::unused_statements),
     law("instances", unseen::instances),
+    law("two-eyes", placement::two_eyes),
     law("boosts", frames::boosts),
     law("turns", frames::turns),
     law("parity", frames::parity),

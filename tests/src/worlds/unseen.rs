@@ -10,6 +10,7 @@ use super::compare::check_same;
 use super::generate::{self, Lamps, Recipe, Surfaces, shape, velocity, world};
 use super::picture::{Picture, Renderer, SPECTRA, UNSHIFTED, by_law};
 use super::world::{Body, Surface, World};
+use crate::world_lines::Statement;
 
 /// A picture of a world by a random renderer, with random anchors.
 fn picture(random: &mut Random, world: &World) -> Picture {
@@ -21,10 +22,11 @@ fn picture(random: &mut Random, world: &World) -> Picture {
         Renderer::Pipe,
     ]));
     let motion = &mut picture.motion;
-    match random.below(5) {
+    match random.below(6) {
         0 => motion.anchor = Some(Anchor::Center),
         1 => motion.anchor = Some(Anchor::Eye),
         2 => (motion.anchor, motion.in_place) = (None, true),
+        3 => motion.anchor = None,
         _ => {}
     }
     if random.one_in(2) {
@@ -33,9 +35,20 @@ fn picture(random: &mut Random, world: &World) -> Picture {
     picture
 }
 
-/// Bodies that are too small to be seen, or wholly transparent, of other velocities.
+/// Gives some of the bodies motions with names instead of velocities.
+fn name_bodies(random: &mut Random, world: &mut World) {
+    for body in &mut world.bodies {
+        if random.one_in(2) {
+            body.motion = Some(Statement::inertial(body.velocity.take().unwrap_or_default()));
+        }
+    }
+}
+
+/// Bodies that are too small to be seen, or wholly transparent, of other velocities or with motions
+/// of their own.
 pub fn unseen_bodies(random: &mut Random) -> Outcome {
-    let world = world(random, RECIPE);
+    let mut world = world(random, RECIPE);
+    name_bodies(random, &mut world);
     let picture = picture(random, &world);
     let mut more = world.clone();
     for _ in 0..1 + random.below(2) {
@@ -51,6 +64,11 @@ pub fn unseen_bodies(random: &mut Random) -> Outcome {
         }
         body.paint = [1.0, 1.0, 1.0, if is_tiny { 0.0 } else { 1.0 }];
         body.surface = Surface::Matt;
+        if random.one_in(2) {
+            let same = of.motion.clone();
+            let same = same.unwrap_or_else(|| Statement::inertial(of.velocity.unwrap_or_default()));
+            (body.motion, body.velocity) = (Some(same), None);
+        }
         let row = random.below(more.bodies.len() + 1);
         more.bodies.insert(row, body);
     }
@@ -61,7 +79,8 @@ const RECIPE: Recipe = Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfa
 
 /// Unused colours, surfaces, vertices and definitions, comments, and another order of statements.
 pub fn unused_statements(random: &mut Random) -> Outcome {
-    let world = world(random, RECIPE);
+    let mut world = world(random, RECIPE);
+    name_bodies(random, &mut world);
     let picture = picture(random, &world);
     let mut statements = world.statements();
     // Vertices that no face uses are part of the box that bodies are placed by.

@@ -273,7 +273,8 @@ impl Body {
     pub fn as_instance(&self, row: usize, words: &str, of: &Self) -> String {
         let mut inner = Vec::new();
         Self { velocity: None, ..of.clone() }.write(row, DVec3::ZERO, &mut inner);
-        let velocity = velocity(self.velocity);
+        // What `<x y z>` on its faces is about.
+        let velocity = velocity(self.velocity).replace('>', " -at 0 0 0>");
         format!("def d{row};\n{}end;\ni (d{row} {words}){velocity};\n", inner.concat())
     }
 }

@@ -121,8 +121,9 @@ fn light_seen_by_the_camera_left_the_world_lines_in_the_scene() {
                 let low = corners.iter().copied().reduce(DVec3::min).unwrap();
                 let high = corners.iter().copied().reduce(DVec3::max).unwrap();
                 let fixed = match anchor {
-                    None | Some(Anchor::Eye) => fleet.eye,
-                    Some(Anchor::Origin) => DVec3::ZERO,
+                    Some(Anchor::Eye) => fleet.eye,
+                    // The reference point of faces with a velocity.
+                    None | Some(Anchor::Origin) => DVec3::ZERO,
                     Some(Anchor::Center) => (low + high) / 2.0,
                     Some(Anchor::Point(point)) => point,
                 };
@@ -150,7 +151,8 @@ fn rest_positions_come_back_in_the_axes_of_the_scene() {
         for (contraction, flight_time) in [(true, true), (true, false), (false, true)] {
             let fleet = Fleet::new(&mut random, 12, speed);
             let geometry = Geometry { contraction, flight_time };
-            let scene = seen(&fleet.text(), &Config { geometry, ..fleet.config() });
+            let anchor = Some(Anchor::Eye);
+            let scene = seen(&fleet.text(), &Config { geometry, anchor, ..fleet.config() });
             let frames = RestFrames::new(&scene);
             let rest = rest_positions(&scene, fleet.eye, &frames);
             for (idx, body) in fleet.bodies.iter().enumerate() {

@@ -3,6 +3,7 @@
 //! The file's own tables become those of the scene; definitions are copied after them, once for
 //! each instance.
 
+mod bodies;
 mod cameras;
 mod comments;
 mod motions;
@@ -15,6 +16,7 @@ mod rows;
 use std::collections::BTreeMap;
 
 use cameras::NestedCamera;
+use glam::DVec3;
 use placement::{Inherited, Placement};
 use queue::{Queue, Queues};
 use rustc_hash::FxHashMap;
@@ -25,7 +27,7 @@ use crate::reader::Document;
 use crate::resolve::{Link, Links};
 use crate::scope::{BodyTable, Call, Counts, Scope};
 use crate::source::Span;
-use crate::statement::Repeat;
+use crate::statement::{MotionReference, Repeat, StatedFrame};
 
 /// The spans of the text from which the rows of a flat scene originate.
 #[derive(Clone, Debug, Default)]
@@ -103,8 +105,12 @@ fn expand_here<'t>(
     let motions = std::mem::take(&mut file.motions);
     let stage = document.stage.map(|(_, span)| span);
     expander.note(stage.as_slice(), 0, |_| Item::Stage);
+    expander.bodies = std::mem::take(&mut file.bodies);
+    let (motions, wrong) = expander.set_motions(&motions);
+    let is_valid = wrong.is_empty();
     expander.file(file);
-    findings.extend(expander.set_motions(&motions));
+    findings.extend(wrong);
+    findings.extend(expander.finish_motions(&motions, is_valid));
     findings.extend(std::mem::take(&mut expander.undefined).into_values());
     expander.make_names_unique();
     expander.place_comments(&document.comments, first_statement);
@@ -147,7 +153,6 @@ struct Expander<'d, 't> {
 impl<'t> Expander<'_, 't> {
     /// Moves the file's tables into the scene, and expands its calls between their rows.
     fn file(&mut self, mut file: Scope<'t>) {
-        self.bodies = std::mem::take(&mut file.bodies);
         if self.emitted.is_some() {
             let names = file.vertices.spans.iter();
             let spans: Vec<Span> = names.map(|&name| Scope::vertex_statement(self.text, name)).collect();
@@ -207,7 +212,7 @@ impl<'t> Expander<'_, 't> {
     /// Copies everything except the vertices, which were expanded in the same order.
     fn scope(&mut self, row: usize, inherited: &Inherited) {
         let scope = &self.scopes[row];
-        let bodies = self.bodies.enter_all(&scope.bodies);
+        let bodies = self.bodies_in(scope, inherited);
         let first_vertex = self.next_vertex as u32;
         self.next_vertex += scope.vertices.len();
         let paths = scope.paths.iter();
@@ -254,13 +259,25 @@ impl<'t> Expander<'_, 't> {
     ) {
         let (Some(target), label) = (link.target, &link.label) else { return };
         let Call { statement: call, color, .. } = call;
-        let own_body = call.motion.map(|motion| self.bodies.of_reference(self.text, motion));
+        let transform = call.inner.then(&inherited.transform);
+        let body = match call.motion {
+            None => inherited.body,
+            Some(MotionReference::Named(name)) => {
+                let body = self.bodies.named(self.text, name);
+                Some(self.named_body_in(body, name, inherited))
+            }
+            Some(MotionReference::Frame(frame)) => {
+                let at = frame.at.map_or(transform.point(DVec3::ZERO), |at| inherited.transform.point(at));
+                let frame = StatedFrame { at: Some(at), ..frame };
+                Some(self.frame_in(frame.about(at), call.definition, inherited))
+            }
+        };
         let colon = if inherited.prefix.is_empty() || label.is_empty() { "" } else { ":" };
         let mut inner = Inherited {
-            transform: call.inner.then(&inherited.transform),
+            transform,
             prefix: format!("{}{colon}{label}", inherited.prefix),
             color: color.or(inherited.color),
-            body: inherited.body.or(own_body),
+            body,
         };
         match &call.repeat {
             Repeat::Once => place(self, target, &inner),

@@ -1,8 +1,9 @@
 //! Gives the bodies with a name their motions, after all statements are read.
 
+use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugphysics::{SampledPath, WorldLine, WorldLineError};
-use ugscene::{BodyId, FaceOrWire, Item, MotionPath, StatedMotion};
+use ugscene::{BodyId, Carrier, FaceOrWire, Item, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
@@ -10,7 +11,7 @@ use crate::event_table::impossible as impossible_path;
 use crate::resolve::undefined_like;
 use crate::rows::Rows;
 use crate::source::Span;
-use crate::statement::{MotionStatement, PathStatement};
+use crate::statement::{MotionReference, MotionStatement, PathStatement};
 use crate::token::{blank, found, number};
 
 /// The longest chain of motions of which each is part of the next.
@@ -21,7 +22,7 @@ const MAX_CARRIERS: usize = 64;
 const MAX_CARRIED_PIECES: usize = 1 << 17;
 
 /// The motions of a file by the bodies that have them.
-struct Motions<'m> {
+pub(super) struct Motions<'m> {
     statements: &'m Rows<MotionStatement>,
     rows: FxHashMap<BodyId, usize>,
     /// Of each statement.
@@ -30,12 +31,15 @@ struct Motions<'m> {
 
 impl Expander<'_, '_> {
     /// Sets the motions of all bodies with a name. Returns what is wrong with them.
-    pub(super) fn set_motions(&mut self, statements: &Rows<MotionStatement>) -> Vec<Diagnostic> {
-        for carrier in statements.rows.iter().filter_map(|motion| motion.on) {
-            self.bodies.named(self.text, carrier);
+    pub(super) fn set_motions<'m>(
+        &mut self,
+        statements: &'m Rows<MotionStatement>,
+    ) -> (Motions<'m>, Vec<Diagnostic>) {
+        for motion in &statements.rows {
+            if let Some(MotionReference::Named(carrier)) = motion.on {
+                self.bodies.named(self.text, carrier);
+            }
         }
-        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
-        let names = self.bodies.names();
         let mut findings = self.inner_motions();
         let mut motions = Motions { statements, rows: FxHashMap::default(), paths: Vec::new() };
         for (row, motion) in statements.rows.iter().enumerate() {
@@ -48,13 +52,8 @@ impl Expander<'_, '_> {
                 findings.push(error.help("give one of them another name: each is a body of its own"));
             }
         }
-        let defined = || statements.rows.iter().map(|motion| motion.name.of(self.text));
-        for &(body, name) in &names {
-            if !motions.rows.contains_key(&body) && findings.is_empty() {
-                let remedy = "define it with a `motion` statement";
-                findings.push(undefined_like(self.text, "motion", name, remedy, defined(), findings.len()));
-            }
-        }
+        let names = self.bodies.names();
+        findings.extend(self.undefined_motions(&motions, findings.is_empty()));
         if findings.is_empty() {
             findings.extend(self.too_many_pieces(&motions, &names));
         }
@@ -66,10 +65,31 @@ impl Expander<'_, '_> {
         }
         if findings.is_empty() {
             let lines = names.iter().try_for_each(|&(body, name)| self.set_motion(&motions, body, name));
-            findings.extend(lines.and_then(|()| self.check_vertices(&motions)).err());
+            findings.extend(lines.err());
         }
-        self.note_motions(&motions);
+        (motions, findings)
+    }
+
+    /// Names that no statement defines, and vertices that cannot move as their bodies do; after all
+    /// definitions are expanded. The bodies become those of the scene.
+    pub(super) fn finish_motions(&mut self, motions: &Motions<'_>, is_valid: bool) -> Vec<Diagnostic> {
+        let mut findings: Vec<Diagnostic> = self.undefined_motions(motions, is_valid).into_iter().collect();
+        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
+        if is_valid && findings.is_empty() {
+            findings.extend(self.check_vertices(motions).err());
+        }
+        self.note_motions(motions);
         findings
+    }
+
+    /// The first name that no statement defines, if no other error was found.
+    fn undefined_motions(&self, motions: &Motions<'_>, is_valid: bool) -> Option<Diagnostic> {
+        let names = self.bodies.names();
+        let undefined = names.iter().find(|(body, _)| is_valid && !motions.rows.contains_key(body));
+        let &(_, name) = undefined?;
+        let remedy = "define it with a `motion` statement";
+        let defined = motions.statements.rows.iter().map(|motion| motion.name.of(self.text));
+        Some(undefined_like(self.text, "motion", name, remedy, defined, 0))
     }
 
     /// An error if motions take over more pieces than [`MAX_CARRIED_PIECES`]. Circles end it, too.
@@ -78,7 +98,7 @@ impl Expander<'_, '_> {
         for &(body, name) in names {
             let mut row = motions.rows[&body];
             for _ in 0..MAX_CARRIERS {
-                let Some(carrier) = motions.statements.rows[row].on else { break };
+                let Some(MotionReference::Named(carrier)) = motions.statements.rows[row].on else { break };
                 let carrier = self.bodies.named(self.text, carrier);
                 row = motions.rows[&carrier];
                 let statement = &motions.statements.rows[row];
@@ -128,7 +148,7 @@ impl Expander<'_, '_> {
         let (motion, line) = self.motion(motions, body, 0)?;
         let name = String::from_utf8_lossy(name.of(self.text)).into_owned();
         let name = self.scene.names.add(&name);
-        self.scene.bodies.set_statement(body, name, motion, line);
+        self.bodies.bodies.set_statement(body, name, motion, line);
         Ok(())
     }
 
@@ -147,23 +167,31 @@ impl Expander<'_, '_> {
             return Err(error.label("this one").help(help));
         }
         let MotionStatement { at, velocity, accelerations, spins, orbit, on, shift, .. } = statement;
-        let (path, carrier) = match (on, orbit, &motions.paths[row]) {
-            (Some(name), _, _) => {
-                let carrier = self.bodies.named(self.text, *name);
-                (MotionPath::On(carrier), self.motion(motions, carrier, depth + 1)?.1)
-            }
-            (None, &Some((center, axis, rate)), _) => {
-                (MotionPath::Orbit { center, axis, rate }, WorldLine::REST)
-            }
-            (None, None, Some(path)) => (MotionPath::Along(path.clone()), WorldLine::REST),
-            (None, None, None) => {
+        let path = match (orbit, &motions.paths[row]) {
+            (&Some((center, axis, rate)), _) => MotionPath::Orbit { center, axis, rate },
+            (None, Some(path)) => MotionPath::Along(path.clone()),
+            (None, None) => {
                 let velocity = velocity.unwrap_or_default();
-                (MotionPath::Free { velocity, accelerations: accelerations.clone() }, WorldLine::REST)
+                MotionPath::Free { velocity, accelerations: accelerations.clone() }
             }
         };
-        let motion = StatedMotion { at: *at, path, spins: spins.clone(), shift: *shift };
-        let line = motion.world_line(&carrier).map_err(|error| impossible(span, &error))?;
-        Ok((motion, line))
+        let (on, carrier) = match on {
+            None => (None, WorldLine::REST),
+            Some(MotionReference::Frame(frame)) => {
+                (Some(Carrier::Frame(frame.about(DVec3::ZERO))), WorldLine::REST)
+            }
+            Some(MotionReference::Named(name)) => {
+                let body = self.bodies.named(self.text, *name);
+                (Some(Carrier::Body(body)), self.motion(motions, body, depth + 1)?.1)
+            }
+        };
+        let motion = StatedMotion { at: *at, path, spins: spins.clone(), on, shift: *shift };
+        match motion.world_line(&carrier).map_err(|error| impossible(span, &error))? {
+            Some(line) => Ok((motion, line)),
+            None => Err(Diagnostic::error(span, "the motion is on a body that accelerates or turns")
+                .label("this motion")
+                .help("only a fixed point of such a body can carry it: remove all but `-at` and `-spin`")),
+        }
     }
 
     /// Checks that every vertex can move as its body does, in a scene at rest.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use rustc_hash::FxHashMap;
-use ugscene::{BodyId, ColorId, LightMotion, VertexId};
+use ugscene::{BodyId, ColorId, VertexId};
 
 use crate::scope::{DefaultColor, NO_ROW, Scope};
 use crate::transform::Transform;
@@ -14,7 +14,7 @@ pub(super) struct Inherited {
     /// Prefix of paths, without the last `:`.
     pub prefix: String,
     pub color: Option<ColorId>,
-    /// The body of all its contents, if a call states a velocity.
+    /// The body of what has no motion of its own, if a call states one.
     pub body: Option<BodyId>,
 }
 
@@ -33,7 +33,7 @@ pub(super) struct Placement<'p> {
     pub first_vertex: u32,
     /// The vertices at corners that name those of instances.
     pub paths: FxHashMap<usize, VertexId>,
-    /// Rows in the scene of the scope's bodies.
+    /// Rows in the scene of the scope's bodies; without a motion, that which is inherited.
     pub bodies: &'p [BodyId],
     pub first_time: bool,
     /// Row of the scope's first colour in the scene.
@@ -55,19 +55,6 @@ impl Placement<'_> {
     pub fn corner(&self, idx: usize) -> VertexId {
         let VertexId(local) = self.scope.contours.corner(idx);
         if local == NO_ROW { self.paths[&idx] } else { VertexId(self.first_vertex + local) }
-    }
-
-    /// The body in the scene of a face or wire.
-    pub fn body(&self, own: BodyId) -> BodyId {
-        self.inherited.body.unwrap_or(self.bodies[own.index()])
-    }
-
-    /// A light keeps its own motion.
-    pub fn light_motion(&self, own: LightMotion) -> LightMotion {
-        match own {
-            LightMotion::WithWhatItLights => own,
-            LightMotion::Body(body) => LightMotion::Body(self.bodies[body.index()]),
-        }
     }
 
     /// The colour of face or wire `row`; `first` returns the first row to which an unnamed colour

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{Camera, Face, IllumId, Item, Light, LightKind, VertexId, Wire, newell_normal};
+use ugscene::{Camera, Face, IllumId, Item, Light, LightKind, LightMotion, VertexId, Wire, newell_normal};
 
 use super::Expander;
 use super::cameras::NestedCamera;
@@ -56,7 +56,7 @@ impl Expander<'_, '_> {
             contours: self.contours(placement, face.contours.clone(), inherited.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
             illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
-            body: placement.body(face.body),
+            body: placement.bodies[face.body.index()],
         };
         self.scene.faces.push(placed);
         self.origins.faces.push(span);
@@ -75,7 +75,7 @@ impl Expander<'_, '_> {
             name: self.optional_name(scope, wire.name, inherited),
             contours: self.contours(placement, wire.contours.clone(), false),
             color: placement.color(wire.color, row, |default| default.first_wire),
-            body: placement.body(wire.body),
+            body: placement.bodies[wire.body.index()],
         };
         self.scene.wires.push(placed);
     }
@@ -139,7 +139,10 @@ impl Expander<'_, '_> {
         let placed = Light {
             name: self.optional_name(scope, light.name, inherited),
             kind,
-            motion: placement.light_motion(light.motion),
+            motion: match light.motion {
+                LightMotion::Body(body) => LightMotion::Body(placement.bodies[body.index()]),
+                LightMotion::WithWhatItLights => LightMotion::WithWhatItLights,
+            },
             ..light.clone()
         };
         self.scene.lights.push(placed);

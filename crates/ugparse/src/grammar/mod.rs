@@ -10,6 +10,7 @@ mod transforms;
 
 use cameras::camera_option;
 use glam::DVec3;
+use motions::frame_options;
 use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
@@ -19,7 +20,8 @@ use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, MotionReference, References, Repeat, Statement, SurfaceStatement, VertexStatement,
+    MixStatement, MotionReference, References, Repeat, StatedFrame, Statement, SurfaceStatement,
+    VertexStatement,
 };
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
@@ -85,14 +87,15 @@ impl<'t> Grammar<'t> {
         })
     }
 
-    /// `< x y z >` or `< NAME >`
+    /// `< x y z [-at x y z] [-turn x y z] [-shift t x y z] >` or `< NAME >`
     fn motion_reference<'a>(&self, input: Input<'a>) -> Parsed<'a, MotionReference> {
         let (input, ()) = mark(b'<', "`<` and a velocity or the name of a motion")(input)?;
         let (input, motion) = match self.name(input) {
             Ok((rest, name)) => (rest, MotionReference::Named(name)),
             Err(_) => {
                 let (rest, velocity) = velocity(input)?;
-                (rest, MotionReference::Velocity(velocity))
+                let (rest, frame) = frame_options(rest, StatedFrame::new(velocity))?;
+                (rest, MotionReference::Frame(frame))
             }
         };
         let (input, ()) = require(mark(b'>', "`>`")(input))?;
@@ -308,7 +311,7 @@ impl<'t> Grammar<'t> {
         }
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
         let (velocity, carrier) = match motion {
-            Some(MotionReference::Velocity(velocity)) => (Some(velocity), None),
+            Some(MotionReference::Frame(frame)) => (Some(frame.velocity), None),
             Some(MotionReference::Named(name)) => (None, Some(name)),
             None => (None, None),
         };

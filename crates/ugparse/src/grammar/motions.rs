@@ -8,7 +8,7 @@ use ugscene::StatedMotion;
 
 use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
 use crate::source::Span;
-use crate::statement::{MotionStatement, PathStatement, Statement};
+use crate::statement::{MotionReference, MotionStatement, PathStatement, StatedFrame, Statement};
 use crate::token::{Input, Parsed, Reason, blank, fail, file_name, mark, number, point, require, wanted};
 
 impl Grammar<'_> {
@@ -42,20 +42,19 @@ impl Grammar<'_> {
     ) -> Parsed<'a, ()> {
         let at = blank(at)?.0;
         let is_free = motion.velocity.is_some() || !motion.accelerations.is_empty();
-        let [no_orbit, no_path, no_carrier] =
-            [motion.orbit.is_none(), motion.path.is_none(), motion.on.is_none()];
+        let (no_orbit, no_path) = (motion.orbit.is_none(), motion.path.is_none());
         let rest = match option {
-            b"vel" if no_orbit && no_path && no_carrier => {
+            b"vel" if no_orbit && no_path => {
                 let (rest, velocity) = velocity(input)?;
                 motion.velocity = Some(velocity);
                 rest
             }
-            b"acc" if no_orbit && no_path && no_carrier => {
+            b"acc" if no_orbit && no_path => {
                 let (rest, piece) = piece(input, 0.0)?;
                 motion.accelerations.push(piece);
                 rest
             }
-            b"orbit" if !is_free && no_path && no_carrier => {
+            b"orbit" if !is_free && no_path => {
                 let (rest, center) = require(point(input))?;
                 let axis_at = blank(rest)?.0;
                 let (rest, axis) = require(point(rest))?;
@@ -66,19 +65,23 @@ impl Grammar<'_> {
                 motion.orbit = Some((center, axis, rate));
                 rest
             }
-            b"path" if !is_free && no_orbit && no_path && no_carrier => {
+            b"path" if !is_free && no_orbit => {
                 let (rest, path) = self.path(input)?;
                 motion.path = Some(path);
                 rest
             }
-            b"on" if !is_free && no_orbit && no_path => {
-                let (rest, on) = require(wanted(self.name(input), "the name of a motion"))?;
+            b"vel" | b"acc" | b"orbit" | b"path" => {
+                let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-path`";
+                return fail(at, Reason::Impossible(1, "the motion has another path already", remedy));
+            }
+            b"on" => {
+                let named = self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
+                let (rest, on) = named.or_else(|_| self.motion_reference(input)).or_else(|_| {
+                    require(wanted(self.name(input), "the name of a motion"))
+                        .map(|(rest, name)| (rest, MotionReference::Named(name)))
+                })?;
                 motion.on = Some(on);
                 rest
-            }
-            b"vel" | b"acc" | b"orbit" | b"path" | b"on" => {
-                let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-path`, or `-on`";
-                return fail(at, Reason::Impossible(1, "the motion has another path already", remedy));
             }
             b"at" => {
                 let (rest, place) = require(point(input))?;
@@ -91,8 +94,8 @@ impl Grammar<'_> {
                 rest
             }
             b"shift" => {
-                let (rest, [t, x, y, z]) = numbers(input)?;
-                motion.shift = Event { t, x: DVec3::new(x, y, z) };
+                let (rest, displacement) = shift(input)?;
+                motion.shift = displacement;
                 rest
             }
             _ => {
@@ -129,6 +132,38 @@ impl Grammar<'_> {
         let span = Span { start: self.position(list), end: self.position(rest) - 1 };
         Ok((rest, PathStatement::Events { span, events }))
     }
+}
+
+/// `[-at x y z] [-turn x y z] [-shift t x y z]`
+pub(super) fn frame_options(input: Input<'_>, mut frame: StatedFrame) -> Parsed<'_, StatedFrame> {
+    let mut input = input;
+    while let (rest, Some(word)) = opt(option_word).parse(input)? {
+        input = match word {
+            b"at" => {
+                let (rest, at) = require(point(rest))?;
+                frame.at = Some(at);
+                rest
+            }
+            b"turn" => {
+                let (rest, turn) = require(point(rest))?;
+                frame.turn = turn;
+                rest
+            }
+            b"shift" => {
+                let (rest, shift) = shift(rest)?;
+                frame.shift = shift;
+                rest
+            }
+            _ => return fail(blank(input)?.0, Reason::Expected("`>` or an option (-at -turn -shift)")),
+        };
+    }
+    Ok((input, frame))
+}
+
+/// `t x y z`
+fn shift(input: Input<'_>) -> Parsed<'_, Event> {
+    let (rest, [t, x, y, z]) = numbers(input)?;
+    Ok((rest, Event { t, x: DVec3::new(x, y, z) }))
 }
 
 /// `x y z [τ0 τ1]`: a vector, and the own time from which to which it acts.

@@ -5,6 +5,7 @@
 //! (Fermi-Walker transport), in which it may spin.
 
 mod horizon;
+mod inertial;
 mod moving;
 mod orbit;
 mod pieces;
@@ -16,6 +17,7 @@ mod table;
 
 use glam::{DQuat, DVec3};
 
+pub use inertial::InertialFrame;
 pub use moving::ElementFrame;
 pub use orbit::Orbit;
 pub use pieces::Piece;
@@ -51,7 +53,7 @@ pub struct WorldLine(Kind);
 
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
-    Inertial(Velocity),
+    Inertial(InertialFrame),
     Moving(Box<Moving>),
 }
 
@@ -200,18 +202,18 @@ impl WorldLine {
     pub const MOST_TURN: f64 = 1e12;
 
     /// At rest in the scene.
-    pub const REST: Self = Self(Kind::Inertial(Velocity::ZERO));
+    pub const REST: Self = Self(Kind::Inertial(InertialFrame::REST));
 
     /// Constant velocity.
     #[must_use]
-    pub fn inertial(velocity: Velocity) -> Self {
-        Self(Kind::Inertial(velocity))
+    pub fn inertial(frame: InertialFrame) -> Self {
+        Self(Kind::Inertial(frame))
     }
 
     /// A motion with the velocity `velocity` at own time 0, with proper acceleration and spin.
     ///
-    /// `at`: A, in the coordinates of the body. `accelerations`: proper acceleration along the
-    /// carried axes. `spins`: angular velocity about A in the carried axes, radians per unit of own
+    /// `at`: A, in the coordinates of the body, and its place at own time 0, which is time 0.
+    /// `accelerations`: proper acceleration along the carried axes. `spins`: angular velocity about A in the carried axes, radians per unit of own
     /// time. Outside all pieces the motion is inertial.
     ///
     /// # Errors
@@ -225,13 +227,11 @@ impl WorldLine {
         if !at.is_finite() {
             return Err(WorldLineError::NotFinite);
         }
-        let axes = Lorentz::boost(velocity);
-        let start =
-            Pose { event: axes.apply(Event { t: 0.0, x: at }), scene_from_axes: axes, turn: DQuat::IDENTITY };
-        let acceleration = Acceleration::new(start, accelerations)?;
+        let frame = InertialFrame { at, ..InertialFrame::new(velocity) };
+        let acceleration = Acceleration::new(frame.pose(0.0), accelerations)?;
         let spin = Spin::new(spins)?;
         if acceleration.is_none() && spin.is_none() {
-            return Ok(Self::inertial(velocity));
+            return Ok(Self::inertial(frame));
         }
         let turns = Turn::new(at, spin).into_iter().collect();
         let path = Path::Accelerated(acceleration);
@@ -275,7 +275,10 @@ impl WorldLine {
             return Err(WorldLineError::NotFinite);
         }
         let Some(turn) = Turn::new(at, Spin::new(spins)?) else { return Ok(self.clone()) };
-        let mut moving = self.as_moving();
+        let mut moving = match &self.0 {
+            Kind::Inertial(frame) => frame.as_moving(),
+            Kind::Moving(moving) => (**moving).clone(),
+        };
         moving.turns.insert(0, turn);
         Ok(Self(Kind::Moving(Box::new(moving))))
     }
@@ -284,7 +287,10 @@ impl WorldLine {
     /// subtracted.
     #[must_use]
     pub fn in_frame(&self, target_from_source: Lorentz, origin: Event) -> Self {
-        let mut moving = self.as_moving();
+        let mut moving = match &self.0 {
+            Kind::Inertial(frame) => return Self(Kind::Inertial(frame.in_frame(target_from_source, origin))),
+            Kind::Moving(moving) => (**moving).clone(),
+        };
         match &mut moving.path {
             Path::Accelerated(acceleration) => acceleration.change_frame(target_from_source, origin),
             Path::Orbit(orbit) => orbit.change_frame(target_from_source, origin),
@@ -295,30 +301,57 @@ impl WorldLine {
         Self(Kind::Moving(Box::new(moving)))
     }
 
+    /// The motion, in the frame that `carrier` moves in, of what has this motion in the coordinates
+    /// of the carrier.
+    ///
+    /// # Errors
+    /// A velocity that rounds to that of light.
+    pub fn carried_by(&self, carrier: &InertialFrame) -> Result<Self, WorldLineError> {
+        if let Kind::Inertial(frame) = &self.0 {
+            return Ok(Self(Kind::Inertial(carrier.carrying(frame)?)));
+        }
+        let axes = carrier.axes();
+        let origin = Event { t: 0.0, x: carrier.at } - axes.inverse().apply(carrier.start());
+        let line = self.in_frame(axes, origin);
+        line.pose(0.0).scene_from_axes.velocity_of_frame()?;
+        Ok(line)
+    }
+
     /// The same motion with `anchor` as the fixed point of the contraction at own time 0, instead
-    /// of the origin.
+    /// of A.
     #[must_use]
     pub fn anchored(&self, anchor: DVec3) -> Self {
-        let shift = self.anchor_shift(anchor);
+        self.displaced(self.anchor_shift(anchor))
+    }
+
+    /// The same motion, displaced in space and time.
+    #[must_use]
+    pub fn displaced(&self, shift: Event) -> Self {
         self.in_frame(Lorentz::IDENTITY, Event { t: -shift.t, x: -shift.x })
     }
 
     /// True if it passes given events, or is part of a motion that does: its place in space and
-    /// time is stated, and does not depend on a fixed point of the contraction.
+    /// time is stated, and no body is placed otherwise by what is seen of it.
     #[must_use]
     pub fn passes_events(&self) -> bool {
         matches!(&self.0, Kind::Moving(moving) if matches!(moving.path, Path::Along(_)))
     }
 
-    /// The displacement in space and time of [`WorldLine::anchored`]; none if
-    /// [`WorldLine::passes_events`].
+    /// The displacement in space and time of [`WorldLine::anchored`]; none if it runs on a circle
+    /// or passes given events, whose place is stated.
     #[must_use]
     pub fn anchor_shift(&self, anchor: DVec3) -> Event {
-        if self.passes_events() {
-            return Event { t: 0.0, x: DVec3::ZERO };
-        }
+        let none = Event { t: 0.0, x: DVec3::ZERO };
+        let at = match &self.0 {
+            Kind::Inertial(frame) => frame.at,
+            Kind::Moving(moving) => match moving.path {
+                Path::Accelerated(_) => moving.at,
+                Path::Orbit(_) | Path::Along(_) => return none,
+            },
+        };
+        let Pose { event, scene_from_axes, .. } = self.pose(0.0);
         let there = Event { t: 0.0, x: anchor };
-        there - Lorentz::boost(self.initial_velocity()).apply(there)
+        there - (event + scene_from_axes.apply(there - Event { t: 0.0, x: at }))
     }
 
     /// The displacement, simultaneous in the rest frame of A at own time 0, after which `point` is
@@ -370,29 +403,23 @@ impl WorldLine {
     /// The same motion with coordinates of the body that are relative to `origin`.
     #[must_use]
     pub fn with_body_origin(&self, origin: DVec3) -> Self {
-        let mut moving = self.as_moving();
+        let mut moving = match &self.0 {
+            Kind::Inertial(frame) => {
+                let shift = frame.shift + Event { t: 0.0, x: origin };
+                return Self(Kind::Inertial(InertialFrame { at: frame.at - origin, shift, ..*frame }));
+            }
+            Kind::Moving(moving) => (**moving).clone(),
+        };
         moving.at -= origin;
         moving.turns.iter_mut().for_each(|turn| turn.pivot -= origin);
         Self(Kind::Moving(Box::new(moving)))
     }
 
-    fn as_moving(&self) -> Moving {
-        match &self.0 {
-            Kind::Inertial(velocity) => Moving {
-                at: DVec3::ZERO,
-                initial: *velocity,
-                path: Path::Accelerated(Acceleration::none(*velocity)),
-                turns: Vec::new(),
-            },
-            Kind::Moving(moving) => (**moving).clone(),
-        }
-    }
-
-    /// The velocity of a body that neither accelerates nor turns; `None` for others.
+    /// The rest frame of a body that neither accelerates nor turns; `None` for others.
     #[must_use]
-    pub fn uniform_velocity(&self) -> Option<Velocity> {
+    pub fn inertial_frame(&self) -> Option<&InertialFrame> {
         match &self.0 {
-            Kind::Inertial(velocity) => Some(*velocity),
+            Kind::Inertial(frame) => Some(frame),
             Kind::Moving(_) => None,
         }
     }
@@ -401,20 +428,16 @@ impl WorldLine {
     #[must_use]
     pub fn initial_velocity(&self) -> Velocity {
         match &self.0 {
-            Kind::Inertial(velocity) => *velocity,
+            Kind::Inertial(frame) => frame.velocity,
             Kind::Moving(moving) => moving.initial,
         }
     }
 
-    /// Event and axes of the reference point at an own time; the origin for a uniform motion.
+    /// Event and axes of the reference point at an own time.
     #[must_use]
     pub fn pose(&self, own_time: f64) -> Pose {
         match &self.0 {
-            Kind::Inertial(velocity) => {
-                let scene_from_axes = Lorentz::boost(*velocity);
-                let event = scene_from_axes.apply(Event { t: own_time, x: DVec3::ZERO });
-                Pose { event, scene_from_axes, turn: DQuat::IDENTITY }
-            }
+            Kind::Inertial(frame) => frame.pose(own_time),
             Kind::Moving(moving) => moving.pose(own_time),
         }
     }
@@ -425,7 +448,7 @@ impl WorldLine {
     /// [`WorldLineError::Horizon`] if the point cannot move so.
     pub fn event(&self, point: DVec3, own_time: f64) -> Result<Event, WorldLineError> {
         match &self.0 {
-            Kind::Inertial(velocity) => Ok(Lorentz::boost(*velocity).apply(Event { t: own_time, x: point })),
+            Kind::Inertial(frame) => Ok(frame.event(point, own_time)),
             Kind::Moving(moving) => Ok(moving.moment(point, own_time)?.event),
         }
     }
@@ -439,12 +462,10 @@ impl WorldLine {
     /// [`WorldLineError::Horizon`] if the point cannot move so.
     pub fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
         match &self.0 {
-            Kind::Inertial(velocity) => {
-                let axes = Lorentz::boost(*velocity);
-                let Event { t, x } = axes.inverse().apply(observer);
+            Kind::Inertial(frame) => {
+                let Event { t, x } = frame.coordinates(observer);
                 let own_time = t - (x - point).length();
-                let event = axes.apply(Event { t: own_time, x: point });
-                Ok(EmissionEvent { own_time, event, velocity: *velocity })
+                Ok(EmissionEvent { own_time, event: frame.event(point, own_time), velocity: frame.velocity })
             }
             Kind::Moving(moving) => moving.emission(point, observer),
         }
@@ -492,9 +513,9 @@ impl WorldLine {
     /// [`WorldLineError::Horizon`] if no point of the body can be there.
     pub fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
         match &self.0 {
-            Kind::Inertial(velocity) => {
-                let Event { t, x } = Lorentz::boost(*velocity).inverse().apply(event);
-                Ok(BodyEvent { point: x, own_time: t, velocity: *velocity })
+            Kind::Inertial(frame) => {
+                let Event { t, x } = frame.coordinates(event);
+                Ok(BodyEvent { point: x, own_time: t, velocity: frame.velocity })
             }
             Kind::Moving(moving) => moving.at_event(event),
         }
@@ -507,7 +528,7 @@ impl WorldLine {
     /// [`WorldLineError`] if no time is found.
     pub fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
         match &self.0 {
-            Kind::Inertial(velocity) => Ok(Lorentz::boost(*velocity).inverse().apply(event).t),
+            Kind::Inertial(frame) => Ok(frame.coordinates(event).t),
             Kind::Moving(moving) => moving.own_time_at(event),
         }
     }
@@ -582,7 +603,7 @@ impl WorldLine {
     #[must_use]
     pub fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
         match &self.0 {
-            Kind::Inertial(velocity) => ElementFrame::inertial(*velocity),
+            Kind::Inertial(frame) => ElementFrame::inertial(frame),
             Kind::Moving(moving) => moving.element(point, own_time),
         }
     }

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::{Pose, WorldLine, WorldLineError};
-use crate::{Event, HyperbolicMotion, Lorentz, Velocity};
+use crate::{Event, HyperbolicMotion, Lorentz};
 
 /// A point of a body relative to A, in the carried axes.
 #[derive(Clone, Copy, Debug)]
@@ -164,10 +164,8 @@ impl Acceleration {
         Ok(Self(timeline))
     }
 
-    /// Without acceleration, with a velocity, through the origin.
-    pub(super) fn none(velocity: Velocity) -> Self {
-        let event = Event { t: 0.0, x: DVec3::ZERO };
-        let start = Pose { event, scene_from_axes: Lorentz::boost(velocity), turn: DQuat::IDENTITY };
+    /// Without acceleration. `start`: at own time 0.
+    pub(super) fn none(start: Pose) -> Self {
         Self(Timeline::new(&[], start, accelerated))
     }
 

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use ugphysics::{
-    Event, HyperbolicMotion, Orbit, Piece, SampledPath, Velocity, WorldLine, WorldLineError as Error,
+    Event, HyperbolicMotion, InertialFrame, Orbit, Piece, SampledPath, Velocity, WorldLine,
+    WorldLineError as Error,
 };
 
 fn table(rows: impl Iterator<Item = Event>) -> SampledPath {
@@ -45,7 +46,7 @@ fn a_straight_table_is_inertial() {
     let rows = times.map(|t| Event { t, x: start + (t + 2.0) * velocity });
     let at = DVec3::new(1.0, 2.0, 3.0);
     let line = WorldLine::along(at, SampledPath::new(&rows).unwrap(), &[]).unwrap();
-    let inertial = WorldLine::inertial(Velocity::from_beta(velocity).unwrap());
+    let inertial = WorldLine::inertial(InertialFrame::new(Velocity::from_beta(velocity).unwrap()));
     let shift = rows[0] - inertial.event(at, 0.0).unwrap();
     for step in -40..40 {
         let own_time = 0.25 * f64::from(step);

@@ -1,7 +1,7 @@
 //! World lines: published numbers, computed with 40 digits, and laws.
 
 use glam::DVec3;
-use ugphysics::{Event, Lorentz, Orbit, Piece, SampledPath, Velocity, WorldLine, doppler_at};
+use ugphysics::{Event, InertialFrame, Lorentz, Orbit, Piece, SampledPath, Velocity, WorldLine, doppler_at};
 
 const ALWAYS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
@@ -150,8 +150,8 @@ fn pieces_join_without_a_trace() {
 fn nothing_is_inertial() {
     let velocity = Velocity::from_beta(DVec3::new(0.3, -0.4, 0.5)).unwrap();
     let none = piece([0.0; 3], [0.0, 1.0]);
-    let line = WorldLine::accelerated(DVec3::X, velocity, &[none], &[none]).unwrap();
-    assert_eq!(line, WorldLine::inertial(velocity));
+    let line = WorldLine::accelerated(DVec3::ZERO, velocity, &[none], &[none]).unwrap();
+    assert_eq!(line, WorldLine::inertial(InertialFrame::new(velocity)));
     let point = DVec3::new(4.0, 1.0, -2.0);
     let seen = line.emission(point, Event { t: 0.0, x: DVec3::ZERO }).unwrap();
     assert!((seen.event.x - ugphysics::seen_position(point, velocity)).length() < 1e-14);
@@ -248,7 +248,7 @@ fn motions() -> Vec<WorldLine> {
         moving([0.0; 3], [0.5, 0.0, 0.0], &[], &spin),
         WorldLine::along(DVec3::X * 0.1, curve(), &[]).unwrap(),
         WorldLine::along(DVec3::X * 0.1, curve(), &spin).unwrap(),
-        WorldLine::inertial(Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap()),
+        WorldLine::inertial(InertialFrame::new(Velocity::from_beta(DVec3::new(0.3, 0.2, 0.1)).unwrap())),
     ]
 }
 

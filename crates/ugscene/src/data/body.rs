@@ -2,7 +2,7 @@
 
 use std::ops::Index;
 
-use ugphysics::{Velocity, WorldLine};
+use ugphysics::{InertialFrame, Velocity, WorldLine};
 
 use super::ids::{BodyId, NameId};
 use super::motion::StatedMotion;
@@ -13,8 +13,8 @@ pub struct MotionId(u32);
 
 /// A part of the scene that moves as one.
 ///
-/// Its name tells it from others that move alike. Bodies without a name are told apart by their
-/// velocity, since the text gives nothing else.
+/// Its name tells it from others that move alike. Bodies without a name are told apart by what the
+/// text states of them: velocity and reference point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
     /// Its name, if it has one.
@@ -64,14 +64,14 @@ impl Bodies {
         BodyId(0)
     }
 
-    /// Finds the body without a name whose stated motion has this velocity, or adds it.
-    ///
-    /// Scenes have few bodies, so the search is linear.
+    /// Finds the body without a name whose stated motion is this velocity, with the origin as
+    /// reference point, or adds it. The search is linear.
     pub fn moving_with(&mut self, velocity: Velocity) -> BodyId {
-        let known = |&id: &BodyId| self[id].name.is_none() && self.stated_velocity(id) == Some(velocity);
+        let line = WorldLine::inertial(InertialFrame::new(velocity));
+        let known = |&id: &BodyId| self[id].name.is_none() && self[id].is_stated && *self.motion(id) == line;
         match self.ids().find(known) {
             Some(id) => id,
-            None => self.push(None, WorldLine::inertial(velocity)),
+            None => self.push(None, line),
         }
     }
 
@@ -102,7 +102,7 @@ impl Bodies {
     /// True if a body accelerates, turns or runs on a circle, so that its points have velocities of
     /// their own.
     pub fn is_on_world_line(&self, id: BodyId) -> bool {
-        self.motion(id).uniform_velocity().is_none()
+        self.motion(id).inertial_frame().is_none()
     }
 
     /// True if [`Bodies::is_on_world_line`] holds for any body.
@@ -121,13 +121,15 @@ impl Bodies {
         self[id].is_stated.then(|| self.velocity(id))
     }
 
-    /// Replaces the velocity of a body. It is part of the text from then on.
-    pub fn set_velocity(&mut self, id: BodyId, velocity: Velocity) {
+    /// Makes a body inertial, with this motion in the text.
+    pub fn set_frame(&mut self, id: BodyId, frame: InertialFrame) {
         let body = &mut self.rows[id.index()];
         body.is_stated = true;
         let motion = &mut self.motions[body.motion.0 as usize];
-        motion.line = WorldLine::inertial(velocity);
-        motion.statement = motion.statement.take().map(|_| StatedMotion::inertial(velocity));
+        motion.line = WorldLine::inertial(frame);
+        let statement =
+            |_| StatedMotion { at: frame.at, shift: frame.shift, ..StatedMotion::inertial(frame.velocity) };
+        motion.statement = motion.statement.take().map(statement);
     }
 
     /// True if any body moves in the frame of the scene.
@@ -135,9 +137,10 @@ impl Bodies {
         self.ids().any(|id| self.is_moving(id))
     }
 
-    /// True if a body moves in the frame of the scene.
+    /// True if a body moves in the frame of the scene, or is displaced there.
     pub fn is_moving(&self, id: BodyId) -> bool {
-        *self.motion(id) != WorldLine::REST
+        let rest = |frame: &InertialFrame| InertialFrame { at: frame.at, ..InertialFrame::REST };
+        self.motion(id).inertial_frame().is_none_or(|frame| *frame != rest(frame))
     }
 
     /// The ids of all bodies, in order.

@@ -17,14 +17,12 @@ pub use color_table::{ColorTable, TablePlace};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
 pub use ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
-pub use motion::{MotionPath, StatedMotion};
+pub use motion::{Carrier, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{
     Camera, Color, ColorValue, Face, FaceOrWire, Illum, Light, LightKind, LightMotion, Mix, Projection,
     Scene, Tint, Vertex, Wire,
 };
-pub use stage::{
-    ColorScale, ColorStage, GeometryStage, HueScale, LampShift, Mixtures, SeenColors, SeenGeometry, Stage,
-};
+pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
 pub use surface::{SurfaceNumber, SurfaceProperties};

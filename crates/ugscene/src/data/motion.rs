@@ -1,7 +1,7 @@
 //! Motions with a name, as the text states them.
 
 use glam::DVec3;
-use ugphysics::{Event, Orbit, Piece, SampledPath, Velocity, WorldLine, WorldLineError};
+use ugphysics::{Event, InertialFrame, Orbit, Piece, SampledPath, Velocity, WorldLine, WorldLineError};
 
 use super::ids::BodyId;
 
@@ -10,12 +10,14 @@ use super::ids::BodyId;
 pub struct StatedMotion {
     /// `-at`: the reference point A, in the coordinates of the body.
     pub at: DVec3,
-    /// The world line of A.
+    /// The world line of A, in the frame of the carrier.
     pub path: MotionPath,
     /// `-spin`: angular velocity about A along the carried axes, radians per unit of own time.
     pub spins: Vec<Piece>,
-    /// `-shift`: displacement of the whole world line in space and time, which `-an`, `-in` and a
-    /// camera on a world line leave in a scene as seen.
+    /// `-on`: what it moves on; the scene if it is `None`.
+    pub on: Option<Carrier>,
+    /// `-shift`: displacement of the whole world line in space and time, in the frame of the scene,
+    /// which `-an`, `-in` and a camera on a world line leave in a scene as seen.
     pub shift: Event,
 }
 
@@ -35,13 +37,25 @@ pub enum MotionPath {
         center: DVec3,
         /// The axis, of any length except 0.
         axis: DVec3,
-        /// Radians per unit of the time of the scene.
+        /// Radians per unit of the time of the frame.
         rate: f64,
     },
     /// `-path`: A passes the events of a table.
     Along(SampledPath),
-    /// `-on`: A is a point of another body.
-    On(BodyId),
+}
+
+impl MotionPath {
+    /// A is a fixed point of the carrier.
+    pub const FIXED: Self = Self::Free { velocity: Velocity::ZERO, accelerations: Vec::new() };
+}
+
+/// What a motion moves on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Carrier {
+    /// Another body with a name.
+    Body(BodyId),
+    /// A frame of constant velocity in the scene.
+    Frame(InertialFrame),
 }
 
 impl StatedMotion {
@@ -51,23 +65,32 @@ impl StatedMotion {
     /// Constant velocity.
     pub fn inertial(velocity: Velocity) -> Self {
         let path = MotionPath::Free { velocity, accelerations: Vec::new() };
-        Self { at: DVec3::ZERO, path, spins: Vec::new(), shift: Self::NO_SHIFT }
+        Self { at: DVec3::ZERO, path, spins: Vec::new(), on: None, shift: Self::NO_SHIFT }
     }
 
-    /// The body that this one is part of.
-    pub fn on(&self) -> Option<BodyId> {
-        match self.path {
-            MotionPath::On(body) => Some(body),
+    /// The body that it moves on.
+    pub fn body(&self) -> Option<BodyId> {
+        match self.on {
+            Some(Carrier::Body(body)) => Some(body),
             _ => None,
         }
     }
 
-    /// The world line in the frame of the scene. `carrier`: that of the body that this one is part
-    /// of; at rest if there is none.
+    /// The world line in the frame of the scene. `body`: that of the body that this one moves on.
+    /// `None` if it moves on a body that accelerates or turns, and not with a point of it.
     ///
     /// # Errors
     /// See [`WorldLineError`].
-    pub fn world_line(&self, carrier: &WorldLine) -> Result<WorldLine, WorldLineError> {
+    pub fn world_line(&self, body: &WorldLine) -> Result<Option<WorldLine>, WorldLineError> {
+        let frame = match &self.on {
+            None => &InertialFrame::REST,
+            Some(Carrier::Frame(frame)) => frame,
+            Some(Carrier::Body(_)) => match body.inertial_frame() {
+                Some(frame) => frame,
+                None if self.path != MotionPath::FIXED => return Ok(None),
+                None => return Ok(Some(self.displaced(body.with_part(self.at, &self.spins)?))),
+            },
+        };
         let line = match &self.path {
             MotionPath::Free { velocity, accelerations } => {
                 WorldLine::accelerated(self.at, *velocity, accelerations, &self.spins)
@@ -76,12 +99,12 @@ impl StatedMotion {
                 WorldLine::orbiting(Orbit::new(self.at, center, axis, rate)?, &self.spins)
             }
             MotionPath::Along(path) => WorldLine::along(self.at, path.clone(), &self.spins),
-            MotionPath::On(_) => carrier.with_part(self.at, &self.spins),
         }?;
-        if self.shift == Self::NO_SHIFT {
-            return Ok(line);
-        }
-        let origin = Event { t: -self.shift.t, x: -self.shift.x };
-        Ok(line.in_frame(ugphysics::Lorentz::IDENTITY, origin))
+        let line = if *frame == InertialFrame::REST { line } else { line.carried_by(frame)? };
+        Ok(Some(self.displaced(line)))
+    }
+
+    fn displaced(&self, line: WorldLine) -> WorldLine {
+        if self.shift == Self::NO_SHIFT { line } else { line.displaced(self.shift) }
     }
 }

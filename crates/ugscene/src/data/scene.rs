@@ -20,7 +20,7 @@ use super::contours::Contours;
 use super::ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
 use super::names::Names;
 use super::remarks::Remarks;
-use super::stage::{HueScale, LampShift, Stage};
+use super::stage::{HueScale, Stage};
 use super::surface::SurfaceProperties;
 
 /// A flat UniGrafix scene.
@@ -31,9 +31,6 @@ use super::surface::SurfaceProperties;
 pub struct Scene {
     /// The stage of positions and colours: `(ugstage … )`.
     pub stage: Stage,
-    /// For velocities of bodies, part of the statement of the stage if positions are as seen. Empty
-    /// if lamps without a velocity are at their positions for all bodies.
-    pub lamp_shifts: Vec<LampShift>,
     /// Text of every name used below.
     pub names: Names,
     /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`, `c_time`.

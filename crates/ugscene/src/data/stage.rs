@@ -87,17 +87,6 @@ pub struct SeenGeometry {
     pub flight_time: bool,
 }
 
-/// How far lamps without a velocity are displaced in the rest frame of a body, because its rest
-/// coordinates were displaced (time of the picture, place of the body). Such lamps rest with
-/// whatever they light, so each body has them at another place in the scene.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LampShift {
-    /// The velocity of the body.
-    pub velocity: Velocity,
-    /// The displacement of the lamps, in the axes of the scene.
-    pub shift: DVec3,
-}
-
 /// The stage of the colours in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum ColorStage {

@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::{Velocity, compose};
+use ugphysics::{InertialFrame, Velocity, WorldLine, compose};
 
 use super::MotionError;
-use crate::{BodyId, Scene};
+use crate::{BodyId, RelativeMotion, Scene};
 
 /// The velocity of the camera in the frame of the scene: the option, else that of the scene's
 /// camera. It is removed from the scene, since the output is in the frame of the camera.
@@ -20,12 +20,13 @@ pub(super) fn take_camera_velocity(
     }
 }
 
-/// Makes all faces and wires parts of one body, except those of bodies with a name, whose motion is
-/// more than a velocity. If that body is at rest, those whose motion is not stated stay what they
-/// are.
-pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
-    let (body, unstated) = (scene.bodies.moving_with(velocity), scene.bodies.unstated());
+/// Makes all faces and wires parts of one new body, except those of bodies with a name, whose
+/// motion is more than a velocity. If that body is at rest, those whose motion is not stated stay
+/// what they are.
+pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) -> BodyId {
     let keeps: Vec<bool> = scene.bodies.ids().map(|id| scene.bodies.statement(id).is_some()).collect();
+    let unstated = scene.bodies.unstated();
+    let body = scene.bodies.push(None, WorldLine::inertial(InertialFrame::new(velocity)));
     let set = |slot: &mut BodyId| {
         if !keeps[slot.index()] && (!velocity.is_zero() || *slot != unstated) {
             *slot = body;
@@ -33,6 +34,7 @@ pub(super) fn set_velocity(scene: &mut Scene, velocity: Velocity) {
     };
     scene.faces.par_iter_mut().for_each(|face| set(&mut face.body));
     scene.wires.par_iter_mut().for_each(|wire| set(&mut wire.body));
+    body
 }
 
 /// States the motion of all faces and wires: what rests in the scene moves in the frame of the
@@ -63,20 +65,20 @@ pub(super) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
     Velocity::from_beta(compose(body, -camera).beta()).map_err(|_| MotionError::TooFast { beta: body.beta() })
 }
 
-/// Transforms all velocities of a scene to the frame of the camera.
-pub(super) fn transform_velocities(scene: &mut Scene, camera: Velocity) -> Result<(), MotionError> {
-    if !camera.is_zero() {
-        for body in scene.bodies.ids() {
-            if scene.bodies.is_on_world_line(body) {
-                continue;
-            }
-            if let Some(velocity) = scene.bodies.stated_velocity(body) {
-                scene.bodies.set_velocity(body, in_camera_frame(velocity, camera)?);
-            }
+/// Gives inertial bodies their motions relative to the camera, and other cameras theirs. `motions`:
+/// of each body.
+pub(super) fn state_relative_motions(
+    scene: &mut Scene,
+    motions: &[RelativeMotion],
+    camera: Velocity,
+) -> Result<(), MotionError> {
+    for body in scene.bodies.ids() {
+        if !scene.bodies.is_on_world_line(body) && scene.bodies.stated_velocity(body).is_some() {
+            scene.bodies.set_frame(body, InertialFrame::new(motions[body.index()].velocity()));
         }
-        for velocity in scene.cameras.iter_mut().filter_map(|other| other.velocity.as_mut()) {
-            *velocity = in_camera_frame(*velocity, camera)?;
-        }
+    }
+    for velocity in scene.cameras.iter_mut().filter_map(|other| other.velocity.as_mut()) {
+        *velocity = in_camera_frame(*velocity, camera)?;
     }
     Ok(())
 }

@@ -1,28 +1,27 @@
 //! Clocks of inertial bodies.
 //!
 //! The own time of a body is that of the clock of its motion: for an inertial body the time of its
-//! rest frame, which is 0 where the fixed point of the contraction is at time 0 of the scene. What
+//! rest frame, which is 0 where its reference point is at time 0 of the scene. What
 //! a program downstream knows of an inertial body, its velocity and rest positions relative to the
 //! eye, does not tell when that was. So tables of colours are changed to count from the event of
 //! the eye: light that is seen directly left |p'| before that.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugphysics::{Event, Lorentz};
+use ugphysics::{Event, InertialFrame, Lorentz};
 
 use super::observer::Observer;
-use super::placement::anchor_point;
 use super::{MotionError, MotionOptions};
 use crate::{BodyId, Color, ColorId, ColorTable, RelativeMotion, Scene, UniqueNames};
 
 /// Makes the tables of colours on inertial bodies count from the event of the eye. `motions`: of
-/// each body. `centers`: from [`super::placement::wanted_centers`].
+/// each body. `frames`: see [`super::placement::frames`].
 ///
 /// # Errors
 /// [`MotionError::PartialTimes`].
 pub(super) fn count_from_eye(
     scene: &mut Scene,
-    (motions, centers): (&[RelativeMotion], &[DVec3]),
+    (motions, frames): (&[RelativeMotion], &[InertialFrame]),
     (eye, observer): (DVec3, &Observer),
     options: &MotionOptions,
 ) -> Result<(), MotionError> {
@@ -32,17 +31,18 @@ pub(super) fn count_from_eye(
     if !(options.geometry.contraction && options.geometry.flight_time) {
         return Err(MotionError::PartialTimes);
     }
-    let time = |(motion, &center): (&RelativeMotion, &DVec3)| {
+    let time = |(motion, frame): (&RelativeMotion, &InertialFrame)| {
         if motion.world_line().is_some() {
             return 0.0;
         }
         // With `-in`, a body is displaced in its rest frame in space alone, so its clock still
         // shows 0 at time 0 of the scene at the origin.
-        let zero = if options.in_place { DVec3::ZERO } else { eye + anchor_point(options, eye, center) };
-        let event = observer.event(options.time) + Event { t: 0.0, x: eye - zero };
+        let origin = Event { t: 0.0, x: DVec3::ZERO };
+        let zero = if options.in_place { origin } else { frame.start() };
+        let event = observer.event(options.time) + Event { t: 0.0, x: eye } - zero;
         Lorentz::boost(motion.in_scene()).inverse().apply(event).t
     };
-    let times: Vec<f64> = motions.iter().zip(centers).map(time).collect();
+    let times: Vec<f64> = motions.iter().zip(frames).map(time).collect();
     let mut recount = Recount { times, known: FxHashMap::default(), names: None };
     for row in 0..scene.faces.len() {
         let face = &scene.faces[row];

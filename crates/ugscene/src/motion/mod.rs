@@ -30,8 +30,8 @@ pub struct MotionOptions {
     pub camera_velocity: Option<DVec3>,
     /// Time of the picture on the observer's clock, (P5) (`-ti`).
     pub time: f64,
-    /// The fixed point of the contraction (`-an`). Default: the eye, but the centre of each body if
-    /// `in_place` is set.
+    /// The fixed point of the contraction (`-an`). Default: the reference point of each body; the
+    /// eye for what `velocity` moves; the centre of each body if `in_place` is set.
     pub anchor: Option<Anchor>,
     /// Place each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
     pub in_place: bool,
@@ -138,9 +138,7 @@ impl PlacedBodies {
         let velocity = velocity.map_err(MotionError::Velocity)?;
         crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
         crate::require_colors_at_rest(scene).map_err(MotionError::Stage)?;
-        if options.velocity.is_some() {
-            camera_frame::set_velocity(scene, velocity);
-        }
+        let overridden = options.velocity.map(|_| camera_frame::set_velocity(scene, velocity));
         let observer = Observer::take(scene, options, camera.eye)?;
         let of_camera = observer.velocity;
         if !of_camera.is_zero() {
@@ -148,6 +146,7 @@ impl PlacedBodies {
         }
         crate::separate_bodies(scene);
         let bodies = crate::vertex_bodies(scene);
+        placement::turn_bodies(scene, &bodies);
         let mut motions = motions(scene, velocity, of_camera, options.geometry)?;
         // Bodies on world lines are fitted at rest.
         let fitted = |body: BodyId| {
@@ -159,7 +158,8 @@ impl PlacedBodies {
         let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
         let roots = world_lines::roots(scene);
         world_lines::release_parts_of_inertial_bodies(scene)?;
-        camera_frame::transform_velocities(scene, of_camera)?;
+        let frames = placement::frames(scene, (&bodies, &roots), (eye, overridden), options);
+        camera_frame::state_relative_motions(scene, &motions, of_camera)?;
         world_lines::place(scene, (&bodies, &roots), &mut motions, (eye, &observer), options)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
@@ -167,10 +167,9 @@ impl PlacedBodies {
             || crate::has_moving_bodies(scene)
             || crate::has_moving_lights(scene)
             || !scene.color_tables.is_empty();
-        let centers = placement::wanted_centers(scene, (&bodies, &roots), options);
-        let shifts = placement::shifts(&motions, &centers, (eye, &observer), options);
+        let shifts = placement::shifts(&motions, &frames, (eye, &observer), options);
         placement::shift_lights(scene, &motions, &shifts);
-        clocks::count_from_eye(scene, (&motions, &centers), (eye, &observer), options)?;
+        clocks::count_from_eye(scene, (&motions, &frames), (eye, &observer), options)?;
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
-use super::{Anchor, MotionError, MotionOptions, camera_frame};
+use super::{MotionError, MotionOptions, camera_frame};
 use crate::Scene;
 
 /// The eye when the picture is taken.
@@ -43,15 +43,12 @@ impl Observer {
 
     /// The eye as a point of a body on a world line.
     fn carried(line: &WorldLine, eye: DVec3, options: &MotionOptions) -> Result<Self, MotionError> {
-        let anchor = match options.anchor {
-            Some(Anchor::Origin) if !options.in_place => DVec3::ZERO,
-            Some(Anchor::Point(point)) if !options.in_place => point,
-            _ => eye,
-        };
         let failed = |error| MotionError::Eye { error };
         line.check(eye).map_err(failed)?;
         line.check_turn(options.time).map_err(failed)?;
-        let line = line.anchored(anchor);
+        // With `-in` the eye is at its place at time 0.
+        let anchor = if options.in_place { Some(eye) } else { options.anchor_point(eye, eye) };
+        let line = anchor.map_or_else(|| line.clone(), |anchor| line.anchored(anchor));
         let event = line.event(eye, options.time).map_err(failed)?;
         let frame = line.frame(eye, options.time);
         let velocity = frame.velocity_of_frame().map_err(MotionError::CameraVelocity)?;

@@ -3,32 +3,55 @@
 //! All three add a constant to the rest coordinates of a body. So all later steps work on rest
 //! coordinates alone, and the rest geometry recovered from the output has the same shape.
 
-use std::collections::HashSet;
-
 use glam::DVec3;
-use ugphysics::{Lorentz, observer_shift};
+use ugphysics::{Event, InertialFrame, Lorentz, observer_shift};
 
 use super::observer::Observer;
 use super::{Anchor, MotionOptions, RelativeMotion};
-use crate::{BodyId, LampShift, LightKind, Scene, SeenPosition};
+use crate::{BodyId, LightKind, Scene, SeenPosition, StatedMotion};
+
+/// The rest frame in the scene of each inertial body, with the fixed point of the contraction as A:
+/// the option, else the reference point of the body; for `overridden`, which the option `-vel`
+/// moves, the eye. Those of bodies on world lines have no meaning.
+///
+/// `bodies`: of each vertex. `roots`: from [`super::world_lines::roots`].
+pub(super) fn frames(
+    scene: &Scene,
+    (bodies, roots): (&[BodyId], &[BodyId]),
+    (eye, overridden): (DVec3, Option<BodyId>),
+    options: &MotionOptions,
+) -> Vec<InertialFrame> {
+    let centers = wanted_centers(scene, (bodies, roots), options);
+    let frame = |body: BodyId| {
+        let own = *scene.bodies.motion(body).inertial_frame().unwrap_or(&InertialFrame::REST);
+        let about = |at: DVec3| InertialFrame { at, shift: StatedMotion::NO_SHIFT, ..own };
+        match options.anchor_point(eye, centers[body.index()]) {
+            Some(point) => about(point),
+            None if overridden == Some(body) => about(eye),
+            None => own,
+        }
+    };
+    scene.bodies.ids().map(frame).collect()
+}
 
 /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
 ///
-/// `motions`: of each body. `centers`: from [`wanted_centers`].
+/// `motions`: of each body. `frames`: from [`frames`].
 pub(super) fn shifts(
     motions: &[RelativeMotion],
-    centers: &[DVec3],
+    frames: &[InertialFrame],
     (eye, observer): (DVec3, &Observer),
     options: &MotionOptions,
 ) -> Vec<DVec3> {
-    let shift = |(motion, &center): (&RelativeMotion, &DVec3)| {
+    let shift = |(motion, frame): (&RelativeMotion, &InertialFrame)| {
         if motion.world_line().is_some() {
             return DVec3::ZERO;
         }
-        let point = anchor_point(options, eye, center);
-        anchor_shift(motion, point, options.in_place) + eye_shift(motion, observer, options.time)
+        anchor_shift(motion, frame.at - eye, options.in_place)
+            + own_shift(motion, frame.shift)
+            + eye_shift(motion, observer, options.time)
     };
-    let mut shifts: Vec<DVec3> = motions.iter().zip(centers).map(shift).collect();
+    let mut shifts: Vec<DVec3> = motions.iter().zip(frames).map(shift).collect();
     // Unused vertices are part of the first body. They get the offset of a body of the same motion.
     let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
     if let Some(row) = same_motion {
@@ -55,15 +78,17 @@ pub(super) fn wanted_centers(
     roots.iter().map(|root| centers[root.index()]).collect()
 }
 
-/// The fixed point of the contraction, relative to the eye. `center`: of the body.
-pub(super) fn anchor_point(options: &MotionOptions, eye: DVec3, center: DVec3) -> DVec3 {
-    match options.anchor {
-        Some(Anchor::Eye) => DVec3::ZERO,
-        Some(Anchor::Origin) => -eye,
-        Some(Anchor::Center) => center - eye,
-        Some(Anchor::Point(point)) => point - eye,
-        None if options.in_place => center - eye,
-        None => DVec3::ZERO,
+impl MotionOptions {
+    /// The fixed point of the contraction that the options state; `None` if it is the reference
+    /// point of each body. `center`: of the body.
+    pub(super) fn anchor_point(&self, eye: DVec3, center: DVec3) -> Option<DVec3> {
+        match self.anchor {
+            Some(Anchor::Eye) => Some(eye),
+            Some(Anchor::Origin) => Some(DVec3::ZERO),
+            Some(Anchor::Center) => Some(center),
+            Some(Anchor::Point(point)) => Some(point),
+            None => self.in_place.then_some(center),
+        }
     }
 }
 
@@ -84,6 +109,17 @@ fn anchor_shift(motion: &RelativeMotion, anchor: DVec3, in_place: bool) -> DVec3
         motion.turned(v.direction() * (v.gamma_minus_one() * anchor.dot(v.direction())))
     } else {
         DVec3::ZERO
+    }
+}
+
+/// By a displacement in space and time, in the frame of the scene.
+fn own_shift(motion: &RelativeMotion, shift: Event) -> DVec3 {
+    if shift == StatedMotion::NO_SHIFT {
+        DVec3::ZERO
+    } else if motion.has_contraction() {
+        motion.turned(Lorentz::boost(motion.in_scene()).inverse().apply(shift).x)
+    } else {
+        motion.turned(shift.x - motion.in_scene().beta() * shift.t)
     }
 }
 
@@ -153,13 +189,36 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
         lights_everything.into_iter().for_each(|position| *position += first);
         return;
     }
-    let stated = |(body, shift): (BodyId, DVec3)| {
+    for (body, shift) in shifts.into_iter().filter(|&(_, shift)| shift != DVec3::ZERO) {
+        let shift = Event { t: 0.0, x: shift };
         let velocity = scene.bodies.velocity(body);
-        (shift != DVec3::ZERO).then_some(LampShift { velocity, shift })
+        scene.bodies.set_frame(body, InertialFrame { shift, ..InertialFrame::new(velocity) });
+    }
+}
+
+/// Turns bodies about their reference points as frames in frames are turned, with their lights.
+/// `bodies`: of each vertex.
+pub(super) fn turn_bodies(scene: &mut Scene, bodies: &[BodyId]) {
+    let turn = |body: BodyId| {
+        let frame = scene.bodies.motion(body).inertial_frame()?;
+        (frame.turn != DVec3::ZERO).then(|| (frame.at, frame.rotation()))
     };
-    // Bodies with motions of their own may have one velocity, for which one shift is stated.
-    let mut velocities = HashSet::new();
-    let key = |shift: &LampShift| (shift.velocity.beta() + DVec3::ZERO).to_array().map(f64::to_bits);
-    let is_new = |shift: &LampShift| velocities.insert(key(shift));
-    scene.lamp_shifts = shifts.into_iter().filter_map(stated).filter(is_new).collect();
+    let turns: Vec<_> = scene.bodies.ids().map(turn).collect();
+    if turns.iter().all(Option::is_none) {
+        return;
+    }
+    for (vertex, body) in scene.vertices.iter_mut().zip(bodies) {
+        if let Some((at, turn)) = turns[body.index()] {
+            vertex.position = at + turn * (vertex.position - at);
+            vertex.normal = vertex.normal.map(|normal| turn * normal);
+        }
+    }
+    for light in &mut scene.lights {
+        let Some((at, turn)) = light.motion.body().and_then(|body| turns[body.index()]) else { continue };
+        match &mut light.kind {
+            LightKind::Ambient => {}
+            LightKind::Directional(toward) => *toward = turn * *toward,
+            LightKind::Local { position, .. } => *position = at + turn * (*position - at),
+        }
+    }
 }

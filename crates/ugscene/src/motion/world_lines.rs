@@ -5,10 +5,10 @@ use glam::DVec3;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
 use super::observer::Observer;
-use super::placement::centers;
-use super::{Anchor, MotionError, MotionOptions};
+use super::placement::wanted_centers;
+use super::{MotionError, MotionOptions};
 use crate::world_lines::eye_event;
-use crate::{BodyId, MotionPath, RelativeMotion, Scene, StatedMotion};
+use crate::{BodyId, Carrier, RelativeMotion, Scene, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
 ///
@@ -27,32 +27,27 @@ pub(super) fn place(
     if !(options.geometry.contraction && options.geometry.flight_time) {
         return Err(MotionError::PartialGeometry);
     }
-    let needs_centers = options.in_place || options.anchor == Some(Anchor::Center);
-    let centers = if needs_centers { centers(scene, bodies) } else { vec![DVec3::ZERO; motions.len()] };
+    let centers = wanted_centers(scene, (bodies, carriers), options);
     // Programs downstream know eye, time and velocity of the camera.
     let stated_eye = eye_event(eye, options.time, observer.velocity);
     let eye_shift = stated_eye - (observer.event(options.time) + Event { t: 0.0, x: eye });
     let frame = Lorentz::boost(observer.velocity).inverse();
     let roots: Vec<BodyId> = scene.bodies.stated_by_name().filter(|&body| is_root(scene, body)).collect();
     for body in roots {
-        let carrier = carriers[body.index()];
-        let center = centers[carrier.index()];
-        let anchor = match options.anchor {
-            Some(Anchor::Eye) => eye,
-            Some(Anchor::Origin) => DVec3::ZERO,
-            Some(Anchor::Center) => center,
-            Some(Anchor::Point(point)) => point,
-            None if options.in_place => center,
-            None => eye,
-        };
         let line = scene.bodies.motion(body);
-        let shift = if options.in_place && !line.passes_events() {
-            let inertial = WorldLine::inertial(line.initial_velocity());
-            let placed = if carrier == body { line } else { &inertial };
-            in_place_shift(placed, anchor, (eye, observer.velocity))
-                .map_err(|error| impossible(scene, body, error))?
-        } else {
-            line.anchor_shift(anchor)
+        // What rides on an inertial body is placed as that is.
+        let of_carrier = match scene.bodies.statement(body).and_then(|motion| motion.on) {
+            Some(Carrier::Frame(frame)) => Some(WorldLine::inertial(frame)),
+            _ => None,
+        };
+        let placed = of_carrier.as_ref().unwrap_or(line);
+        let shift = match options.anchor_point(eye, centers[body.index()]) {
+            None => StatedMotion::NO_SHIFT,
+            Some(anchor) if options.in_place && !line.passes_events() => {
+                in_place_shift(placed, anchor, (eye, observer.velocity))
+                    .map_err(|error| impossible(scene, body, error))?
+            }
+            Some(anchor) => placed.anchor_shift(anchor),
         };
         let shift = shift + eye_shift;
         if let Some(motion) = scene.bodies.statement(body) {
@@ -66,7 +61,7 @@ pub(super) fn place(
     parts.sort_unstable();
     for (_, body) in parts.into_iter().filter(|&(depth, _)| depth > 0) {
         if let Some(motion) = scene.bodies.statement(body).cloned()
-            && let Some(carrier) = motion.on()
+            && let Some(carrier) = motion.body()
         {
             let carrier = scene.bodies.motion(carrier).clone();
             restate(scene, body, motion, &carrier)?;
@@ -83,23 +78,23 @@ pub(super) fn place(
 
 /// For each body, the one that carries all others that it is part of; itself if it is part of none.
 pub(super) fn roots(scene: &Scene) -> Vec<BodyId> {
-    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::on);
+    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::body);
     let root = |body: BodyId| std::iter::successors(Some(body), carrier).last().unwrap_or(body);
     scene.bodies.ids().map(root).collect()
 }
 
-/// Parts that spin on inertial bodies become bodies with the velocity of their carrier. Inertial
-/// bodies of a scene as seen have velocities in the frame of the camera, all others in that of the
-/// scene, so one cannot be part of the other.
+/// States for what rides on inertial bodies their frames in the scene instead. Inertial bodies of a
+/// scene as seen have velocities in the frame of the camera, all others in that of the scene, so one
+/// cannot ride on the other.
 pub(super) fn release_parts_of_inertial_bodies(scene: &mut Scene) -> Result<(), MotionError> {
     let bodies: Vec<BodyId> =
         scene.bodies.stated_by_name().filter(|&body| scene.bodies.is_on_world_line(body)).collect();
     for body in bodies {
         if let Some(motion) = scene.bodies.statement(body).cloned()
-            && let Some(velocity) = motion.on().and_then(|on| scene.bodies.motion(on).uniform_velocity())
+            && let Some(frame) = motion.body().and_then(|on| scene.bodies.motion(on).inertial_frame())
         {
-            let path = MotionPath::Free { velocity, accelerations: Vec::new() };
-            restate(scene, body, StatedMotion { path, ..motion }, &WorldLine::REST)?;
+            let on = Some(Carrier::Frame(*frame));
+            restate(scene, body, StatedMotion { on, ..motion }, &WorldLine::REST)?;
         }
     }
     Ok(())
@@ -112,7 +107,7 @@ fn is_root(scene: &Scene, body: BodyId) -> bool {
 
 /// The number of bodies that it is part of, one in the other.
 fn depth(scene: &Scene, body: BodyId) -> usize {
-    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::on);
+    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::body);
     std::iter::successors(Some(body), carrier).count() - 1
 }
 
@@ -123,7 +118,7 @@ fn restate(
     carrier: &WorldLine,
 ) -> Result<(), MotionError> {
     let line = motion.world_line(carrier).map_err(|error| impossible(scene, body, error))?;
-    if let Some(name) = scene.bodies[body].name {
+    if let (Some(name), Some(line)) = (scene.bodies[body].name, line) {
         scene.bodies.set_statement(body, name, motion, line);
     }
     Ok(())

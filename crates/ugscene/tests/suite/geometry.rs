@@ -1,7 +1,7 @@
 //! Rest positions and seen positions.
 
 use glam::DVec3;
-use ugphysics::{Event, Lorentz, Velocity, WorldLine};
+use ugphysics::{Event, InertialFrame, Lorentz, Velocity, WorldLine};
 use ugscene::{
     Geometry, GeometryStage, RestFrames, RestPosition, SeenGeometry, SeenPosition, rest_positions,
 };
@@ -60,7 +60,7 @@ fn rest_positions_are_in_the_axes_of_the_scene() {
     for (face, beta) in betas.into_iter().enumerate() {
         let to_camera = Lorentz::boost(Velocity::from_beta(beta).unwrap()).then(Lorentz::boost(-camera));
         let beta = to_camera.velocity_of_frame().unwrap().beta();
-        let motion = WorldLine::inertial(Velocity::from_beta(beta).unwrap());
+        let motion = WorldLine::inertial(InertialFrame::new(Velocity::from_beta(beta).unwrap()));
         scene.faces[face].body = scene.bodies.push(None, motion);
         for vertex in &mut scene.vertices[3 * face..3 * face + 3] {
             let leaves = Event { t: -vertex.position.length(), x: vertex.position };

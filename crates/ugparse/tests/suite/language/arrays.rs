@@ -59,27 +59,76 @@ fn placed_vertices_are_named_by_their_path() {
     );
 }
 
+/// `<…>` of the faces and wires of a scene.
+fn motions(text: &str) -> Vec<String> {
+    let lines = flat(text);
+    let lines = lines.lines().filter(|line| line.starts_with(['f', 'w']));
+    lines
+        .map(|line| line.split_once('<').map_or("", |(_, behind)| behind.trim_end_matches(">;")).to_string())
+        .collect()
+}
+
 #[test]
-fn the_outermost_velocity_takes_precedence() {
-    let def = format!("def d; {TRIANGLE} f (a b c); f (a b c) <0 0 .1>; w (a b); w (a b) <0 0 .1>; end; ");
-    let velocities = |calls: &str| -> Vec<String> {
-        flat(format!("{def}{calls}"))
-            .lines()
-            .filter(|line| line.starts_with(['f', 'w']))
-            .map(|line| {
-                line.split_once('<').map_or("", |(_, behind)| behind.trim_end_matches(">;")).to_string()
-            })
-            .collect()
+fn velocities_in_instances_that_move_are_composed() {
+    let def = format!("def d; {TRIANGLE} f (a b c); f (a b c) <0 0 .1>; end; ");
+    let of = |calls: &str| motions(&format!("{def}{calls}"));
+    assert_eq!(of("i (d);"), ["", "0 0 0.1"]);
+    assert_eq!(of("i (d) <0 0 .2>;"), ["0 0 0.2", "0 0 0.29411764705882354"], "(.1 + .2)/1.02");
+    assert_eq!(of("i (d) <0 0 0>;"), ["0 0 0", "0 0 0.1"]);
+    assert_eq!(of("def e; i (d); end; i (e) <.3 0 0>;")[0], "0.3 0 0");
+    assert_eq!(of("def e; i (d) <0 0 0>; end; i (e) <.3 0 0>;")[0], "0.3 0 0");
+    // Across, the own one is slower by γ, and the axes turn by (P25).
+    let across = of("i (d) <.6 0 0>;")[1].clone();
+    let number = |idx: usize| across.split(' ').nth(idx).unwrap().parse::<f64>().unwrap();
+    assert!((number(0) - 0.6).abs() + (number(2) - 0.08).abs() < 1e-15, "{across}");
+    let angle = number(5);
+    let wigner = ugphysics::wigner_rotation(velocity([0.0, 0.0, 0.1]), velocity([0.6, 0.0, 0.0]));
+    assert!((angle - 2.0 * libm::atan2(wigner.y, wigner.w)).abs() < 1e-15);
+    // Transformations turn what is stated inside, and do not make it faster.
+    assert_eq!(of("i (d -rx 90 -sa 3);")[1], "0 -0.1 0");
+    assert_eq!(of("i (d -mz);")[1], "0 0 -0.1");
+    assert_eq!(of("def e; i (d) <0 .2 0>; end; i (e -rz 90);")[0], "-0.2 0 0");
+}
+
+fn velocity(beta: [f64; 3]) -> ugphysics::Velocity {
+    ugphysics::Velocity::from_beta(beta.into()).unwrap()
+}
+
+#[test]
+fn reference_points_are_origins_of_instances() {
+    let def = format!("def d; {TRIANGLE} f (a b c); f (a b c) <0 0 .1>; end; ");
+    let of = |calls: &str| motions(&format!("{def}{calls}"));
+    assert_eq!(of("i (d -tx 1);"), ["", "0 0 0.1 -at 1 0 0"]);
+    assert_eq!(of("i (d -tx 1) <0 .2 0>;")[0], "0 0.2 0 -at 1 0 0");
+    assert_eq!(of("i (d -tx 1) <0 .2 0 -at 5 0 0>;")[0], "0 0.2 0 -at 5 0 0");
+    assert_eq!(of("def e; i (d -tx 1) <0 .2 0>; end; i (e -ty 2 -rz 90);")[0], "-0.2 0 0 -at -2 1 0");
+    // An array is one body.
+    let array = of("a (d -tz 2) 2 -tx 1 <0 .2 0>;");
+    assert_eq!([&array[0], &array[2]], ["0 0.2 0 -at 0 0 2"; 2]);
+    // What rests in a ship is part of it; at its time 0 what moves in it is where the ship has it.
+    let inner = of("def e; i (d -tx 1) <0 0 0>; end; i (e) <.6 0 0>;");
+    assert_eq!(inner[0], "0.6 0 0");
+    assert_eq!(inner[1].split_once(" -shift ").unwrap().1, "0.75 0.25 0 0", "γ(v, 1) − (0, 1)");
+}
+
+/// A flat scene is the same scene.
+#[test]
+fn frames_on_frames_read_back() {
+    let text = format!(
+        "motion m -at 1 2 3 -vel .4 .3 0; motion n -on m -at 0 1 0 -vel 0 .5 .1; motion o -on n -orbit 1 1 1 0 0 1 .3;
+        def d; {TRIANGLE} f (a b c) <.3 .1 0>; l 1 2 3 4 0 <.1 0 0>; end; def e; i (d -ry 20 -tz 5) <0 .5 0>; end;
+        i (e -rx 10) <m>; i (e -tx 3) <.1 .2 .3>; i (d) <n>; f (i#1:a i#2:a i#1:b) <o>; l 1 1 1 1 0 <0 .1 0>;"
+    )
+    .replace("f (i#1:a i#2:a i#1:b) <o>;", "v a 1 1 0; v b 1 2 0; v c 2 2 0; f (a b c) <o>;");
+    let once = flat(&text);
+    assert_eq!(flat(&once), once);
+    let motions = |text: &str| {
+        let scene = parse(text);
+        let lights = scene.lights.iter().filter_map(|light| light.motion.body());
+        let bodies: Vec<_> = scene.faces.iter().map(|face| face.body).chain(lights).collect();
+        bodies.into_iter().map(|body| scene.bodies.motion(body).clone()).collect::<Vec<_>>()
     };
-    assert_eq!(velocities("i (d);"), ["", "0 0 0.1", "", "0 0 0.1"]);
-    assert_eq!(velocities("i (d) <0 .2 0>;"), ["0 0.2 0"; 4]);
-    assert_eq!(velocities("i (d) <0 0 0>;"), ["0 0 0"; 4], "rest is a velocity, too");
-    assert_eq!(velocities("def e; i (d) <0 .2 0>; end; i (e) <.3 0 0>;"), ["0.3 0 0"; 4]);
-    assert_eq!(velocities("def e; i (d) <0 .2 0>; end; i (e);"), ["0 0.2 0"; 4]);
-    assert_eq!(velocities("def e; i (d); end; i (e) <.3 0 0>;"), ["0.3 0 0"; 4]);
-    assert_eq!(velocities("a (d) 2 -tx 1 <0 .2 0>;"), ["0 0.2 0"; 8]);
-    // Velocities are in the scene's frame: transformations do not rotate them.
-    assert_eq!(velocities("i (d -rz 90 -sa 3 -mx) <0 .2 0>;"), ["0 0.2 0"; 4]);
+    assert_eq!(motions(&once), motions(&text));
 }
 
 #[test]

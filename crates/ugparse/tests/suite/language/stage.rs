@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity};
 use ugscene::{
-    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, LampShift, Mixtures, SeenColors,
-    SeenGeometry, Stage, Tint,
+    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage,
+    Tint,
 };
 
 use super::*;
@@ -52,23 +52,18 @@ fn every_stage_reads_back() {
     }
 }
 
+/// Displacements of lamps are those of the bodies that they light, whose reference points have no
+/// meaning any more.
 #[test]
-fn lamp_shifts_read_back() {
-    let third = Velocity::from_beta(DVec3::new(1.0 / 3.0, -1e-300, 0.7)).unwrap();
-    let lamp_shifts = vec![
-        LampShift { velocity: third, shift: DVec3::new(-0.1, 1.0 / 3.0, 1e300) },
-        LampShift { velocity: Velocity::ZERO, shift: DVec3::X },
-    ];
-    let stage = Stage { geometry: GeometryStage::AsSeen(SEEN), ..Stage::default() };
-    let scene = Scene { stage, lamp_shifts, ..Scene::default() };
-    let text = write(&scene);
-    assert_eq!(
-        text,
-        "(ugstage 1 geometry as-seen eye 0 -12 3 lamp-shift 0.3333333333333333 -1e-300 0.7 -0.1 \
-         0.3333333333333333 1e+300 lamp-shift 0 0 0 1 0 0)\n"
-    );
-    assert_eq!(parse(&text).lamp_shifts, scene.lamp_shifts);
-    assert_ne!(text, write(&Scene { stage, ..Scene::default() }));
+fn lamp_shifts_belong_to_bodies() {
+    let stage = "(ugstage 1 geometry as-seen eye 0 -12 3)\n";
+    let corners = "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\n";
+    let faces = "f (a b c) <0.3333333333333333 -1e-300 0.7 -shift 0 -0.1 0.3333333333333333 1e+300>;\n\
+                 f (c b a) <0 0 0 -shift 0 1 0 0>;\nl 1 2 3 4 0 <0 0 0>;\n";
+    let text = [stage, corners, faces].concat();
+    assert_eq!(write(&parse(&text)), text);
+    let placed = text.replace("<0 0 0>", "<0 0 0 -at 1 2 3>");
+    assert_eq!(write(&parse(&placed)), text);
 }
 
 #[test]
@@ -174,20 +169,8 @@ fn errors_have_locations_and_remedies() {
         "(ugstage 1 geometry as-seen eye 0 0 0 law report)",
         "1:39",
         &unexpected("law"),
-        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `lamp-shift`, \
-         `colors`, `mixtures`",
-    );
-    check(
-        "(ugstage 1 geometry as-seen eye 0 0 0 lamp-shift 0 1 0 0 0 0)",
-        "1:39",
-        "speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)",
-        "give three numbers whose length is below 1",
-    );
-    check(
-        "(ugstage 1 geometry as-seen eye 0 0 0 lamp-shift .5 0 0 1 0 0 lamp-shift 0.5 0 0 0 0 1)",
-        "1:63",
-        "the lamp shift of this velocity is given twice",
-        "remove one of them",
+        "expected `eye`, `time`, `camera-velocity`, `no-contraction`, `no-flight-time`, `colors`, \
+         `mixtures`",
     );
     check("(ugstage 1 colors as-seen)", "1:26", "a word is missing", "add `hues` or `wavelengths` or `spectra`");
     check("(ugstage 1 mixtures)", "1:20", "the prefix of mixtures is missing", "add `mix#`");

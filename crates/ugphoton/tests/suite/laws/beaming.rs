@@ -277,7 +277,7 @@ fn moving_lamps_light_by_powers_of_their_doppler_factor() {
                 at.x,
                 at.y,
                 at.z,
-                velocity(v)
+                velocity(v).replace('>', " -at 0 0 0>")
             )
         };
         check(grey_light(&text("white"), place, by_law(Brightness::Bolometric)), energy, 1e-6);

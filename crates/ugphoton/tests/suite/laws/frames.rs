@@ -153,7 +153,8 @@ fn later_pictures_show_bodies_that_moved_on() {
         let bodies = bodies(&mut random, 0.9);
         let (lamp, of_lamp) = (random.in_cube(3.0), random.in_ball(0.6));
         let step = |v: DVec3| v * (time / (1.0 - v.length_squared()).sqrt());
-        let text = |at: DVec3| format!("l 0.9 {} {} {} 0 {};\n", at.x, at.y, at.z, velocity(of_lamp));
+        let of_lamp_text = velocity(of_lamp).replace('>', " -at 0 0 0>");
+        let text = |at: DVec3| format!("l 0.9 {} {} {} 0 {of_lamp_text};\n", at.x, at.y, at.z);
         let motion = MotionOptions { time, ..MotionOptions::default() };
         let own = view(RayOptions::default());
         let later = picture_with(&text(lamp), &bodies, Config { motion, ..own.clone() });
