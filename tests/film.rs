@@ -273,7 +273,7 @@ fn the_times_of_animated_png_are_exact() {
         let mut reader = png::Decoder::new(std::io::Cursor::new(&file)).read_info().unwrap();
         let mut seconds = 0.0;
         for _ in 0..5 {
-            reader.next_frame(&mut vec![0; 8 * 6 * 4]).unwrap();
+            reader.next_frame(&mut [0; 8 * 6 * 4]).unwrap();
             let delay = reader.info().frame_control().unwrap();
             let delay = (delay.delay_num, delay.delay_den);
             assert!(expected.is_none_or(|expected| delay == expected), "{rate}: {delay:?}");
@@ -335,9 +335,9 @@ fn speeds_of_captions_are_those_of_the_scene() {
     let shell = Shell::new(&[]);
     let wall = "v a -3 30 -2; v b 3 30 -2; v c 3 30 2; l 1;";
     let camera = "cam -ep 0 0 0 -vc 0 9 0";
-    shell.write("camera.ug", &format!("motion car -acc 0 .1 0 0 8; {wall} f (a b c); {camera} <car>;"));
-    shell.write("bodies.ug", &format!("{wall} f (a b c) <.3 0 0>; f (b a c) <0 .9 0>; {camera};"));
-    shell.write("rest.ug", &format!("{wall} f (a b c); {camera};"));
+    shell.write("camera.ug", format!("motion car -acc 0 .1 0 0 8; {wall} f (a b c); {camera} <car>;"));
+    shell.write("bodies.ug", format!("{wall} f (a b c) <.3 0 0>; f (b a c) <0 .9 0>; {camera};"));
+    shell.write("rest.ug", format!("{wall} f (a b c); {camera};"));
     let caption = |options: &str, scene: &str| {
         let film = format!("ugfilm -qt -frames 3 -ti 0..4 {options} -cap '{{beta}}, {{gamma}}' -fo f_%d.png");
         let [commands, _] = shell.run(&format!("{film} --print 2 {scene}"));

@@ -135,7 +135,7 @@ fn times_that_are_named_show_what_moves() {
                 f (a b t); f (b c t); f (c e t); f (e a t); end; l 1;";
     let mut n_notes = 0;
     let mut check = |scene: &str, has_time: bool| {
-        shell.write("a.ug", &format!("{ball} {scene}"));
+        shell.write("a.ug", format!("{ball} {scene}"));
         let picture = |time: f64| format!("uglorentz -ti {time} a.ug | ugrainbow -sz 64 48 -aa 4 -fo a.png");
         for time in [0.0, 7.0] {
             let [_, messages] = shell.run(&picture(time));
