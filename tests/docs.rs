@@ -39,7 +39,11 @@ fn commands_in_documents_work() {
                 resized(command, [640, 480], 0.25)
             };
             // An option is given once.
-            let small = if small.contains(" -aa ") { small } else { with_options(&small, "-aa 1") };
+            let small = if small.contains(" -aa ") || small.contains(" -vec ") {
+                small
+            } else {
+                with_options(&small, "-aa 1")
+            };
             let small = shortened(&small);
             let messages =
                 page.run(&small, folder.path(), programs).unwrap_or_else(|message| panic!("{message}"));

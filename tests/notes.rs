@@ -1,6 +1,7 @@
 //! Notes on colours in real pipes: each is printed once, by the program where it happens.
 
 use ugtests::programs;
+use ugtests::shell::Shell;
 
 /// Yellow walls and a red roof that share vertices.
 const HOUSE: &str = "c yellow 1 50 .6; c red .9 0 .8;
@@ -124,4 +125,46 @@ fn a_lamp_in_a_closed_body_is_named() {
     check("", &cube(1.0, motion, &closed[1..], "grey"), motion, false);
     check("", &cube(1.0, motion, &closed, "glass"), motion, false);
     check("", &cube(9.0, "", &inside, "grey"), "", false);
+}
+
+/// At every time that a note names, something that moves is in the picture.
+#[test]
+fn times_that_are_named_show_what_moves() {
+    let shell = Shell::new(&[]);
+    let ball = "def ball; v a -.3 -.3 0; v b .3 -.3 0; v c .3 .3 0; v e -.3 .3 0; v t 0 0 .4;
+                f (a b t); f (b c t); f (c e t); f (e a t); end; l 1;";
+    let mut n_notes = 0;
+    let mut check = |scene: &str, has_time: bool| {
+        shell.write("a.ug", format!("{ball} {scene}"));
+        let picture = |time: f64| format!("uglorentz -ti {time} a.ug | ugrainbow -sz 64 48 -aa 4 -fo a.png");
+        for time in [0.0, 7.0] {
+            let [_, messages] = shell.run(&picture(time));
+            let Some(note) = messages.split("nothing that moves is in the picture").nth(1) else { continue };
+            n_notes += 1;
+            let named = note.split("it is with -ti ").nth(1);
+            assert_eq!(named.is_some(), has_time, "{scene}: {messages}");
+            let words = named.unwrap_or_default().lines().next().unwrap_or_default();
+            let mut times: Vec<f64> = words.split([' ', ',']).filter_map(|word| word.parse().ok()).collect();
+            if let [first, last, _] = times[..] {
+                times.extend([0.2, 0.4, 0.6, 0.8].map(|part| first + part * (last - first)));
+            }
+            for named in times {
+                shell.run(&picture(named));
+                let is_lit = shell.pixels("a.png").iter().any(|pixel| pixel[0] > 0);
+                assert!(is_lit, "{scene}: {time}: {named}: {messages}");
+            }
+        }
+    };
+    // On a rim, 53 degrees from what the camera sees up to 45 degrees away, always.
+    let rim = "motion d -spin 0 0 .4; i (ball); cam -ep 2 0 0 -vc 0 0 0 -va 90 <d>;";
+    check(rim, false);
+    for eye in [2.0, -3.0, 5.0] {
+        let rate = 0.8 / libm::fabs(eye);
+        let spin = format!("motion d -spin 0 0 {rate}; i (ball -tx -9 -ty 3);");
+        check(&format!("{spin} cam -ep {eye} 0 0 -vc {eye} 9 0 -va 30 <d>;"), true);
+        let orbit = format!("motion d -at {eye} 0 0 -orbit 0 0 0 0 0 1 {rate};");
+        check(&format!("{orbit} i (ball -tx {eye}) <d>; cam -ep 0 -9 1 -vc 40 30 1 -va 8;"), false);
+        check(&format!("{orbit} i (ball -tx {eye}) <d>; cam -ep 0 -9 1 -vc 0 0 0 -va 12;"), true);
+    }
+    assert!(n_notes >= 7, "{n_notes}");
 }

@@ -114,6 +114,21 @@ fn mistakes_are_answered() {
     let shift = "is an option of ugdoppler, not of ugrainbow; here it needs `-xc`";
     check("ugrainbow --no-doppler ship.ug", &format!("`--no-doppler` {shift}"));
     check("ugrainbow -no-flux ship.ug", &format!("`-no-flux` {shift}"));
+    // The option in need is named, not another that only other programs have.
+    check("ugrainbow -sp -cap A ship.ug", &format!("`-sp` {shift}"));
+    check("ugrainbow -look light -sp ship.ug", &format!("`-sp` {shift}"));
+    check("ugrainbow -txt -cap A ship.ug", "`-txt` needs `-vec`");
+    let scene = "`-ti` is an option of uglorentz, not of ugwarp; here it needs `--scene FILE`";
+    check("ugwarp -look light -ti 3 stars.csv", scene);
+    // Without effect.
+    check("ugrainbow -vec -br photon ship.ug", "`-vec` and `-br` cannot be given together");
+    check("ugrainbow -vec --no-flux ship.ug", "`-vec` and `--no-flux` cannot be given together");
+    check("ugrainbow -vec -aa 2 ship.ug", "`-vec` and `-aa` cannot be given together");
+    check("ugrainbow -xc -txt ship.ug", "`-xc` and `-txt` cannot be given together");
+    check("ugphoton -pan -va 30 ship.ug", "`-pan` and `-va` cannot be given together");
+    check("ugwarp -fish 180 -va 30 photo.jpg", "`-fish` and `-va` cannot be given together");
+    check("ugmesh -dt obj -up y ship.ug", "not a mesh, so -up and -name have no effect; leave them out");
+    check("ugwarp --white 1 photo.jpg", "there are no stars: leave out --star-width and --white");
 
     // Files.
     check("ugrainbow photo.jpg", "help: `ugwarp photo.jpg` shows it as the sky around an observer in motion");
@@ -186,17 +201,17 @@ fn nothing_is_black_in_silence() {
     );
     // The exposure of a film is kept beside its frames; the number shows that it is read.
     check(
-        "ugfilm -qt -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug; sed -i 's/ .*/ 9.125/' .k_1.png.exposure; \
+        "ugfilm -qt -only 1 -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug; sed -i 's/ .*/ 9.125/' .k_1.png.exposure; \
          ugfilm -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug",
         "ugfilm: note: one exposure for all frames: -ex 9.125",
     );
-    let when = "nothing that moves is in the picture at -ti 0; it is with -ti from 3.6 to 25.6, best at 12.5";
+    let when = "nothing that moves is in the picture at -ti 0; it is with -ti from 4 to 24.5, best at 12.5";
     check("uglorentz -vel .9 0 0 -fo x.ug ship.ug", when);
     check("ugphoton -vel .9 0 0 -sz 40 30 -fo x.png ship.ug", when);
     let film = "ugfilm -frames 2 -vel .9 0 0 -ti 0..1 -sz 40 30 -fo x_%d.png ship.ug";
     check(
         film,
-        "nothing will be in the picture in 2 of 2 frames, 1..2: what moves is in it with -ti from 3.6",
+        "nothing will be in the picture in 2 of 2 frames, 1..2: what moves is in it with -ti from 4 to",
     );
     let enclosed = "the light of lamp `bulb` does not leave the closed body that it is in: move it out";
     check("ugphoton -sz 40 30 -fo x.png boxed.ug", enclosed);

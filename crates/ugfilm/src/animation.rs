@@ -2,9 +2,14 @@
 
 use std::io::{self, Write};
 
-use gif::{Encoder as GifEncoder, Frame as GifFrame, Repeat};
+use gif::{DisposalMethod, Encoder as GifEncoder, Frame as GifFrame, Repeat};
 use png::{BitDepth, ColorType, Compression, Encoder as PngEncoder, Writer};
 use ugimage::Frame;
+
+use crate::palette::Palette;
+
+/// Frames a second that a GIF can have: browsers show one of less than 1/50 s for 1/10 s.
+pub const MOST_GIF_RATE: f64 = 50.0;
 
 /// The frames of a film, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,6 +20,41 @@ pub struct Shape {
     pub n_frames: u32,
     /// Frames a second.
     pub rate: f64,
+}
+
+/// A film rate as a fraction: 25, or 30000/1001 for 29.97, as television has it.
+pub fn fraction(rate: f64) -> [u32; 2] {
+    let ntsc = rate.ceil() * 1000.0 / 1001.0;
+    if rate > 20.0 && rate.fract() != 0.0 && (rate - ntsc).abs() < 0.005 {
+        return [(rate.ceil() * 1000.0) as u32, 1001];
+    }
+    /// Decimals of a rate that count.
+    const MILLION: u32 = 1_000_000;
+    let count = (rate * f64::from(MILLION)).round() as u32;
+    let (mut divisor, mut rest) = (MILLION, count % MILLION);
+    while rest > 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    [count / divisor, MILLION / divisor]
+}
+
+/// When frames are shown, in whole ticks of a format. Rounding errors do not add up.
+struct Clock {
+    ticks_per_frame: f64,
+    n_frames: f64,
+}
+
+impl Clock {
+    fn new(ticks_per_frame: f64) -> Self {
+        Self { ticks_per_frame, n_frames: 0.0 }
+    }
+
+    /// How many ticks the next frame is shown.
+    fn delay(&mut self) -> u16 {
+        let now = (self.n_frames * self.ticks_per_frame).round();
+        self.n_frames += 1.0;
+        ((self.n_frames * self.ticks_per_frame).round() - now).clamp(1.0, f64::from(u16::MAX)) as u16
+    }
 }
 
 /// Columns and rows of a part of a frame: left, top, width, height.
@@ -47,6 +87,8 @@ fn cut<T: Copy>(pixels: &[T], width: usize, [left, top, columns, rows]: Part) ->
 /// Writes an animated PNG. Of every frame but the first only the part is written that has changed.
 pub struct AnimatedPng<'w> {
     writer: Writer<&'w mut dyn Write>,
+    clock: Clock,
+    ticks_per_second: u16,
     before: Option<Frame>,
 }
 
@@ -63,10 +105,15 @@ impl<'w> AnimatedPng<'w> {
         encoder.set_compression(Compression::High);
         encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
         encoder.set_animated(shape.n_frames, 0)?;
-        // Milliseconds, as far as 16 bits reach.
-        let delay = (1000.0 / shape.rate).round().clamp(1.0, f64::from(u16::MAX)) as u16;
-        encoder.set_frame_delay(delay, 1000)?;
-        Ok(Self { writer: encoder.write_header()?, before: None })
+        // Exact delays of 1/24 s, unless the fraction has more than 16 bits.
+        let exact = fraction(shape.rate).map(u16::try_from);
+        let (ticks_per_second, clock) = if let [Ok(count), Ok(seconds)] = exact {
+            (count, Clock::new(seconds.into()))
+        } else {
+            let ticks = (shape.rate * f64::from(u16::MAX)).clamp(1.0, 60_000.0) as u16;
+            (ticks, Clock::new(f64::from(ticks) / shape.rate))
+        };
+        Ok(Self { writer: encoder.write_header()?, clock, ticks_per_second, before: None })
     }
 
     /// Adds the next frame.
@@ -75,6 +122,7 @@ impl<'w> AnimatedPng<'w> {
     /// Writing fails.
     pub fn push(&mut self, frame: &Frame) -> io::Result<()> {
         let width = frame.width() as usize;
+        self.writer.set_frame_delay(self.clock.delay(), self.ticks_per_second)?;
         let pixels = match &self.before {
             None => frame.pixels().to_vec(),
             Some(before) => {
@@ -100,46 +148,12 @@ impl<'w> AnimatedPng<'w> {
     }
 }
 
-/// The colours of a GIF, the same for all its frames, so that nothing flickers.
-#[derive(Clone, Debug, Default)]
-pub struct Palette {
-    /// Red, green, blue.
-    colors: Vec<[u8; 3]>,
-}
-
-impl Palette {
-    /// Colours for these pixels by a neural network (Dekker 1994).
-    pub fn new(pixels: &[[u8; 4]]) -> Self {
-        /// Pixels from which the network learns: every third.
-        const SAMPLING: i32 = 3;
-        if pixels.is_empty() {
-            return Self { colors: vec![[0; 3], [255; 3]] };
-        }
-        let network = color_quant::NeuQuant::new(SAMPLING, 256, pixels.as_flattened());
-        Self { colors: network.color_map_rgb().as_chunks().0.to_vec() }
-    }
-
-    /// The index of the nearest colour.
-    fn nearest(&self, [red, green, blue]: [u8; 3]) -> u8 {
-        let square = |a: u8, b: u8, weight: u32| weight * u32::from(a.abs_diff(b)).pow(2);
-        let distance = |color: &[u8; 3]| {
-            // The eye sees differences of green best, those of blue least.
-            square(color[0], red, 3) + square(color[1], green, 6) + square(color[2], blue, 1)
-        };
-        let nearest = self.colors.iter().enumerate().min_by_key(|(_, color)| distance(color));
-        nearest.map_or(0, |(row, _)| row as u8)
-    }
-}
-
-/// Writes a GIF that repeats without end.
+/// Writes a GIF that repeats without end. Every frame has its own colours. Of an opaque film only
+/// the pixels are written that have changed, so what does not move does not flicker.
 pub struct Gif<'w> {
     encoder: GifEncoder<&'w mut dyn Write>,
-    palette: Palette,
-    /// Palette index of each colour with 5 bits a channel, computed when it first occurs.
-    known: Vec<Option<u8>>,
-    before: Vec<u8>,
-    rate: f64,
-    n_written: u32,
+    clock: Clock,
+    before: Option<Frame>,
 }
 
 impl<'w> Gif<'w> {
@@ -147,53 +161,62 @@ impl<'w> Gif<'w> {
     ///
     /// # Errors
     /// Writing fails, or the film is larger than a GIF can be.
-    pub fn new(out: &'w mut dyn Write, shape: Shape, palette: &Palette) -> io::Result<Self> {
+    pub fn new(out: &'w mut dyn Write, shape: Shape) -> io::Result<Self> {
         let side = |length: u32| {
             u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
         };
         let (width, height) = (side(shape.size[0])?, side(shape.size[1])?);
-        let mut encoder =
-            GifEncoder::new(out, width, height, palette.colors.as_flattened()).map_err(io::Error::other)?;
+        let mut encoder = GifEncoder::new(out, width, height, &[]).map_err(io::Error::other)?;
         encoder.set_repeat(Repeat::Infinite).map_err(io::Error::other)?;
-        Ok(Self {
-            encoder,
-            palette: palette.clone(),
-            known: vec![None; 1 << 15],
-            before: Vec::new(),
-            rate: shape.rate,
-            n_written: 0,
-        })
+        let clock = Clock::new(100.0 / shape.rate.min(MOST_GIF_RATE));
+        Ok(Self { encoder, clock, before: None })
     }
 
-    /// Adds the next frame.
+    /// Adds the next frame. Pixels of which less than half is covered are transparent.
     ///
     /// # Errors
     /// Writing fails.
     pub fn push(&mut self, frame: &Frame) -> io::Result<()> {
-        let width = frame.width() as usize;
-        let pixels = frame.pixels().iter().enumerate();
-        let now: Vec<u8> = pixels.map(|(at, &pixel)| self.index(pixel, [at % width, at / width])).collect();
-        let part = if self.before.is_empty() {
-            [0, 0, width, now.len() / width]
-        } else {
-            changed_part(&self.before, &now, width)
+        let [width, height] = [frame.width(), frame.height()].map(|length| length as usize);
+        // A transparent frame replaces the one before.
+        let before = self.before.take().filter(|_| frame.is_opaque());
+        let part = match &before {
+            Some(before) => changed_part(before.pixels(), frame.pixels(), width),
+            None => [0, 0, width, height],
         };
-        let [left, top, columns, rows] = part.map(|number| number as u16);
-        // The time of a frame is a whole number of hundredths; their sum is that of the film.
-        let until = |n_frames: u32| (100.0 * f64::from(n_frames) / self.rate).round() as u32;
-        let delay = until(self.n_written + 1) - until(self.n_written);
+        let mut drawn = cut(frame.pixels(), width, part);
+        if let Some(before) = &before {
+            let same = drawn.iter_mut().zip(cut(before.pixels(), width, part));
+            same.filter(|(now, before)| *now == before).for_each(|(now, _)| now[3] = 0);
+        }
+        let color = |&[red, green, blue, alpha]: &[u8; 4]| (alpha >= 128).then_some([red, green, blue]);
+        let colors: Vec<_> = drawn.iter().filter_map(color).collect();
+        let n_transparent = usize::from(colors.len() < drawn.len());
+        let palette = Palette::new(colors, 256 - n_transparent);
+        let transparent = (n_transparent > 0).then_some(palette.colors.len() as u8);
+        let [left, top, columns, _] = part;
+        let index = |(at, pixel)| match color(pixel) {
+            Some(color) => palette.index(color, [left + at % columns, top + at / columns]),
+            None => transparent.unwrap_or(0),
+        };
+        let buffer: Vec<u8> = drawn.iter().enumerate().map(index).collect();
+        let mut colors = palette.colors;
+        colors.resize(colors.len() + n_transparent, [0; 3]);
+        let [left, top, width, height] = part.map(|number| number as u16);
         let picture = GifFrame {
             left,
             top,
-            width: columns,
-            height: rows,
-            delay: delay.clamp(1, u32::from(u16::MAX)) as u16,
-            buffer: cut(&now, width, part).into(),
+            width,
+            height,
+            delay: self.clock.delay(),
+            dispose: if frame.is_opaque() { DisposalMethod::Keep } else { DisposalMethod::Background },
+            transparent,
+            palette: Some(colors.into_flattened()),
+            buffer: buffer.into(),
             ..GifFrame::default()
         };
         self.encoder.write_frame(&picture).map_err(io::Error::other)?;
-        self.before = now;
-        self.n_written += 1;
+        self.before = Some(frame.clone());
         Ok(())
     }
 
@@ -204,32 +227,23 @@ impl<'w> Gif<'w> {
     pub fn finish(self) -> io::Result<()> {
         self.encoder.into_inner().map_err(io::Error::other)?.flush()
     }
-
-    /// The palette index of a pixel. A fixed pattern decides between two near colours, so what does
-    /// not move does not flicker.
-    fn index(&mut self, [red, green, blue, _]: [u8; 4], [column, row]: [usize; 2]) -> u8 {
-        /// Bayer's matrix of order 4.
-        const PATTERN: [[i16; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
-        let shift = (PATTERN[row % 4][column % 4] - 7) / 2;
-        // Black and white stay as they are.
-        let is_extreme = matches!([red, green, blue], [0, 0, 0] | [255, 255, 255]);
-        let shift = if is_extreme { 0 } else { shift };
-        let key = [red, green, blue].map(|part| (i16::from(part) + shift).clamp(0, 255) as usize >> 3);
-        let [r, g, b] = key;
-        let slot = r << 10 | g << 5 | b;
-        if let Some(known) = self.known[slot] {
-            return known;
-        }
-        let middle = key.map(|part| (part << 3 | part >> 2) as u8);
-        let index = self.palette.nearest(middle);
-        self.known[slot] = Some(index);
-        index
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rates_are_fractions() {
+        assert_eq!(fraction(25.0), [25, 1]);
+        assert_eq!(fraction(29.97), [30000, 1001]);
+        assert_eq!(fraction(23.976), [24000, 1001]);
+        assert_eq!(fraction(59.94), [60000, 1001]);
+        assert_eq!(fraction(12.5), [25, 2]);
+        assert_eq!(fraction(0.0333), [333, 10000]);
+        assert_eq!(fraction(1000.0), [1000, 1]);
+        assert_eq!(fraction(0.01), [1, 100]);
+    }
 
     #[test]
     fn parts_contain_all_changes() {

@@ -1,12 +1,12 @@
 //! The command line.
 
 use std::ffi::OsString;
-use std::hash::{DefaultHasher, Hasher};
 use std::path::Path;
 
 use clap::{ArgMatches, Parser};
 use ugimage::Format;
 use ugparse::{Foreign, Source, pipe};
+use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
@@ -15,13 +15,15 @@ use ugpipe::{
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 
+use crate::animation::MOST_GIF_RATE;
 use crate::blur::MotionBlur;
+use crate::encode::Kind;
 use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
-use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, valid_since};
+use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, remove_kept_exposure};
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
-use crate::pipe::FilmSubject;
+use crate::pipe::{FilmSubject, Pipe};
 use crate::program::Program;
 use crate::script::Script;
 use crate::sight::{Sight, Unseen};
@@ -43,9 +45,9 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value = "100", value_parser = whole(1..=10_000_000), help_heading = FILM)]
     frames: u32,
 
-    /// Frames a second, for films in one file
-    #[arg(long, value_name = "RATE", default_value = "25", value_parser = rate, help_heading = FILM)]
-    fps: f64,
+    /// Frames a second, for films in one file [default: 25]
+    #[arg(long, value_name = "RATE", value_parser = rate, help_heading = FILM)]
+    fps: Option<f64>,
 
     #[command(flatten, next_help_heading = FILM)]
     pipe: PipeArgs,
@@ -89,7 +91,8 @@ pub struct Args {
     blur: Option<f64>,
 
     /// Moments that are averaged with -blur
-    #[arg(long, value_name = "N", default_value = "16", value_parser = whole(1..=10_000), help_heading = FILM)]
+    #[arg(long, value_name = "N", default_value = "16", value_parser = whole(1..=10_000), requires = "blur",
+          help_heading = FILM)]
     moments: u32,
 
     /// Draw N frames spread over the film, or those of -only, on one sheet
@@ -167,13 +170,26 @@ pub fn manual() -> Manual {
 pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let output = Output::new(args.dt.as_deref(), args.sheet.is_some(), context.output_name())?;
     let keep = args.keep.as_deref().map(|names| names_of(names, "--keep")).transpose()?;
+    let has_rate = matches!(output, Output::Film(kind) if kind != Kind::Ppm);
+    if args.fps.is_some() && !has_rate && args.print.is_none() {
+        return Err(Failure::usage(
+            "numbered frames, ppm and sheets have no frames a second: leave out -fps",
+        ));
+    }
+    if keep.is_some() && !matches!(output, Output::Film(_)) {
+        return Err(Failure::usage("--keep is for films in one file: leave it out, or give -fo film.apng"));
+    }
+    let rate = args.fps.unwrap_or(25.0);
     let mut script = args.script(context)?;
     let frames = args.numbers()?;
     let read = Read::new(args, &mut script, context)?;
     let mut forecast = Forecast::default();
-    if let Read::Scene(scene, _) = &read {
+    if let Read::Scene(scene) = &read {
         if args.follow {
             follow(scene, &mut script)?;
+        }
+        if script.lacks_speeds() {
+            script.speeds = Sight::new(scene, &script).speeds();
         }
         if args.print.is_none() && !context.is_quiet() {
             let unseen = Sight::new(scene, &script).unseen(&frames);
@@ -181,12 +197,14 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             forecast.empty = unseen.frames;
         }
     }
+    if let (Output::Film(kind), None) = (&output, args.print) {
+        check_kind(*kind, rate, &script, context)?;
+    }
     let (subject, format) = (read.subject(), output.frame_format());
     let blur = args.blur.map(|open| MotionBlur { open, n_moments: args.moments });
     let mut light = HeldLight::default();
     if script.fixed("ex").as_deref() == Some("auto") {
-        let film =
-            Film { subject, script: &script, format, blur, valid_since: None, light: HeldLight::default() };
+        let film = Film { subject, script: &script, format, blur, light: HeldLight::default() };
         let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
         let measured = exposure(&film, names, args.print.is_some(), context)?;
         let stops = measured.stops.to_string();
@@ -198,7 +216,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
         script.set("ex", vec!["0".to_owned()]);
     }
-    let mut film = Film { subject, script: &script, format, blur, valid_since: None, light };
+    let film = Film { subject, script: &script, format, blur, light };
     if let Some(number) = args.print {
         let input = args.common.input().map(shell_path);
         let chosen = frames.into_iter().filter(|&frame| number == 0 || frame == number);
@@ -209,10 +227,6 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         return context.print(&text);
     }
     let names = output.names().or(keep.as_ref());
-    film.valid_since = match (names, read.included()) {
-        (Some(names), Some(sha256)) => Some(valid_since(names, sha256)?),
-        _ => None,
-    };
     if context.output_is_terminal() && !matches!(output, Output::Files(..)) {
         return Err(Failure::usage("a film is not written to a terminal; give -fo FILE"));
     }
@@ -225,7 +239,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             film.write_files(&frames, names, &context.steps())?
         }
         Output::Film(kind) => {
-            film.write_film(&frames, Target { kind: *kind, rate: args.fps, keep: keep.as_ref() }, context)?
+            film.write_film(&frames, Target { kind: *kind, rate, keep: keep.as_ref() }, context)?
         }
         Output::Sheet => {
             let chosen = args.sheet.filter(|_| args.only.is_none());
@@ -235,7 +249,31 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             return context.write(&Format::Png.encode(&sheet, &history));
         }
     };
+    names.into_iter().for_each(|names| remove_kept_exposure(names, args.frames));
     tell(&summary, &forecast, context);
+    Ok(())
+}
+
+/// Refuses a film that its format cannot hold.
+fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Result<(), Failure> {
+    // A frame that is wrong is reported when it is drawn.
+    let Ok(Pipe { picture, .. }) = script.pipe(1.0, &[], Format::Png) else { return Ok(()) };
+    let name = kind.name();
+    if !kind.has_alpha() && picture.background == Background::Transparent {
+        let message = format!("{name} is not transparent: leave out -tb, or write an apng, gif or webm");
+        return Err(Failure::Usage(message));
+    }
+    let [width, height] = picture.size.map(|side| side.next_multiple_of(2));
+    if kind == Kind::Mp4 && picture.size != [width, height] {
+        let message =
+            format!("widths and heights of mp4 are even: give -sz {width} {height}, or write a webm");
+        return Err(Failure::Usage(message));
+    }
+    if kind == Kind::Gif && rate > MOST_GIF_RATE {
+        context.note(&format!(
+            "browsers play a gif at {MOST_GIF_RATE} frames a second at most: it has this rate, not {rate}"
+        ));
+    }
     Ok(())
 }
 
@@ -369,8 +407,8 @@ fn ranges_of(numbers: &[u32]) -> String {
 
 /// The input that was read.
 enum Read {
-    /// A scene, and the SHA-256 of its whole text if it includes files.
-    Scene(Box<Scene>, Option<String>),
+    /// A scene.
+    Scene(Box<Scene>),
     /// A panorama, and the words for its origin.
     Panorama(Box<ugwarp::Opened>, String),
 }
@@ -387,9 +425,7 @@ impl Read {
         }
         let reading = pipe::options(&args.common)?;
         let input = pipe::input(context, &reading)?;
-        let own = hash(&input.text);
         let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;
-        let included = (hash(&source.text) != own).then(|| sha256(&source.text));
         let camera = script.fixed("cam");
         let parsed = ugparse::read(&source, &reading, camera.as_deref())
             .map_err(|findings| refused_sky(&source).unwrap_or_else(|| pipe::refused(findings)))?;
@@ -403,20 +439,12 @@ impl Read {
             script.set("vc", words(camera.center.to_array()));
             script.set("va", vec![camera.view_angle_deg.to_string()]);
         }
-        Ok(Self::Scene(Box::new(parsed.scene), included))
-    }
-
-    /// The SHA-256 of the whole text of a scene that includes files.
-    fn included(&self) -> Option<&str> {
-        match self {
-            Self::Scene(_, included) => included.as_deref(),
-            Self::Panorama(..) => None,
-        }
+        Ok(Self::Scene(Box::new(parsed.scene)))
     }
 
     fn subject(&self) -> FilmSubject<'_> {
         match self {
-            Self::Scene(scene, _) => FilmSubject::Scene(scene),
+            Self::Scene(scene) => FilmSubject::Scene(scene),
             Self::Panorama(panorama, origin) => FilmSubject::Panorama(panorama, origin),
         }
     }
@@ -436,13 +464,6 @@ fn refused_sky(source: &Source) -> Option<Failure> {
     Some(Failure::failed(format!(
         "`{name}` is not a scene but {is}; with -warp, ugfilm shows {what}, as `ugwarp {name}` does in one picture"
     )))
-}
-
-/// A hash that tells texts apart in this run.
-fn hash(text: &[u8]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    hasher.write(text);
-    hasher.finish()
 }
 
 /// Steps from the first frame to the last, at which the camera of all frames is fitted.

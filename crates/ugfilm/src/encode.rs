@@ -7,7 +7,7 @@ use std::process::{ChildStdin, Command, Stdio};
 use ugimage::Frame;
 use ugpipe::{Failure, Running, shorten};
 
-use crate::animation::{AnimatedPng, Gif, Palette, Shape};
+use crate::animation::{AnimatedPng, Gif, Shape, fraction};
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,6 +47,11 @@ impl Kind {
         Self::ALL.into_iter().find(|kind| kind.name().eq_ignore_ascii_case(name))
     }
 
+    /// True if a pixel can be transparent.
+    pub fn has_alpha(self) -> bool {
+        matches!(self, Self::Apng | Self::Gif | Self::Webm)
+    }
+
     /// True if ffmpeg writes it.
     pub fn is_encoded(self) -> bool {
         matches!(self, Self::Mp4 | Self::Webm)
@@ -66,13 +71,13 @@ pub enum Stream<'w> {
 }
 
 impl<'w> Stream<'w> {
-    /// Begins a film. `palette`: the colours of a GIF.
+    /// Begins a film.
     ///
     /// # Errors
     /// Writing fails, or the format cannot hold the film.
-    pub fn new(kind: Kind, shape: Shape, palette: &Palette, out: &'w mut dyn Write) -> io::Result<Self> {
+    pub fn new(kind: Kind, shape: Shape, out: &'w mut dyn Write) -> io::Result<Self> {
         Ok(match kind {
-            Kind::Gif => Self::Gif(Gif::new(out, shape, palette)?),
+            Kind::Gif => Self::Gif(Gif::new(out, shape)?),
             Kind::Y4m => {
                 let ([width, height], [count, seconds]) = (shape.size, fraction(shape.rate));
                 writeln!(
@@ -119,18 +124,6 @@ impl<'w> Stream<'w> {
     }
 }
 
-/// A film rate as a fraction: 25, or 30000/1001 for 29.97.
-pub fn fraction(rate: f64) -> [u32; 2] {
-    let ntsc = rate.ceil() * 1000.0 / 1001.0;
-    if rate.fract() == 0.0 {
-        [rate as u32, 1]
-    } else if (rate - ntsc).abs() < 0.005 {
-        [(rate.ceil() * 1000.0) as u32, 1001]
-    } else {
-        [(rate * 1000.0).round() as u32, 1000]
-    }
-}
-
 /// Red, green and blue of all pixels; what is transparent has its own colour.
 pub fn rgb(frame: &Frame) -> Vec<u8> {
     frame.pixels().iter().flat_map(|&[red, green, blue, _]| [red, green, blue]).collect()
@@ -155,38 +148,30 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
 
 /// ffmpeg, which gets raw frames and writes a file.
 pub struct Ffmpeg {
+    is_opaque: bool,
     program: Running,
     input: Option<ChildStdin>,
 }
 
 impl Ffmpeg {
-    /// Starts it.
+    /// Starts it. `is_opaque`: no frame is transparent.
     ///
     /// # Errors
     /// There is no ffmpeg.
-    pub fn new(kind: Kind, shape: Shape, path: &Path) -> Result<Self, Failure> {
+    pub fn new(kind: Kind, shape: Shape, is_opaque: bool, path: &Path) -> Result<Self, Failure> {
         let [width, height] = shape.size;
         let [count, seconds] = fraction(shape.rate);
         let codec: &[&str] = match kind {
             Kind::Webm => &["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"],
             _ => &["-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", "-f", "mp4"],
         };
+        let [pixels, planes] = if is_opaque { ["rgb24", "yuv420p"] } else { ["rgba", "yuva420p"] };
         let mut command = Command::new("ffmpeg");
         command
-            .args([
-                "-nostdin",
-                "-hide_banner",
-                "-loglevel",
-                "error",
-                "-y",
-                "-f",
-                "rawvideo",
-                "-pix_fmt",
-                "rgb24",
-            ])
+            .args(["-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f", "rawvideo"])
+            .args(["-pix_fmt", pixels])
             .args(["-s", &format!("{width}x{height}"), "-r", &format!("{count}/{seconds}"), "-i", "-", "-an"])
-            // Widths and heights of the format are even.
-            .args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709,format=yuv420p"])
+            .args(["-vf", &format!("scale=out_color_matrix=bt709,format={planes}")])
             .args(["-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"])
             .args(["-fflags", "+bitexact", "-flags:v", "+bitexact"])
             .args(codec)
@@ -203,7 +188,7 @@ impl Ffmpeg {
             _ => Failure::failed(format!("cannot run ffmpeg: {error}")),
         })?;
         let input = program.child_mut().stdin.take();
-        Ok(Self { program, input })
+        Ok(Self { is_opaque, program, input })
     }
 
     /// Adds the next frame.
@@ -211,7 +196,8 @@ impl Ffmpeg {
     /// # Errors
     /// ffmpeg has ended, for the reason it gives.
     pub fn push(&mut self, frame: &Frame) -> Result<(), Failure> {
-        let written = self.input.as_mut().map(|input| input.write_all(&rgb(frame)));
+        let bytes = if self.is_opaque { rgb(frame) } else { frame.pixels().as_flattened().to_vec() };
+        let written = self.input.as_mut().map(|input| input.write_all(&bytes));
         match written {
             Some(Ok(())) => Ok(()),
             _ => Err(self.complaint()),
@@ -258,14 +244,6 @@ impl Drop for Ffmpeg {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn rates_are_fractions() {
-        assert_eq!(fraction(25.0), [25, 1]);
-        assert_eq!(fraction(29.97), [30000, 1001]);
-        assert_eq!(fraction(23.976), [24000, 1001]);
-        assert_eq!(fraction(12.5), [12500, 1000]);
-    }
 
     /// ITU-R BT.709: black, white and the pure colours, in the range of video.
     #[test]

@@ -3,16 +3,13 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use std::time::SystemTime;
 
-use ugimage::{
-    Format, Frame, LinearFrame, Metadata, PictureLimits, auto_exposure, read_png, read_png_header,
-};
-use ugpicture::{Exposure, Rendering, levels_note};
+use ugimage::{Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png, read_png_header};
+use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::{Motion, Picture};
 
-use crate::animation::{Palette, Shape};
+use crate::animation::Shape;
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
@@ -26,7 +23,7 @@ use crate::work::in_order;
 /// Largest number of frames whose commands are checked before the first frame is drawn.
 const MOST_CHECKED: usize = 64;
 
-/// Frames from which the exposure of a film is chosen, and the colours of a GIF.
+/// Frames from which the exposure of a film is chosen.
 const MOST_MEASURED: u32 = 48;
 
 /// Longest side of these frames, in pixels.
@@ -45,8 +42,6 @@ pub struct Film<'s> {
     pub format: Format,
     /// How long its shutter is open; otherwise a frame is the picture of one moment.
     pub blur: Option<MotionBlur>,
-    /// Since when files of frames may have been drawn; older ones are of another scene.
-    pub valid_since: Option<SystemTime>,
     /// See [`MeasuredExposure::light`].
     pub light: HeldLight,
 }
@@ -143,10 +138,6 @@ impl Film<'_> {
         shot.draw(self.subject, light).map_err(Failure::of)
     }
 
-    fn is_done(&self, path: &Path, metadata: &Metadata) -> bool {
-        is_done(path, metadata, self.valid_since)
-    }
-
     /// Width and height of all frames.
     ///
     /// # Errors
@@ -202,21 +193,6 @@ impl Film<'_> {
         )
     }
 
-    /// Pictures of frames spread over the film.
-    fn spread_pictures<T: Send>(
-        &self,
-        step: (&'static str, &Steps<'_>),
-        draw: impl Fn(Pipe) -> Result<T, Error> + Sync,
-    ) -> Result<Vec<(u32, T)>, Failure> {
-        let mut pictures = Vec::new();
-        let draw = |frame| draw(self.pipe(frame)?).map_err(Failure::of);
-        self.each(step, &self.spread(MOST_MEASURED), draw, |frame, picture| {
-            pictures.push((frame, picture));
-            Ok(())
-        })?;
-        Ok(pictures)
-    }
-
     /// True if the light of all frames fits in memory and is all that pictures are made of, so that
     /// they need not be drawn again when the exposure is known.
     fn holds_light(&self) -> Result<bool, Failure> {
@@ -235,10 +211,17 @@ impl Film<'_> {
     pub fn exposure(&self, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
         let mut picture = about(1, self.pipe(1))?.picture;
         let is_held = self.holds_light()?;
-        let frames = self.spread_pictures(("measuring", steps), |pipe| {
+        let measure = |frame| {
+            let pipe = self.pipe(frame)?;
             let pipe = if is_held { pipe } else { pipe.small(MEASURED_SIDE) };
-            let (light, notes) = pipe.light(pipe.size_above_caption()?, self.subject)?;
+            let light = pipe.size_above_caption().and_then(|size| pipe.light(size, self.subject));
+            let (light, notes) = light.map_err(Failure::of)?;
             Ok((coarse(&light), is_held.then_some((light, notes))))
+        };
+        let mut frames = Vec::new();
+        self.each(("measuring", steps), &self.spread(MOST_MEASURED), measure, |frame, measured| {
+            frames.push((frame, measured));
+            Ok(())
         })?;
         let pixels: Vec<[f32; 4]> =
             frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
@@ -270,14 +253,6 @@ impl Film<'_> {
         Ok(Some(sha256(&bytes)))
     }
 
-    /// The colours of a GIF.
-    fn palette(&self, steps: &Steps<'_>) -> Result<Palette, Failure> {
-        let frames = self.spread_pictures(("choosing colours", steps), |pipe| {
-            pixels(pipe.small(MEASURED_SIDE).draw(self.subject)?.0)
-        })?;
-        Ok(Palette::new(&frames.iter().flat_map(|(_, frame)| frame.pixels()).copied().collect::<Vec<_>>()))
-    }
-
     /// Writes frames as numbered files. Frames whose files were made by the same commands of the
     /// same scene are not drawn again.
     ///
@@ -302,12 +277,12 @@ impl Film<'_> {
     fn write_file(&self, frame: u32, path: &Path) -> Result<Outcome, Failure> {
         let shot = self.shot(frame)?;
         let metadata = shot.metadata(self.subject);
-        if self.is_done(path, &metadata) {
+        if is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
         let Some(_claim) = claim(path) else { return Ok(Outcome::Elsewhere) };
         // Another process may have finished it before it was claimed.
-        if self.is_done(path, &metadata) {
+        if is_done(path, &metadata) {
             return Ok(Outcome::Done);
         }
         let (picture, notes) = self.draw(frame, shot)?;
@@ -345,7 +320,7 @@ impl Film<'_> {
         let shot = self.shot(frame)?;
         let kept = keep.map(|names| (names.path(frame), shot.metadata(self.subject)));
         if let Some((path, metadata)) = &kept
-            && self.is_done(path, metadata)
+            && is_done(path, metadata)
         {
             let read = std::fs::read(path);
             let read = read.map_err(|error| Failure::Read { name: path.display().to_string(), error })?;
@@ -403,20 +378,20 @@ impl Film<'_> {
         self.check(frames)?;
         let mut summary = Summary::default();
         if kind.is_encoded() {
+            let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
             context.write_by_name(|path, steps| {
-                let mut ffmpeg = Ffmpeg::new(kind, shape, path)?;
+                let mut ffmpeg = Ffmpeg::new(kind, shape, is_opaque, path)?;
                 summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
                 ffmpeg.finish()
             })?;
             return Ok(summary);
         }
         context.write_stream(|out, steps| {
-            let palette = if kind == Kind::Gif { self.palette(steps)? } else { Palette::default() };
             // Nothing is written before the first frame is drawn.
             let (mut waiting, mut stream) = (Some(out), None);
             let mut push = |frame: &Frame| {
                 if let Some(out) = waiting.take() {
-                    stream = Some(Stream::new(kind, shape, &palette, out)?);
+                    stream = Some(Stream::new(kind, shape, out)?);
                 }
                 stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
             };

@@ -4,7 +4,6 @@ use std::ffi::OsString;
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use ugimage::{Metadata, read_history};
 use ugpipe::{Claim, Context, Failure, finite, stale};
@@ -41,11 +40,11 @@ impl FrameNames {
         PathBuf::from(format!("{before}{frame:0n_digits$}{after}"))
     }
 
-    /// The hidden file beside the first frame with this extension.
-    fn beside_first(&self, extension: &str) -> PathBuf {
+    /// The hidden file beside the first frame that has the exposure of the film.
+    fn exposure(&self) -> PathBuf {
         let first = self.path(1);
         let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        first.with_file_name(format!(".{name}.{extension}"))
+        first.with_file_name(format!(".{name}.exposure"))
     }
 
     /// True for the file name of a frame, without its folder.
@@ -56,27 +55,10 @@ impl FrameNames {
     }
 }
 
-/// Oldest modification time of frames that are up to date, for a scene that includes files. Frames
-/// record the hash of the main file only, so a file beside the first frame records the hash of the
-/// whole text, includes expanded. It is rewritten when that text changes; frames that are older
-/// than it are drawn again.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn valid_since(names: &FrameNames, sha256: &str) -> Result<SystemTime, Failure> {
-    let path = names.beside_first("scene");
-    let text = format!("{sha256}\n");
-    if fs::read(&path).ok().as_deref() != Some(text.as_bytes()) {
-        Context::write_now(&path, text.as_bytes())?;
-    }
-    let written = fs::metadata(&path).and_then(|found| found.modified());
-    written.map_err(|error| Failure::Read { name: path.display().to_string(), error })
-}
-
 /// The exposure of a film in stops, from a file beside its first frame if that has the same `key`:
 /// a hash of all that the exposure depends on.
 pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
-    let text = fs::read_to_string(names.beside_first("exposure")).ok()?;
+    let text = fs::read_to_string(names.exposure()).ok()?;
     let (kept, stops) = text.trim_end().split_once(' ')?;
     finite(stops).ok().filter(|_| kept == key)
 }
@@ -86,17 +68,22 @@ pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
 /// # Errors
 /// The file cannot be written.
 pub fn keep_exposure(names: &FrameNames, key: &str, stops: f64) -> Result<(), Failure> {
-    Context::write_now(&names.beside_first("exposure"), format!("{key} {stops}\n").as_bytes())
+    Context::write_now(&names.exposure(), format!("{key} {stops}\n").as_bytes())
 }
 
-/// True if the file is whole, was made by the commands that these metadata state, and not before
-/// `since`.
-pub fn is_done(path: &Path, metadata: &Metadata, since: Option<SystemTime>) -> bool {
-    let is_new = |found: &fs::Metadata| {
-        since.is_none_or(|since| found.modified().is_ok_and(|modified| modified >= since))
-    };
+/// Removes the file that [`kept_exposure`] reads, if all `n_frames` frames are there.
+pub fn remove_kept_exposure(names: &FrameNames, n_frames: u32) {
+    let kept = names.exposure();
+    if kept.exists() && (1..=n_frames).all(|frame| names.path(frame).exists()) {
+        // What cannot be removed does no harm.
+        let _ = fs::remove_file(kept);
+    }
+}
+
+/// True if the file is whole and was made by the commands that these metadata state.
+pub fn is_done(path: &Path, metadata: &Metadata) -> bool {
     // A device or pipe would be read without end.
-    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file() && is_new(&found));
+    let is_file = fs::metadata(path).is_ok_and(|found| found.is_file());
     if !is_file || metadata.comment.is_empty() {
         return false;
     }
@@ -189,15 +176,15 @@ mod tests {
                 let file = format.encode(&frame, &of(comment));
                 assert!(file.len() > 100_000, "{format:?}");
                 fs::write(&path, &file).unwrap();
-                assert!(is_done(&path, &of(comment), None), "{format:?}");
-                assert!(!is_done(&path, &of("a | c"), None), "{format:?}");
+                assert!(is_done(&path, &of(comment)), "{format:?}");
+                assert!(!is_done(&path, &of("a | c")), "{format:?}");
                 if format == Format::Png {
                     fs::write(&path, &file[..file.len() - 1]).unwrap();
-                    assert!(!is_done(&path, &of(comment), None));
+                    assert!(!is_done(&path, &of(comment)));
                 }
             }
         }
-        assert!(!is_done(&folder.path().join("none"), &of("a | b"), None));
+        assert!(!is_done(&folder.path().join("none"), &of("a | b")));
     }
 
     #[test]

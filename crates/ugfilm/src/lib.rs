@@ -73,6 +73,8 @@ mod note;
 mod options;
 #[cfg(feature = "cli")]
 mod output;
+#[cfg(feature = "cli")]
+mod palette;
 mod pipe;
 #[cfg(feature = "cli")]
 mod print;

@@ -154,7 +154,7 @@ const SIZE: &str = "sz";
 const SIZE_HELP: [&str; 2] = [
     "Size of every frame in pixels [default: 1024 768]",
     "All frames of a film have the same size. With -sheet it is the size of each frame on the sheet; with \
-    -vec it is in points. mp4 and webm get a black column or row where a side is odd.",
+    -vec it is in points. Widths and heights of mp4 are even.",
 ];
 
 /// The options of all programs; of those with one name the first.

@@ -38,6 +38,8 @@ pub struct Script {
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,
     options: Vec<Setting>,
+    /// Least and greatest speed over the film, for captions.
+    pub speeds: Option<Timeline>,
     /// The words of the programs of some frame, and what they are.
     parsed: OnceLock<Vec<(Vec<String>, Program)>>,
 }
@@ -64,6 +66,7 @@ impl Script {
             is_loop: false,
             reading: Vec::new(),
             options: Vec::new(),
+            speeds: None,
             parsed: OnceLock::new(),
         }
     }
@@ -125,6 +128,13 @@ impl Script {
             Some(Timeline::Fixed(words)) => words.first().cloned(),
             _ => None,
         }
+    }
+
+    /// True if a caption has speeds and no option gives them.
+    pub fn lacks_speeds(&self) -> bool {
+        let has_place = |text: &String| text.contains("{beta}") || text.contains("{gamma}");
+        let is_given = VELOCITIES.iter().any(|name| self.get(name).is_some());
+        !is_given && self.fixed(CAPTION).as_ref().is_some_and(has_place)
     }
 
     /// True if no option changes over the film.
@@ -251,17 +261,22 @@ impl Script {
 
     fn number(&self, name: &str, frame: f64, time: f64) -> Option<String> {
         let numbers = |name: &str| self.get(name).map(|timeline| timeline.numbers(time, self.ease));
-        let speed = || {
-            let velocity = VELOCITIES.iter().rev().find_map(|name| numbers(name)).unwrap_or_default();
-            velocity.iter().fold(0.0, |sum, part| libm::hypot(sum, *part))
+        let speeds = |write: &dyn Fn(f64) -> String| {
+            let speeds = match &self.speeds {
+                Some(speeds) => speeds.numbers(time, self.ease),
+                None => {
+                    let velocity = VELOCITIES.iter().rev().find_map(|name| numbers(name)).unwrap_or_default();
+                    vec![velocity.iter().fold(0.0, |sum, part| libm::hypot(sum, *part))]
+                }
+            };
+            let mut words: Vec<String> = speeds.into_iter().map(write).collect();
+            words.dedup();
+            words.join(" – ")
         };
         Some(match name {
             "frame" => format!("{frame}"),
-            "beta" => format!("{:.3}", speed()),
-            "gamma" => {
-                let speed: f64 = speed();
-                format!("{:.2}", 1.0 / ((1.0 - speed) * (1.0 + speed)).sqrt())
-            }
+            "beta" => speeds(&|speed| format!("{speed:.3}")),
+            "gamma" => speeds(&|speed| format!("{:.2}", 1.0 / ((1.0 - speed) * (1.0 + speed)).sqrt())),
             "t" => format!("{:.2}", numbers("ti").and_then(|list| list.first().copied()).unwrap_or(0.0)),
             _ => match numbers(name)?[..] {
                 [number] => format!("{number:.2}"),

@@ -97,17 +97,25 @@ impl<'s> Sight<'s> {
     /// # Errors
     /// No frame has bodies in a direction.
     pub fn centers(&self) -> Result<Timeline, Failure> {
+        let centers = self.over_film(|seen| Some(seen.center()?.to_array().to_vec()));
+        centers.ok_or_else(|| Failure::failed("-follow: in no frame is there a body in any direction"))
+    }
+
+    /// [`SeenBoxes::speeds`] over the film; `None` if all frames are wrong.
+    pub fn speeds(&self) -> Option<Timeline> {
+        self.over_film(|seen| Some(seen.speeds().to_vec()))
+    }
+
+    /// Numbers of the frames over the film; `None` if no frame has any.
+    fn over_film(&self, numbers: impl Fn(&SeenBoxes) -> Option<Vec<f64>>) -> Option<Timeline> {
         let n_frames = self.script.n_frames;
         let step = (n_frames as usize).div_ceil(MOST_FRAMES).max(1);
-        let center = |frame: u32| {
+        let key = |frame: u32| {
             let seen = self.shown(f64::from(frame))?.seen(&self.boxes).ok()?;
-            Some((self.script.time(f64::from(frame)), seen.center()?.to_array().to_vec()))
+            Some((self.script.time(f64::from(frame)), numbers(&seen)?))
         };
         let frames = (1..n_frames).step_by(step).chain([n_frames]);
-        let keys: Vec<_> = frames.filter_map(center).collect();
-        if keys.is_empty() {
-            return Err(Failure::failed("-follow: in no frame is there a body in any direction"));
-        }
-        Timeline::through(keys, Quantity::Plain).map_err(Failure::failed)
+        let keys: Vec<_> = frames.filter_map(key).collect();
+        if keys.is_empty() { None } else { Timeline::through(keys, Quantity::Plain).ok() }
     }
 }

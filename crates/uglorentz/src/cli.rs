@@ -11,7 +11,7 @@ use ugpipe::{
     CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, finite, remedies, whole,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
-use ugscene::{BodyBoxes, Provenance};
+use ugscene::{BodyBoxes, CameraOptions, Provenance};
 
 use crate::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Error, PROVENANCE, Pieces, Table, measure};
 
@@ -149,7 +149,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         // Seldom, so the scene at rest is read again rather than kept.
         let at_rest = ugparse::read(&source, &reading, config.camera.name.as_deref());
         let boxes = BodyBoxes::new(&at_rest.map_err(pipe::refused)?.scene);
-        let note = boxes.note(&scene, &config.motion(), &config.camera, config.size);
+        let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
+        let note = boxes.note(&scene, &config.motion(), &camera, config.size);
         note.iter().for_each(|note| context.note(&note.words()));
     }
     report.details().iter().for_each(|detail| context.detail(detail));

@@ -232,6 +232,7 @@ impl Words for Error {
         let remedy = match self {
             Self::UnknownFormat { foreign: None, .. } => "; give it with -if ug, obj, ply, stl, off or gltf",
             Self::NothingToConvert => "; choose an output format with -dt obj, ply, gltf, glb or vtp",
+            Self::NotMesh => ", so -up and -name have no effect; leave them out",
             Self::Overflow => "; choose another -scale or -fit",
             Self::OutOfRange => "; make the mesh smaller (-fit 1) or write PLY (-dt ply)",
             Self::TooLarge => "; write PLY (-dt ply)",
@@ -264,7 +265,7 @@ pub fn main() -> ExitCode {
         let input = input.with_files(&read_file).with_includes(&resolve_includes);
         let converted = crate::run(&config, &input).map_err(|error| match error {
             Error::Scene(findings) => pipe::refused(findings),
-            Error::NothingToConvert => Failure::usage(error.words()),
+            Error::NothingToConvert | Error::NotMesh => Failure::usage(error.words()),
             other => Failure::failed(other.words()),
         })?;
         if let Some(findings) = converted.diagnostics.filter(|findings| !findings.is_empty()) {

@@ -19,6 +19,8 @@ pub enum Error {
     },
     /// Input and output are both UniGrafix.
     NothingToConvert,
+    /// Options of meshes are given for a scene.
+    NotMesh,
     /// The input is malformed.
     Malformed {
         /// The name of the input for messages.
@@ -58,6 +60,7 @@ impl fmt::Display for Error {
                 write!(f, "cannot detect the format of `{name}`")
             }
             Self::NothingToConvert => f.write_str("the input is already a UniGrafix scene"),
+            Self::NotMesh => f.write_str("the input is a UniGrafix scene, not a mesh"),
             Self::Malformed { name, format, problem: Problem { line, what } } => {
                 write!(f, "cannot read `{name}` as {format}: ")?;
                 line.iter().try_for_each(|line| write!(f, "line {line}: "))?;

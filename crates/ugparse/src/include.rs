@@ -15,7 +15,6 @@ use crate::event_table;
 use crate::grammar::KEYWORDS;
 use crate::mesh;
 use crate::options::{Limit, Options};
-use crate::origin::Origin;
 use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
@@ -59,7 +58,7 @@ pub fn include(
         return Ok(source);
     }
     let name = source.name.clone();
-    let origin = source.origin.as_ref().map(|origin| Origin::Recorded(origin.words(&source.text)));
+    let origin = source.origin.clone().map(|origin| origin.including(&source.text));
     let first = Text::new(source, options)?;
     let path = without_dots(Path::new(&name));
     let mut inclusion = Inclusion {

@@ -10,12 +10,15 @@ use crate::token;
 /// The input of the first program of a pipe.
 #[derive(Clone, Debug)]
 pub enum Origin {
-    /// The recorded words: `SHA-256 3b1c… ship.ug`.
+    /// The recorded words: `SHA-256 3b1c… ship.ug`, or with the hash of the whole text of a scene
+    /// that includes files, `SHA-256 3b1c… including 88d4… fleet.ug`.
     Recorded(String),
     /// An input whose hash has not been computed yet.
     Pending {
         /// Its name, quoted for a shell; `-` for standard input.
         name: String,
+        /// The hash of the text alone, if the input is a text with the files that it includes.
+        alone: Option<String>,
         /// Computes the SHA-256 of the input, in hexadecimal digits.
         sha256: fn(&[u8]) -> String,
     },
@@ -27,7 +30,19 @@ impl Origin {
     pub fn words(&self, bytes: &[u8]) -> String {
         match self {
             Self::Recorded(words) => words.clone(),
-            Self::Pending { name, sha256 } => format!("SHA-256 {} {name}", sha256(bytes)),
+            Self::Pending { name, alone: None, sha256 } => format!("SHA-256 {} {name}", sha256(bytes)),
+            Self::Pending { name, alone: Some(alone), sha256 } => {
+                format!("SHA-256 {alone} including {} {name}", sha256(bytes))
+            }
+        }
+    }
+
+    /// The origin of a text with the files that it includes. `bytes`: the text alone.
+    #[must_use]
+    pub fn including(self, bytes: &[u8]) -> Self {
+        match self {
+            Self::Pending { name, sha256, .. } => Self::Pending { name, alone: Some(sha256(bytes)), sha256 },
+            recorded => recorded,
         }
     }
 }

@@ -46,7 +46,7 @@ pub fn input(context: &mut Context, options: &Options) -> Result<Source, Failure
 
 /// The origin of a scene that this program reads first.
 pub fn origin(context: &Context) -> Origin {
-    Origin::Pending { name: context.recorded_name(), sha256: ugpipe::sha256 }
+    Origin::Pending { name: context.recorded_name(), alone: None, sha256: ugpipe::sha256 }
 }
 
 /// Replaces the `include` and `execute` statements and the tables of events of a scene, or reads a

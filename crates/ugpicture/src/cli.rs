@@ -150,21 +150,21 @@ pub struct LensArgs {
     /// Longitude across the picture, latitude down, the view direction in the middle
     /// (equirectangular). -sz W H with W = 2 H has square degrees; then a PNG file says that it is
     /// a panorama, as players of 360° pictures expect it.
-    #[arg(long, visible_alias = "panorama", conflicts_with = "fish")]
+    #[arg(long, visible_alias = "panorama", conflicts_with_all = ["fish", "va"])]
     pan: bool,
 
     /// Fisheye: ANGLE degrees in a circle, as for domes
     ///
     /// The distance to the middle of the picture is the angle to the view direction (equidistant).
     /// A dome needs 180.
-    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", value_parser = number(fisheye))]
+    #[arg(long, value_name = "ANGLE", visible_alias = "fisheye", conflicts_with = "va", value_parser = number(fisheye))]
     fish: Option<f64>,
 
     /// Cube map: six square views from left to right
     ///
     /// Right, left, up, down, front, back of the view direction: +X, -X, +Y, -Y, +Z, -Z of cube
     /// maps, each as seen from inside. -sz W H needs W = 6 H.
-    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish"])]
+    #[arg(long, visible_alias = "cube-map", conflicts_with_all = ["pan", "fish", "va"])]
     cube: bool,
 }
 

@@ -128,7 +128,7 @@ pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Re
     match parse_from(&mut command, words.into_iter().collect()) {
         Ok((args, _)) => Ok(args),
         Err(Unparsed::Usage(message)) => Err(Failure::Usage(message)),
-        Err(Unparsed::Help(text)) => Err(Failure::Usage(usage::message(&command, &text, &[]))),
+        Err(Unparsed::Help(text)) => Err(Failure::Usage(usage::message(&command, &text, None, &[]))),
     }
 }
 
@@ -139,8 +139,11 @@ fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), Unparsed
 fn parse_from<A: ToolArgs>(command: &mut Command, words: Vec<OsString>) -> Result<(A, ArgMatches), Unparsed> {
     let rewritten = argv::rewrite(command, words.iter().cloned());
     let rewritten = rewritten.map_err(|stray| Unparsed::Usage(usage::stray_number(&stray)))?;
-    match_words(command, rewritten).map_err(|error| match error.use_stderr() {
-        true => Unparsed::Usage(usage::message(command, &error, &words)),
+    match_words(command, rewritten.clone()).map_err(|error| match error.use_stderr() {
+        true => {
+            let in_need = usage::option_in_need(command, &error, &rewritten);
+            Unparsed::Usage(usage::message(command, &error, in_need, &words))
+        }
         false => Unparsed::Help(error),
     })
 }

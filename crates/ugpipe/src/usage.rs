@@ -13,9 +13,35 @@ use crate::argv::StrayNumber;
 use crate::remedies;
 use crate::values::finite;
 
-/// The message for an error of clap: one line, without the name of the program. `words`: the
-/// command line as it was typed.
-pub(crate) fn message(command: &Command, error: &clap::Error, words: &[OsString]) -> String {
+/// The option without which an argument would not be missing. `words`: the command line for clap.
+pub(crate) fn option_in_need<'w>(
+    command: &Command,
+    error: &clap::Error,
+    words: &'w [OsString],
+) -> Option<&'w str> {
+    if error.kind() != ErrorKind::MissingRequiredArgument {
+        return None;
+    }
+    let is_option = |row: &usize| words[*row].as_encoded_bytes().starts_with(b"--");
+    let rows: Vec<usize> = (1..words.len()).filter(is_option).chain([words.len()]).collect();
+    let is_in_need = |ends: &&[usize]| {
+        let without = words[..ends[0]].iter().chain(&words[ends[1]..]);
+        let found = command.clone().try_get_matches_from(without).err();
+        found.is_none_or(|found| found.kind() != ErrorKind::MissingRequiredArgument)
+    };
+    let option = rows.windows(2).find(is_in_need).and_then(|ends| words[ends[0]].to_str())?;
+    option.split('=').next()
+}
+
+/// The message for an error of clap: one line, without the name of the program. `in_need`: the
+/// option without which an argument would not be missing; `words`: the command line as it was
+/// typed.
+pub(crate) fn message(
+    command: &Command,
+    error: &clap::Error,
+    in_need: Option<&str>,
+    words: &[OsString],
+) -> String {
     let argument = context(error, ContextKind::InvalidArg).unwrap_or_default();
     let value = context(error, ContextKind::InvalidValue).unwrap_or_default();
     let number = |kind| match error.get(kind) {
@@ -65,9 +91,12 @@ pub(crate) fn message(command: &Command, error: &clap::Error, words: &[OsString]
             let (option, values) = option_and_values(&argument);
             let required = format!("{option} {values}");
             let required = required.trim_end();
-            match words.iter().find_map(|word| owned_by_another(command, &word.to_string_lossy())) {
+            let Some(in_need) = in_need.map(|option| as_typed(option, words)) else {
+                return format!("`{required}` is missing");
+            };
+            match owned_by_another(command, &in_need) {
                 Some(owned) => format!("{owned}; here it needs `{required}`"),
-                None => format!("`{required}` is missing"),
+                None => format!("`{in_need}` needs `{required}`"),
             }
         }
         _ => {

@@ -69,7 +69,7 @@ pub struct Args {
     ///
     /// It can be searched, copied, and changed in an editor. The font, DejaVu Sans, is embedded in
     /// the file; editors of SVG need it installed.
-    #[arg(long, visible_alias = "text", requires = "vec")]
+    #[arg(long, visible_alias = "text", requires = "vec", conflicts_with = "xc")]
     txt: bool,
 
     #[command(flatten)]
@@ -159,10 +159,13 @@ fn is_exact(matches: &ArgMatches) -> bool {
     is_given(matches, "xc")
 }
 
-/// The options of [`ShiftArgs`] need `-xc`.
+/// The options of [`ShiftArgs`] need `-xc`. clap does not require it beside `-vec`, which excludes it.
 fn with_exact(arg: Arg) -> Arg {
-    const OPTIONS: [&str; 4] = ["br", "sp", "no_doppler", "no_flux"];
-    if OPTIONS.contains(&arg.get_id().as_str()) { arg.requires("xc") } else { arg }
+    match arg.get_id().as_str() {
+        "br" | "sp" | "no_doppler" | "no_flux" => arg.requires("xc").conflicts_with("vec"),
+        "aa" => arg.conflicts_with("vec"),
+        _ => arg,
+    }
 }
 
 impl ToolArgs for Args {

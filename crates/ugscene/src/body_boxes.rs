@@ -1,12 +1,14 @@
 //! Where the bodies of a scene are seen, and when, without drawing them.
 
+use std::ops::Range;
+
 use glam::DVec3;
 use ugphysics::Event;
 
 use crate::default_camera::{rounded, unit_of_rounding};
 use crate::{
-    BodyId, Camera, CameraOptions, FaceOrWire, MotionError, MotionOptions, PlacedBodies, RelativeMotion,
-    RestPosition, Scene, Vertex, VertexId, View, Wire,
+    BodyId, Camera, CameraOptions, FaceOrWire, HalfSpace, MotionError, MotionOptions, PlacedBodies,
+    RelativeMotion, RestPosition, Scene, Vertex, VertexId, View, Wire,
 };
 
 /// About how many boxes a scene is divided into, besides one for each body.
@@ -19,13 +21,21 @@ const N_BOXES: usize = 256;
 #[derive(Clone, Debug)]
 pub struct BodyBoxes {
     /// A scene with the bodies and the camera of the original. Each of its wires has the corners of
-    /// a box, which are its own vertices. Two more vertices span the unused ones of the original,
-    /// so that bodies have the same centres.
+    /// a box, which are its own vertices; two vertices of the body follow them. Two more span the
+    /// unused ones of the original, so that bodies have the same centres.
     scene: Scene,
 }
 
 /// Corners of a box.
 const N_CORNERS: usize = 8;
+
+/// Rows of vertices of a box: its corners and two vertices of the body in it.
+const N_ROWS: usize = N_CORNERS + 2;
+
+/// The rows of the corners of a box.
+fn corners(row: usize) -> Range<usize> {
+    N_ROWS * row..N_ROWS * row + N_CORNERS
+}
 
 /// The length of the mean of directions below which they point to all sides.
 const AROUND: f64 = 0.05;
@@ -36,11 +46,13 @@ struct Part {
     body: BodyId,
     low: DVec3,
     high: DVec3,
+    /// Two of its vertices.
+    points: [DVec3; 2],
 }
 
 impl Part {
     fn empty(body: BodyId) -> Self {
-        Self { body, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY }
+        Self { body, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, points: [DVec3::ZERO; 2] }
     }
 
     fn with(self, low: DVec3, high: DVec3) -> Self {
@@ -63,12 +75,15 @@ impl BodyBoxes {
         let mut n_parts: usize = 0;
         let mut is_used = vec![false; scene.vertices.len()];
         for FaceOrWire { contours, body, .. } in scene.drawn() {
-            let corners = scene.contours.corners(contours).iter();
-            let part = corners.fold(Part::empty(body), |part, corner| {
+            let corners = scene.contours.corners(contours);
+            let position = |corner: &VertexId| scene.vertices[corner.index()].position;
+            let mut part = corners.iter().fold(Part::empty(body), |part, corner| {
                 is_used[corner.index()] = true;
-                let position = scene.vertices[corner.index()].position;
-                part.with(position, position)
+                part.with(position(corner), position(corner))
             });
+            if let [first, ..] = corners {
+                part.points = [position(first), position(&corners[corners.len() / 2])];
+            }
             bodies[body.index()].push(part);
             n_parts += 1;
         }
@@ -98,6 +113,11 @@ impl BodyBoxes {
         Self { scene: out }
     }
 
+    /// True if the scene has a camera.
+    pub(crate) fn has_camera(&self) -> bool {
+        self.scene.camera().is_some()
+    }
+
     /// Where they are seen.
     ///
     /// # Errors
@@ -112,7 +132,7 @@ impl BodyBoxes {
         let placed = PlacedBodies::new(&mut scene, motion, camera, size)?;
         let rest = placed.rest_positions(&scene);
         let middle = |row: usize| {
-            let first = row - row % N_CORNERS;
+            let first = row - row % N_ROWS;
             let corners = &rest[first..rest.len().min(first + N_CORNERS)];
             corners.iter().sum::<DVec3>() / corners.len() as f64
         };
@@ -129,7 +149,10 @@ impl BodyBoxes {
         let camera = CameraOptions { eye: None, ..camera.clone() };
         let view = View::new(&scene, &camera, size).map_err(MotionError::Camera)?;
         let n_boxes = scene.wires.len();
-        Ok(SeenBoxes { placed, rest, seen, n_boxes, view })
+        scene.stage.geometry = placed.seen_stage(motion);
+        let stage = scene.stage.seen_geometry();
+        let camera_speed = stage.map_or(0.0, |stage| stage.camera_velocity.beta().length());
+        Ok(SeenBoxes { placed, rest, seen, n_boxes, camera_speed, view })
     }
 }
 
@@ -166,7 +189,8 @@ fn seen_corner(motion: &RelativeMotion, rest: DVec3, middle: DVec3) -> DVec3 {
 /// most `most` parts.
 fn divide(parts: &mut [Part], most: usize, boxes: &mut Vec<Part>) {
     let Some(first) = parts.first() else { return };
-    let whole = parts.iter().fold(Part::empty(first.body), |whole, part| whole.with(part.low, part.high));
+    let mut whole = parts.iter().fold(Part::empty(first.body), |whole, part| whole.with(part.low, part.high));
+    whole.points = [first.points[0], parts[parts.len() - 1].points[1]];
     if parts.len() <= most {
         boxes.push(whole);
         return;
@@ -182,6 +206,9 @@ fn divide(parts: &mut [Part], most: usize, boxes: &mut Vec<Part>) {
 
 fn add_box(scene: &mut Scene, part: &Part) {
     let corners = part.corners().map(|corner| add_vertex(scene, corner));
+    part.points.into_iter().for_each(|point| {
+        add_vertex(scene, point);
+    });
     let contours = scene.contours.push_all([corners]);
     scene.wires.push(Wire { name: None, contours, color: None, body: part.body });
 }
@@ -195,15 +222,29 @@ fn add_vertex(scene: &mut Scene, position: DVec3) -> VertexId {
 #[derive(Clone, Debug)]
 pub struct SeenBoxes {
     placed: PlacedBodies,
-    /// Rest positions of the corners, 8 of each box, as of [`PlacedBodies::rest_positions`].
+    /// Rest positions of the vertices, 10 of each box, as of [`PlacedBodies::rest_positions`].
     rest: Vec<DVec3>,
-    /// Where the corners are seen, relative to the eye.
+    /// Where they are seen, relative to the eye.
     seen: Vec<DVec3>,
     n_boxes: usize,
+    camera_speed: f64,
     view: View,
 }
 
 impl SeenBoxes {
+    /// Speed of the camera, or if it is at rest, the least and the greatest speed of moving bodies,
+    /// relative to the camera.
+    pub fn speeds(&self) -> [f64; 2] {
+        if self.camera_speed > 0.0 {
+            return [self.camera_speed; 2];
+        }
+        let speeds = self.followed().into_iter().map(|row| self.motion(row).velocity().beta().length());
+        let [least, greatest] = speeds.fold([f64::INFINITY, 0.0], |[least, greatest], speed| {
+            [least.min(speed), f64::max(greatest, speed)]
+        });
+        [least.min(greatest), greatest]
+    }
+
     /// True only if nothing is in the picture.  (P27)
     pub fn are_out_of_view(&self) -> bool {
         self.are_out(0..self.n_boxes)
@@ -220,7 +261,7 @@ impl SeenBoxes {
     fn are_out(&self, mut rows: impl Iterator<Item = usize>) -> bool {
         let spaces: Vec<_> = self.view.half_spaces().into_iter().flatten().collect();
         rows.all(|row| {
-            let corners = &self.rest[8 * row..8 * row + 8];
+            let corners = &self.rest[corners(row)];
             spaces.iter().any(|space| self.motion(row).is_outside(space, corners))
         })
     }
@@ -232,7 +273,7 @@ impl SeenBoxes {
     /// smoothly as these do. It is rounded to a hundredth of a pixel or less, so that it is short.
     pub fn center(&self) -> Option<DVec3> {
         let followed = self.followed();
-        let corners = followed.iter().flat_map(|&row| &self.seen[8 * row..8 * row + 8]);
+        let corners = followed.iter().flat_map(|&row| &self.seen[corners(row)]);
         let (mut direction, mut distance, mut count) = (DVec3::ZERO, 0.0, 0.0);
         for corner in corners {
             direction += ugphysics::unit_or_zero(*corner);
@@ -248,7 +289,7 @@ impl SeenBoxes {
     }
 
     fn motion(&self, row: usize) -> &RelativeMotion {
-        &self.placed.motions[self.placed.bodies[8 * row].index()]
+        &self.placed.motions[self.placed.bodies[N_ROWS * row].index()]
     }
 
     /// The boxes of bodies that move in the frame of the scene; if none does, of those that move
@@ -264,7 +305,7 @@ impl SeenBoxes {
 
     /// Unit vectors to the middles of the followed boxes; zero for one at the eye.
     pub(crate) fn directions(&self) -> Vec<DVec3> {
-        let middle = |row: usize| self.seen[8 * row..8 * row + 8].iter().sum::<DVec3>();
+        let middle = |row: usize| self.seen[corners(row)].iter().sum::<DVec3>();
         self.followed().into_iter().map(|row| ugphysics::unit_or_zero(middle(row))).collect()
     }
 
@@ -282,11 +323,26 @@ impl SeenBoxes {
         (speed > 0.0).then(|| distance.max(self.view.distance) / speed)
     }
 
-    /// True if a corner of a followed box is in the picture.
-    pub(crate) fn is_corner_in_view(&self) -> bool {
+    /// True only if a vertex of a followed body is in the picture, and not so near its edge that
+    /// nothing else of the body is.
+    pub(crate) fn is_vertex_in_view(&self) -> bool {
+        /// Part of the view angle at its edges.
+        const MARGIN: f64 = 0.05;
         let spaces: Vec<_> = self.view.half_spaces().into_iter().flatten().collect();
-        let is_inside =
-            |corner: &DVec3| spaces.iter().all(|space| corner.dot(space.normal) + space.offset >= 0.0);
-        self.followed().iter().any(|&row| self.seen[8 * row..8 * row + 8].iter().any(is_inside))
+        let is_inside = |at: usize| {
+            let place = self.seen[at];
+            let margin = |space: &HalfSpace| MARGIN * space.normal.dot(self.view.forward) * place.length();
+            spaces.iter().all(|space| place.dot(space.normal) + space.offset > margin(space))
+        };
+        let eye = Event { t: 0.0, x: DVec3::ZERO };
+        let sends_light = |row: usize, at: usize| {
+            self.motion(row).world_line().is_none_or(|line| line.light(self.rest[at], eye).is_ok())
+        };
+        // Faster, 1 is the nearest number to a speed, and scenes as seen cannot state it.
+        let is_below_1 = |row: &usize| self.motion(*row).velocity().beta().length() < 1.0;
+        self.followed()
+            .into_iter()
+            .filter(is_below_1)
+            .any(|row| (corners(row).end..N_ROWS * (row + 1)).any(|at| is_inside(at) && sends_light(row, at)))
     }
 }

@@ -53,8 +53,8 @@ impl fmt::Display for Note {
             Self::OutOfView { time, when: Some(when) } => {
                 write!(f, "nothing that moves is in the picture at time {time}; it is {when}")
             }
-            Self::OutOfView { when: None, .. } => {
-                write!(f, "nothing that moves is in the picture, at any time")
+            Self::OutOfView { time, when: None } => {
+                write!(f, "nothing that moves is in the picture at time {time}, and no other time was found")
             }
             Self::SpectraAtRest { color } => {
                 write!(f, "black bodies and spectra count with their colour at rest (colour `{color}`)")
@@ -85,7 +85,7 @@ pub fn may_miss_motion(seen: &Scene, options: &CameraOptions, size: [u32; 2]) ->
 impl BodyBoxes {
     /// The note on a picture in which nothing is that moves, with the times at which it would be;
     /// `None` if it is, nothing moves, or the camera is invalid. `seen`: the scene as seen, whose
-    /// camera has the eye and the view centre.
+    /// camera has the eye and the view centre of a scene without a camera.
     pub fn note(
         &self,
         seen: &Scene,
@@ -93,8 +93,11 @@ impl BodyBoxes {
         options: &CameraOptions,
         size: [u32; 2],
     ) -> Option<Note> {
-        let camera = seen.camera()?;
-        let camera = CameraOptions { eye: camera.eye, center: camera.center, ..options.clone() };
+        let fitted = seen.camera().filter(|_| !self.has_camera());
+        let camera = fitted.map_or_else(
+            || options.clone(),
+            |camera| CameraOptions { eye: camera.eye, center: camera.center, ..options.clone() },
+        );
         if !self.seen(motion, &camera, size).ok()?.are_moving_out_of_view() {
             return None;
         }

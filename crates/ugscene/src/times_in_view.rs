@@ -10,16 +10,16 @@ use crate::{BodyBoxes, CameraOptions, MotionError, MotionOptions};
 /// them. Before and after that they are near their vanishing points.
 const FARTHEST: f64 = 64.0;
 
-/// Equal parts of all times in which bodies are looked for at first.
-const N_PARTS: u32 = 64;
+/// Equal parts of the times before and after, in which bodies are looked for at first.
+const N_PARTS: u32 = 32;
 
 /// Cosine of 2°: a part is halved if the direction to a body changes by more.
 const STEP: f64 = 0.999_4;
 
-/// Limits of the number of moments, and of moments times boxes. Beyond them parts are not halved, so
-/// the search takes a fraction of a second.
-const MOST_MOMENTS: usize = 1 << 13;
-const MOST_SEEN: usize = 1 << 20;
+/// Limits of the number of moments before and after, and of moments times boxes. The search ends
+/// there, so it takes a fraction of a second.
+const MOST_MOMENTS: usize = 1 << 12;
+const MOST_SEEN: usize = 1 << 19;
 
 /// Most halvings of a part, and of the ends of an interval.
 const N_HALVINGS: u32 = 24;
@@ -79,8 +79,8 @@ struct Search<'s> {
 
 impl BodyBoxes {
     /// The interval of times, nearest to that of `motion`, in which bodies that move relative to
-    /// the camera are in the picture; `None` if they never are, or none moves. Between the corners
-    /// of boxes nothing is looked for, so it may be a little too short.
+    /// the camera are in the picture; `None` if no such time is found, or none moves. Only some of
+    /// their vertices are looked for, so it may be too short.
     ///
     /// # Errors
     /// See [`BodyBoxes::seen`].
@@ -96,11 +96,23 @@ impl BodyBoxes {
             return Ok(None);
         };
         let search = Search { boxes: self, motion, camera, size };
-        let moments = search.moments(range)?;
+        let now = search.moment(motion.time)?;
+        let (mut moments, is_whole_before) = search.moments(now.clone(), -range)?;
+        moments.reverse();
+        moments.pop();
+        let (after, is_whole_after) = search.moments(now, range)?;
+        moments.extend(after);
         let distance = |moment: &Moment| (moment.time - motion.time).abs();
         let in_view = (0..moments.len()).filter(|&row| moments[row].is_in_view);
         let nearest = in_view.min_by(|&a, &b| distance(&moments[a]).total_cmp(&distance(&moments[b])));
-        nearest.map(|row| search.interval(&moments, row)).transpose()
+        let Some(row) = nearest else { return Ok(None) };
+        let found = search.interval(&moments, row)?;
+        let end = |is_whole: bool, moment: Option<&Moment>| moment.filter(|_| !is_whole).map(|end| end.time);
+        Ok(Some(TimesInView {
+            first: found.first.or_else(|| end(is_whole_before, moments.first())),
+            last: found.last.or_else(|| end(is_whole_after, moments.last())),
+            ..found
+        }))
     }
 }
 
@@ -111,39 +123,44 @@ impl Search<'_> {
         let directions = seen.directions();
         let middle = directions.iter().sum::<DVec3>();
         let nearness = seen.forward().dot(ugphysics::unit_or_zero(middle));
-        Ok(Moment { time, is_in_view: seen.is_corner_in_view(), nearness, directions })
+        Ok(Moment { time, is_in_view: seen.is_vertex_in_view(), nearness, directions })
     }
 
-    /// Moments up to `range` before and after, so close that no body is missed on its way across
-    /// the picture, in order.
-    fn moments(&self, range: f64) -> Result<Vec<Moment>, MotionError> {
-        let time = |part: u32| self.motion.time + range * (2.0 * f64::from(part) / f64::from(N_PARTS) - 1.0);
-        let mut moments = vec![self.moment(time(0))?];
+    /// Moments from one to `range` after it, or before it if that is negative, so close that no body
+    /// is missed on its way across the picture; false if there are fewer, for they would be too
+    /// many.
+    fn moments(&self, first: Moment, range: f64) -> Result<(Vec<Moment>, bool), MotionError> {
+        let mut moments = vec![first];
         for part in 1..=N_PARTS {
-            self.add_between(&mut moments, self.moment(time(part))?, N_HALVINGS)?;
+            let time = self.motion.time + range * f64::from(part) / f64::from(N_PARTS);
+            if !self.add_between(&mut moments, self.moment(time)?, N_HALVINGS)? {
+                return Ok((moments, false));
+            }
         }
-        Ok(moments)
+        Ok((moments, true))
     }
 
     /// Appends `next`, and before it as many moments as the way of the bodies since the last one
-    /// requires.
+    /// requires; false if these are too many.
     fn add_between(
         &self,
         moments: &mut Vec<Moment>,
         next: Moment,
         n_halvings: u32,
-    ) -> Result<(), MotionError> {
+    ) -> Result<bool, MotionError> {
         let last = moments.last().unwrap_or(&next);
         let mut ways = last.directions.iter().zip(&next.directions);
         let is_close = ways.all(|(a, b)| a.dot(*b) >= STEP);
-        let is_affordable = moments.len() < MOST_MOMENTS && moments.len() * next.directions.len() < MOST_SEEN;
-        if !is_close && is_affordable && n_halvings > 0 {
-            let middle = self.moment(0.5 * (last.time + next.time))?;
-            self.add_between(moments, middle, n_halvings - 1)?;
-            return self.add_between(moments, next, n_halvings - 1);
+        if is_close || n_halvings == 0 {
+            moments.push(next);
+            return Ok(true);
         }
-        moments.push(next);
-        Ok(())
+        if moments.len() >= MOST_MOMENTS || moments.len() * next.directions.len() >= MOST_SEEN {
+            return Ok(false);
+        }
+        let middle = self.moment(0.5 * (last.time + next.time))?;
+        Ok(self.add_between(moments, middle, n_halvings - 1)?
+            && self.add_between(moments, next, n_halvings - 1)?)
     }
 
     /// The interval in which bodies are in view around a moment at which they are.

@@ -150,7 +150,7 @@ pub fn is_star_list(file: &[u8]) -> bool {
     let head = &file[..file.len().min(4096)];
     let mut record = ByteRecord::new();
     let is_text = |byte: &u8| *byte >= b' ' || byte.is_ascii_whitespace();
-    next(&mut reader(head), &mut record)
+    next(&mut reader(head, separator(head)), &mut record)
         && record.as_slice().iter().all(is_text)
         && record
             .iter()
@@ -161,33 +161,44 @@ pub fn is_star_list(file: &[u8]) -> bool {
 
 /// Reads a list of stars.
 ///
-/// The first line has the names of columns, separated by commas; other columns than the known ones
+/// The first line has the names of columns, separated by commas, semicolons or tabs; other columns than the known ones
 /// are allowed and ignored. Lines that are empty or begin with `#` are skipped.
 ///
 /// # Errors
 /// The mistakes of up to 20 lines.
 pub fn read_stars(file: &[u8]) -> Result<Vec<Star>, Vec<StarListError>> {
-    let (mut reader, mut record) = (reader(file), ByteRecord::new());
+    let separator = separator(file);
+    let (mut reader, mut record) = (reader(file, separator), ByteRecord::new());
     if !next(&mut reader, &mut record) {
         return Err(vec![StarListError { place: 0..0, mistake: StarListMistake::NoNames }]);
     }
-    let layout = Layout::new(&record).map_err(|wrong| vec![wrong.at(file, &record)])?;
+    let layout = Layout::new(&record).map_err(|wrong| vec![wrong.at(file, separator, &record)])?;
     let (mut stars, mut errors) = (Vec::new(), Vec::new());
     while errors.len() < MOST_MISTAKES && next(&mut reader, &mut record) {
         match layout.star(&record) {
             Ok(_) if stars.len() == MAX_STARS => {
-                errors.push(Wrong(None, StarListMistake::TooMany).at(file, &record));
+                errors.push(Wrong(None, StarListMistake::TooMany).at(file, separator, &record));
                 break;
             }
             Ok(star) => stars.push(star),
-            Err(wrong) => errors.push(wrong.at(file, &record)),
+            Err(wrong) => errors.push(wrong.at(file, separator, &record)),
         }
     }
     if errors.is_empty() { Ok(stars) } else { Err(errors) }
 }
 
-fn reader(file: &[u8]) -> Reader<&[u8]> {
-    ReaderBuilder::new().has_headers(false).flexible(true).comment(Some(b'#')).from_reader(file)
+/// The character between the names of columns: a comma, a semicolon or a tab, whichever is there
+/// most often.
+fn separator(file: &[u8]) -> u8 {
+    let mut lines = file.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
+    let names = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")).unwrap_or_default();
+    let count = |separator: &u8| names.iter().filter(|byte| *byte == separator).count();
+    [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
+}
+
+fn reader(file: &[u8], separator: u8) -> Reader<&[u8]> {
+    let mut builder = ReaderBuilder::new();
+    builder.has_headers(false).flexible(true).comment(Some(b'#')).delimiter(separator).from_reader(file)
 }
 
 /// Reads the next record, skipping blank lines and comments; returns false at the end of the file.
@@ -208,17 +219,21 @@ struct Wrong(Option<usize>, StarListMistake);
 impl Wrong {
     /// The mistake with its place in the file, which is searched again: a record has its fields
     /// without quotes, and begins before the comments above it.
-    fn at(self, file: &[u8], record: &ByteRecord) -> StarListError {
+    fn at(self, file: &[u8], separator: u8, record: &ByteRecord) -> StarListError {
         let Self(field, mistake) = self;
         let before = record.position().map_or(0, |position| position.byte() as usize);
-        let mut rest = file[before.min(file.len())..].trim_ascii_start();
+        let is_blank = |byte: &u8| byte.is_ascii_whitespace() && *byte != separator;
+        let trimmed = |text: &[u8]| text.iter().take_while(|byte| is_blank(byte)).count();
+        let mut rest = &file[before.min(file.len())..];
+        rest = &rest[trimmed(rest)..];
         while rest.starts_with(b"#") {
-            rest = rest[line_end(rest)..].trim_ascii_start();
+            rest = &rest[line_end(rest)..];
+            rest = &rest[trimmed(rest)..];
         }
         for _ in 0..field.unwrap_or(0) {
-            rest = &rest[(field_end(rest) + 1).min(rest.len())..];
+            rest = &rest[(field_end(rest, separator) + 1).min(rest.len())..];
         }
-        let end = if field.is_some() { field_end(rest) } else { line_end(rest) };
+        let end = if field.is_some() { field_end(rest, separator) } else { line_end(rest) };
         let start = file.len() - rest[..end].trim_ascii_start().len() - rest[end..].len();
         StarListError { place: start..start + rest[..end].trim_ascii().len(), mistake }
     }
@@ -228,11 +243,11 @@ fn line_end(text: &[u8]) -> usize {
     text.iter().position(|byte| *byte == b'\n').unwrap_or(text.len())
 }
 
-fn field_end(text: &[u8]) -> usize {
+fn field_end(text: &[u8], separator: u8) -> usize {
     let mut is_quoted = false;
     let is_end = |byte: &u8| {
         is_quoted ^= *byte == b'"';
-        !is_quoted && matches!(byte, b',' | b'\r' | b'\n')
+        !is_quoted && (*byte == separator || matches!(byte, b'\r' | b'\n'))
     };
     text.iter().position(is_end).unwrap_or(text.len())
 }

@@ -258,6 +258,11 @@ impl Args {
     /// it.
     pub fn open(&self, input: &Input, context: &Context) -> Result<Opened, Failure> {
         let is_list = is_star_list(&input.text);
+        if !is_list && self.stars.is_none() && (self.star_width.is_some() || self.white.is_some()) {
+            return Err(Failure::usage(
+                "there are no stars: leave out --star-width and --white, or give --stars LIST",
+            ));
+        }
         let mut opened = if is_list {
             self.refuse_for_stars()?;
             Opened {

@@ -81,7 +81,18 @@ const LIGHT: &str = "the panorama holds light, in which no highlights are clippe
 fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
     match pixels {
         Pixels::Srgb(pixels) => Texels::Srgb(pixels),
-        Pixels::Light(pixels) => {
+        Pixels::Light(mut pixels) => {
+            let is_negative = |pixel: &&mut [f32; 4]| pixel[..3].iter().any(|part| *part < 0.0);
+            let n_negative = pixels.iter_mut().filter(is_negative).fold(0, |count, pixel| {
+                pixel[..3].iter_mut().for_each(|part| *part = part.max(0.0));
+                count + 1
+            });
+            if n_negative > 0 {
+                notes.push(format!(
+                    "{n_negative} pixels of the panorama have negative light, which counts as 0: lossy compression \
+                     and colours outside sRGB have it"
+                ));
+            }
             let n_invalid = pixels.iter().filter(|pixel| pixel.iter().any(|part| !part.is_finite())).count();
             if n_invalid > 0 {
                 notes.push(format!(

@@ -83,9 +83,12 @@ pub fn recorded(comment: &str) -> Option<Provenance<'_>> {
     (is_version && is_ours).then_some(Provenance { program, version, command: Some(command) })
 }
 
-/// Hash and name of the words for an origin, `SHA-256 3b1c… ship.ug`.
+/// Hash and name of the words for an origin, `SHA-256 3b1c… ship.ug`, or `SHA-256 3b1c… including
+/// 88d4… fleet.ug` with the hash of the whole text of a scene that includes files.
 fn origin_parts(words: &str) -> Option<(&str, &str)> {
     let (hash, name) = words.strip_prefix("SHA-256 ")?.split_once(' ')?;
+    let whole = name.strip_prefix("including ").and_then(|rest| rest.split_once(' '));
+    let name = whole.map_or(name, |(_, name)| name);
     let is_hash = hash.len() == 64 && hash.bytes().all(|byte| byte.is_ascii_hexdigit());
     (is_hash && !name.contains('\n')).then_some((hash, name))
 }

@@ -25,13 +25,14 @@ fn moving(beta: DVec3, time: f64) -> MotionOptions {
 }
 
 /// A point that passes at the distance 9 with the speed β is seen at x at the time
-/// x/β + √(81 + x²), and is in a view of 20° for |x| < 9 tan 10°.
+/// x/β + √(81 + x²), and is in a view of 20°, not at its edge, for |x| < 9 tan 9.5°.
 #[test]
 fn times_in_view_are_those_of_a_point_that_passes() {
     let boxes = BodyBoxes::new(&small(9.0 * DVec3::Y));
     let camera = CameraOptions::default();
     let seen_at = |x: f64, beta: f64| x / beta + libm::hypot(9.0, x);
-    let end = 9.0 * libm::tan(10f64.to_radians());
+    let half = 10f64.to_radians();
+    let end = 9.0 * libm::tan(half - libm::asin(0.05 * libm::sin(half)));
     for (beta, time) in [(0.5, 0.0), (0.9, -40.0), (0.99, 30.0), (0.9999, 9.0), (0.01, 2000.0), (-0.9, 5.0)] {
         let found = boxes.times_in_view(&moving(beta * DVec3::X, time), &camera, SIZE).unwrap().unwrap();
         let ends = [seen_at(-end, beta), seen_at(end, beta)];

@@ -113,6 +113,20 @@ fn light_that_is_not_finite_is_bounded() {
     }
 }
 
+/// Negative light, of lossy compression, is counted and is 0.
+#[test]
+fn negative_light_is_black() {
+    let draw = |light: f32| {
+        let frame = LinearFrame::new([64, 32], true, vec![[light, 0.5, light, 1.0]; 64 * 32]);
+        let file = Format::Exr.encode_linear(&frame, &Metadata::default(), ugimage::Compression::Fast);
+        UGWARP.run("-sz 8 8 -dt pfm -cv 0 .5 0", file)
+    };
+    let (negative, black) = (draw(-0.25), draw(0.0));
+    let expected = "2048 pixels of the panorama have negative light, which counts as 0";
+    assert!(messages(&negative).contains(expected), "{}", messages(&negative));
+    assert!(!messages(&black).contains("negative") && negative.stdout == black.stdout);
+}
+
 /// A list of stars is drawn in place of a panorama or in front of one, with the same bytes on any
 /// number of threads.
 #[test]

@@ -236,6 +236,8 @@ fn lists_have_several_frames_and_colours() {
         "ra_hours,dec,mag,kelvin\n6,30,1.5,5000",
         "lon,lat,mag,kelvin\n-90,30,1.5,5000",
         "x,y,z,mag,kelvin\n-173.205080756887729,0,100,1.5,5000",
+        "# a, b, c\nra;dec;mag;kelvin\n90;30;1.5;5000",
+        "ra\tdec\tname\tmag\tkelvin\n90\t30\tA, b\t1.5\t5000",
     ] {
         let other = read_stars("t.csv", text.as_bytes()).unwrap();
         assert!((other[0].direction - stars[0].direction).length() < 1e-12, "{text}");
@@ -248,6 +250,12 @@ fn lists_have_several_frames_and_colours() {
 #[test]
 fn mistakes_in_lists_are_shown() {
     let message = |text: &str| read_stars("sky.csv", text.as_bytes()).unwrap_err().render(false);
+    for separator in ["\t", ";"] {
+        let text = "ra,dec,mag,kelvin\n10,20,,5000\n10,20,1.0,hot\n".replace(',', separator);
+        let places = message(&text);
+        let [empty, word] = ["--> sky.csv:2:7", "--> sky.csv:3:11"];
+        assert!(places.contains(empty) && places.contains(word), "{places}");
+    }
     let text = "ra,dec,mag,kelvin\n10,20,1.0,hot\n10,120,1.0,5000\n10,20,1.0\n";
     assert_eq!(
         message(text).trim_end(),
