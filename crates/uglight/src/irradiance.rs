@@ -191,7 +191,7 @@ impl SurfaceElement {
         let velocity = surface.velocity;
         let light = match place {
             LampPlace::Everywhere => {
-                let (motion, _) = surface.motion_of(body, frames)?;
+                let (motion, _) = surface.motion_of(self, body, frames)?;
                 let relative = compose(motion, -velocity);
                 for SkyRing { level, doppler } in ambient_illumination(surface.normal, relative) {
                     add(level, doppler, None, 1.0);
@@ -199,18 +199,18 @@ impl SurfaceElement {
                 return None;
             }
             LampPlace::Afar(toward) => {
-                let (motion, axes) = surface.motion_of(body, frames)?;
+                let (motion, axes) = surface.motion_of(self, body, frames)?;
                 illumination_from_afar(velocity, axes * toward, motion)
             }
             LampPlace::At(place) => match (frames.world_line(body), surface.event) {
                 (None, None) => {
                     let ScatteringTime::Delay(delay) = self.time else { return None };
-                    let (motion, axes) = surface.motion_of(body, frames)?;
+                    let (motion, axes) = surface.motion_of(self, body, frames)?;
                     illumination(surface.axes * self.point, delay, velocity, axes * place, motion)
                 }
                 (None, Some(event)) => {
                     let at = frames.of(body).rest_from_camera(event).x;
-                    let (motion, axes) = surface.motion_of(body, frames)?;
+                    let (motion, axes) = surface.motion_of(self, body, frames)?;
                     illumination_at(axes * at, velocity, axes * place, motion)
                 }
                 (Some(line), _) => {
@@ -270,15 +270,19 @@ impl MovingElement {
         Some(self.event.unwrap_or_else(|| frames.of(element.body).camera_from_rest(event)))
     }
 
-    /// The velocity of a lamp's body and the turn of its directions: of one on a world line when it
-    /// is, for the body, the time at which the light is scattered.
-    fn motion_of(&self, body: BodyId, frames: &RestFrames) -> Option<(Velocity, DQuat)> {
+    /// The velocity of a lamp's body and the turn of its directions: of one on a world line at the
+    /// time, in the frame of the scene, at which the light is scattered.
+    fn motion_of(
+        &self,
+        element: &SurfaceElement,
+        body: BodyId,
+        frames: &RestFrames,
+    ) -> Option<(Velocity, DQuat)> {
         let Some(line) = frames.world_line(body) else {
             return Some((frames.velocity(body), frames.of(body).boosted_from_scene()));
         };
-        let event = self.event.unwrap_or(Event { t: 0.0, x: DVec3::ZERO });
-        // Not a point of the body, which none can be far from the axis of a spin.
-        let pose = line.pose(line.own_time_at(event).ok()?);
+        let event = self.event_at(element, frames)?;
+        let pose = line.pose(line.own_time_when(event, frames.scene_from_camera()));
         let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
         let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
         Some((velocity, carried.turn() * pose.turn))

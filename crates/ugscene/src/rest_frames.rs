@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{BodyEvent, RestFrame, Velocity, WorldLine};
+use ugphysics::{BodyEvent, Lorentz, RestFrame, Velocity, WorldLine};
 
 use crate::{BodyId, FaceOrWire, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
 
@@ -16,6 +16,8 @@ pub struct RestFrames {
     lamp_shifts: Vec<DVec3>,
     /// For each body, see [`RestFrames::world_line`]; empty if all are `None`.
     world_lines: Vec<Option<Arc<WorldLine>>>,
+    /// The velocity of the camera in the frame of the scene.
+    camera: Velocity,
 }
 
 impl RestFrames {
@@ -34,7 +36,7 @@ impl RestFrames {
         let shift = |body| scene.bodies.motion(body).inertial_frame().map(|frame| frame.shift.x);
         let shift = |body| shift(body).filter(|_| is_seen).unwrap_or_default();
         let lamp_shifts = scene.bodies.ids().map(shift).collect();
-        Self { frames, lamp_shifts, world_lines: world_lines(scene) }
+        Self { frames, lamp_shifts, world_lines: world_lines(scene), camera }
     }
 
     /// The world line of a body that is not inertial in a scene as seen, in the frame of the
@@ -43,6 +45,12 @@ impl RestFrames {
     #[inline]
     pub fn world_line(&self, body: BodyId) -> Option<&Arc<WorldLine>> {
         self.world_lines.get(body.index())?.as_ref()
+    }
+
+    /// Coordinates in the frame of the scene from those in the frame of the camera, with the event of
+    /// the eye as the origin of both.
+    pub fn scene_from_camera(&self) -> Lorentz {
+        Lorentz::boost(self.camera)
     }
 
     /// True if a body has a world line.

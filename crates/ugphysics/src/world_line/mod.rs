@@ -521,15 +521,13 @@ impl WorldLine {
         }
     }
 
-    /// The own time of A that is simultaneous with an event in the frame of A, see
-    /// [`WorldLine::at_event`]. A point of the body need not be there.
-    ///
-    /// # Errors
-    /// [`WorldLineError`] if no time is found.
-    pub fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
+    /// The own time of A at an event's time in another frame, whose coordinates `frame` gives from
+    /// those of the world line: the light of directional lamps is that of this time.  Eq. (P14)
+    #[must_use]
+    pub fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
         match &self.0 {
-            Kind::Inertial(frame) => Ok(frame.coordinates(event).t),
-            Kind::Moving(moving) => moving.own_time_at(event),
+            Kind::Inertial(_) => self.as_moving().own_time_when(event, frame),
+            Kind::Moving(moving) => moving.own_time_when(event, frame),
         }
     }
 

@@ -62,6 +62,41 @@ fn checked_pace(acceleration: DVec3, offset: Offset, own_time: f64) -> Result<f6
     }
 }
 
+/// The own time at which the first value of `value` is 0, by Newton's method within a bracket. The
+/// second is the rate by which it decreases; where this is not above 0, the bracket alone is used.
+fn decreasing_root(value: impl Fn(f64) -> (f64, f64)) -> f64 {
+    const MOST_STEPS: usize = 200;
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    let mut own_time = 0.0;
+    for _ in 0..MOST_STEPS {
+        let (left, pace) = value(own_time);
+        if left > 0.0 {
+            low = own_time;
+        } else {
+            high = own_time;
+        }
+        let newton = own_time + left / pace;
+        if newton == own_time {
+            return own_time;
+        }
+        let next = if pace > 0.0 && newton > low && newton < high {
+            newton
+        } else if low.is_finite() && high.is_finite() {
+            low.midpoint(high)
+        } else {
+            own_time + left
+        };
+        if (next - own_time).abs() <= 1e-15 * next.abs().max(1.0) {
+            return next;
+        }
+        if !next.is_finite() {
+            break;
+        }
+        own_time = next;
+    }
+    own_time
+}
+
 /// True if a root is known to rounding after the step from `from` to `to`: the error after a step
 /// of Newton's method is about its square.
 fn is_last_step(is_newton: bool, from: f64, to: f64) -> bool {
@@ -147,11 +182,16 @@ impl Moving {
     }
 
     pub(super) fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
-        let mut own_time = self.own_time_at(event)?;
-        let pose = self.carried(own_time);
-        let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);
-        // What rounding left.
-        own_time += t;
+        let (own_time, xi) = match &self.path {
+            Path::Accelerated(acceleration) => acceleration.own_time_at(event)?,
+            Path::Orbit(_) | Path::Along(_) => {
+                let own_time = self.own_time_at(event);
+                let pose = self.carried(own_time);
+                let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);
+                // What rounding left.
+                (own_time + t, xi)
+            }
+        };
         let mut point = xi + self.at;
         for Turn { pivot, spin } in self.turns.iter().rev() {
             point = *pivot + spin.turn(own_time).inverse() * (point - *pivot);
@@ -160,41 +200,22 @@ impl Moving {
         Ok(BodyEvent { point, own_time, velocity: Velocity::from_proper(rate.x / clock)? })
     }
 
-    /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ, by Newton's method.
-    pub(super) fn own_time_at(&self, event: Event) -> Result<f64, WorldLineError> {
-        const MOST_STEPS: usize = 200;
-        let Pose { event: start, scene_from_axes, .. } = self.carried(0.0);
-        let mut own_time = scene_from_axes.inverse().apply(event - start).t;
-        if matches!(&self.path, Path::Accelerated(acceleration) if acceleration.is_none()) {
-            return Ok(own_time);
-        }
-        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
-        for _ in 0..MOST_STEPS {
+    /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ.
+    fn own_time_at(&self, event: Event) -> f64 {
+        decreasing_root(|own_time| {
             let (pose, acceleration) = self.carried_with_acceleration(own_time);
             let Event { t, x } = pose.scene_from_axes.inverse().apply(event - pose.event);
-            if t > 0.0 {
-                low = own_time;
-            } else {
-                high = own_time;
-            }
-            let pace = 1.0 + acceleration.dot(x);
-            let newton = own_time + t / pace;
-            let next = if pace > 0.0 && newton > low && newton < high {
-                newton
-            } else if low.is_finite() && high.is_finite() {
-                low.midpoint(high)
-            } else {
-                own_time + t
-            };
-            if (next - own_time).abs() <= 1e-15 * next.abs().max(1.0) {
-                return Ok(next);
-            }
-            if !next.is_finite() {
-                break;
-            }
-            own_time = next;
-        }
-        Ok(own_time)
+            (t, 1.0 + acceleration.dot(x))
+        })
+    }
+
+    /// See [`super::WorldLine::own_time_when`].
+    pub(super) fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
+        decreasing_root(|own_time| {
+            let Pose { event: at, scene_from_axes, .. } = self.carried(own_time);
+            let pace = frame.apply(scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO })).t;
+            (frame.apply(event - at).t, pace)
+        })
     }
 
     pub(super) fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
@@ -228,7 +249,15 @@ impl Moving {
         }
         let guess = guess.unwrap_or_else(|| self.guess(observer, point));
         let own_time = self.emission_time(point, observer, guess)?;
-        Ok((own_time, self.moment(point, own_time)?))
+        let mut moment = self.moment(point, own_time)?;
+        // Rounding of the own time leaves a fast point off the light cone, by γ times as much.
+        let way = observer.x - moment.event.x;
+        let rate = moment.rate;
+        let left = (observer.t - moment.event.t - way.length()) / (rate.t - unit_or_zero(way).dot(rate.x));
+        if left.is_finite() {
+            moment.event = moment.event + Event { t: rate.t * left, x: rate.x * left };
+        }
+        Ok((own_time, moment))
     }
 
     /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly, by Newton's method
@@ -252,7 +281,9 @@ impl Moving {
         let mut reach = 1.0_f64.max(0.125 * guess.abs());
         for _ in 0..MOST_STEPS {
             let (f, slope) = value(guess)?;
-            if f == 0.0 {
+            let newton = guess - f / slope;
+            // The bracket does not contain its ends.
+            if f == 0.0 || newton == guess {
                 return Ok(guess);
             }
             if f > 0.0 {
@@ -260,7 +291,6 @@ impl Moving {
             } else {
                 high = guess
             }
-            let newton = guess - f / slope;
             let next = if newton > low && newton < high {
                 // Far from the root a step may pass over pieces of the motion.
                 newton.clamp(guess - reach, guess + reach)

@@ -231,6 +231,44 @@ impl Acceleration {
         (state.event + axes.apply(event), axes.apply(rate))
     }
 
+    /// The own time at which A is simultaneous with an event in its own frame, and ξ of the event
+    /// there.  Eq. (P45)
+    ///
+    /// Stretches are looked through from own time 0 on: in the axes of one that is far away the
+    /// event is lost to rounding.
+    pub(super) fn own_time_at(&self, event: Event) -> Result<(f64, DVec3), WorldLineError> {
+        let stretches = &self.0.stretches;
+        let (mut low, mut high) = (0, stretches.len() - 1);
+        let mut row = stretches.partition_point(|stretch| stretch.from <= 0.0).max(1) - 1;
+        let mut n_visited = 0;
+        loop {
+            let stretch = &stretches[row];
+            let (own_time, xi) = stretch.own_time_at(event);
+            let end = stretches.get(row + 1).map_or(f64::INFINITY, |next| next.from);
+            // In long motions the steps grow.
+            n_visited += 1;
+            let step = 1 + n_visited / 64;
+            let next = if own_time > end && row < high {
+                low = row + 1;
+                if high == stretches.len() - 1 { (row + step).min(high) } else { low.midpoint(high) }
+            } else if own_time < stretch.from && row > low {
+                high = row - 1;
+                if low == 0 { row.saturating_sub(step) } else { low.midpoint(high) }
+            } else if own_time.is_finite() {
+                return Ok((own_time, xi));
+            } else {
+                let own_time = if own_time > 0.0 { end } else { stretch.from };
+                let is_finite = own_time.is_finite();
+                return Err(if is_finite {
+                    WorldLineError::Horizon { own_time }
+                } else {
+                    WorldLineError::NotFinite
+                });
+            };
+            row = next;
+        }
+    }
+
     /// Its values in all stretches.
     pub(super) fn values(&self) -> impl Iterator<Item = DVec3> + '_ {
         self.0.stretches.iter().map(|stretch| stretch.of)
@@ -239,6 +277,35 @@ impl Acceleration {
     /// The last own time before this one at which it changes, or −∞.
     pub(super) fn change_before(&self, own_time: f64) -> f64 {
         self.0.begin_before(own_time)
+    }
+}
+
+impl Stretch<Pose> {
+    /// As [`Acceleration::own_time_at`], if the stretch had no ends; infinite if A is never
+    /// simultaneous with the event.
+    ///
+    /// With the horizon as origin the event is at (t, x) = ρ (sinh ad, cosh ad) along the
+    /// acceleration, so tanh ad = t/x and aρ = 1 + a·ξ.
+    fn own_time_at(&self, event: Event) -> (f64, DVec3) {
+        let Event { t, x } = self.state.scene_from_axes.inverse().apply(event - self.state.event);
+        let a = self.of.length();
+        if a == 0.0 {
+            return (self.known_at + t, x);
+        }
+        let axis = self.of / a;
+        let along = x.dot(axis);
+        // The first cancels near the horizon, and is not known better than to rounding there.
+        let (behind, ahead) = (1.0 + a * (along - t.abs()), 1.0 + a * (along + t.abs()));
+        let rounding = 4.0 * f64::EPSILON * (1.0 + a * (along.abs() + t.abs()));
+        if !(behind > -rounding && ahead > 0.0) {
+            return (f64::INFINITY.copysign(t), x);
+        }
+        let behind = behind.max(rounding);
+        let passed = 0.5 * libm::log1p(2.0 * a * t.abs() / behind) / a;
+        let pace = (behind * ahead).sqrt();
+        // (pace − 1)/a without cancellation.
+        let xi = (2.0 * along + a * (along - t) * (along + t)) / (pace + 1.0);
+        (self.known_at + passed.copysign(t), x + axis * (xi - along))
     }
 }
 

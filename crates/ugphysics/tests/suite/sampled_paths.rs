@@ -68,7 +68,7 @@ fn axes_on_a_sampled_circle_turn_back() {
     let line = WorldLine::along(3.0 * DVec3::X, table(rows), &[]).unwrap();
     let round = std::f64::consts::TAU / (0.3 * gamma);
     let start = exact.event(3.0 * DVec3::X, 0.0).unwrap();
-    let begin = line.own_time_at(start).unwrap();
+    let begin = line.at_event(start).unwrap().own_time;
     let [first, last] = [begin, begin + round].map(|own_time| line.pose(own_time));
     assert!((last.event.x - first.event.x).length() < 1e-9 && (first.event - start).x.length() < 1e-9);
     let x = (first.scene_from_axes.inverse() * last.scene_from_axes).apply(Event { t: 0.0, x: DVec3::X }).x;

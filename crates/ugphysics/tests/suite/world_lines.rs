@@ -361,3 +361,66 @@ fn the_rim_of_a_spin_and_the_horizon_of_an_acceleration_are_limits() {
     assert_eq!(wheel(0.5).check(DVec3::X * 2.4), Ok(()));
     assert!(wheel(0.5).check(DVec3::X * 2.6).is_err());
 }
+
+/// A ship that leaves with a proper acceleration of 1 is seen from its start, at the time T, with D
+/// = 1/(T + 1); one that brakes has D = 1/(1 − T) where it will stop. From the place where it is
+/// seen, D is found up to the rounding of that place, which grows by γ².  Eq. (P45)
+#[test]
+fn doppler_factors_are_found_from_places_at_every_rapidity() {
+    let whole = moving([0.0; 3], [0.0; 3], &[piece([1.0, 0.0, 0.0], ALWAYS)], &[]);
+    let cut = |begins: &[f64]| {
+        let pieces: Vec<Piece> =
+            begins.windows(2).map(|ends| piece([1.0, 0.0, 0.0], [ends[0], ends[1]])).collect();
+        moving([0.0; 3], [0.0; 3], &pieces, &[])
+    };
+    let two = cut(&[-50.0, -25.0, 0.0, 25.0, 50.0]);
+    let many: Vec<f64> = (-200..=200).map(|k| f64::from(k) / 4.0).collect();
+    // Turned into the y axis, with an origin elsewhere, in a frame in motion.
+    let turn = Lorentz::rotation(glam::DQuat::from_rotation_arc(DVec3::X, DVec3::Y));
+    let shift = Event { t: 1.0, x: DVec3::new(2.0, -1.0, 0.5) };
+    for (row, line) in [whole.clone(), two, cut(&many), whole.in_frame(turn, shift)].into_iter().enumerate() {
+        let start = line.pose(0.0).event;
+        let ahead = line.pose(0.0).scene_from_axes.apply(Event { t: 0.0, x: DVec3::X }).x;
+        for gap in [0.5, 1.0, 2.0, 60.0, 71.0, 81.0, 101.0, 1e3, 1e5, 1e7, 1e8] {
+            for is_leaving in [true, false] {
+                // At the rapidity η of either sign, t = sinh η and x = cosh η − 1.
+                let time = if is_leaving { gap - 1.0 } else { 1.0 / gap - 1.0 };
+                let observer = Event { t: start.t + time, x: start.x };
+                let light = line.light(DVec3::ZERO, observer).unwrap();
+                let exact = 1.0 / (time + 1.0);
+                let rounding = 1e-12 + 1e-15 * gap * gap;
+                let close = |doppler: f64, allowed: f64| (doppler / exact - 1.0).abs() <= allowed;
+                let of_time = if is_leaving { 1e-13 } else { rounding };
+                assert!(close(1.0 / light.inverse_doppler, of_time), "{row} {gap} {is_leaving} {light:?}");
+                let way = light.event.x - observer.x;
+                let on_cone = observer + Event { t: -way.length(), x: way };
+                let Ok(seen) = line.at_event(on_cone) else { panic!("{row} {gap} {light:?}") };
+                let doppler = doppler_at(way, seen.velocity);
+                assert!(close(doppler, rounding), "{row} {gap} {is_leaving}: {doppler} {exact}");
+                assert!(way.dot(ahead) >= 0.0 && seen.own_time.abs() < 50.0);
+            }
+        }
+    }
+}
+
+/// The own time at an event's time in the frame of the scene is that of the world line there,
+/// whatever the place of the event and the frame that both are given in.
+#[test]
+fn own_times_at_a_time_of_the_scene() {
+    let camera = Velocity::from_beta(DVec3::new(-0.3, 0.2, 0.6)).unwrap();
+    let origin = Event { t: 3.0, x: DVec3::new(1.0, 2.0, -4.0) };
+    for line in motions() {
+        for own_time in [-30.0, -3.0, 0.0, 0.7, 5.0, 40.0] {
+            let at = line.pose(own_time).event;
+            for offset in [DVec3::ZERO, DVec3::new(3.0, -500.0, 20.0)] {
+                let event = Event { t: at.t, x: at.x + offset };
+                let found = line.own_time_when(event, Lorentz::IDENTITY);
+                assert!((found - own_time).abs() < 1e-12 * (1.0 + at.t.abs()), "{found} {own_time}");
+                let frame = Lorentz::boost(camera);
+                let seen = line.in_frame(frame.inverse(), origin);
+                let found = seen.own_time_when(frame.inverse().apply(event - origin), frame);
+                assert!((found - own_time).abs() < 1e-11 * (1.0 + at.t.abs()), "{found} {own_time}");
+            }
+        }
+    }
+}
