@@ -71,7 +71,7 @@ fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
 fn origins(source: &Source, lines: &Lines) -> Origins {
     let spans = LineSpans::new(&source.text);
     let of = |lines: &[u32]| lines.iter().map(|&line| spans.span(line)).collect();
-    Origins { vertices: of(&lines.vertices), faces: of(&lines.faces), cameras: Vec::new() }
+    Origins { vertices: of(&lines.vertices), faces: of(&lines.faces), ..Origins::default() }
 }
 
 /// The spans of the lines of a text, which end as [`ugmeshfile`] counts them: with LF, CR or both.

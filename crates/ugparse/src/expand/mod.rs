@@ -36,6 +36,8 @@ pub struct Origins {
     pub vertices: Vec<Span>,
     /// For each face, its statement.
     pub faces: Vec<Span>,
+    /// For each light, its statement.
+    pub lights: Vec<Span>,
     /// For each camera, its statement.
     pub cameras: Vec<Span>,
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugphysics::{SampledPath, WorldLine, WorldLineError};
-use ugscene::{BodyId, Carrier, FaceOrWire, Item, MotionPath, StatedMotion};
+use ugscene::{BodyId, Carrier, FaceOrWire, Item, LightKind, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
@@ -76,7 +76,7 @@ impl Expander<'_, '_> {
         let mut findings: Vec<Diagnostic> = self.undefined_motions(motions, is_valid).into_iter().collect();
         self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
         if is_valid && findings.is_empty() {
-            findings.extend(self.check_vertices(motions).err());
+            findings.extend(self.check_points(motions).err());
         }
         self.note_motions(motions);
         findings
@@ -194,26 +194,38 @@ impl Expander<'_, '_> {
         }
     }
 
-    /// Checks that every vertex can move as its body does, in a scene at rest.
-    fn check_vertices(&self, motions: &Motions<'_>) -> Result<(), Diagnostic> {
+    /// Checks that every vertex and every lamp can move as its body does, in a scene at rest.
+    fn check_points(&self, motions: &Motions<'_>) -> Result<(), Diagnostic> {
         let scene = &self.scene;
         if scene.stage.seen_geometry().is_some() || !scene.bodies.has_world_lines() {
             return Ok(());
         }
+        let check = |body: BodyId, point: DVec3, span: Span, kind: &str, name: &str| {
+            let motion = motions.rows.get(&body).map(|&row| motions.statements.spans[row]);
+            let possible = scene.bodies.motion(body).check(point);
+            possible.map_err(|error| too_far(span, (kind, name), &error, motion))
+        };
         let mut checked = FxHashSet::default();
         let drawn = scene.drawn().filter(|drawn| scene.bodies.is_on_world_line(drawn.body));
         for FaceOrWire { body, contours, .. } in drawn {
             for &corner in scene.contours.corners(contours) {
-                if !checked.insert((body, corner)) {
-                    continue;
-                }
-                let vertex = &scene.vertices[corner.index()];
-                if let Err(error) = scene.bodies.motion(body).check(vertex.position) {
-                    let motion = motions.rows.get(&body).map(|&row| motions.statements.spans[row]);
-                    let name = scene.names.get(vertex.name);
-                    return Err(too_far(self.origins.vertices[corner.index()], name, &error, motion));
+                if checked.insert((body, corner)) {
+                    let vertex = &scene.vertices[corner.index()];
+                    let span = self.origins.vertices[corner.index()];
+                    check(body, vertex.position, span, "vertex", scene.names.get(vertex.name))?;
                 }
             }
+        }
+        for (light, &span) in scene.lights.iter().zip(&self.origins.lights) {
+            let (LightKind::Local { position, radius, .. }, Some(body)) = (light.kind, light.motion.body())
+            else {
+                continue;
+            };
+            // A sphere is checked where the axes leave it.
+            let ends = DVec3::AXES.into_iter().flat_map(|axis| [axis * radius, -axis * radius]);
+            let name = light.name.map_or("", |name| scene.names.get(name));
+            let mut points = std::iter::once(DVec3::ZERO).chain(ends.filter(|_| radius > 0.0));
+            points.try_for_each(|end| check(body, position + end, span, "light", name))?;
         }
         Ok(())
     }
@@ -249,9 +261,15 @@ fn impossible(span: Span, error: &WorldLineError) -> Diagnostic {
     Diagnostic::error(span, format!("no body can move so: {error}")).label("this motion").help(help)
 }
 
-fn too_far(vertex: Span, name: &str, error: &WorldLineError, motion: Option<Span>) -> Diagnostic {
-    let error = Diagnostic::error(vertex, format!("vertex `{name}` cannot move with its body: {error}"))
-        .label("this vertex");
+fn too_far(
+    point: Span,
+    (kind, name): (&str, &str),
+    error: &WorldLineError,
+    motion: Option<Span>,
+) -> Diagnostic {
+    let name = if name.is_empty() { String::new() } else { format!(" `{name}`") };
+    let error = Diagnostic::error(point, format!("{kind}{name} cannot move with its body: {error}"))
+        .label(format!("this {kind}"));
     let error = match motion {
         Some(motion) => error.other(motion, "moves so"),
         None => error,

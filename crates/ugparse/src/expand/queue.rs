@@ -13,7 +13,8 @@ impl Expander<'_, '_> {
         let spans = self.move_some(&mut queues.faces, end.faces, |scene| &mut scene.faces, Item::Face);
         append(&mut self.origins.faces, spans);
         self.move_some(&mut queues.wires, end.wires, |scene| &mut scene.wires, Item::Wire);
-        self.move_some(&mut queues.lights, end.lights, |scene| &mut scene.lights, Item::Light);
+        let spans = self.move_some(&mut queues.lights, end.lights, |scene| &mut scene.lights, Item::Light);
+        append(&mut self.origins.lights, spans);
         let spans =
             self.move_some(&mut queues.cameras, end.cameras, |scene| &mut scene.cameras, Item::Camera);
         append(&mut self.origins.cameras, spans);

@@ -146,6 +146,7 @@ impl Expander<'_, '_> {
             ..light.clone()
         };
         self.scene.lights.push(placed);
+        self.origins.lights.push(span);
     }
 
     fn camera(&mut self, placement: &Placement<'_>, row: usize) {
