@@ -148,9 +148,9 @@ impl Slot {
     }
 }
 
-/// X, Y, Z that can be written: clamped to finite numbers, 0 for NaN.
+/// X, Y, Z that can be written: finite, with the hue that they have, and not below 0.
 pub(crate) fn finite(xyz: [f64; 3]) -> [f64; 3] {
-    xyz.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, f64::MAX) })
+    ugphysics::limited(xyz, f64::MAX).map(|part| part.max(0.0))
 }
 
 /// With `iris` scales the largest channel of linear sRGB to 1. Returns what to tell the user of

@@ -117,6 +117,12 @@ impl Appearance {
         self.spectra.is_some()
     }
 
+    /// False for black bodies and sampled spectra, whose light is their own, where colours are
+    /// spectra.
+    pub fn is_lit(&self, color: &SurfaceColor) -> bool {
+        self.spectra.as_ref().is_none_or(|spectra| strongest(spectra, color.rows).is_surface())
+    }
+
     /// True if colours are spectra, under lamps whose spectra differ from daylight.
     pub fn has_lit_spectra(&self) -> bool {
         self.spectra.as_ref().is_some_and(Spectra::has_colored_lamps)

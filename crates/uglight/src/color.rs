@@ -159,7 +159,7 @@ pub fn display_hue(scene: &Scene, id: ColorId) -> Hsv {
 /// `None` for colours that are not given as light, see [`is_light`].
 pub fn light(scene: &Scene, color: &Color) -> Option<[f64; 3]> {
     match color.value {
-        ColorValue::Xyz(xyz) => Some(xyz_to_linear_srgb(xyz)),
+        ColorValue::Xyz(xyz) => Some(xyz_to_linear_srgb(ugphysics::limited(xyz, ugphysics::MOST_LIGHT))),
         _ if is_light(color) => Some(xyz_to_linear_srgb(spectrum(scene, color).0.seen(1.0))),
         _ => None,
     }

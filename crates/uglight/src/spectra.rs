@@ -125,7 +125,8 @@ impl Spectra {
     fn mean(&self, row: u32, seen: impl Fn(usize) -> DVec3) -> DVec3 {
         let parts = self.rows[row as usize].parts();
         let xyz: DVec3 = parts.map(|(color, share)| share * seen(color_row(color))).sum();
-        DVec3::from_array(xyz_to_linear_srgb(xyz.to_array()))
+        let limited = ugphysics::limited(xyz.to_array(), ugphysics::MOST_LIGHT);
+        DVec3::from_array(xyz_to_linear_srgb(limited))
     }
 }
 

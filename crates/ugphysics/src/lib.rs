@@ -99,4 +99,4 @@ pub use world_line::{
     BodyEvent, ElementFrame, EmissionEvent, InertialFrame, Orbit, Passage, Piece, Pose, RayPoint, RayStretch,
     SampledPath, SeenLight, SeenPoint, SeenTriangle, WorldLine, WorldLineError, WorldTube,
 };
-pub use xyz::{WHITE_XYZ, linear_srgb_to_xyz, xyz_to_linear_srgb};
+pub use xyz::{MOST_LIGHT, WHITE_XYZ, limited, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -7,6 +7,30 @@
 /// which gives Z = 1.089.
 pub const WHITE_XYZ: [f64; 3] = [0.9504693596190847, 1.0, 1.0888220674507918];
 
+/// The brightest light of a picture, relative to white, whose samples are single-precision numbers:
+/// the sums of some hundred are finite. Brighter light is limited with its hue, see [`limited`].
+pub const MOST_LIGHT: f64 = 1e36;
+
+/// X, Y, Z or linear red, green and blue with the same chromaticity, none of which is above `most`.
+/// Of infinite channels nothing is known but that they are equal; NaN becomes 0.
+///
+/// ```
+/// assert_eq!(ugphysics::limited([1e300, 2e300, 0.0], 1e36), [0.5e36, 1e36, 0.0]);
+/// ```
+#[must_use]
+#[inline]
+pub fn limited(light: [f64; 3], most: f64) -> [f64; 3] {
+    let [a, b, c] = light.map(f64::abs);
+    if a <= most && b <= most && c <= most {
+        return light;
+    }
+    let largest = a.max(b).max(c);
+    light.map(|part| {
+        let share = if part.is_infinite() { part.signum() } else { part / largest };
+        if share.is_nan() { 0.0 } else { share * most.min(largest) }
+    })
+}
+
 /// Chromaticities x, y of the sRGB primaries (IEC 61966-2-1).
 const PRIMARIES: [[f64; 2]; 3] = [[0.64, 0.33], [0.30, 0.60], [0.15, 0.06]];
 

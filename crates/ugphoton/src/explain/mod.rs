@@ -23,6 +23,7 @@ use crate::pixels::{self, ExplainedRay};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
 use crate::shade::LampLight;
+use crate::surface_point::SurfacePoint;
 use crate::tracer::{Visit, Way};
 
 /// The explanation of a sample.
@@ -177,6 +178,7 @@ impl Teller<'_> {
 
     fn traced(&self, sample: &ExplainedRay, visit: &Visit) -> TracedSurface {
         let [mirrored, transmitted] = visit.followed;
+        let lamps = visit.lamps.iter().filter(|_| self.is_lit(&visit.point));
         TracedSurface {
             way: visit.way,
             depth: visit.depth,
@@ -184,7 +186,7 @@ impl Teller<'_> {
             medium: visit.medium.map(|(solid, left)| self.medium(solid, left)),
             surface: self.surface(sample, visit),
             translucency: visit.point.color.swatch.translucency,
-            lamps: visit.lamps.iter().map(|lamp| self.lamp(lamp)).collect(),
+            lamps: lamps.map(|lamp| self.lamp(lamp)).collect(),
             mirrored,
             transmitted,
             is_total_reflection: visit.is_total,
@@ -250,7 +252,7 @@ impl Teller<'_> {
     fn color(&self, visit: &Visit) -> SampleColor {
         let (scenery, point) = (self.scenery, &visit.point);
         if scenery.appearance.is_spectral() || point.color.swatch.light.is_some() {
-            return SampleColor::of_light(visit.light.to_array());
+            return SampleColor::of_light(visit.light.to_array(), self.is_lit(point));
         }
         let base = scenery.appearance.hue_color(&point.color.swatch);
         let is_hue = scenery.appearance.palette.interpolation() == Interpolation::Hue;
@@ -265,6 +267,12 @@ impl Teller<'_> {
             light_level: Some(self.level(visit)),
             wavelength,
         }
+    }
+
+    /// False for surfaces that emit their light.
+    fn is_lit(&self, point: &SurfacePoint) -> bool {
+        let Scenery { scene, appearance, .. } = self.scenery;
+        appearance.is_lit(&point.color) && scene.light_level(&scene.faces[point.face as usize]).is_none()
     }
 
     /// The level of light on a surface, red, green and blue.

@@ -97,13 +97,19 @@ impl Spectrum {
         })
     }
 
-    /// ln of [`Spectrum::shifted`]; −∞ where there is no light.
+    /// ln of [`Spectrum::shifted`]; −∞ where there is no light. A cold body in fast motion exceeds
+    /// the range of f64 by thousands of digits: its light is limited to [`crate::MOST_LIGHT`] as
+    /// seen, all three numbers by one factor.
     pub(crate) fn ln_shifted(&self, doppler: f64) -> [f64; 3] {
         match self.0 {
             Kind::Blackbody { kelvin, luminance } => {
                 // (P13): L'(λD) at T is D⁻⁵ times L at D·T.
-                let offset = libm::log(luminance) - blackbody::ln_xyz(kelvin)[1] - 5.0 * libm::log(doppler);
-                blackbody::ln_xyz(kelvin * doppler).map(|ln| ln + offset)
+                let beaming = 5.0 * libm::log(doppler);
+                let offset = libm::log(luminance) - blackbody::ln_xyz(kelvin)[1] - beaming;
+                let seen = blackbody::ln_xyz(kelvin * doppler).map(|ln| ln + offset);
+                let most = libm::log(crate::MOST_LIGHT) - beaming.max(0.0);
+                let excess = seen.into_iter().fold(f64::NEG_INFINITY, f64::max) - most;
+                seen.map(|ln| ln - excess.max(0.0))
             }
             _ => self.shifted(doppler).map(libm::log),
         }

@@ -235,3 +235,24 @@ proptest! {
         prop_assert!(before.iter().zip(behind).all(|(a, b)| *a < b));
     }
 }
+
+/// A cold body in fast motion is brighter than any number: it keeps the hue of D·T, in tables as
+/// well.  Eq. (P13)
+#[test]
+fn light_beyond_the_range_of_numbers_keeps_its_hue() {
+    let grid = DopplerGrid::new(-8.0..=8.0);
+    for (kelvin, doppler) in [(2.725, 447.212_4), (0.5, 2437.4), (20.0, 60.9), (1.0, 900.0)] {
+        let chromaticity = |[x, y, z]: [f64; 3]| [x / (x + y + z), y / (x + y + z)];
+        let cold = Spectrum::blackbody(kelvin, 1.0);
+        let same = chromaticity(Spectrum::blackbody(kelvin * doppler, 1.0).seen(1.0));
+        let gain = f64::powi(doppler, 5);
+        let table = grid.table(&cold).xyz(f64::ln(doppler)).map(|part| part * gain);
+        for (seen, tolerance) in [(cold.seen(doppler), 1e-12), (table, 1e-4)] {
+            assert!(seen.iter().all(|part| *part < f64::from(f32::MAX) / 100.0), "{seen:?}");
+            let off = [0, 1].map(|k| (chromaticity(seen)[k] - same[k]).abs());
+            assert!(off[0] < tolerance && off[1] < tolerance, "{kelvin} {doppler}: {seen:?} {same:?}");
+        }
+    }
+    let [x, y, z] = Spectrum::blackbody(2.725, 1.0).seen(1218.7 / 2.725);
+    assert!((x / (x + y + z) - 0.6225).abs() < 5e-5 && (y / (x + y + z) - 0.3694).abs() < 5e-5);
+}

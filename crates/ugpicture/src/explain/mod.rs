@@ -81,7 +81,8 @@ pub struct ExplainedSurface {
     pub gamma: f64,
     /// The own time of a body that is not inertial.
     pub own_time: Option<f64>,
-    /// Time and position of emission, relative to the eye, in the frame of the camera.
+    /// Time and position of emission, relative to the eye, in the frame of the camera and the axes
+    /// of the scene, which boosts do not turn.
     pub emission: ExplainedEvent,
     /// The emission event in the rest frame of the body and the axes of the scene.
     pub emission_at_rest: ExplainedEvent,
@@ -133,6 +134,9 @@ pub enum SampleColor {
         xyz: [f64; 3],
         /// x, y; `None` for black.
         chromaticity: Option<[f64; 2]>,
+        /// False if no light of lamps is in it: of black bodies, sampled spectra and faces with a
+        /// light level of their own.
+        is_lit: bool,
     },
 }
 
@@ -284,11 +288,11 @@ impl ExplainedItem {
 
 impl SampleColor {
     /// The colour of linear red, green and blue light.
-    pub fn of_light(light: [f64; 3]) -> Self {
+    pub fn of_light(light: [f64; 3], is_lit: bool) -> Self {
         let xyz = linear_srgb_to_xyz(light);
         let sum: f64 = xyz.iter().sum();
         let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
-        Self::Light { xyz, chromaticity }
+        Self::Light { xyz, chromaticity, is_lit }
     }
 }
 

@@ -103,7 +103,7 @@ impl ExplanationText {
             let t = event.t.map_or("none, as an effect was left out".to_owned(), number);
             format!("t {t}, x {} ({frame})", numbers(&event.x))
         };
-        self.row("emission", event(surface.emission, "camera frame, from the eye"));
+        self.row("emission", event(surface.emission, "camera frame, axes of the scene, from the eye"));
         self.row("", event(surface.emission_at_rest, "rest frame"));
         if let Some((camera, rest)) = surface.angle_deg.zip(surface.angle_at_rest_deg) {
             let (camera, rest) = (number(camera), number(rest));
@@ -138,8 +138,9 @@ impl ExplanationText {
     /// The colour of a sample: its numbers, and the wavelength at rest and as seen.
     pub fn color(&mut self, color: &SampleColor) {
         match color {
-            SampleColor::Light { xyz, chromaticity } => {
-                self.row("colour", format!("X Y Z {}, lit", numbers(xyz)));
+            SampleColor::Light { xyz, chromaticity, is_lit } => {
+                let of = if *is_lit { "lit" } else { "emitted: no lamp lights it" };
+                self.row("colour", format!("X Y Z {}, {of}", numbers(xyz)));
                 if let Some(chromaticity) = chromaticity {
                     self.row("", format!("chromaticity x y {}", numbers(chromaticity)));
                 }

@@ -248,7 +248,7 @@ impl Teller<'_> {
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
         let layout = PackedLayout::new(&self.setup.appearance, &self.setup.lighting);
         let (Plain { tint, saturation, value }, light_level) = match layout.color(values) {
-            Interpolated::Light(light) => return SampleColor::of_light(light),
+            Interpolated::Light(light) => return SampleColor::of_light(light, true),
             Interpolated::Hue { color, level } => (color, level),
         };
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
