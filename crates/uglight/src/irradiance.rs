@@ -128,9 +128,26 @@ impl SurfaceElement {
         }
     }
 
+    /// A unit vector towards a lamp in the rest frame of the surface, D_l, and the part of the
+    /// intensity that arrives, whatever the normal. `None` for ambient light, and at the lamp.
+    #[must_use]
+    pub fn light_from(&self, lamp: &Lamp, frames: &RestFrames) -> Option<(DVec3, f64, f64)> {
+        let place = lamp.shifted(lamp.place, frames.lamp_shift(self.body));
+        let Some(body) = self.moving_body(lamp, frames) else {
+            let (toward, distance) = self.standing(frames).direction_at_rest(place)?;
+            return Some((toward, 1.0, lamp.part_at(distance)));
+        };
+        let mut light = None;
+        self.of_moving(lamp, (place, body), frames, &mut |_, doppler, toward, part| {
+            light = toward.map(|(toward, _)| (toward, doppler, part));
+        });
+        light
+    }
+
     /// The own time at which a lamp sent the light that the surface scatters: a lamp with a place and
-    /// a motion.
-    fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
+    /// a motion. `place`: that of the lamp.
+    #[must_use]
+    pub fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
         let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
         if let (None, ScatteringTime::Delay(delay)) = (self.moving_body(lamp, frames), self.time) {
             let (_, distance) = self.direction_at_rest(place)?;

@@ -58,6 +58,17 @@ impl LampTable {
     pub fn at(&self, own_time: f64) -> [(u32, f64); 2] {
         self.table.at(own_time).parts.map(|(color, share)| (self.rows[&color], share))
     }
+
+    /// The number of the row of the table in effect at an own time, counted over all periods.
+    pub fn step(&self, own_time: f64) -> f64 {
+        let place = self.table.at(own_time);
+        place.cycle * self.table.rows.len() as f64 + place.row as f64
+    }
+
+    /// True if the colour jumps at the rows.
+    pub fn is_stepped(&self) -> bool {
+        self.table.is_stepped
+    }
 }
 
 /// Light that falls off with the square of the distance.

@@ -58,7 +58,8 @@ pub fn apply_with(
     let n_culled = cull::cull(&mut scene, &mut points, motions, &view_volume);
 
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
-    let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
+    let near_lamps =
+        NearLamps::new(&scene, (*eye, placed.seen_stage(&motion_options)), motions, config.light_error);
     let tolerance = Tolerance::new(error, config.color_error);
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
     let clocks = Clocks::new(&scene, config.color_error);

@@ -277,6 +277,7 @@ impl Criterion<'_, '_> {
         let tolerance = self.bounds.tolerance(points[0]);
         !is_deep
             && (motion.has_flight_time() && offset() > tolerance.offset
+                || self.bounds.near_lamps.jumps_inside(points, motion)
                 || self.bounds.clocks.is_off_inside(points, motion, tolerance.tan_half))
     }
 }

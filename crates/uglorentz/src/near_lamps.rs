@@ -3,16 +3,19 @@
 //! Programs downstream add light to the colours of vertices and interpolate it linearly. The light
 //! of a lamp on a face with normal n is n·l D_l F, with l towards the lamp, D_l of (P14), and F the
 //! fall-off of its light with distance, if it has one. Faces that share an edge have different
-//! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional and
-//! ambient light do not change along an edge.
+//! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional light
+//! changes along an edge only where its body, or that of the edge, is on a world line; ambient light
+//! is left out. The light of lamps on world lines, of lamps whose colour changes, and on bodies on
+//! world lines is sampled ([`SampledLamps`]).
 
 use glam::DVec3;
-use uglight::{FallOff, LampPlace, Lamps};
+use uglight::{FallOff, Lamp, LampPlace, Lamps, ScatteringTime, SurfaceElement};
 use ugphysics::{Velocity, illumination};
-use ugscene::{BodyId, RestFrames, Scene};
+use ugscene::{BodyId, GeometryStage, RestFrames, Scene};
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::world_line::between;
 
 /// Where on an edge the light is compared with its linear interpolation.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -27,7 +30,9 @@ const MAX_GENERATION: u32 = 12;
 /// The lamps of a scene that edges are subdivided for; empty if not requested.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NearLamps {
+    /// At rest or with constant velocity, for bodies with constant velocity.
     lamps: Vec<NearLamp>,
+    sampled: Option<SampledLamps>,
     /// For each body the shift of lamps that rest with what they light, in the axes of
     /// [`RelativeMotion::turned`].
     shifts: Vec<DVec3>,
@@ -47,15 +52,22 @@ struct NearLamp {
 }
 
 impl NearLamps {
-    /// `scene`: with its lights shifted. `bound`: relative to the light of a lamp at normal
-    /// incidence; infinite for none.
-    pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[RelativeMotion], bound: f64) -> Self {
+    /// `scene`: with its lights shifted. `seen`: the stage that it will have. `bound`: relative to
+    /// the light of a lamp at normal incidence; infinite for none.
+    pub(crate) fn new(
+        scene: &Scene,
+        (eye, seen): (DVec3, GeometryStage),
+        motions: &[RelativeMotion],
+        bound: f64,
+    ) -> Self {
         if bound == f64::INFINITY {
             return Self::default();
         }
-        // Of lamps whose colour changes, each colour counts.
         let lamps = Lamps::new(scene, eye, false).over_time(scene, eye, false);
-        let near = lamps.iter().filter(|lamp| lamp.table.is_none()).filter_map(|lamp| {
+        let is_on_line =
+            |lamp: &Lamp| lamp.motion.body().is_some_and(|body| motions[body.index()].world_line().is_some());
+        let is_steady = |lamp: &&Lamp| lamp.table.is_none() && lamp.color_of.is_none() && !is_on_line(lamp);
+        let near = lamps.iter().filter(is_steady).filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
             let place = motion.map_or(place, |motion| motion.turned(place));
@@ -65,8 +77,13 @@ impl NearLamps {
         });
         let frames = RestFrames::new(scene);
         let shift = |(body, motion): (BodyId, &RelativeMotion)| motion.turned(frames.lamp_shift(body));
+        let near: Vec<NearLamp> = near.filter(|lamp| lamp.intensity > 0.0).collect();
+        let are_sampled = !lamps.is_empty()
+            && (lamps.iter().any(|lamp| !is_steady(&lamp))
+                || motions.iter().any(|motion| motion.world_line().is_some()));
         Self {
-            lamps: near.filter(|lamp| lamp.intensity > 0.0).collect(),
+            lamps: near,
+            sampled: are_sampled.then(|| SampledLamps::new(scene, lamps.clone(), seen)),
             shifts: scene.bodies.ids().zip(motions).map(shift).collect(),
             bound,
         }
@@ -74,16 +91,12 @@ impl NearLamps {
 
     /// True if light adds no criterion.
     pub(crate) fn is_empty(&self) -> bool {
-        self.lamps.is_empty()
+        self.lamps.is_empty() && self.sampled.is_none()
     }
 
-    /// Is the error of linear interpolation along this edge above the bound? Not looked at for
-    /// bodies on world lines. The ends of an edge
+    /// Is the error of linear interpolation along this edge above the bound? The ends of an edge
     /// must always be given in the same order.
     pub(crate) fn is_nonlinear(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
-        if motion.world_line().is_some() {
-            return false;
-        }
         !self.is_empty()
             && a.generation.max(b.generation) < MAX_GENERATION
             && self.error(a, b, motion) > self.bound
@@ -91,8 +104,19 @@ impl NearLamps {
 
     /// The error of the light on an edge, of all lamps.  (E6)
     pub(crate) fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
+        let sampled = self.sampled.as_ref().map_or(0.0, |sampled| sampled.error(a, b, motion));
+        if motion.world_line().is_some() {
+            return sampled;
+        }
         let shift = self.shift(a.body);
-        self.lamps.iter().map(|lamp| lamp.intensity * lamp.error(a.rest, b.rest, motion, shift)).sum()
+        let error = |lamp: &NearLamp| lamp.intensity * lamp.error(a.rest, b.rest, motion, shift);
+        self.lamps.iter().map(error).sum::<f64>() + sampled
+    }
+
+    /// Does the light at the middle of a triangle jump against that at its corners?
+    pub(crate) fn jumps_inside(&self, corners: [&Point; 3], motion: &RelativeMotion) -> bool {
+        let Some(sampled) = &self.sampled else { return false };
+        corners.iter().all(|corner| corner.generation < MAX_GENERATION) && sampled.jumps(corners, motion)
     }
 
     fn shift(&self, body: BodyId) -> DVec3 {
@@ -105,8 +129,11 @@ impl NearLamps {
         motion: &RelativeMotion,
         corners: impl Iterator<Item = &'a Point> + Clone,
     ) -> bool {
-        if self.is_empty() || motion.world_line().is_some() {
+        if self.is_empty() {
             return true;
+        }
+        if self.sampled.as_ref().is_some_and(|sampled| sampled.any(motion)) {
+            return false;
         }
         let shift = corners.clone().next().map_or(DVec3::ZERO, |corner| self.shift(corner.body));
         let of_lamp = |lamp: &NearLamp| lamp.intensity * lamp.most_error(motion, corners.clone(), shift);
@@ -183,6 +210,123 @@ impl NearLamp {
     fn part_at(&self, rest_distance: f64) -> f64 {
         self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance))
     }
+}
+
+/// Lamps whose light is computed as programs downstream compute it: those on world lines, those that
+/// change, and all of them on bodies on world lines.
+#[derive(Clone, Debug)]
+struct SampledLamps {
+    lamps: Lamps,
+    frames: RestFrames,
+}
+
+/// The light of a lamp at a point.
+#[derive(Clone, Copy)]
+struct Sample {
+    /// Level · D_l F l, with the level of the colour that the lamp has.
+    light: DVec3,
+    /// D_l.
+    doppler: f64,
+    /// F.
+    part: f64,
+    /// The row of its table, for a lamp that changes.
+    step: f64,
+}
+
+impl SampledLamps {
+    fn new(scene: &Scene, lamps: Lamps, seen: GeometryStage) -> Self {
+        let (bodies, lamp_shifts) = (scene.bodies.clone(), scene.lamp_shifts.clone());
+        let mut scene = Scene { bodies, lamp_shifts, ..Scene::default() };
+        scene.stage.geometry = seen;
+        Self { lamps, frames: RestFrames::new(&scene) }
+    }
+
+    /// The lamps that are sampled for a body.
+    fn of(&self, motion: &RelativeMotion) -> impl Iterator<Item = &Lamp> {
+        let is_on_line =
+            |lamp: &Lamp| lamp.motion.body().is_some_and(|body| self.frames.world_line(body).is_some());
+        let all = motion.world_line().is_some();
+        self.lamps
+            .iter()
+            .filter(move |lamp| lamp.color_of.is_none() && (all || lamp.table.is_some() || is_on_line(lamp)))
+    }
+
+    fn any(&self, motion: &RelativeMotion) -> bool {
+        self.of(motion).next().is_some()
+    }
+
+    fn sample(&self, lamp: &Lamp, point: &Point, motion: &RelativeMotion) -> Option<Sample> {
+        let (place, time) = match motion.world_line() {
+            Some(_) => (point.rest, ScatteringTime::Own(point.own_time)),
+            None => (motion.turned_back(point.rest), ScatteringTime::Delay(0.0)),
+        };
+        let element = SurfaceElement { point: place, time, normal: DVec3::ZERO, body: point.body };
+        let (toward, doppler, part) = element.light_from(lamp, &self.frames)?;
+        let (level, step) = match &lamp.table {
+            None => (lamp.color.max_element(), 0.0),
+            Some(table) => {
+                let own_time = element.lamp_time(lamp, lamp.place, &self.frames)?;
+                let level = |(row, share): (u32, f64)| share * self.lamps[row as usize].color.max_element();
+                (table.at(own_time).map(level).iter().sum(), table.step(own_time))
+            }
+        };
+        Some(Sample { light: level * doppler * part * toward, doppler, part, step })
+    }
+
+    /// The error of the light on an edge, as of [`NearLamp::error`], but relative to the light that
+    /// arrives there at normal incidence: a lamp in motion may always be far away.
+    fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
+        let middles = SAMPLES.map(|s| match motion.world_line() {
+            Some(line) => between(a, b, line, s),
+            None => Point::new(motion, a.body, a.rest.lerp(b.rest, s)),
+        });
+        let of_lamp = |lamp: &Lamp| {
+            let sample = |point: &Point| self.sample(lamp, point, motion);
+            let (Some(from), Some(to)) = (sample(a), sample(b)) else { return 0.0 };
+            let at = |(s, point): (f64, &Point)| {
+                let Some(light) = sample(point) else { return 0.0 };
+                if is_jump(lamp, from, light) || is_jump(lamp, light, to) {
+                    return brightest(lamp, &self.lamps);
+                }
+                let off = (light.light - from.light.lerp(to.light, s)).length();
+                let power = |doppler: f64| libm::pow(doppler / light.doppler, SPECTRAL_POWER);
+                let spectral = (1.0 - s) * power(from.doppler) + s * power(to.doppler) - 1.0;
+                off.max(spectral.abs() * light.light.length()) / (light.doppler * light.part)
+            };
+            SAMPLES.into_iter().zip(&middles).map(at).fold(0.0, f64::max)
+        };
+        self.of(motion).map(of_lamp).sum()
+    }
+
+    fn jumps(&self, corners: [&Point; 3], motion: &RelativeMotion) -> bool {
+        let [a, b, c] = corners;
+        let (rest, own_time) =
+            ((a.rest + b.rest + c.rest) / 3.0, (a.own_time + b.own_time + c.own_time) / 3.0);
+        let middle = match motion.world_line() {
+            Some(line) => Point::on_world_line(line, a.body, rest, Some(own_time)),
+            None => Point::new(motion, a.body, rest),
+        };
+        self.of(motion).filter(|lamp| lamp.table.is_some()).any(|lamp| {
+            let sample = |point: &Point| self.sample(lamp, point, motion);
+            let here = sample(&middle);
+            corners.into_iter().any(|corner| {
+                sample(corner).zip(here).is_some_and(|(there, here)| is_jump(lamp, there, here))
+            })
+        })
+    }
+}
+
+/// True if samples of a table do not show how the colour changes between two points.
+fn is_jump(lamp: &Lamp, a: Sample, b: Sample) -> bool {
+    let most = |table: &std::sync::Arc<uglight::LampTable>| if table.is_stepped() { 0.0 } else { 1.0 };
+    lamp.table.as_ref().is_some_and(|table| (a.step - b.step).abs() > most(table))
+}
+
+/// The level of the brightest colour of a lamp that changes.
+fn brightest(lamp: &Lamp, lamps: &Lamps) -> f64 {
+    let row = lamps.iter().position(|other| std::ptr::eq(other, lamp)).map(|row| row as u32);
+    let colors = lamps.iter().filter(|other| other.color_of.is_some() && other.color_of == row);
+    colors.map(|color| color.color.max_element()).fold(0.0, f64::max)
 }
 
 /// The light of a lamp at a point.
@@ -290,7 +434,7 @@ mod tests {
             let place = point(0.123_106, 0.872_983, 0.358_899);
             let fall_off = (k % 2 == 0).then_some(FallOff::new(0.7, 0.0));
             let lamp = NearLamp { intensity: 1.0, place, velocity: None, fall_off };
-            let near_lamps = NearLamps { lamps: vec![lamp], shifts: Vec::new(), bound: 1e-2 };
+            let near_lamps = NearLamps { lamps: vec![lamp], bound: 1e-2, ..NearLamps::default() };
             let size = libm::pow(10.0, -f64::from(k % 12) / 4.0);
             let a = point(0.618_034, 0.414_214, 0.732_051);
             let corners = [a, a + point(0.236_068, 0.645_751, 0.316_625) * size, a + DVec3::Z * size];
