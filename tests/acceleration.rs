@@ -2,6 +2,9 @@
 
 use std::process::Command;
 
+use glam::DVec3;
+use uglight::{ScatteringTime, SurfaceElement};
+use ugscene::{Anchor, CameraOptions, MotionOptions, PlacedBodies, RestFrames};
 use ugtests::{programs, scenes};
 
 /// Velocities of 1 g, 9.80665 m/s², in light years and Julian years.
@@ -52,5 +55,73 @@ fn equal_steps_are_constant_proper_acceleration() {
         for (found, expected) in [to, time, distance].into_iter().zip(published) {
             assert!((found - expected).abs() < 1e-5, "{year}: {found}, not {expected}");
         }
+    }
+}
+
+/// A sun and a sky on a motion light an event as their body moves at the time of the event in the
+/// frame of the scene, whoever looks. The sun rests at time 0; at −5 its rapidity is −asinh 1.5, and
+/// D = γ(1 − β·n). So is the light on a body that accelerates itself.  Eq. (P14)
+#[test]
+fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
+    let toward = DVec3::new(0.6, -1.0, 0.0).normalize();
+    let of_sun = |doppler: f64| (-toward.y / doppler, doppler);
+    for (time, expected) in [
+        (0.0, of_sun(1.0)),
+        (-5.0, of_sun(3.25_f64.sqrt() + 1.5 * toward.x)),
+        (5.0, of_sun(3.25_f64.sqrt() - 1.5 * toward.x)),
+    ] {
+        let mut skies = Vec::new();
+        for distance in [5.0, 10.0, 20.0, 40.0] {
+            for camera in [DVec3::ZERO, DVec3::new(0.0, 0.6, 0.0), DVec3::new(-0.3, 0.5, 0.7)] {
+                let text = format!(
+                    "motion m -acc .3 0 0 -4 4; motion still -acc 0 0 .1 100 101; v a -2 0 -2; v b 2 0 -2;
+                     v c 2 0 2; v d -2 0 2; f (a b c d); f (a b c d) <still>; l sun 1 .6 -1 0 <m>; l 1 <m>;
+                     cam -ep 0 -{distance} 0 -vc 0 0 0 -va 10;"
+                );
+                let source = ugparse::Source::new("sun.ug", text);
+                let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+                // The camera sees the event at the origin: it has moved on by then.
+                let v = ugphysics::Velocity::from_beta(camera).unwrap();
+                let gamma = v.gamma();
+                let late = time + distance;
+                let eye = DVec3::new(0.0, -distance, 0.0) - camera * late;
+                scene.cameras[0].eye = Some(eye);
+                let options = MotionOptions {
+                    camera_velocity: Some(camera),
+                    anchor: Some(Anchor::Origin),
+                    time: late / gamma,
+                    ..MotionOptions::default()
+                };
+                let placed =
+                    PlacedBodies::new(&mut scene, &options, &CameraOptions::default(), [64, 64]).unwrap();
+                scene.stage.geometry = placed.seen_stage(&options);
+                let frames = RestFrames::new(&scene);
+                let lamps = uglight::Lamps::new(&scene, placed.eye, false);
+                for face in &scene.faces {
+                    let body = face.body;
+                    let (point, time) = match frames.world_line(body) {
+                        Some(_) => (-placed.eye, ScatteringTime::Own(time)),
+                        // In the rest frame, relative to the event of the eye.
+                        None => (DVec3::new(0.0, distance, 0.0), ScatteringTime::Delay(0.0)),
+                    };
+                    let element = SurfaceElement { point, time, normal: DVec3::NEG_Y, body };
+                    let light = element.irradiances(&lamps, &frames);
+                    let sun = light.iter().find(|light| light.lamp == 0).unwrap();
+                    let off = [sun.level - expected.0, sun.doppler - expected.1];
+                    let frame = frames.world_line(body).is_some();
+                    assert!(
+                        off.iter().all(|off| off.abs() < 1e-9),
+                        "{time:?} {distance} {camera} {frame}: {sun:?}"
+                    );
+                    let sky: f64 = light
+                        .iter()
+                        .filter(|light| light.lamp == 1)
+                        .map(|light| light.level * light.doppler)
+                        .sum();
+                    skies.push(sky);
+                }
+            }
+        }
+        assert!(skies.iter().all(|sky| (sky - skies[0]).abs() < 1e-9), "{skies:?}");
     }
 }

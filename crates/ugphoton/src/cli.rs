@@ -77,7 +77,9 @@ pub struct Args {
     /// Shutter at the film, at this distance behind the pinhole
     ///
     /// Otherwise the shutter is at the pinhole. All light of the picture arrives at the film at one
-    /// moment, so it passed the pinhole the earlier the nearer it is to the edge of the film.
+    /// moment, so it passed the pinhole the earlier the nearer it is to the edge of the film. While
+    /// it does, a camera that accelerates or turns counts as moving on with its velocity of that
+    /// moment.
     #[arg(long, value_name = "DISTANCE", value_parser = number(distance), help_heading = RAYS)]
     film_shutter: Option<f64>,
 

@@ -149,7 +149,8 @@ pub enum Shutter {
     #[default]
     Pinhole,
     /// At the film. Light for the edges of the film passes the pinhole earlier than light for its
-    /// middle, for which nothing changes.
+    /// middle, for which nothing changes. A camera that accelerates or turns counts as inertial
+    /// meanwhile, with its velocity at the time of the picture.
     Film {
         /// From the pinhole to the film, in units of the scene, 0 or more.
         distance: f64,

@@ -44,7 +44,10 @@ pub enum Note {
     /// Black lines on a black background.
     BlackLines,
     /// No light falls on the scene, or its colours are black.
-    NoLight,
+    NoLight {
+        /// True if the scene has lights.
+        has_lights: bool,
+    },
     /// Wavelengths are shifted out of the visible range.
     OutOfRange {
         /// How much of what is in the picture, rounded down.
@@ -134,7 +137,7 @@ impl Note {
         matches!(
             self,
             Self::BlackLines
-                | Self::NoLight
+                | Self::NoLight { .. }
                 | Self::OutOfRange { percent: 100, is_black: true }
                 | Self::BlackFaces
                 | Self::BlackPanorama
@@ -175,8 +178,11 @@ impl fmt::Display for Note {
             Self::BackFacing => "nothing is drawn: everything is seen from behind, or smaller than a sample",
             Self::EdgeOn => "nothing is drawn: everything is seen edge-on or smaller than a sample",
             Self::BlackLines => "the lines are black on black",
-            Self::NoLight => {
+            Self::NoLight { has_lights: false } => {
                 "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene"
+            }
+            Self::NoLight { has_lights: true } => {
+                "all that is in the picture is black: its colours are, or the light of its lamps does not reach it at this time, or falls between the vertices"
             }
             Self::OutOfRange { percent, is_black } => {
                 match percent {

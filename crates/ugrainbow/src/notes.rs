@@ -20,7 +20,7 @@ pub fn notes(drawn: &DrawnScene<'_>, config: &Config) -> Vec<Note> {
     if setup.view.is_up_replaced {
         notes.push(Note::UpReplaced);
     }
-    let why = why_nothing_is_seen(config, drawn);
+    let why = why_nothing_is_seen(config, drawn, !setup.scene().lights.is_empty());
     notes.extend(why.or_else(|| why_it_is_dark(&drawn.stats)));
     if let (Some(DepthCue { range: None, least }), Some(DepthFade { near, far, .. })) =
         (config.depth_cue, setup.grid.fade)
@@ -46,6 +46,7 @@ fn scene_notes(scene: &Scene, is_exact: bool, notes: &mut Vec<Note>) {
 fn why_nothing_is_seen(
     config: &Config,
     DrawnScene { clip_counts, stats, .. }: &DrawnScene<'_>,
+    has_lights: bool,
 ) -> Option<Note> {
     if clip_counts.in_front == 0 {
         return Some(Note::NothingInFront);
@@ -62,7 +63,7 @@ fn why_nothing_is_seen(
     if has_black_lines(config) {
         return is_black(config.picture.background).then_some(Note::BlackLines);
     }
-    Some(Note::NoLight)
+    Some(Note::NoLight { has_lights })
 }
 
 /// True if there are only lines, and they are black.

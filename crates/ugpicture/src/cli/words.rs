@@ -90,7 +90,7 @@ impl Words for Note {
             Self::Source(_)
             | Self::NoLights { .. }
             | Self::NoWires
-            | Self::NoLight
+            | Self::NoLight { .. }
             | Self::OpenSolid
             | Self::StraightThroughGlass
             | Self::ClippedIntensity { has_light: false, .. } => "{}",
