@@ -122,6 +122,7 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
                 }
             }
         }
-        assert!(skies.iter().all(|sky| (sky - skies[0]).abs() < 1e-9), "{skies:?}");
+        // The sky is integrated to 3·10⁻³.
+        assert!(skies.iter().all(|sky| (sky - skies[0]).abs() < 3e-3), "{skies:?}");
     }
 }
