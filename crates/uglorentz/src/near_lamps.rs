@@ -235,8 +235,7 @@ struct Sample {
 
 impl SampledLamps {
     fn new(scene: &Scene, lamps: Lamps, seen: GeometryStage) -> Self {
-        let (bodies, lamp_shifts) = (scene.bodies.clone(), scene.lamp_shifts.clone());
-        let mut scene = Scene { bodies, lamp_shifts, ..Scene::default() };
+        let mut scene = Scene { bodies: scene.bodies.clone(), ..Scene::default() };
         scene.stage.geometry = seen;
         Self { lamps, frames: RestFrames::new(&scene) }
     }

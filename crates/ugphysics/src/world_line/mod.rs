@@ -526,7 +526,7 @@ impl WorldLine {
     #[must_use]
     pub fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
         match &self.0 {
-            Kind::Inertial(_) => self.as_moving().own_time_when(event, frame),
+            Kind::Inertial(inertial) => inertial.as_moving().own_time_when(event, frame),
             Kind::Moving(moving) => moving.own_time_when(event, frame),
         }
     }
