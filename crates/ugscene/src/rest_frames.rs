@@ -31,11 +31,8 @@ impl RestFrames {
         let camera = camera_velocity(scene);
         let frame = |body| frame(scene.bodies.stated_velocity(body).unwrap_or(velocity), camera);
         let frames: Vec<RestFrame> = scene.bodies.ids().map(frame).collect();
-        // At rest, shifts are displacements of bodies in the scene.
-        let is_seen = scene.stage.seen_geometry().is_some();
         let shift = |body| scene.bodies.motion(body).inertial_frame().map(|frame| frame.shift.x);
-        let shift = |body| shift(body).filter(|_| is_seen).unwrap_or_default();
-        let lamp_shifts = scene.bodies.ids().map(shift).collect();
+        let lamp_shifts = scene.bodies.ids().map(|body| shift(body).unwrap_or_default()).collect();
         Self { frames, lamp_shifts, world_lines: world_lines(scene), camera }
     }
 

@@ -601,7 +601,7 @@ impl WorldLine {
     #[must_use]
     pub fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
         match &self.0 {
-            Kind::Inertial(frame) => ElementFrame::inertial(frame),
+            Kind::Inertial(frame) => ElementFrame::inertial(frame.velocity, frame.rotation()),
             Kind::Moving(moving) => moving.element(point, own_time),
         }
     }

@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::orbit::Orbit;
 use super::pieces::{Acceleration, Offset, Spin};
 use super::table::Along;
-use super::{BodyEvent, EmissionEvent, InertialFrame, Pose, SeenLight, WorldLineError};
+use super::{BodyEvent, EmissionEvent, Pose, SeenLight, WorldLineError};
 use crate::{Event, Lorentz, Velocity, unit_or_zero};
 
 /// A motion that is not inertial.
@@ -392,9 +392,8 @@ pub struct ElementFrame {
 }
 
 impl ElementFrame {
-    pub(super) fn inertial(frame: &InertialFrame) -> Self {
-        let turn = frame.rotation();
-        Self { velocity: frame.velocity, turn, lean: DVec3::ZERO, from_axes: Lorentz::IDENTITY }
+    pub(super) fn inertial(velocity: Velocity, turn: DQuat) -> Self {
+        Self { velocity, turn, lean: DVec3::ZERO, from_axes: Lorentz::IDENTITY }
     }
 
     /// The unit normal of the surface in this frame. It differs from that of the body's shape where
