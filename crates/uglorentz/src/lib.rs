@@ -79,6 +79,7 @@ mod edge_on;
 mod error;
 mod evenness;
 mod interior;
+mod junctions;
 mod measurement;
 mod near_lamps;
 mod pieces;

@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x8, f64x8, mask32x8};
 
-use crate::tile::{LANES, TileSamples};
+use crate::tile::{EMPTY, LANES, TileSamples, shared_plane};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
 /// Column offsets of the lanes.
@@ -35,7 +35,17 @@ impl<S: Simd> RowTarget for SimdTile<'_, S> {
             let across = steps + (f64::from(column) + 0.5) - row.from;
             let keys = across * row.key_per_column + row.key;
             let (key, nearest) = (narrow(simd, keys), f32x8::from_slice(simd, nearest_keys));
-            let is_visible = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            let mut is_visible =
+                key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            if let Some(plane) = shared_plane(tile.planes, triangle.item()) {
+                // Of items in one plane the first is visible.
+                let hidden: [f32; LANES] = std::array::from_fn(|lane| {
+                    let is_drawn = nearest_keys[lane] != EMPTY;
+                    let is_in_plane = is_drawn && tile.planes[tile.items[first + lane] as usize] == plane;
+                    f32::from(u8::from(is_in_plane))
+                });
+                is_visible &= f32x8::from_slice(simd, &hidden).simd_lt(f32x8::splat(simd, 0.5));
+            }
             // Early depth test: most hidden samples end here.
             if !is_visible.any_true() {
                 continue;
