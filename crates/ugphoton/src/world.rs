@@ -458,6 +458,16 @@ impl Part {
         Intersection { s, own_time, ..self.intersection(part, hit) }
     }
 
+    /// True if a straight way at rest crosses a face for which `blocks` holds.
+    pub fn crosses(&self, from: DVec3, to: DVec3, blocks: impl Fn(u32) -> bool) -> bool {
+        let ray = ugbvh::Ray { origin: from, direction: to - from };
+        let visit = |hit: ugbvh::Hit| match blocks(self.triangles[hit.triangle as usize].face) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        self.bvh.visit(&ray, 0.0..1.0, visit).is_break()
+    }
+
     /// The box around the part, in the frame of the camera.
     fn moving_box(&self) -> MovingBox {
         let Some((low, high)) = self.bvh.bounds() else { return MovingBox::EMPTY };
