@@ -64,7 +64,9 @@ pub fn apply_with(
     let clocks = Clocks::new(&scene, config.color_error);
     let bounds = Bounds::new(tolerances, (near_lamps, clocks), view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
-    mesh.junctions = junctions::find(&scene, &mesh.points, motions);
+    if let Pieces::UpTo(_) = config.pieces {
+        mesh.junctions = junctions::find(&scene, &mesh.points, motions);
+    }
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
     let evenness = Evenness::new(is_apart);

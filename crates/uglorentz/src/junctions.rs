@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugscene::{BodyId, Scene};
+use ugscene::{BodyId, Scene, VertexId};
 
 use crate::relative_motion::{Point, RelativeMotion};
 
@@ -18,7 +18,7 @@ const SAME_PLACE: f64 = 1e-9;
 /// number by which lines are sorted.
 const WEIGHTS: [DVec3; 2] = [
     DVec3::new(0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561),
-    DVec3::new(0.707_106_781_187, 0.318_309_886_184, 0.632_120_558_829),
+    DVec3::new(0.754_877_666_247, 0.324_717_957_245, 0.569_840_290_998),
 ];
 
 /// Difference of these numbers up to which lines are compared.
@@ -105,15 +105,6 @@ fn open_edges(scene: &Scene, points: &[Point], motions: &[RelativeMotion]) -> Ve
         let contours = scene.faces.iter().flat_map(|face| scene.face_contours(face));
         contours.filter(move |contour| contour.first().is_some_and(|corner| moves(corner.0)))
     };
-    let for_each_edge = |take: &mut dyn FnMut(u32, u32)| {
-        for contour in contours() {
-            let mut last = contour[contour.len() - 1].0;
-            for corner in contour {
-                take(last, corner.0);
-                last = corner.0;
-            }
-        }
-    };
     // For each vertex a sum over its edges in which both directions of an edge cancel. It takes less
     // time than a table of all edges.
     let mut sums = vec![0_u64; points.len()];
@@ -121,16 +112,26 @@ fn open_edges(scene: &Scene, points: &[Point], motions: &[RelativeMotion]) -> Ve
         let hash = (u64::from(row) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         (hash ^ hash >> 29).wrapping_mul(0xbf58_476d_1ce4_e5b9)
     };
-    for_each_edge(&mut |a, b| {
-        sums[a as usize] = sums[a as usize].wrapping_add(hash(b));
-        sums[b as usize] = sums[b as usize].wrapping_sub(hash(a));
-    });
-    let mut n_faces: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-    for_each_edge(&mut |a, b| {
-        if sums[a as usize] != 0 && sums[b as usize] != 0 {
-            *n_faces.entry((a.min(b), a.max(b))).or_default() += 1;
+    for contour in contours() {
+        let &[.., a, b] = contour else { continue };
+        let (mut last, mut before, mut own) = (b.0, hash(a.0), hash(b.0));
+        for corner in contour {
+            let next = hash(corner.0);
+            let sum = &mut sums[last as usize];
+            *sum = sum.wrapping_add(next).wrapping_sub(before);
+            (last, before, own) = (corner.0, own, next);
         }
-    });
+    }
+    let mut n_faces: FxHashMap<(u32, u32), u32> = FxHashMap::default();
+    for contour in contours() {
+        let Some(&VertexId(mut last)) = contour.last() else { continue };
+        for &VertexId(corner) in contour {
+            if sums[last as usize] != 0 && sums[corner as usize] != 0 {
+                *n_faces.entry((last.min(corner), last.max(corner))).or_default() += 1;
+            }
+            last = corner;
+        }
+    }
     // The order of the table does not matter, since lines are sorted.
     n_faces.into_iter().filter(|(_, n_faces)| *n_faces == 1).map(|(ends, _)| ends).collect()
 }

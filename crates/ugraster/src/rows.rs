@@ -25,6 +25,7 @@ impl<S: Simd> RowTarget for SimdTile<'_, S> {
     fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
         let Self { simd, ref mut tile } = *self;
         let [first, end] = row.columns;
+        let plane = shared_plane(tile.planes, triangle.item());
         let steps: f64x8<S> = STEPS.simd_into(simd);
         let places = narrow(simd, steps);
         for column in (first..end).step_by(LANES) {
@@ -37,7 +38,7 @@ impl<S: Simd> RowTarget for SimdTile<'_, S> {
             let (key, nearest) = (narrow(simd, keys), f32x8::from_slice(simd, nearest_keys));
             let mut is_visible =
                 key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
-            if let Some(plane) = shared_plane(tile.planes, triangle.item()) {
+            if let Some(plane) = plane {
                 // Of items in one plane the first is visible.
                 let hidden: [f32; LANES] = std::array::from_fn(|lane| {
                     let is_drawn = nearest_keys[lane] != EMPTY;

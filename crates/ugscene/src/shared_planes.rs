@@ -11,7 +11,7 @@ const SAME_PLACE: f64 = 1e-9;
 
 /// Weights of the three components of a normal and of the distance in the number by which planes
 /// are sorted. No plane of round numbers has the number 0, where the sign would be noise.
-const WEIGHTS: [f64; 4] = [0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561, 0.318_309_886_184];
+const WEIGHTS: [f64; 4] = [0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561, 0.324_717_957_245];
 
 /// Difference of these numbers up to which planes are compared, and the width of the cells of a
 /// first selection.
@@ -31,8 +31,7 @@ const MANY_FACES: usize = 1 << 12;
 /// `rest`: the rest position of each vertex relative to the eye.
 pub fn shared_planes(scene: &Scene, rest: &[DVec3], frames: &RestFrames) -> Vec<u32> {
     let reach = rest.iter().fold(0.0_f64, |reach, place| reach.max(place.abs().max_element()));
-    let number =
-        |face: &Face| PlacedFace { scene, rest, face }.plane().map_or(f64::NAN, |it| it.number(reach));
+    let number = |face: &Face| PlacedFace { scene, rest, face }.number(reach);
     let numbers: Vec<f64> = scene.faces.par_iter().with_min_len(MANY_FACES).map(number).collect();
     let mut close = close_numbers(&numbers);
     if close.is_empty() {
@@ -72,12 +71,12 @@ pub fn shared_planes(scene: &Scene, rest: &[DVec3], frames: &RestFrames) -> Vec<
 
 /// The rows of numbers that may be close to another one: those that share a cell.
 fn close_numbers(numbers: &[f64]) -> Vec<u32> {
-    let bits = (4 * numbers.len()).next_power_of_two().max(64);
+    let bits = (16 * numbers.len()).next_power_of_two().max(64);
     let slots = |number: f64| {
         [number - CLOSE, number + CLOSE].map(|number| {
-            // Casts saturate, and NaN has been left out.
-            let cell = (number / CELL) as u64;
-            (cell.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as usize & (bits - 1)
+            // Numbers are below 3; the cast saturates.
+            let cell = (number / CELL) as u32;
+            (cell.wrapping_mul(0x9e37_79b9) >> 6) as usize & (bits - 1)
         })
     };
     let (mut once, mut twice) = (vec![0_u64; bits / 64], vec![0_u64; bits / 64]);
@@ -119,14 +118,6 @@ struct Plane {
     distance: f64,
 }
 
-impl Plane {
-    /// The same for both directions of the normal, and nearly the same for nearly the same planes.
-    fn number(&self, reach: f64) -> f64 {
-        let [x, y, z, w] = WEIGHTS;
-        (self.normal.dot(DVec3::new(x, y, z)) + w * self.distance / reach).abs()
-    }
-}
-
 /// A face and the rest positions of its corners.
 #[derive(Clone, Copy)]
 struct PlacedFace<'a> {
@@ -136,16 +127,26 @@ struct PlacedFace<'a> {
 }
 
 impl PlacedFace<'_> {
+    /// The number of its plane: the same for both directions of the normal, and nearly the same for
+    /// nearly the same planes; NaN if it has no area.
+    #[inline(always)] // Runs for every face of a scene.
+    fn number(&self, reach: f64) -> f64 {
+        let outline = self.scene.contours.get(self.face.contours.start);
+        let (normal, point) = if let [a, b, c] = outline {
+            let [a, b, c] = [a, b, c].map(|corner| self.rest[corner.index()]);
+            ((b - a).cross(c - a), a)
+        } else {
+            self.plane().map(|plane| (plane.normal, plane.distance * plane.normal)).unwrap_or_default()
+        };
+        let [x, y, z, w] = WEIGHTS;
+        let sum = normal.dot(DVec3::new(x, y, z) + w / reach * point);
+        (sum * sum / normal.length_squared()).sqrt()
+    }
+
     /// `None` if it has no area.
-    #[inline]
     fn plane(&self) -> Option<Plane> {
         let outline = self.scene.contours.get(self.face.contours.start);
-        let normal = if let [a, b, c] = outline {
-            let [a, b, c] = [a, b, c].map(|corner| self.rest[corner.index()]);
-            (b - a).cross(c - a).try_normalize()?
-        } else {
-            unit_normal(outline.iter().map(|corner| self.rest[corner.index()]))
-        };
+        let normal = unit_normal(outline.iter().map(|corner| self.rest[corner.index()]));
         let distance = normal.dot(self.rest[outline.first()?.index()]);
         (normal != DVec3::ZERO).then_some(Plane { normal, distance })
     }
