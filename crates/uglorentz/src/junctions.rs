@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugscene::{BodyId, Scene, VertexId};
+use ugscene::{BodyId, Face, Scene, VertexId};
 
 use crate::relative_motion::{Point, RelativeMotion};
 
@@ -100,10 +100,11 @@ fn open_edges(scene: &Scene, points: &[Point], motions: &[RelativeMotion]) -> Ve
     if motions.iter().all(RelativeMotion::is_at_rest) {
         return Vec::new();
     }
+    let is_moving: Vec<bool> = motions.iter().map(|motion| !motion.is_at_rest()).collect();
     let contours = || {
-        let moves = |corner: u32| !motions[points[corner as usize].body.index()].is_at_rest();
-        let contours = scene.faces.iter().flat_map(|face| scene.face_contours(face));
-        contours.filter(move |contour| contour.first().is_some_and(|corner| moves(corner.0)))
+        let moves = |face: &&Face| is_moving[face.body.index()];
+        let rows = scene.faces.iter().filter(moves).flat_map(|face| face.contours.clone());
+        rows.map(|row| scene.contours.get(row))
     };
     // For each vertex a sum over its edges in which both directions of an edge cancel. It takes less
     // time than a table of all edges.

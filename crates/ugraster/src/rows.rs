@@ -40,11 +40,7 @@ impl<S: Simd> RowTarget for SimdTile<'_, S> {
                 key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
             if let Some(plane) = plane {
                 // Of items in one plane the first is visible.
-                let hidden: [f32; LANES] = std::array::from_fn(|lane| {
-                    let is_drawn = nearest_keys[lane] != EMPTY;
-                    let is_in_plane = is_drawn && tile.planes[tile.items[first + lane] as usize] == plane;
-                    f32::from(u8::from(is_in_plane))
-                });
+                let hidden = are_in_plane(plane, *nearest_keys, &tile.items[first..], tile.planes);
                 is_visible &= f32x8::from_slice(simd, &hidden).simd_lt(f32x8::splat(simd, 0.5));
             }
             // Early depth test: most hidden samples end here.
@@ -102,6 +98,16 @@ impl<S: Simd> VisibleLanes<S> {
             is_visible.select(value, f32x8::from_slice(simd, all)).store_slice(all);
         }
     }
+}
+
+/// 1 for samples at which an item in a plane is visible, else 0.
+#[cold]
+#[inline(never)] // Or the loop over all triangles has fewer registers.
+fn are_in_plane(plane: u32, keys: [f32; LANES], items: &[u32], planes: &[u32]) -> [f32; LANES] {
+    std::array::from_fn(|lane| {
+        let is_in_plane = keys[lane] != EMPTY && planes[items[lane] as usize] == plane;
+        f32::from(u8::from(is_in_plane))
+    })
 }
 
 /// Eight elements from `start` on.
