@@ -11,21 +11,26 @@ const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Draws a block of triangles into a tile where the depth test passes.
 pub fn draw_block(level: Level, block: &BlockSetup<'_>, tile: TileSamples<'_>, planes: &mut LazyPlanes<'_>) {
-    dispatch!(level, simd => block.draw(&mut SimdTile { simd, tile }, planes));
+    // Compiled twice: most scenes share no planes.
+    if tile.planes.is_empty() {
+        dispatch!(level, simd => block.draw(&mut SimdTile::<_, false> { simd, tile }, planes));
+    } else {
+        dispatch!(level, simd => block.draw(&mut SimdTile::<_, true> { simd, tile }, planes));
+    }
 }
 
 /// A tile, drawn with one instruction set.
-struct SimdTile<'a, S> {
+struct SimdTile<'a, S, const SHARES_PLANES: bool> {
     simd: S,
     tile: TileSamples<'a>,
 }
 
-impl<S: Simd> RowTarget for SimdTile<'_, S> {
+impl<S: Simd, const SHARES_PLANES: bool> RowTarget for SimdTile<'_, S, SHARES_PLANES> {
     #[inline(always)]
     fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
         let Self { simd, ref mut tile } = *self;
         let [first, end] = row.columns;
-        let plane = shared_plane(tile.planes, triangle.item());
+        let plane = if SHARES_PLANES { shared_plane(tile.planes, triangle.item()) } else { None };
         let steps: f64x8<S> = STEPS.simd_into(simd);
         let places = narrow(simd, steps);
         for column in (first..end).step_by(LANES) {
