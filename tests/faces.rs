@@ -7,7 +7,7 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugrainbow::Channel;
 use ugtesting::Random;
-use ugtests::worlds::picture::{Drawn, Picture, Renderer};
+use ugtests::worlds::picture::{Drawn, Picture, Renderer, UNSHIFTED};
 
 const SIZE: [u32; 2] = [64, 48];
 
@@ -152,4 +152,40 @@ fn pictures_of_the_pipe_at_rest_are_those_of_rays() {
         }
     }
     assert!(n_all > 10_000, "{n_all}");
+}
+
+/// A sticker in the plane of a face: before it in the scene all of it is seen, behind it nothing, by
+/// every renderer, at rest and in motion, opaque and translucent.
+#[test]
+fn of_faces_in_one_plane_the_first_is_seen() {
+    let definitions = "c_rgb grey .5 .5 .5; c_rgb red .9 .1 .1; c_rgb glass .9 .1 .1 .3;
+        def big; v a -20 -20 0; v b 20 -20 0; v c 20 20 0; v d -20 20 0; f (a b c d); end;
+        def dec; v e -1.3 -1.1 0; v g 1.7 -1.1 0; v h 1.7 1.2 0; v k -1.3 1.2 0; f (e g h k); end;
+        cam -ep 0 -9 4 -vc 0 0 0 -va 40;";
+    let n_red = |parts: [&str; 2], velocity: Option<DVec3>, renderer: Renderer| {
+        let text = format!("{definitions}{}{}", parts[0], parts[1]);
+        let mut picture = Picture { size: [100, 75], ..Picture::of_scene(text, UNSHIFTED) }.by(renderer);
+        (picture.motion.velocity, picture.motion.in_place) = (velocity, true);
+        let light = picture.draw().unwrap().light();
+        light.iter().filter(|[red, green, _]| *red > 1.5 * green).count()
+    };
+    let mut n_seen = 0;
+    for (turn, color) in
+        [("-rx 17 -ry 31 -rz 11", "red"), ("-rx -40 -rz 50", "red"), ("-rx 17 -ry 31", "glass")]
+    {
+        let sticker = format!("i e (dec {color} {turn});");
+        let face = format!("i b (big grey {turn});");
+        for velocity in [None, Some(DVec3::new(0.9, 0.0, 0.0)), Some(DVec3::new(-0.3, 0.6, 0.7))] {
+            let mut counts = Vec::new();
+            for renderer in [Renderer::Rays, Renderer::Exact, Renderer::Pipe] {
+                counts.push(n_red([&sticker, &face], velocity, renderer));
+                let hidden = n_red([&face, &sticker], velocity, renderer);
+                assert_eq!(hidden, 0, "{turn} {velocity:?} {renderer:?}");
+            }
+            n_seen += counts[0];
+            let (least, most) = (counts.iter().min().unwrap(), counts.iter().max().unwrap());
+            assert!(most - least <= 6, "{turn} {velocity:?} {counts:?}");
+        }
+    }
+    assert!(n_seen > 1000, "{n_seen}");
 }

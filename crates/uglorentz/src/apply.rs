@@ -16,7 +16,7 @@ use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
     Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies,
-    remaining_errors, uniform, viewpoint,
+    junctions, remaining_errors, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -65,6 +65,9 @@ pub fn apply_with(
     let clocks = Clocks::new(&scene, config.color_error);
     let bounds = Bounds::new(tolerances, (near_lamps, clocks), view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
+    if let Pieces::UpTo(_) = config.pieces {
+        mesh.junctions = junctions::find(&scene, &mesh.points, motions);
+    }
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
     let evenness = Evenness::new(is_apart);

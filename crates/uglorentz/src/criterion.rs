@@ -122,10 +122,11 @@ pub(crate) struct Criterion<'a, 'b> {
 }
 
 impl Criterion<'_, '_> {
-    /// Does this edge bend? The ends are ordered, so that all pieces that share it get the same
+    /// Does this edge bend, or is a vertex of another face on it? The ends are ordered, so that all pieces that share it get the same
     /// result.
     fn bends(&self, a: u32, b: u32) -> bool {
-        self.generation(a, b) < MAX_GENERATION && self.bends_at_any_depth(a, b)
+        self.mesh.has_junction(a, b)
+            || self.generation(a, b) < MAX_GENERATION && self.bends_at_any_depth(a, b)
     }
 
     pub(crate) fn generation(&self, a: u32, b: u32) -> u32 {
@@ -159,7 +160,12 @@ impl Criterion<'_, '_> {
     fn first_cut(&self, scene: &Scene, face: &Face, evenness: &Evenness) -> Option<Cut> {
         let corners = scene.contours.corners(face.contours.clone());
         let motion = self.mesh.motion(corners.first()?.0);
-        if self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
+        let has_junction = |contour: &[VertexId]| {
+            let next = contour.iter().cycle().skip(1);
+            contour.iter().zip(next).any(|(a, b)| self.mesh.has_junction(a.0, b.0))
+        };
+        let has_junctions = !self.mesh.junctions.is_empty() && scene.face_contours(face).any(has_junction);
+        if !has_junctions && self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
             return None;
         }
         let rest = |vertex: VertexId| -> DVec3 { self.mesh.point(vertex.0).rest };
@@ -215,7 +221,9 @@ impl Criterion<'_, '_> {
     pub(crate) fn piece(&self, shape: &Shape) -> Verdict {
         let mut verdict = Verdict::default();
         let motion = self.mesh.motion(shape.corners()[0]);
-        if self.is_right_for_sure(motion, shape.corners().iter().copied()) {
+        let has_junctions =
+            || !self.mesh.junctions.is_empty() && shape.edges().any(|(a, b)| self.mesh.has_junction(a, b));
+        if self.is_right_for_sure(motion, shape.corners().iter().copied()) && !has_junctions() {
             return verdict;
         }
         for (mark, (a, b)) in verdict.bends.iter_mut().zip(shape.edges()) {

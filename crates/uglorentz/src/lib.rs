@@ -23,7 +23,8 @@
 //! a hyperbola. Long edges are subdivided first. By default closed formulas for the angle between
 //! arc and chord, for depth and for colour decide for each edge whether the difference is visible
 //! ([`Pieces::UpTo`], derived in `docs/geometry.md`). The decision depends on the edge alone, so
-//! faces that share an edge subdivide it alike and the result has no cracks. Bodies at rest are not
+//! faces that share an edge subdivide it alike and the result has no cracks; an edge with vertices
+//! of other faces on it is subdivided there. Bodies at rest are not
 //! subdivided, except for the light of near lamps if that is requested.
 //!
 //! Pieces keep orientation, colour, light level, body and name of their face, and replace it in
@@ -79,6 +80,7 @@ mod edge_on;
 mod error;
 mod evenness;
 mod interior;
+mod junctions;
 mod measurement;
 mod near_lamps;
 mod pieces;

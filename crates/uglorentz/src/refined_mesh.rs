@@ -37,6 +37,9 @@ pub(crate) struct RefinedMesh<'a> {
     middles: FxHashMap<(u32, u32), u32>,
     /// Edges of the scene's faces and the parts they were halved into, by their ordered ends.
     rims: FxHashSet<(u32, u32)>,
+    /// Vertices on edges, from the first of their ordered ends to the second, see
+    /// [`crate::junctions`].
+    pub junctions: FxHashMap<(u32, u32), Vec<u32>>,
 }
 
 impl<'a> RefinedMesh<'a> {
@@ -47,6 +50,7 @@ impl<'a> RefinedMesh<'a> {
             recipes: Vec::new(),
             middles: FxHashMap::default(),
             rims: FxHashSet::default(),
+            junctions: FxHashMap::default(),
         }
     }
 
@@ -72,16 +76,43 @@ impl<'a> RefinedMesh<'a> {
         self.rims.contains(&(a.min(b), a.max(b)))
     }
 
-    /// The vertex at the midpoint of an edge, or beside it if the eye is there.
+    /// True if a vertex of another face is on this edge.
+    pub(crate) fn has_junction(&self, a: u32, b: u32) -> bool {
+        !self.junctions.is_empty() && self.junctions.contains_key(&(a.min(b), a.max(b)))
+    }
+
+    /// A new vertex at the middle one of those on an edge; those beside it are on its parts.
+    fn junction(&mut self, (low, high): (u32, u32)) -> Option<u32> {
+        let on_edge = self.junctions.get(&(low, high))?.clone();
+        let (before, from) = on_edge.split_at(on_edge.len() / 2);
+        let (&middle, behind) = from.split_first()?;
+        let [a, b, at] = [low, high, middle].map(|row| self.point(row).rest);
+        let part = ((at - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        let row = self.add(Recipe { parents: [low, high, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
+        // The same bits as for the faces that have the vertex.
+        let body = self.point(row).body;
+        self.points[row as usize] = Point::new(self.motion_of(body), body, at);
+        for (end, part) in [(low, before.to_vec()), (high, behind.iter().rev().copied().collect())] {
+            if !part.is_empty() {
+                self.junctions.insert((end, row), part);
+            }
+        }
+        Some(row)
+    }
+
+    /// The vertex at the midpoint of an edge, or beside it if the eye is there. A vertex of another
+    /// face on the edge comes first.
     pub(crate) fn middle(&mut self, a: u32, b: u32) -> u32 {
         let key = (a.min(b), a.max(b));
         if let Some(&row) = self.middles.get(&key) {
             return row;
         }
-        let (low, high) = (self.point(key.0).rest, self.point(key.1).rest);
-        let is_at_eye = low.midpoint(high).length() <= AT_EYE * (high - low).length();
-        let part = if is_at_eye { BESIDE_MIDDLE } else { 0.5 };
-        let row = self.add(Recipe { parents: [key.0, key.1, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] });
+        let row = self.junction(key).unwrap_or_else(|| {
+            let (low, high) = (self.point(key.0).rest, self.point(key.1).rest);
+            let is_at_eye = low.midpoint(high).length() <= AT_EYE * (high - low).length();
+            let part = if is_at_eye { BESIDE_MIDDLE } else { 0.5 };
+            self.add(Recipe { parents: [key.0, key.1, 0, 0], weights: [1.0 - part, part, 0.0, 0.0] })
+        });
         self.middles.insert(key, row);
         if self.rims.contains(&key) {
             self.add_rim(key.0, row);

@@ -130,7 +130,7 @@ fn crossings(world: &World, faces: Faces<'_>, event: Event, direction: DVec3) ->
 }
 
 /// The transparent solid that a face of a part belongs to.
-fn transparent_solid(scene: &Scene, part: usize, face: u32) -> Option<Solid> {
+pub fn transparent_solid(scene: &Scene, part: usize, face: u32) -> Option<Solid> {
     let Illum::Surface(surface) = scene.illums[scene.faces[face as usize].illum?.index()] else {
         return None;
     };

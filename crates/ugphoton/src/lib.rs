@@ -60,6 +60,7 @@ mod immersion;
 mod middles;
 mod moving_boxes;
 mod notes;
+mod open_solids;
 mod outline;
 mod path;
 mod pixels;

@@ -8,6 +8,7 @@ use ugscene::{Face, SurfaceProperties};
 
 use crate::config::Config;
 use crate::immersion::is_enclosed;
+use crate::open_solids::open_face;
 use crate::pixels::Statistics;
 use crate::scenery::{LampMotion, Scenery};
 use crate::shade::transmittance;
@@ -31,8 +32,17 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
         notes.push(Note::UpReplaced);
     }
     // Between the parts of a solid that share no vertices rounding leaves gaps, which are not seen.
-    if statistics.n_open > statistics.n_covered / FEW {
-        notes.push(Note::OpenSolid);
+    let has_gap = statistics.n_open > statistics.n_covered / FEW;
+    let name = |face: u32| {
+        let name = scene.faces[face as usize].name.map_or("", |name| scene.names.get(name));
+        if name.is_empty() { format!("face {}", face + 1) } else { format!("face {} (`{name}`)", face + 1) }
+    };
+    if config.rays.depth > 0
+        && let Some(face) = open_face(&scenery.world, scenery.faces())
+    {
+        notes.push(Note::OpenSolid(name(face)));
+    } else if let Some(face) = statistics.open_face.filter(|_| has_gap) {
+        notes.push(Note::ReversedSolid(name(face)));
     }
     if lamps_shine_through_glass(scenery) {
         notes.push(Note::StraightThroughGlass);

@@ -37,6 +37,8 @@ pub struct Statistics {
     pub is_cut_short: bool,
     /// Samples of which a path left a transparent solid that it had not entered.
     pub n_open: u64,
+    /// The first face where they leave.
+    pub open_face: Option<u32>,
     /// Samples traced. Those that two tiles need are counted twice.
     pub n_samples: u64,
 }
@@ -50,6 +52,7 @@ impl Statistics {
             n_too_deep: self.n_too_deep + other.n_too_deep,
             is_cut_short: self.is_cut_short || other.is_cut_short,
             n_open: self.n_open + other.n_open,
+            open_face: [self.open_face, other.open_face].into_iter().flatten().min(),
             n_samples: self.n_samples + other.n_samples,
         }
     }
@@ -331,7 +334,9 @@ impl<'a> Painting<'a> {
                         statistics.n_covered += 1;
                         statistics.n_visible += u64::from(brightest > 0.0);
                         statistics.n_too_deep += u64::from(tracer.is_too_deep);
-                        statistics.n_open += u64::from(tracer.leaves_open_solid);
+                        statistics.n_open += u64::from(tracer.leaves_open_solid.is_some());
+                        let open = [statistics.open_face, tracer.leaves_open_solid];
+                        statistics.open_face = open.into_iter().flatten().min();
                         statistics.max_light = statistics.max_light.max(brightest);
                     }
                     *samples.at([column, row]) = self.on_background(arriving.light, arriving.background);

@@ -41,8 +41,9 @@ pub struct Tracer<'a> {
     n_branches: u32,
     /// A sample had more than [`MOST_BRANCHES`] of them.
     pub is_cut_short: bool,
-    /// A path of the current sample exited a transparent solid without having entered it.
-    pub leaves_open_solid: bool,
+    /// A face at which a path of the current sample exited a transparent solid without having
+    /// entered it.
+    pub leaves_open_solid: Option<u32>,
     /// A path of the current sample ended after [`RayOptions::depth`] reflections and refractions.
     ///
     /// [`RayOptions::depth`]: crate::RayOptions::depth
@@ -122,7 +123,7 @@ impl<'a> Tracer<'a> {
             layers: Vec::new(),
             n_branches: 0,
             is_cut_short: false,
-            leaves_open_solid: false,
+            leaves_open_solid: None,
             is_too_deep: false,
             visits: None,
         }
@@ -156,7 +157,7 @@ impl<'a> Tracer<'a> {
             sample,
             way: Way::Straight,
         };
-        (self.n_branches, self.is_too_deep, self.leaves_open_solid) = (0, false, false);
+        (self.n_branches, self.is_too_deep, self.leaves_open_solid) = (0, false, None);
         self.seen(&path, first, far)
     }
 
@@ -334,7 +335,7 @@ impl<'a> Tracer<'a> {
         };
         if is_inside_unknown {
             // The solid is open, so the path did not enter it.
-            self.leaves_open_solid = true;
+            self.leaves_open_solid = Some(point.face);
             return Some(Refracted { wave: point.wave, media, reflectance: 0.0 });
         }
         let behind = medium(self.scenery, media.innermost(), point);

@@ -29,6 +29,8 @@ pub struct World {
     pub parts: Vec<Part>,
     /// The number of parts that have a rest frame.
     n_inertial: usize,
+    /// The plane of each face, see [`ugscene::shared_planes`].
+    planes: Vec<u32>,
     /// These parts by their moving boxes; `None` if they are few. Hits do not depend on it.
     pub boxes: Option<MovingBoxes>,
 }
@@ -150,7 +152,7 @@ impl World {
         let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
         let boxes = (n_inertial > FEW_PARTS).then(boxes);
         parts.extend(on_world_lines);
-        Self { parts, n_inertial, boxes }
+        Self { parts, n_inertial, planes: ugscene::shared_planes(scene, faces.rest, frames), boxes }
     }
 
     /// All triangles, with the rows of their parts.
@@ -186,7 +188,26 @@ impl World {
             let end = best.map_or(range.end, |best| best.s);
             best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
         }
-        best
+        best.map(|best| self.first_in_plane(faces, ray, best))
+    }
+
+    /// Of the faces that share the plane of `nearest` and that the ray meets there, the first in the
+    /// scene.
+    #[inline]
+    fn first_in_plane(&self, faces: Faces<'_>, ray: &Ray, nearest: Intersection) -> Intersection {
+        let plane = |found: &Intersection| self.planes.get(found.triangle.face as usize).copied();
+        if plane(&nearest).is_none_or(|plane| plane == 0) {
+            return nearest;
+        }
+        let mut first = nearest;
+        let width = SAME_PLACE * nearest.s.abs();
+        let _ = self.visit(faces, ray, nearest.s - width..nearest.s + width, |found| {
+            if found.triangle.face < first.triangle.face && plane(&found) == plane(&nearest) {
+                first = found;
+            }
+            ControlFlow::Continue(())
+        });
+        first
     }
 
     /// The hierarchy of moving boxes, and a ray for it; `None` if all parts have to be tested.
@@ -199,7 +220,7 @@ impl World {
     /// The faces at the place of `first`, such as coplanar ones, in the order of the scene.
     pub fn beside(&self, faces: Faces<'_>, ray: &Ray, first: &Intersection, found: &mut Vec<Intersection>) {
         found.clear();
-        let range = first.s.next_down()..first.s * (1.0 + SAME_PLACE);
+        let range = first.s * (1.0 - SAME_PLACE)..first.s * (1.0 + SAME_PLACE);
         let _ = self.visit(faces, ray, range, |other| {
             found.push(other);
             ControlFlow::Continue(())
@@ -242,6 +263,11 @@ impl World {
             for (ray, best) in rays.iter().zip(&mut *first) {
                 let end = best.map_or(range.end, |best| best.s);
                 *best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(*best);
+            }
+        }
+        if !self.planes.is_empty() {
+            for (ray, best) in rays.iter().zip(first) {
+                *best = best.map(|best| self.first_in_plane(faces, ray, best));
             }
         }
     }
@@ -430,6 +456,16 @@ impl Part {
 
     fn intersection_on_line(&self, part: usize, CurveHit { s, own_time, hit }: CurveHit) -> Intersection {
         Intersection { s, own_time, ..self.intersection(part, hit) }
+    }
+
+    /// True if a straight way at rest crosses a face for which `blocks` holds.
+    pub fn crosses(&self, from: DVec3, to: DVec3, blocks: impl Fn(u32) -> bool) -> bool {
+        let ray = ugbvh::Ray { origin: from, direction: to - from };
+        let visit = |hit: ugbvh::Hit| match blocks(self.triangles[hit.triangle as usize].face) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        self.bvh.visit(&ray, 0.0..1.0, visit).is_break()
     }
 
     /// The box around the part, in the frame of the camera.

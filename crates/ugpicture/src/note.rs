@@ -65,8 +65,10 @@ pub enum Note {
         /// In percent.
         percent: f64,
     },
-    /// A solid is open, or its outlines run clockwise.
-    OpenSolid,
+    /// Light passes into a transparent solid around an edge of this face.
+    OpenSolid(String),
+    /// Light leaves a transparent solid that it did not enter, at this face.
+    ReversedSolid(String),
     /// Light of lamps may cross a refracting solid.
     StraightThroughGlass,
     /// The lamp of this name is in a closed opaque body.
@@ -206,9 +208,20 @@ impl fmt::Display for Note {
                      percent of what is in the picture"
                 );
             }
-            Self::OpenSolid => {
-                "light leaves a transparent solid that it did not enter: the solid is open, or its outlines run \
-                 clockwise seen from outside; it is drawn as if it were not refracted there"
+            Self::OpenSolid(face) => {
+                return write!(
+                    f,
+                    "the transparent solid of {face} is open, so everything behind the face is drawn as if it \
+                     were inside: close it with faces on all sides, or take a translucent colour for a thin pane"
+                );
+            }
+            Self::ReversedSolid(face) => {
+                return write!(
+                    f,
+                    "light leaves a transparent solid that it did not enter, at {face}: its outlines run \
+                     clockwise seen from outside, or the solid has gaps; it is drawn as if it were not \
+                     refracted there"
+                );
             }
             Self::StraightThroughGlass => {
                 "light of lamps goes straight through transparent solids, as fast as in a vacuum: it is absorbed \

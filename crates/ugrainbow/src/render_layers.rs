@@ -1,6 +1,8 @@
 //! All faces and lines of a scene as layers for the rasterizer, in the packed layout that the scene
 //! needs.
 
+use std::sync::Arc;
+
 use ugpicture::{DepthPoint, Filter};
 use ugpipe::Progress;
 use ugraster::{
@@ -89,6 +91,8 @@ struct Layers<'a, const N: usize> {
     surfaces: Surfaces<'a, N>,
     /// False if they only occlude.
     is_drawn: bool,
+    /// The plane of each face, see [`ugscene::shared_planes`].
+    planes: Arc<[u32]>,
 }
 
 /// How faces are intersected with samples.
@@ -98,13 +102,19 @@ enum Surfaces<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Layers<'a, N> {
-    fn new(painter: Painter<'a>, mode: &DrawMode, is_transparent: bool, pack: Pack<N>) -> Self {
+    fn new(
+        painter: Painter<'a>,
+        planes: &Arc<[u32]>,
+        mode: &DrawMode,
+        is_transparent: bool,
+        pack: Pack<N>,
+    ) -> Self {
         let is_one = |face: &Face| painter.is_transparent(face) == is_transparent;
         let surfaces = match mode.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
-            Some(_) => Surfaces::Rays(Faces::new(painter, is_one, pack)),
+            Some(_) => Surfaces::Rays(Faces::new(painter, planes, is_one, pack)),
         };
-        Self { surfaces, is_drawn: mode.has_faces() }
+        Self { surfaces, is_drawn: mode.has_faces(), planes: planes.clone() }
     }
 
     fn n_values(&self) -> usize {
@@ -146,6 +156,10 @@ impl<const N: usize> OpaqueLayer<N> for Layers<'_, N> {
             Surfaces::Rays(faces) => faces.draw(band, tile),
             Surfaces::Polygons(list) => list.shapes().draw(grid, band, scanner, tile),
         }
+    }
+
+    fn planes(&self) -> Arc<[u32]> {
+        self.planes.clone()
     }
 }
 
@@ -208,19 +222,21 @@ impl TransparentLayer for Lit<'_, '_> {
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
     pub fn new(painter: Painter<'a>, mode: &DrawMode) -> Self {
+        let surface = &painter.appearance.surface;
+        let planes = ugscene::shared_planes(painter.scene, surface.all_rest(), surface.frames()).into();
         let solid = match PackedLayout::new(painter.appearance, painter.lighting) {
-            PackedLayout::Plain => Solid::Plain(Layers::new(painter, mode, false, pack_plain)),
-            PackedLayout::Colored => Solid::Colored(Layers::new(painter, mode, false, pack_colored)),
-            PackedLayout::Mixed => Solid::Mixed(Layers::new(painter, mode, false, pack_mixed)),
+            PackedLayout::Plain => Solid::Plain(Layers::new(painter, &planes, mode, false, pack_plain)),
+            PackedLayout::Colored => Solid::Colored(Layers::new(painter, &planes, mode, false, pack_colored)),
+            PackedLayout::Mixed => Solid::Mixed(Layers::new(painter, &planes, mode, false, pack_mixed)),
             PackedLayout::MixedColored => {
-                Solid::MixedColored(Layers::new(painter, mode, false, pack_mixed_colored))
+                Solid::MixedColored(Layers::new(painter, &planes, mode, false, pack_mixed_colored))
             }
         };
         let faces = painter
             .appearance
             .palette
             .has_translucency()
-            .then(|| Layers::new(painter, mode, true, pack_transparent));
+            .then(|| Layers::new(painter, &planes, mode, true, pack_transparent));
         let shape: Box<dyn LineShape> = match mode.exact {
             Some(_) => Box::new(CurvedLines::new(painter)),
             None => Box::new(StraightLines::new(painter)),
@@ -362,6 +378,11 @@ impl RenderLayers<'_> {
                 all(clear, |item, contours| take(item, true, contours));
             }
         }
+    }
+
+    /// The plane of each face, see [`ugscene::shared_planes`].
+    pub fn planes(&self) -> &[u32] {
+        with_layers!(&self.solid, |layers| &layers.planes)
     }
 
     /// The visible parts of lines.

@@ -1,6 +1,7 @@
 //! Layers of polygons and triangles, drawn into tiles or as transparent fragments.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use fearless_simd::Level;
 
@@ -15,6 +16,13 @@ use crate::triangles::{BlockSetup, LazyPlanes, Plane, TriangleQueue, TriangleVal
 pub trait OpaqueLayer<const N: usize>: Sync {
     /// Draws what the layer has in a band into a tile of that band.
     fn draw(&self, grid: &SampleGrid, band: usize, scanner: &mut Scanner<N>, tile: &mut Tile<N>);
+
+    /// For each item, also of transparent layers, the number of the plane that it shares with
+    /// others, or 0. Of items in one plane that overlap the one with the lowest number is visible,
+    /// whatever their keys. Empty if no planes are shared.
+    fn planes(&self) -> Arc<[u32]> {
+        Arc::default()
+    }
 }
 
 /// The corners that triangles share, by row.
@@ -188,6 +196,9 @@ impl<const N: usize> ShapeTarget<N> for Tile<N> {
     ) {
         let mut part = self.part(row, &columns);
         for (idx, column) in columns.enumerate() {
+            if part.is_in_plane_of(idx, item) {
+                continue;
+            }
             if let Some((key, values)) = sample(column, part.keys[idx]) {
                 part.set(idx, key, values, item);
             }

@@ -88,7 +88,8 @@
 //!
 //! The depth key is larger for what is nearer, and linear in the picture: 1/distance in
 //! perspective, −distance in orthographic projection. It is compared per sample, so
-//! intersecting faces come out right. Of equal keys the first drawn wins.
+//! intersecting faces come out right. Of equal keys the first drawn wins. Items that the caller
+//! states to be in one plane ([`OpaqueLayer::planes`]) have no depth order: the first wins.
 
 mod bins;
 mod block;

@@ -131,9 +131,9 @@ impl<const N: usize> Rasterizer<'_, N> {
         let TileBuffers { scanner, tile, transparency } = buffers;
         let samples = |pixels: u32| pixels * grid.samples;
         let area = Area { columns: columns.map(samples), rows: rows.map(samples) };
-        tile.reset(area, keep != Keep::Light);
+        tile.reset(area, opaque.planes(), keep != Keep::Light);
         opaque.draw(grid, band, scanner, tile);
-        let draw = |layer| transparency.draw(layer, grid, band, (area, tile.keys()), keep);
+        let draw = |layer| transparency.draw(layer, grid, band, tile.opaque(), keep);
         transparent.map_or_else(SampleStats::default, draw)
     }
 }

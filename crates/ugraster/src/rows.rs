@@ -3,7 +3,7 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x8, f64x8, mask32x8};
 
-use crate::tile::{LANES, TileSamples};
+use crate::tile::{EMPTY, LANES, TileSamples, shared_plane};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
 /// Column offsets of the lanes.
@@ -11,20 +11,26 @@ const STEPS: [f64; LANES] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
 
 /// Draws a block of triangles into a tile where the depth test passes.
 pub fn draw_block(level: Level, block: &BlockSetup<'_>, tile: TileSamples<'_>, planes: &mut LazyPlanes<'_>) {
-    dispatch!(level, simd => block.draw(&mut SimdTile { simd, tile }, planes));
+    // Compiled twice: most scenes share no planes.
+    if tile.planes.is_empty() {
+        dispatch!(level, simd => block.draw(&mut SimdTile::<_, false> { simd, tile }, planes));
+    } else {
+        dispatch!(level, simd => block.draw(&mut SimdTile::<_, true> { simd, tile }, planes));
+    }
 }
 
 /// A tile, drawn with one instruction set.
-struct SimdTile<'a, S> {
+struct SimdTile<'a, S, const SHARES_PLANES: bool> {
     simd: S,
     tile: TileSamples<'a>,
 }
 
-impl<S: Simd> RowTarget for SimdTile<'_, S> {
+impl<S: Simd, const SHARES_PLANES: bool> RowTarget for SimdTile<'_, S, SHARES_PLANES> {
     #[inline(always)]
     fn draw_row(&mut self, row: &TriangleRow, triangle: &TriangleRef<'_>, planes: &mut LazyPlanes<'_>) {
         let Self { simd, ref mut tile } = *self;
         let [first, end] = row.columns;
+        let plane = if SHARES_PLANES { shared_plane(tile.planes, triangle.item()) } else { None };
         let steps: f64x8<S> = STEPS.simd_into(simd);
         let places = narrow(simd, steps);
         for column in (first..end).step_by(LANES) {
@@ -35,7 +41,13 @@ impl<S: Simd> RowTarget for SimdTile<'_, S> {
             let across = steps + (f64::from(column) + 0.5) - row.from;
             let keys = across * row.key_per_column + row.key;
             let (key, nearest) = (narrow(simd, keys), f32x8::from_slice(simd, nearest_keys));
-            let is_visible = key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            let mut is_visible =
+                key.simd_gt(nearest) & places.simd_lt(f32x8::splat(simd, (end - column) as f32));
+            if let Some(plane) = plane {
+                // Of items in one plane the first is visible.
+                let hidden = are_in_plane(plane, *nearest_keys, &tile.items[first..], tile.planes);
+                is_visible &= f32x8::from_slice(simd, &hidden).simd_lt(f32x8::splat(simd, 0.5));
+            }
             // Early depth test: most hidden samples end here.
             if !is_visible.any_true() {
                 continue;
@@ -91,6 +103,16 @@ impl<S: Simd> VisibleLanes<S> {
             is_visible.select(value, f32x8::from_slice(simd, all)).store_slice(all);
         }
     }
+}
+
+/// 1 for samples at which an item in a plane is visible, else 0.
+#[cold]
+#[inline(never)] // Or the loop over all triangles has fewer registers.
+fn are_in_plane(plane: u32, keys: [f32; LANES], items: &[u32], planes: &[u32]) -> [f32; LANES] {
+    std::array::from_fn(|lane| {
+        let is_in_plane = keys[lane] != EMPTY && planes[items[lane] as usize] == plane;
+        f32::from(u8::from(is_in_plane))
+    })
 }
 
 /// Eight elements from `start` on.

@@ -1,6 +1,7 @@
 //! The samples of a tile, and the depth test.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Samples that are drawn together; a tile has as many elements more than samples.
 pub const LANES: usize = 8;
@@ -18,6 +19,8 @@ pub struct Tile<const N: usize> {
     values: [Vec<f32>; N],
     /// The item visible at each sample; no elements if items are not kept.
     items: Vec<u32>,
+    /// The plane of each item, see [`OpaqueLayer::planes`](crate::OpaqueLayer::planes).
+    planes: Arc<[u32]>,
 }
 
 /// A rectangle of samples of the picture.
@@ -63,6 +66,34 @@ pub struct VisibleItem {
     pub item: u32,
 }
 
+/// The plane that an item shares with others.
+#[inline(always)]
+pub(crate) fn shared_plane(planes: &[u32], item: u32) -> Option<u32> {
+    planes.get(item as usize).copied().filter(|&plane| plane != 0)
+}
+
+/// What opaque surfaces hide of surfaces that are drawn later: the samples of a whole tile.
+#[derive(Clone, Copy, Debug)]
+pub struct OpaqueSamples<'a> {
+    pub area: Area,
+    /// Depth keys.
+    pub keys: &'a [f32],
+    /// Items; no elements if they are not kept.
+    pub items: &'a [u32],
+    /// The plane of each item; no elements if no planes are shared.
+    pub planes: &'a [u32],
+}
+
+impl OpaqueSamples<'_> {
+    /// The item visible at a sample if it is in the plane of `item`.
+    #[inline(always)]
+    pub fn item_in_plane(&self, sample: usize, item: u32) -> Option<u32> {
+        let plane = shared_plane(self.planes, item)?;
+        let own = self.items[sample];
+        (self.keys[sample] != EMPTY && self.planes[own as usize] == plane).then_some(own)
+    }
+}
+
 /// The samples of a tile with any number of values, for the loops that are compiled once.
 pub struct TileSamples<'a> {
     area: Area,
@@ -70,6 +101,8 @@ pub struct TileSamples<'a> {
     pub values: &'a mut [Vec<f32>],
     /// No elements if items are not kept.
     pub items: &'a mut [u32],
+    /// The plane of each item; no elements if no planes are shared.
+    pub planes: &'a [u32],
 }
 
 impl TileSamples<'_> {
@@ -83,14 +116,15 @@ impl TileSamples<'_> {
 impl<const N: usize> Default for Tile<N> {
     fn default() -> Self {
         let values = [const { Vec::new() }; N];
-        Self { area: Area::default(), keys: Vec::new(), values, items: Vec::new() }
+        Self { area: Area::default(), keys: Vec::new(), values, items: Vec::new(), planes: Arc::default() }
     }
 }
 
 impl<const N: usize> Tile<N> {
     /// Makes it an empty tile, reusing its buffers.
-    pub(crate) fn reset(&mut self, area: Area, keeps_items: bool) {
-        self.area = area;
+    pub(crate) fn reset(&mut self, area: Area, planes: Arc<[u32]>, keeps_items: bool) {
+        let keeps_items = keeps_items || !planes.is_empty();
+        (self.area, self.planes) = (area, planes);
         // With some elements behind the last row, because rows are drawn LANES samples at once.
         let len = area.n_samples() + LANES;
         self.keys.clear();
@@ -100,14 +134,15 @@ impl<const N: usize> Tile<N> {
         self.items.resize(if keeps_items { len } else { 0 }, 0);
     }
 
-    /// Depth keys, row after row, and [`LANES`] more.
-    pub(crate) fn keys(&self) -> &[f32] {
-        &self.keys
+    /// The samples as occluders.
+    pub(crate) fn opaque(&self) -> OpaqueSamples<'_> {
+        let Self { area, keys, items, planes, .. } = self;
+        OpaqueSamples { area: *area, keys, items, planes }
     }
 
     pub(crate) fn samples(&mut self) -> TileSamples<'_> {
-        let Self { area, keys, values, items } = self;
-        TileSamples { area: *area, keys, values, items }
+        let Self { area, keys, values, items, planes } = self;
+        TileSamples { area: *area, keys, values, items, planes }
     }
 
     /// The samples of the tile.
@@ -124,6 +159,7 @@ impl<const N: usize> Tile<N> {
             keys: &mut self.keys[samples.clone()],
             values: self.values.each_mut().map(|all| &mut all[samples.clone()]),
             items,
+            planes: &self.planes,
         }
     }
 
@@ -149,9 +185,18 @@ pub(crate) struct RowPart<'a, const N: usize> {
     pub(crate) keys: &'a mut [f32],
     values: [&'a mut [f32]; N],
     items: &'a mut [u32],
+    planes: &'a [u32],
 }
 
 impl<const N: usize> RowPart<'_, N> {
+    /// True if something in the plane of an item is visible at a sample.
+    #[inline(always)]
+    pub(crate) fn is_in_plane_of(&self, sample: usize, item: u32) -> bool {
+        let is_drawn = self.keys[sample] != EMPTY;
+        shared_plane(self.planes, item)
+            .is_some_and(|plane| is_drawn && self.planes[self.items[sample] as usize] == plane)
+    }
+
     /// Sets what is visible at a sample.
     #[inline(always)]
     pub(crate) fn set(&mut self, sample: usize, key: f32, values: [f32; N], item: u32) {

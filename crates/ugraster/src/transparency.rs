@@ -19,7 +19,7 @@ use crate::grid::SampleGrid;
 use crate::layer::ShapeTarget;
 use crate::polygons::greater;
 use crate::shading::{SampleStats, ShadedSample};
-use crate::tile::{Area, EMPTY};
+use crate::tile::{Area, EMPTY, OpaqueSamples, shared_plane};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
 /// Number of interpolated values of transparent shapes.
@@ -113,16 +113,16 @@ pub struct TransparencyBuffer {
 }
 
 impl TransparencyBuffer {
-    /// Draws and blends a transparent layer in front of a tile, given by its samples and their
-    /// depth keys.
+    /// Draws and blends a transparent layer in front of the opaque samples of a tile.
     pub fn draw(
         &mut self,
         layer: &dyn TransparentLayer,
         grid: &SampleGrid,
         band: usize,
-        (area, keys): (Area, &[f32]),
+        opaque: OpaqueSamples<'_>,
         keep: Keep,
     ) -> SampleStats {
+        let area = opaque.area;
         self.area = area;
         self.composites.clear();
         self.kept.clear();
@@ -131,11 +131,10 @@ impl TransparencyBuffer {
         while let Some(part) = parts.pop() {
             self.fragments.clear();
             self.front.clear();
-            self.front.resize(keys.len(), EMPTY);
+            self.front.resize(opaque.keys.len(), EMPTY);
             let mut target = FragmentTarget {
                 part,
-                tile: area,
-                keys,
+                opaque,
                 fragments: &mut self.fragments,
                 front: &mut self.front,
                 n_offered: 0,
@@ -145,7 +144,7 @@ impl TransparencyBuffer {
             layer.draw(grid, band, &mut self.scanner, &mut target);
             if target.fragments.len() < target.max_fragments {
                 stats = stats.merge(target.stats);
-                self.blend(grid, keep);
+                self.blend(grid, opaque.planes, keep);
             } else {
                 parts.extend(split(part, target.n_offered.div_ceil(MAX_FRAGMENTS as u64)));
             }
@@ -159,14 +158,14 @@ impl TransparencyBuffer {
         self.composites.is_empty()
     }
 
-    fn blend(&mut self, grid: &SampleGrid, keep: Keep) {
+    fn blend(&mut self, grid: &SampleGrid, planes: &[u32], keep: Keep) {
         if self.fragments.is_empty() {
             return;
         }
         let Area { columns, rows } = self.area;
         let width = self.area.width();
         self.composites.resize(self.area.n_samples(), Composite::NONE);
-        self.sort();
+        self.sort(planes);
         let is_middle = |place: u32| place % grid.samples == grid.samples / 2;
         for &index in &self.order {
             let fragment = &self.fragments[index as usize];
@@ -183,7 +182,7 @@ impl TransparencyBuffer {
     }
 
     /// Fills `order`: by sample in linear time, and then the fragments of each sample.
-    fn sort(&mut self) {
+    fn sort(&mut self, planes: &[u32]) {
         let Self { fragments, order, ends, area, .. } = self;
         ends.clear();
         ends.resize(area.n_samples(), 0);
@@ -207,6 +206,9 @@ impl TransparencyBuffer {
             let of_sample = &mut order[start as usize..end as usize];
             if of_sample.len() > 1 {
                 of_sample.sort_by(|&a, &b| fragments[a as usize].key.total_cmp(&fragments[b as usize].key));
+                if !planes.is_empty() {
+                    put_first_of_plane_in_front(of_sample, |idx| &fragments[idx as usize], planes);
+                }
             }
             start = end;
         }
@@ -234,6 +236,25 @@ impl TransparencyBuffer {
     }
 }
 
+/// Exchanges neighbours in one plane until the first item is in front. `order`: from back to front.
+fn put_first_of_plane_in_front<'f>(
+    order: &mut [u32],
+    fragment: impl Fn(u32) -> &'f Fragment,
+    planes: &[u32],
+) {
+    let is_wrong = |back: &Fragment, front: &Fragment| {
+        let plane = shared_plane(planes, back.item).filter(|_| !back.is_line && !front.is_line);
+        back.item < front.item && plane.is_some() && plane == shared_plane(planes, front.item)
+    };
+    for end in 1..order.len() {
+        let mut place = end;
+        while place > 0 && is_wrong(fragment(order[place - 1]), fragment(order[place])) {
+            order.swap(place - 1, place);
+            place -= 1;
+        }
+    }
+}
+
 /// The rows of an area in about `n` parts of the same size, at least two, or the columns of a
 /// single row; the uppermost or leftmost part is the last.
 fn split(area: Area, n: u64) -> impl Iterator<Item = Area> {
@@ -253,9 +274,8 @@ fn split(area: Area, n: u64) -> impl Iterator<Item = Area> {
 /// A part of a tile on which transparent layers are drawn.
 pub struct FragmentTarget<'a> {
     part: Area,
-    tile: Area,
-    /// Depth keys of the opaque surfaces, of the whole tile.
-    keys: &'a [f32],
+    /// The opaque surfaces, of the whole tile.
+    opaque: OpaqueSamples<'a>,
     fragments: &'a mut Vec<Fragment>,
     /// Depth keys of the nearest fragments with a transmittance of 0, of the whole tile.
     front: &'a mut [f32],
@@ -313,9 +333,9 @@ impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
         }
         let (mut places, mut values) = ([(0, 0.0); RUN], [[0.0; TRANSPARENT_VALUES]; RUN]);
         let mut n = 0;
-        for (column, index) in columns.clone().zip(self.target.tile.indices(row, &columns)) {
+        for (column, index) in columns.clone().zip(self.target.opaque.area.indices(row, &columns)) {
             // No fragment of a row occludes another one, so their order does not matter.
-            if let Some((key, of_sample)) = sample(column, self.occluder_key(index)) {
+            if let Some((key, of_sample)) = sample(column, self.occluder_key(index, item)) {
                 (places[n], values[n]) = ((index, key), of_sample);
                 n += 1;
                 if n == RUN {
@@ -357,9 +377,17 @@ impl FragmentWriter<'_, '_> {
     /// The depth key of the nearest occluder of a sample; only what is nearer is visible, so of
     /// equal keys the first drawn wins. The hidden parts of lines have been removed along their
     /// middles, so opaque surfaces do not occlude lines here, where that would cut their width.
-    fn occluder_key(&self, sample: usize) -> f32 {
-        let front = self.target.front[sample];
-        if self.is_line { front } else { greater(front, self.target.keys[sample]) }
+    fn occluder_key(&self, sample: usize, item: u32) -> f32 {
+        let FragmentTarget { front, opaque, .. } = &*self.target;
+        let front = front[sample];
+        if self.is_line {
+            return front;
+        }
+        match opaque.item_in_plane(sample, item) {
+            Some(other) if other < item => f32::INFINITY,
+            Some(_) => front,
+            None => greater(front, opaque.keys[sample]),
+        }
     }
 }
 
@@ -437,7 +465,13 @@ mod tests {
         for n in [1, 100, 2000, 4001] {
             let panes = Panes { n, n_shaded: AtomicU64::new(0) };
             let mut buffer = TransparencyBuffer::default();
-            buffer.draw(&panes, &grid, 0, (area, &keys), Keep::Light);
+            buffer.draw(
+                &panes,
+                &grid,
+                0,
+                OpaqueSamples { area, keys: &keys, items: &[], planes: &[] },
+                Keep::Light,
+            );
             let n_fragments = area.n_samples() as u64 * u64::from(n);
             let n_shaded = panes.n_shaded.into_inner();
             assert!(n_shaded <= n_fragments + MAX_FRAGMENTS as u64 + 64, "{n}: {n_shaded} of {n_fragments}");
@@ -459,7 +493,13 @@ mod tests {
         let grid = grid(3000, 1);
         let panes = Panes { n: 1100, n_shaded: AtomicU64::new(0) };
         let mut buffer = TransparencyBuffer::default();
-        buffer.draw(&panes, &grid, 0, (area, &keys), Keep::Centers);
+        buffer.draw(
+            &panes,
+            &grid,
+            0,
+            OpaqueSamples { area, keys: &keys, items: &[], planes: &[] },
+            Keep::Centers,
+        );
         let n_fragments = area.n_samples() as u64 * u64::from(panes.n);
         assert!(panes.n_shaded.into_inner() <= n_fragments + MAX_FRAGMENTS as u64 + 3000);
         assert!(buffer.fragments.capacity() <= 2 * MAX_FRAGMENTS, "{}", buffer.fragments.capacity());

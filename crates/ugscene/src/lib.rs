@@ -9,6 +9,7 @@
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_shares`]).
 //! - The triangles of faces ([`face_triangles`]), and the faces that are not flat ([`bent_faces`]).
+//! - The faces that lie in one plane ([`shared_planes`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
 //! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
 //!   ([`DefaultCamera`]).
@@ -54,6 +55,7 @@ mod position;
 mod relative_motion;
 mod requirements;
 mod rest_frames;
+mod shared_planes;
 mod shares;
 mod split;
 mod times_in_view;
@@ -87,6 +89,7 @@ pub use requirements::{
     require_eye, require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
+pub use shared_planes::shared_planes;
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;

@@ -33,6 +33,11 @@ pub fn pipe(random: &mut Random) -> Outcome {
     check_pipe(random, &world)
 }
 
+/// A random world without mirrors.
+pub(super) fn matt_world(random: &mut Random) -> World {
+    random_world(random, Lamps::Stated, Surfaces::Matt, Kinds::All)
+}
+
 /// A boost and a turn of the world.
 pub fn boosts(random: &mut Random) -> Outcome {
     let world = random_world(random, Lamps::Stated, Surfaces::Mirrors, Kinds::Free);

@@ -10,6 +10,7 @@
 
 mod accelerated;
 mod compare;
+mod coplanar;
 mod frames;
 mod generate;
 mod light;
@@ -87,6 +88,8 @@ pub const LAWS: &[Law] = &[
     law("painted-pipe", renderers::painted_pipe),
     law("colored-exact", renderers::colored_exact),
     law("colored-pipe", renderers::colored_pipe),
+    law("coplanar-first", coplanar::first),
+    law("coplanar-last", coplanar::last),
     law("accelerated-pipe", accelerated::pipe),
     law("accelerated-boosts", accelerated::boosts),
     law("accelerated-turns", accelerated::turns),

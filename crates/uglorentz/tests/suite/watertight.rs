@@ -1,10 +1,12 @@
 //! Closed meshes stay closed: whatever is cut, every edge has one face on each side.
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use glam::DVec3;
 use proptest::prelude::*;
 use uglorentz::{Config, Pieces};
+use ugscene::{Geometry, RestFrames};
 use ugtesting::Random;
 
 use crate::common::{edges, parse, rock, run};
@@ -117,5 +119,60 @@ fn the_solids_are_closed_and_some_are_cut() {
         assert!(edges(&whole).values().all(|count| *count == (1, 1)), "{kind}");
         let cut = run(&text, &Config { pieces: Pieces::UpTo(1e-3), ..Config::default() }).scene;
         assert!(cut.faces.len() > 2 * whole.faces.len(), "{kind}");
+    }
+}
+
+/// A face beside several, whose corners are on its edge: what is seen of the edge has the same
+/// vertices on both sides, to the bit, whoever owns them.
+#[test]
+fn edges_are_cut_at_vertices_of_other_faces() {
+    let mut random = Random(7);
+    for case in 0..60 {
+        let turn = glam::DQuat::from_axis_angle(random.direction(), random.between(0.0, 6.0));
+        let middle = random.direction() * random.between(2.0, 9.0);
+        let place = |x: f64, z: f64| turn * DVec3::new(x, 0.0, z) + middle;
+        let n = 2 + case % 7;
+        let heights: Vec<f64> = (0..=n).map(|k| -3.0 + 6.0 * f64::from(k) / f64::from(n)).collect();
+        // The slope of the common edge.
+        let border = |z: f64| 0.1 * z;
+        let mut text = String::new();
+        let mut vertex = |name: &str, p: DVec3| writeln!(text, "v {name} {:?} {:?} {:?};", p.x, p.y, p.z);
+        for (name, x, z) in
+            [("a", -4.0, -3.0), ("b", border(-3.0), -3.0), ("c", border(3.0), 3.0), ("d", -4.0, 3.0)]
+        {
+            vertex(name, place(x, z)).unwrap();
+        }
+        for (k, &z) in heights.iter().enumerate() {
+            vertex(&format!("p{k}"), place(border(z), z)).unwrap();
+            vertex(&format!("q{k}"), place(4.0, z)).unwrap();
+        }
+        let beta = random.direction() * [0.3, 0.9, 0.99][case as usize % 3];
+        // The motions of two bodies with names are alike.
+        let motion = format!("-vel {:?} {:?} {:?}", beta.x, beta.y, beta.z);
+        writeln!(text, "motion one {motion}; motion two {motion}; c red 1 0 1; c blue 1 240 1;").unwrap();
+        writeln!(text, "f (a b c d) red <one>;").unwrap();
+        for k in 0..n {
+            let body = if case % 2 == 0 { "one" } else { "two" };
+            writeln!(text, "f (p{k} q{k} q{} p{}) blue <{body}>;", k + 1, k + 1).unwrap();
+        }
+        let found = run(&text, &Config { geometry: Geometry::default(), ..Config::default() }).scene;
+        let frames = RestFrames::new(&found);
+        let rest = ugscene::rest_positions(&found, DVec3::ZERO, &frames);
+        let is_on_border = |row: usize| {
+            let p = turn.inverse() * (rest[row] - middle);
+            (p.x - border(p.z)).abs() < 1e-9
+        };
+        let of_color = |name: &str| -> BTreeSet<[u64; 3]> {
+            let is_one = |face: &&ugscene::Face| {
+                face.color.is_some_and(|color| found.names.get(found.colors[color.index()].name) == name)
+            };
+            let corners =
+                found.faces.iter().filter(is_one).flat_map(|face| found.face_contours(face).flatten());
+            let rows = corners.map(|corner| corner.index()).filter(|&row| is_on_border(row));
+            rows.map(|row| found.vertices[row].position.to_array().map(f64::to_bits)).collect()
+        };
+        let (red, blue) = (of_color("red"), of_color("blue"));
+        assert_eq!(red, blue, "case {case}: {} and {}", red.len(), blue.len());
+        assert!(red.len() > n as usize, "case {case}");
     }
 }

@@ -541,7 +541,8 @@ fn endless_mirrors_end() {
     config.rays = RayOptions { depth: 64, cutoff: 0.0, ..RayOptions::default() };
     let notes = render(scene(&text), &config).unwrap().notes;
     assert!(notes.contains(&Note::CutShort), "{notes:?}");
-    let of_open_solids = |notes: &[Note]| notes.contains(&Note::OpenSolid);
+    let is_open = |note: &Note| matches!(note, Note::OpenSolid(_) | Note::ReversedSolid(_));
+    let of_open_solids = |notes: &[Note]| notes.iter().any(is_open);
     // The eye is inside both boxes, which are closed.
     assert!(!of_open_solids(&notes), "{notes:?}");
     config.rays = RayOptions { depth: 3, ..RayOptions::default() };
@@ -552,6 +553,35 @@ fn endless_mirrors_end() {
     assert_ne!(without_a_wall, text);
     let notes = render(scene(&without_a_wall), &config).unwrap().notes;
     assert!(of_open_solids(&notes), "{notes:?}");
+}
+
+/// A solid is open if light passes around an edge of it. Opaque faces close it, too.
+#[test]
+fn open_solids_are_named() {
+    let pane = "v a -1 5 -1; v b 1 5 -1; v c 1 5 1; v d -1 5 1;";
+    let box_behind = "v e -1 6 -1; v f 1 6 -1; v g 1 6 1; v h -1 6 1;";
+    let check = |faces: &str, expected: Option<&str>| {
+        let text = format!(
+            "surf s 0 0 1 1.5; surf thin 0 0 1; c w 1; {pane} {box_behind} {faces}
+             v p -9 9 -9; v q 9 9 -9; v r 9 9 9; v t -9 9 9; f (p q r t) w; l 1; cam -ep 0 0 0 -vc 0 1 0;"
+        );
+        let notes = render(scene(&text), &picture([8, 6])).unwrap().notes;
+        let open = notes.iter().find_map(|note| match note {
+            Note::OpenSolid(face) => Some(face.as_str()),
+            _ => None,
+        });
+        assert_eq!(open, expected, "{faces}");
+    };
+    check("f pane (a b c d) w s;", Some("face 1 (`pane`)"));
+    check("f (d c b a) w s;", Some("face 1"));
+    check("f (a b c d) w thin;", None);
+    let sides = "f (f e h g) w S; f (a e f b) w S; f (b f g c) w S; f (c g h d) w S;";
+    let last = "f (d h e a) w S;";
+    let glass = |sides: &str| sides.replace('S', "s");
+    check(&format!("f (a b c d) w s; {}", glass(&format!("{sides}{last}"))), None);
+    check(&format!("f (a b c d) w s; {}", glass(sides)), Some("face 1"));
+    // Water in a basin.
+    check(&format!("f (a b c d) w s; {}", format!("{sides}{last}").replace('S', "1")), None);
 }
 
 #[test]

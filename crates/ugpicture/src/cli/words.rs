@@ -91,7 +91,8 @@ impl Words for Note {
             | Self::NoLights { .. }
             | Self::NoWires
             | Self::NoLight { .. }
-            | Self::OpenSolid
+            | Self::OpenSolid(_)
+            | Self::ReversedSolid(_)
             | Self::StraightThroughGlass
             | Self::ClippedIntensity { has_light: false, .. } => "{}",
         };

@@ -56,10 +56,16 @@ struct Shape {
 }
 
 impl<'a, const N: usize> Faces<'a, N> {
-    /// The faces of a scene for which `is_drawn` returns true.
-    pub fn new(painter: Painter<'a>, is_drawn: impl Fn(&Face) -> bool + Sync, pack: Pack<N>) -> Self {
+    /// The faces of a scene for which `is_drawn` returns true. `planes`: the plane of each face, see
+    /// [`ugscene::shared_planes`].
+    pub fn new(
+        painter: Painter<'a>,
+        planes: &[u32],
+        is_drawn: impl Fn(&Face) -> bool + Sync,
+        pack: Pack<N>,
+    ) -> Self {
         let frames = frames(&painter);
-        let built = build_all(&painter, &frames, &is_drawn);
+        let built = build_all(&painter, &frames, planes, &is_drawn);
         let in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
         let shapes: Vec<Shape> = built.into_iter().filter_map(Built::shape).collect();
         let clip_counts = ClipCounts { in_front, in_picture: shapes.len() };
@@ -266,20 +272,22 @@ impl Built {
     }
 }
 
-fn build(painter: &Painter<'_>, frames: &[PictureRays], row: usize, face: &Face) -> Built {
+fn build(painter: &Painter<'_>, frames: &[PictureRays], planes: &[u32], row: usize, face: &Face) -> Built {
     let at = face.body.index();
     let frame = &frames[at];
-    let contours: Vec<Vec<DVec3>> = painter
-        .scene
-        .face_contours(face)
-        .map(|contour| {
-            contour.iter().map(|&id| frame.aligned_from_scene(painter.appearance.surface.rest(id))).collect()
-        })
-        .collect();
+    let contours = contours(painter, frame, face);
     let mut corners = contours.iter().flatten();
     let is_behind = corners.all(|&corner| frame.place(frame.seen(corner)).z < painter.view.slab.near);
     let outside = if is_behind { Built::Behind } else { Built::Outside };
-    let Some(outline) = Outline::new(&contours) else { return outside };
+    let Some(mut outline) = Outline::new(&contours) else { return outside };
+    if let Some(&plane) = planes.get(row)
+        && plane != 0
+        && let Some(first) =
+            Outline::new(&self::contours(painter, frame, &painter.scene.faces[plane as usize - 1]))
+    {
+        // The same bits for all faces in one plane: ties in depth go to the first of them.
+        outline.set_plane(first.plane());
+    }
     let picture = Rect::new([0, painter.grid.sample_columns()], [0, painter.grid.sample_rows()]);
     let Some(rect) = footprint(frame, &outline, picture) else { return outside };
     let [columns, rows] = samples(rect);
@@ -294,14 +302,21 @@ fn build(painter: &Painter<'_>, frames: &[PictureRays], row: usize, face: &Face)
     Built::Shape(Box::new(Shape { item, frame: at, columns, rows, outline, sides, depth, look }))
 }
 
+/// The contours of a face at rest, in the axes of its frame.
+fn contours(painter: &Painter<'_>, frame: &PictureRays, face: &Face) -> Vec<Vec<DVec3>> {
+    let corner = |&id| frame.aligned_from_scene(painter.appearance.surface.rest(id));
+    painter.scene.face_contours(face).map(|contour| contour.iter().map(corner).collect()).collect()
+}
+
 /// The faces of a scene for which `is_drawn` returns true, compiled once for all layouts.
 fn build_all(
     painter: &Painter<'_>,
     frames: &[PictureRays],
+    planes: &[u32],
     is_drawn: &(dyn Fn(&Face) -> bool + Sync),
 ) -> Vec<Built> {
     let faces = painter.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));
-    faces.map(|(row, face)| build(painter, frames, row, face)).collect()
+    faces.map(|(row, face)| build(painter, frames, planes, row, face)).collect()
 }
 
 /// The samples in a rectangle that lies within the picture.

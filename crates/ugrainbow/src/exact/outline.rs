@@ -69,6 +69,11 @@ impl Outline {
         self.plane
     }
 
+    /// Replaces the plane by one that differs from it by rounding.
+    pub fn set_plane(&mut self, plane: DVec3) {
+        self.plane = plane;
+    }
+
     /// The inverse of the ray parameter at the plane; 0 or less if the plane is not ahead. `ray`: a
     /// vector at rest.
     #[inline]

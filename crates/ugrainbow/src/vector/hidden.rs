@@ -22,6 +22,8 @@ fn is_hidden(patch: &Patch, patches: &[Patch], index: &BoxIndex, work: &Work) ->
     let near = index.in_box(patch.bounds());
     work.count(near.len());
     let others = near.into_iter().map(|idx| &patches[idx]);
+    let may_hide = |other: &&Patch| other.item < patch.item || !patch.is_in_plane_of(other);
+    let others = others.filter(may_hide);
     let opaque = others.filter(|other| other.item != patch.item && !other.is_transparent);
     is_covered(patch.parts.clone(), opaque.map(|other| &other.parts[..]), |own, other| {
         work.count_pair(&own, other);

@@ -213,7 +213,11 @@ fn patches(
         for corner in contours.iter_mut().flatten() {
             (corner.x, corner.y) = (corner.x / scale, corner.y / scale);
         }
-        faces.extend(Patch::new(item, is_transparent, contours, size, setup.view.is_perspective));
+        let mut patch = Patch::new(item, is_transparent, contours, size, setup.view.is_perspective);
+        if let (Some(patch), Some(&plane)) = (&mut patch, layers.planes().get(item as usize)) {
+            patch.plane = plane;
+        }
+        faces.extend(patch);
     });
     faces
 }

@@ -77,11 +77,16 @@ fn relation(first: &Patch, second: &Patch, work: &Work) -> DepthOrder {
         work.count_pair(a, b);
         a.relation(b)
     });
-    relations.fold(DepthOrder::default(), |all, one| DepthOrder {
+    let relation = relations.fold(DepthOrder::default(), |all, one| DepthOrder {
         is_before: all.is_before || one.is_before,
         is_behind: all.is_behind || one.is_behind,
         is_level: all.is_level || one.is_level,
-    })
+    });
+    if relation == DepthOrder::default() || !first.is_in_plane_of(second) {
+        return relation;
+    }
+    let is_before = first.item < second.item;
+    DepthOrder { is_before, is_behind: !is_before, is_level: false }
 }
 
 /// Tarjan's strongly connected components (1972); a component follows all components that its edges
@@ -158,7 +163,7 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>, work: 
             Step::Divide(parts) => {
                 let n_corners: usize = parts.iter().map(|(_, part)| part.corners.len()).sum();
                 work.count((CANDIDATES + 1) * n_corners);
-                let [behind, on, before] = divide(parts);
+                let [behind, on, before] = divide(patches, parts);
                 steps.extend([Step::Divide(before), Step::Paint(on), Step::Divide(behind)]);
             }
         }
@@ -166,22 +171,26 @@ fn partition(patches: &[Patch], group: &[usize], pieces: &mut Vec<Piece>, work: 
 }
 
 /// The parts behind, in and in front of the plane of one of them, the splitter, which is in its own
-/// plane.
-fn divide(parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
+/// plane, as are parts of faces that share it.
+fn divide(patches: &[Patch], parts: Vec<(usize, Convex)>) -> [Vec<(usize, Convex)>; 3] {
     let stride = parts.len().div_ceil(CANDIDATES);
-    let cuts = |plane: &Convex| parts.iter().filter(|(_, part)| plane.side_of(part).is_none()).count();
-    let splitter = (0..parts.len()).step_by(stride).min_by_key(|&idx| cuts(&parts[idx].1)).unwrap_or(0);
-    let plane = parts[splitter].1.clone();
+    let side_of = |(splitter, plane): &(usize, Convex), (idx, part): &(usize, Convex)| {
+        if patches[*splitter].is_in_plane_of(&patches[*idx]) { Some(0) } else { plane.side_of(part) }
+    };
+    let cuts = |plane: &_| parts.iter().filter(|part| side_of(plane, part).is_none()).count();
+    let splitter = (0..parts.len()).step_by(stride).min_by_key(|&idx| cuts(&parts[idx])).unwrap_or(0);
+    let plane = parts[splitter].clone();
     let [mut behind, mut on, mut before] = [const { Vec::new() }; 3];
-    for (number, (idx, part)) in parts.into_iter().enumerate() {
+    for (number, part) in parts.into_iter().enumerate() {
         // The splitter is in its own plane, whatever rounding says, so the recursion ends.
-        let side = if number == splitter { Some(0) } else { plane.side_of(&part) };
+        let side = if number == splitter { Some(0) } else { side_of(&plane, &part) };
+        let (idx, part) = part;
         match side {
             Some(0) => on.push((idx, part)),
             Some(1) => before.push((idx, part)),
             Some(_) => behind.push((idx, part)),
             None => {
-                let [far, near] = plane.split(&part);
+                let [far, near] = plane.1.split(&part);
                 behind.extend(far.map(|part| (idx, part)));
                 before.extend(near.map(|part| (idx, part)));
             }
@@ -209,7 +218,12 @@ mod tests {
         let steep = at([[0.0, 0.0, 0.5], [4.0, 0.0, 1.5], [4.0, 4.0, 1.5], [0.0, 4.0, 0.5]]);
         let relation = flat.relation(&steep);
         assert!(relation.is_before && relation.is_behind);
-        let [behind, on, before] = divide(vec![(0, flat), (1, steep)]);
+        let patch = |item| {
+            let corner = |x, y| ugraster::Corner { x, y, key: 1.0, values: [0.0; 8] };
+            let contour = vec![corner(0.0, 0.0), corner(4.0, 0.0), corner(4.0, 4.0)];
+            Patch::new(item, false, vec![contour], [4, 4], false).unwrap()
+        };
+        let [behind, on, before] = divide(&[patch(0), patch(1)], vec![(0, flat), (1, steep)]);
         assert_eq!((behind[0].0, on[0].0, before[0].0), (1, 0, 1));
         assert_eq!((behind[0].1.low, behind[0].1.high), ([0.0, 0.0], [2.0, 4.0]));
         assert_eq!((before[0].1.low, before[0].1.high), ([2.0, 0.0], [4.0, 4.0]));

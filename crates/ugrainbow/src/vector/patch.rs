@@ -15,6 +15,8 @@ pub struct Patch {
     pub item: u32,
     /// True if the face is translucent.
     pub is_transparent: bool,
+    /// The plane of the face, or 0, see [`ugscene::shared_planes`].
+    pub plane: u32,
     /// The corners as in the rasterizer, between which colours are interpolated.
     contours: Vec<Vec<Corner<TRANSPARENT_VALUES>>>,
     /// Clipped to the picture and its margin; outlines counterclockwise as in [`Convex`], holes
@@ -46,7 +48,15 @@ impl Patch {
             .map(|contour| clipped_to_picture(contour.iter().map(place).collect(), size, MARGIN));
         let outline = oriented(outline.filter(|contour| contour.len() > 2).collect());
         let parts = convex_parts(&outline);
-        (!parts.is_empty()).then_some(Self { item, is_transparent, contours, outline, parts, is_perspective })
+        (!parts.is_empty()).then_some(Self {
+            item,
+            is_transparent,
+            plane: 0,
+            contours,
+            outline,
+            parts,
+            is_perspective,
+        })
     }
 
     /// The interpolated values at a point; outside the polygon, those of the nearest point in the
@@ -77,6 +87,11 @@ impl Patch {
         };
         let scale = if self.is_perspective { 1.0 / here.key } else { 1.0 };
         Interpolants { values: here.values.map(|value| (value * scale) as f32), key: here.key }
+    }
+
+    /// True if their faces share a plane, so that their order in the scene decides which is visible.
+    pub fn is_in_plane_of(&self, other: &Self) -> bool {
+        self.plane != 0 && self.plane == other.plane
     }
 
     /// The least and greatest x and y.
