@@ -127,7 +127,7 @@ fn mistakes_are_answered() {
     check("ugrainbow -xc -txt ship.ug", "`-xc` and `-txt` cannot be given together");
     check("ugphoton -pan -va 30 ship.ug", "`-pan` and `-va` cannot be given together");
     check("ugwarp -fish 180 -va 30 photo.jpg", "`-fish` and `-va` cannot be given together");
-    check("ugmesh -dt obj -up y ship.ug", "not a mesh, so -up and -name have no effect; leave them out");
+    check("ugmesh -dt obj -name part ship.ug", "not a mesh, so -name has no effect; leave it out");
     check("ugwarp --white 1 photo.jpg", "there are no stars: leave out --star-width and --white");
 
     // Files.

@@ -11,6 +11,7 @@ use ugtests::scenes::parse;
 use ugtests::world_lines::sight::emission_time;
 use ugtests::world_lines::statement::words;
 use ugtests::world_lines::{Body, Four, Observer, Statement, plus, product};
+use ugtests::worlds::picture::{Picture, Renderer, SPECTRA};
 
 use super::{World, observer, options};
 
@@ -169,5 +170,28 @@ fn lamps_belong_to_the_body_they_light() {
                 "{motions} {both:?}"
             );
         }
+    }
+}
+
+/// `-sl` cuts faces by the light of lamps that run in circles, and of those that change: the pipe
+/// and rays draw the same light.
+#[test]
+fn faces_are_cut_by_the_light_of_lamps_that_move_and_change() {
+    let circle = "motion m -spin 0 0 .25; v a -4 3 -4; v b 4 3 -4; v c 4 3 4; v d -4 3 4; f (a b c d);
+        l lamp 1 2 1.5 0 0 1 <m>; cam -ep 0 -5 0 -vc 0 3 0 -va 60;";
+    let flash = "c_rgb w .9 .9 .9; c_rgb on 1 1 1; c_rgb off 0 0 0; c_time fl -step 0 off .001 on .2 off;
+        v a -30 10 -30; v b 30 10 -30; v c 30 10 30; v d -30 10 30; f (a b c d) w;
+        l 1 0 4 0 0 fl <0 0 0>; cam -ep 0 0 0 -vc 0 1 0 -va 100;";
+    for (text, time, mean_error) in [(circle, 0.0, 0.004), (flash, 17.0, 0.004)] {
+        let rays = Picture::of_scene(text.to_owned(), SPECTRA).like_pipe();
+        let motion = ugscene::MotionOptions { time, ..rays.motion.clone() };
+        let rays = Picture { size: [72, 54], motion, ..rays };
+        let [by_rays, by_pipe] =
+            [rays.clone(), rays.by(Renderer::Pipe)].map(|picture| picture.draw().unwrap().light());
+        let brightest = by_rays.iter().map(|light| light[1]).fold(0.0, f32::max);
+        let errors = by_rays.iter().zip(&by_pipe).map(|(a, b)| (a[1] - b[1]).abs() / brightest);
+        let mean = errors.sum::<f32>() / by_rays.len() as f32;
+        let n_lit = by_pipe.iter().filter(|light| light[1] > 0.1 * brightest).count();
+        assert!(mean < mean_error && n_lit > 20, "{mean} {n_lit} {time}");
     }
 }

@@ -112,7 +112,7 @@ const EXAMPLES: &str = "Examples:
   uglorentz -vel .6 0 0 -in ship.ug | ugdoppler | ugrainbow > ship.png
   uglorentz -vel .9 0 0 -in ship.ug | ugrainbow > shape.png   # shape only
   uglorentz -vel 0 .9 0 -ti -2 street.ug | ugrainbow > earlier.png   # two units of time earlier
-  uglorentz -cv 0 .7 0 -an center traffic.ug | ugrainbow > drive.png   # the camera moves";
+  uglorentz -cv 0 .7 0 traffic.ug | ugrainbow > drive.png   # the camera moves";
 
 /// The contents of the help, the man page and the completions of the program.
 pub fn manual() -> Manual {

@@ -32,8 +32,8 @@ pub struct Config {
     pub cull: bool,
     /// Time of the picture on the observer's clock, (P5) (`-ti`).
     pub time: f64,
-    /// The fixed point of the contraction (`-an`). Default: the eye, but the centre of each body if
-    /// `in_place` is set.
+    /// The fixed point of the contraction (`-an`). Default: the reference point of each body, the
+    /// eye for what `velocity` moves; the centre of each body if `in_place` is set.
     pub anchor: Option<Anchor>,
     /// Place each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
     pub in_place: bool,

@@ -232,7 +232,7 @@ impl Words for Error {
         let remedy = match self {
             Self::UnknownFormat { foreign: None, .. } => "; give it with -if ug, obj, ply, stl, off or gltf",
             Self::NothingToConvert => "; choose an output format with -dt obj, ply, gltf, glb or vtp",
-            Self::NotMesh => ", so -up and -name have no effect; leave them out",
+            Self::NotMesh => ", so -name has no effect; leave it out",
             Self::Overflow => "; choose another -scale or -fit",
             Self::OutOfRange => "; make the mesh smaller (-fit 1) or write PLY (-dt ply)",
             Self::TooLarge => "; write PLY (-dt ply)",

@@ -19,7 +19,7 @@ pub enum Error {
     },
     /// Input and output are both UniGrafix.
     NothingToConvert,
-    /// Options of meshes are given for a scene.
+    /// A name of mesh vertices is given for a scene.
     NotMesh,
     /// The input is malformed.
     Malformed {

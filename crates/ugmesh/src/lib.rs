@@ -153,7 +153,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     if format == MeshFormat::Ug && config.target == Target::Ug {
         return Err(Error::NothingToConvert);
     }
-    if format == MeshFormat::Ug && (config.up.is_some() || !config.name.is_empty()) {
+    if format == MeshFormat::Ug && !config.name.is_empty() {
         return Err(Error::NotMesh);
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;

@@ -150,8 +150,8 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         &format!("{square} black; cam -ep 1 0 20;"),
         &config,
         &[
-            "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the \
-           scene",
+            "all that is in the picture is black: its colours are, or the light of its lamps does not reach it \
+             at this time, or falls between the vertices",
         ],
     );
     // Black lines, on black and on white.
