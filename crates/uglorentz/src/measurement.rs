@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use ugscene::{Face, Measurement, Scene, VertexId, VtkPolygons};
+use ugmeshfile::VtkPolygons;
+use ugscene::{Face, Measurement, Scene, VertexId};
 
 /// File format of measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -59,7 +59,6 @@ mod shared_planes;
 mod shares;
 mod split;
 mod times_in_view;
-mod vtk_polygons;
 mod words;
 mod world_lines;
 
@@ -93,6 +92,5 @@ pub use shared_planes::shared_planes;
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
-pub use vtk_polygons::VtkPolygons;
 use world_lines::world_lines;
 pub use world_lines::{WorldLinePoint, seen_event};
