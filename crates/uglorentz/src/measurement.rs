@@ -123,7 +123,7 @@ fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
     }
     let at = |corner: VertexId| scene.vertices[corner.index()].position;
     let corners = scene.contours.corners(face.contours.clone());
-    match ugscene::face_triangles(scene, face, at) {
+    match ugpolygon::face_triangles(scene, face, at) {
         Some(triangles) => triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect(),
         None => vec![outline],
     }
