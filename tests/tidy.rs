@@ -117,6 +117,33 @@ fn crates_depend_on_what_the_table_allows() {
     assert_none(&findings);
 }
 
+/// The first line of the table of ARCHITECTURE.md with the most crates that a library builds.
+const LEAVES: &str = "| library | builds, crates |";
+
+/// Libraries that others are made of stay small. Counted are the packages of `cargo tree --edges
+/// normal --no-default-features` on this platform: the library itself, what it depends on, and
+/// procedural macros with what they depend on, each version once; not what only build scripts or
+/// tests need. A row is the number counted last, and may only fall.
+#[test]
+fn leaves_build_few_crates() {
+    let text = read(&root().join("ARCHITECTURE.md"));
+    let rows: Vec<&str> = text.lines().skip_while(|line| *line != LEAVES).skip(2).collect();
+    let rows: Vec<_> = rows.into_iter().take_while(|line| line.starts_with('|')).collect();
+    assert!(rows.len() >= 6, "ARCHITECTURE.md, \"Leaves\": {} rows", rows.len());
+    let finding = |row: &&str| {
+        let (krate, most) = row.trim_matches(['|', ' ']).split_once(" | ").unwrap();
+        let built = dependencies::built(root(), krate);
+        let wrong = most != built.len().to_string();
+        wrong.then(|| {
+            format!(
+                "ARCHITECTURE.md, \"Leaves\": {krate} builds {} crates, not {most}: {built:?}",
+                built.len()
+            )
+        })
+    };
+    assert_none(&rows.iter().filter_map(finding).collect::<Vec<_>>());
+}
+
 #[test]
 fn third_party_crates_have_a_licence_a_checksum_and_one_version() {
     let lock = |folder: &Path| dependencies::locked(&read(&folder.join("Cargo.lock")));

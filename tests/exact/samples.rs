@@ -57,7 +57,7 @@ fn triangles(mut scene: Scene) -> Scene {
             scene.faces.push(face);
             continue;
         }
-        let cut = ugscene::triangulate(&positions).unwrap();
+        let cut = ugpolygon::triangulate(&positions).unwrap();
         let cut = cut.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
         for row in scene.contours.push_all(cut) {
             scene.faces.push(Face { contours: row..row + 1, ..face.clone() });

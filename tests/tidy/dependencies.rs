@@ -111,6 +111,15 @@ pub fn of_licenses(folder: &Path) -> (Vec<String>, usize) {
     (packages.iter().filter_map(finding).collect(), packages.len())
 }
 
+/// The packages, with their versions, that a library without its default features is built of.
+pub fn built(folder: &Path, library: &str) -> BTreeSet<String> {
+    let mut cargo = Command::new(env!("CARGO"));
+    cargo.args(["tree", "--offline", "--no-default-features", "--edges", "normal", "--prefix", "none"]);
+    cargo.args(["--package", library, "--format", "{p}"]).current_dir(folder);
+    // Cargo marks packages that it lists again.
+    String::from_utf8(output(&mut cargo)).unwrap().lines().map(|line| line.replace(" (*)", "")).collect()
+}
+
 /// The platform that this is built for, and its programs run on.
 fn host() -> String {
     let about = output(Command::new("rustc").arg("-vV"));

@@ -5,8 +5,8 @@ use exr::math::Vec2;
 use exr::meta::attribute::{Chromaticities, Text};
 use exr::meta::header::LayerAttributes;
 
-use crate::linear::Samples;
 use crate::{LinearFrame, Metadata};
+use ugframe::Samples;
 
 /// The light as an OpenEXR file: channels `R`, `G`, `B` and, unless the frame is opaque, `A`,
 /// 32-bit floating point, unclipped; then the frame's planes under their names. Colours are
@@ -66,8 +66,9 @@ fn latin(text: &str) -> Text {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::{Plane, test_frames};
+    use crate::test_frames::linear_frames;
     use exr::prelude::{ReadChannels, ReadLayers};
+    use ugframe::Plane;
 
     fn decode(file: &[u8]) -> exr::prelude::FlatImage {
         exr::prelude::read()
@@ -85,7 +86,7 @@ mod tests {
     fn values_round_trip() {
         let metadata =
             Metadata { software: "ug 1".into(), comment: "ug é\nug γ".into(), ..Metadata::default() };
-        for mut frame in test_frames() {
+        for mut frame in linear_frames() {
             let n_pixels = frame.pixels().len() as u32;
             frame.push_plane(Plane {
                 name: "id".into(),

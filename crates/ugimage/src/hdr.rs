@@ -93,7 +93,7 @@ mod tests {
             comment: "ug -sz 3 2\n\nug\u{7}".into(),
             ..Metadata::default()
         };
-        for frame in crate::linear::test_frames() {
+        for frame in crate::test_frames::linear_frames() {
             let file = encode(&frame, &metadata);
             let read =
                 image::load_from_memory_with_format(&file, image::ImageFormat::Hdr).unwrap().into_rgb32f();

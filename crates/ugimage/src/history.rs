@@ -145,7 +145,7 @@ fn exr(mut header: &[u8]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::test_frames;
+    use crate::test_frames::frames;
     use crate::{Format, Metadata};
 
     #[test]
@@ -154,8 +154,7 @@ mod tests {
         for comment in [format!("ug 'a\tb' )(\n{long}"), format!("{long}\nγ\u{1d6fe}")] {
             let metadata =
                 Metadata { software: "ug 1".into(), comment: comment.clone(), ..Metadata::default() };
-            for (frame, format) in
-                test_frames().iter().flat_map(|frame| Format::ALL.map(|format| (frame, format)))
+            for (frame, format) in frames().iter().flat_map(|frame| Format::ALL.map(|format| (frame, format)))
             {
                 let least =
                     |most: u32| comment.chars().map(move |c| if u32::from(c) < most { c } else { '?' });
@@ -176,7 +175,7 @@ mod tests {
     fn cut_and_foreign_files_have_none() {
         let metadata = Metadata { software: "ug 1".into(), comment: "ug γ".into(), ..Metadata::default() };
         for format in Format::ALL {
-            let file = format.encode(&test_frames()[0], &metadata);
+            let file = format.encode(&frames()[0], &metadata);
             for length in 0..file.len() {
                 if let Some(history) = read_history(&file[..length]) {
                     assert!("ug ??".starts_with(history.replace('γ', "?").trim_end_matches('\u{fffd}')));

@@ -1,12 +1,4 @@
-//! Images in memory, and the file formats they are written in.
-//!
-//! A [`LinearFrame`] holds linear light: red, green and blue of the sRGB primaries, unclipped, and
-//! any number of extra channels. A [`Development`] converts it for a display: exposure, tone
-//! mapping, and gamut mapping that preserves hue.
-//!
-//! A [`Frame`] holds display-encoded pixels: four bytes per pixel, red, green, blue and alpha, the
-//! colours encoded with the sRGB transfer function. All computations use linear light. Only
-//! [`Quantizer`] converts it to bytes, and it rounds exactly to the nearest of the 256 levels.
+//! The file formats of images, areas and text on them. The images in memory are those of [`ugframe`].
 //!
 //! The writers ([`Format::encode`], [`Format::encode_linear`]) return the
 //! whole file as a `Vec<u8>`. They do no I/O and read no clock. Everything in the file besides
@@ -41,17 +33,13 @@
 //! assert!(eps.starts_with(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 2 1\n"));
 //! ```
 
-mod develop;
 mod eps;
 mod exr;
 pub mod figure;
-mod filter;
 mod format;
-mod frame;
 mod hdr;
 mod history;
 pub mod label;
-mod linear;
 mod metadata;
 mod panorama;
 mod pdf;
@@ -60,23 +48,23 @@ mod png;
 mod postscript;
 mod ppm;
 mod ps;
-mod quantizer;
 mod read;
 mod read_hdr;
 mod read_light;
 mod read_pfm;
 mod svg;
+#[cfg(test)]
+mod test_frames;
 mod typeface;
 
-pub use develop::{Development, DevelopmentSteps, Tone, auto_exposure};
-pub use filter::Filter;
 pub use format::Format;
-pub use frame::Frame;
 pub use history::read_history;
-pub use linear::{LinearFrame, Plane, Samples, display_pixel};
 pub use metadata::Metadata;
 pub use panorama::PanoramaArea;
 pub use png::Compression;
-pub use quantizer::{Quantizer, ROUNDING_OFFSET};
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
 pub use read_light::{Pixels, read_picture};
+pub use ugframe::{
+    Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET, Samples,
+    Tone, auto_exposure, display_pixel,
+};

@@ -22,7 +22,7 @@ mod tests {
 
     #[test]
     fn samples_have_the_position_and_byte_order_of_the_format() {
-        for frame in crate::linear::test_frames() {
+        for frame in crate::test_frames::linear_frames() {
             let file = encode(&frame);
             let (width, height) = (frame.width() as usize, frame.height() as usize);
             let data = &file[file.len() - 12 * width * height..];

@@ -186,7 +186,7 @@ fn add_text(encoder: &mut Encoder<'_, &mut Vec<u8>>, key: &str, text: &str) -> R
 mod tests {
     use super::*;
     use crate::PanoramaArea;
-    use crate::frame::test_frames;
+    use crate::test_frames::frames;
 
     /// Decodes with the `png` crate: pixels, texts, and the colour type.
     fn decode(file: &[u8]) -> (png::OutputInfo, Vec<u8>, png::Info<'static>) {
@@ -199,7 +199,7 @@ mod tests {
 
     #[test]
     fn pixels_round_trip() {
-        for frame in test_frames() {
+        for frame in frames() {
             let (output, pixels, info) = decode(&encode(&frame, &Metadata::default(), Compression::Fast));
             assert_eq!((output.width, output.height), (frame.width(), frame.height()));
             assert_eq!(info.srgb, Some(SrgbRenderingIntent::Perceptual));
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn sixteen_bits_are_the_nearest_levels() {
-        for frame in crate::linear::test_frames() {
+        for frame in crate::test_frames::linear_frames() {
             let (output, bytes, _) = decode(&encode_16(&frame, &Metadata::default(), Compression::Fast));
             assert_eq!(output.bit_depth, BitDepth::Sixteen);
             let channels = if frame.is_opaque() { 3 } else { 4 };

@@ -233,11 +233,11 @@ mod decode {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::test_frames;
+    use crate::test_frames::frames;
 
     #[test]
     fn pixels_round_trip() {
-        for frame in test_frames() {
+        for frame in frames() {
             let image = color_image(&frame);
             let runs = decode::ascii85(decode::between(&image, "UgImage\n", "~>"));
             let pixels = decode::run_length(&runs);
@@ -282,7 +282,7 @@ mod tests {
 
     #[test]
     fn no_data_line_looks_like_a_comment() {
-        for frame in test_frames() {
+        for frame in frames() {
             let image = color_image(&frame);
             assert!(image.split(|&c| c == b'\n').all(|line| !line.starts_with(b"%") && line.len() <= 100));
         }

@@ -28,7 +28,7 @@ mod tests {
     fn another_reader_reads_the_same_pixels() {
         let metadata =
             Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into(), ..Metadata::default() };
-        for frame in crate::frame::test_frames() {
+        for frame in crate::test_frames::frames() {
             let file = encode(&frame, &metadata);
             let read =
                 image::load_from_memory_with_format(&file, image::ImageFormat::Pnm).unwrap().into_rgb8();

@@ -318,7 +318,7 @@ fn unpacked(data: &[u8]) -> Option<Vec<u8>> {
 mod tests {
     use super::*;
     use crate::Format;
-    use crate::frame::test_frames;
+    use crate::test_frames::frames;
 
     fn read(file: &[u8]) -> Result<(Frame, Metadata), ReadError> {
         read_png(file, &PictureLimits::default())
@@ -329,7 +329,7 @@ mod tests {
         for comment in ["uglorentz -vel .9 0 0\nugrainbow", "γ = 2", ""] {
             let metadata =
                 Metadata { software: "ug 1".into(), comment: comment.into(), ..Metadata::default() };
-            for frame in test_frames() {
+            for frame in frames() {
                 assert_eq!(read(&Format::Png.encode(&frame, &metadata)).unwrap(), (frame, metadata.clone()));
             }
         }
@@ -337,7 +337,7 @@ mod tests {
 
     #[test]
     fn sixteen_bits_and_greys_are_read() {
-        for frame in test_frames() {
+        for frame in frames() {
             let (deep, _) = read(&Format::Png16.encode(&frame, &Metadata::default())).unwrap();
             let near = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 1);
             assert!(deep.pixels().iter().zip(frame.pixels()).all(near));
@@ -353,7 +353,7 @@ mod tests {
 
     #[test]
     fn broken_files_are_refused() {
-        let file = Format::Png.encode(&test_frames()[2], &Metadata::default());
+        let file = Format::Png.encode(&frames()[2], &Metadata::default());
         assert!(read(b"").is_err());
         assert_eq!(read(b"GIF89a").unwrap_err().to_string(), "not a PNG file, the only kind that is read");
         assert!(read(b"\x89PNG\r\n\x1a\n").unwrap_err().to_string().starts_with("not a readable PNG file: "));

@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn files_are_read_as_they_were_written() {
-        for frame in crate::linear::test_frames() {
+        for frame in crate::test_frames::linear_frames() {
             let (size, pixels) = read(&crate::pfm::encode(&frame)).unwrap();
             assert_eq!(size, [frame.width(), frame.height()]);
             let bits = |light: [f32; 3]| light.map(f32::to_bits);

@@ -54,7 +54,7 @@ mod tests {
 
     #[test]
     fn the_embedded_picture_is_the_png() {
-        for frame in crate::frame::test_frames() {
+        for frame in crate::test_frames::frames() {
             let text = String::from_utf8(encode(&frame, &Metadata::default())).unwrap();
             let data = text.split("base64,").nth(1).unwrap().split('"').next().unwrap();
             assert_eq!(

@@ -81,6 +81,7 @@ mod error;
 mod evenness;
 mod interior;
 mod junctions;
+#[cfg(feature = "cli")]
 mod measurement;
 mod near_lamps;
 mod pieces;
@@ -98,6 +99,7 @@ pub use apply::{apply, apply_with};
 pub use cli::{Args, main, manual};
 pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
 pub use error::Error;
+#[cfg(feature = "cli")]
 pub use measurement::Table;
 pub use report::{LargestError, RemainingErrors, Report};
 pub use ugscene::{Anchor, Measurement, Provenance, measure};

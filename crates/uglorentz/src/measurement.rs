@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use glam::DVec3;
-use ugscene::{Face, Measurement, Scene, VertexId, VtkPolygons};
+use ugmeshfile::VtkPolygons;
+use ugscene::{Face, Measurement, Scene, VertexId};
 
 /// File format of measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,7 +123,7 @@ fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
     }
     let at = |corner: VertexId| scene.vertices[corner.index()].position;
     let corners = scene.contours.corners(face.contours.clone());
-    match ugscene::face_triangles(scene, face, at) {
+    match ugpolygon::face_triangles(scene, face, at) {
         Some(triangles) => triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect(),
         None => vec![outline],
     }

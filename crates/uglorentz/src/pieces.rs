@@ -102,12 +102,12 @@ pub(crate) fn shape(
     if let &[a, b, c, d] = corners
         && is_even
         && face.contours.len() == 1
-        && ugscene::is_convex(&[a, b, c, d].map(&rest))
+        && ugpolygon::is_convex(&[a, b, c, d].map(&rest))
     {
         return Some(Cut::Pieces(vec![Shape::Quad([a.0, b.0, c.0, d.0])]));
     }
     let triangle = |at: [u32; 3]| Shape::Triangle(at.map(|at| corners[at as usize].0));
-    Some(match ugscene::face_triangles(scene, face, rest) {
+    Some(match ugpolygon::face_triangles(scene, face, rest) {
         Some(triangles) => Cut::Pieces(triangles.into_iter().map(triangle).collect()),
         None => Cut::Contours(as_contours(scene, face)),
     })

@@ -173,7 +173,7 @@ fn polygons(scene: &Scene, kind: Polygons, notes: &mut Vec<String>) -> (Contours
         }
         let place = |corner: VertexId| scene.vertices[corner.index()].position;
         let corners = contours.concat();
-        let triangles = ugscene::face_triangles(scene, face, place).unwrap_or_else(|| {
+        let triangles = ugpolygon::face_triangles(scene, face, place).unwrap_or_else(|| {
             n_uncut += 1;
             (2..contours[0].len() as u32).map(|last| [0, last - 1, last]).collect()
         });

@@ -1,4 +1,5 @@
-//! Meshes of other programs as scenes: OBJ with its materials, PLY, STL, OFF and glTF.
+//! Meshes of other programs as scenes: OBJ with its materials, PLY, STL, OFF and glTF; and
+//! [`VtkPolygons`], which several programs write.
 //!
 //! ```text
 //! bytes ─read→ Builder → MeshScene ─z_up→ Scene
@@ -28,6 +29,7 @@ mod error;
 mod format;
 mod read;
 mod textures;
+mod vtk_polygons;
 
 use std::io;
 
@@ -37,6 +39,7 @@ pub use axes::{Axis, from_z_up, rotate, to_z_up};
 pub use error::Problem;
 pub use format::MeshFormat;
 pub use read::read;
+pub use vtk_polygons::VtkPolygons;
 
 /// Reads a file that a mesh refers to, such as its materials: at most as many bytes as the second
 /// argument says.

@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use ugmeshfile::MeshFormat;
 use ugpipe::remedies;
 
 use crate::diagnostic::Diagnostic;
@@ -21,7 +20,8 @@ pub(crate) fn error(source: &Source) -> Option<Diagnostic> {
         Some(Foreign::Picture) => ("a picture", remedies::picture_is_complete(file)),
         Some(Foreign::Model) => ("a model in a format that is not read", remedies::EXPORT_MESH.to_owned()),
         Some(Foreign::Table) => ("a table", remedies::draw_stars(file)),
-        None if MeshFormat::detect_mesh(&source.name, &source.text).is_some() => {
+        #[cfg(feature = "cli")]
+        None if ugmeshfile::MeshFormat::detect_mesh(&source.name, &source.text).is_some() => {
             ("a mesh", remedies::convert_mesh(file))
         }
         None => return None,

@@ -7,13 +7,10 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use ugmeshfile::MeshFormat;
-
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
 use crate::grammar::KEYWORDS;
-use crate::mesh;
 use crate::options::{Limit, Options};
 use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
@@ -23,8 +20,8 @@ use crate::source::{LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
-/// programs, and the file name after `-path` by the events in that file; reads a mesh of another
-/// format, with the files that it names.
+/// programs, and the file name after `-path` by the events in that file. With the feature
+/// `cli` it reads a mesh of another format, with the files that it names.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
 /// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)
@@ -51,8 +48,9 @@ pub fn include(
     options: &Options,
     mut load: impl FnMut(&Request<'_>) -> Result<Vec<u8>, RequestError>,
 ) -> Result<Source, Diagnostics> {
-    if let Some(format) = MeshFormat::detect_mesh(&source.name, &source.text) {
-        return mesh::read(source, format, options, load);
+    #[cfg(feature = "cli")]
+    if let Some(format) = ugmeshfile::MeshFormat::detect_mesh(&source.name, &source.text) {
+        return crate::mesh::read(source, format, options, load);
     }
     if !may_have_requests(&source.text) {
         return Ok(source);

@@ -47,6 +47,7 @@ mod flatness;
 mod foreign;
 mod grammar;
 mod include;
+#[cfg(feature = "cli")]
 mod mesh;
 mod named;
 mod number_text;

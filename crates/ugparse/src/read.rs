@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use ugscene::{Face, Item, Scene, VertexId, face_triangles};
+use ugscene::{Face, Item, Scene, VertexId};
 
 use crate::{Diagnostics, Options, Parsed, Source};
 
@@ -59,7 +59,7 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
 /// The triangles of a face, as contours; `None` if it intersects itself.
 fn triangles(scene: &mut Scene, face: &Face) -> Option<impl Iterator<Item = Range<u32>> + use<>> {
     let corners: Vec<VertexId> = scene.contours.corners(face.contours.clone()).to_vec();
-    let triangles = face_triangles(scene, face, |vertex| scene.vertices[vertex.index()].position)?;
+    let triangles = ugpolygon::face_triangles(scene, face, |vertex| scene.vertices[vertex.index()].position)?;
     let cut = triangles.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
     let rows = scene.contours.push_all(cut);
     Some(rows.map(|row| row..row + 1))

@@ -576,7 +576,7 @@ fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> 
         corners: at.map(|at| corners[at as usize]),
         is_loose,
     };
-    match ugscene::face_triangles(scene, face, |vertex| rest[vertex.index()]) {
+    match ugpolygon::face_triangles(scene, face, |vertex| rest[vertex.index()]) {
         Some(triangles) => triangles.into_iter().map(|at| triangle(at, false)).collect(),
         // The sides of every contour, each with the first corner.
         None => {

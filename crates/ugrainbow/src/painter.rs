@@ -3,7 +3,7 @@
 use glam::DVec3;
 use uglight::{Appearance, Common, Lighting, Swatch};
 use ugraster::{Corner, SampleGrid, ScreenPoint};
-use ugscene::{CameraPoint, Face, Scene, Slab, Triangle, VertexId, View, Wire, unit_normal};
+use ugscene::{CameraPoint, Face, Scene, Slab, VertexId, View, Wire, unit_normal};
 
 use crate::clip::Vertex;
 
@@ -109,8 +109,8 @@ impl Painter<'_> {
     }
 
     /// The triangles of a face, as numbers of its corners; `None` if it intersects itself.
-    pub fn triangles(&self, face: &Face) -> Option<Vec<Triangle>> {
-        ugscene::face_triangles(self.scene, face, |vertex| self.appearance.surface.rest(vertex))
+    pub fn triangles(&self, face: &Face) -> Option<Vec<ugpolygon::Triangle>> {
+        ugpolygon::face_triangles(self.scene, face, |vertex| self.appearance.surface.rest(vertex))
     }
 
     /// The rest normal of a face on its visible side; zero if lighting needs none or the face is

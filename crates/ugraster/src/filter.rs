@@ -8,7 +8,7 @@
 use std::collections::VecDeque;
 
 use fearless_simd::{Level, Simd, dispatch};
-use ugimage::Filter;
+use ugframe::Filter;
 
 use crate::progress::BandProgress;
 use crate::rasterizer::{Rasterizer, TileBuffers, paint_parts};

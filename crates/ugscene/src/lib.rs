@@ -8,7 +8,7 @@
 //! - Positions: rest positions from seen ones ([`Geometry`], [`rest_positions`], equation (P4)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_shares`]).
-//! - The triangles of faces ([`face_triangles`]), and the faces that are not flat ([`bent_faces`]).
+//! - The faces that are not flat ([`bent_faces`]).
 //! - The faces that lie in one plane ([`shared_planes`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
 //! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
@@ -50,7 +50,6 @@ mod mixing;
 mod motion;
 mod normals;
 mod note;
-mod polygon;
 mod position;
 mod relative_motion;
 mod requirements;
@@ -59,7 +58,6 @@ mod shared_planes;
 mod shares;
 mod split;
 mod times_in_view;
-mod vtk_polygons;
 mod words;
 mod world_lines;
 
@@ -81,7 +79,6 @@ pub use mixing::{mixing_vertices, n_mixing_vertices, repeat_vertices, separate_w
 pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera, moving_camera};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use note::{Note, may_miss_motion};
-pub use polygon::{Triangle, face_triangles, is_convex, triangulate};
 pub use position::{RestPosition, SeenPosition};
 pub use relative_motion::RelativeMotion;
 pub use requirements::{
@@ -93,6 +90,5 @@ pub use shared_planes::shared_planes;
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
-pub use vtk_polygons::VtkPolygons;
 use world_lines::world_lines;
 pub use world_lines::{WorldLinePoint, seen_event};

@@ -1,6 +1,6 @@
 //! Panoramas: light by direction, on an equirectangular grid with mip levels.
 
-use thiserror::Error;
+use std::fmt;
 
 use crate::arrangement::Arrangement;
 use crate::grid::{Columns, Extent, Grid, Row, grids, ladder};
@@ -8,32 +8,15 @@ use crate::pyramid::Pyramid;
 use crate::texels::Texels;
 
 /// Why pictures are no panorama.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PanoramaError {
     /// The number of texels is not width × height, or 0.
-    #[error("the number of texels is not that of the size")]
     Size,
     /// The angles are not increasing, or not on the sphere.
-    #[error(
-        "the angles of the panorama must increase from west to east, by at most 360 degrees, and from south to north, \
-         within 90 degrees of the horizon"
-    )]
     Extent,
     /// A texel is larger than 0.2 radians.
-    #[error(
-        "the panorama has too few pixels: none may be larger than 11 degrees, so a whole one has at least 32 x 16"
-    )]
     Coarse,
     /// The sides of the picture have not the ratio of its arrangement.
-    #[error(
-        "{} x {} pixels are not the shape of a {}",
-        .size[0], .size[1],
-        if *arrangement == Arrangement::Equirectangular {
-            "panorama, which is twice as wide as high"
-        } else {
-            arrangement.name()
-        }
-    )]
     Shape {
         /// Its pixels across and down.
         size: [u32; 2],
@@ -41,17 +24,11 @@ pub enum PanoramaError {
         arrangement: Arrangement,
     },
     /// There are not as many files as a cube has sides, or more than one for other arrangements.
-    #[error("{n_files} files were given: a cube of sides needs six, and other panoramas one")]
     Sides {
         /// Their number.
         n_files: usize,
     },
     /// A side of a cube is no square, or has another size than the first.
-    #[error(
-        "the {} side of the cube has {} x {} pixels: all must be squares of the same size, here \
-         {expected} x {expected}",
-        ORDINALS[*idx % 6], .size[0], .size[1]
-    )]
     Side {
         /// Which of the six.
         idx: usize,
@@ -61,6 +38,40 @@ pub enum PanoramaError {
         expected: u32,
     },
 }
+
+impl fmt::Display for PanoramaError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Size => f.write_str("the number of texels is not that of the size"),
+            Self::Extent => f.write_str(
+                "the angles of the panorama must increase from west to east, by at most 360 degrees, and from south \
+                 to north, within 90 degrees of the horizon",
+            ),
+            Self::Coarse => f.write_str(
+                "the panorama has too few pixels: none may be larger than 11 degrees, so a whole one has at least \
+                 32 x 16",
+            ),
+            Self::Shape { size: [width, height], arrangement } => {
+                let shape = match arrangement {
+                    Arrangement::Equirectangular => "panorama, which is twice as wide as high",
+                    other => other.name(),
+                };
+                write!(f, "{width} x {height} pixels are not the shape of a {shape}")
+            }
+            Self::Sides { n_files } => {
+                write!(f, "{n_files} files were given: a cube of sides needs six, and other panoramas one")
+            }
+            Self::Side { idx, size: [width, height], expected } => write!(
+                f,
+                "the {} side of the cube has {width} x {height} pixels: all must be squares of the same size, here \
+                 {expected} x {expected}",
+                ORDINALS[idx % 6]
+            ),
+        }
+    }
+}
+
+impl std::error::Error for PanoramaError {}
 
 const ORDINALS: [&str; 6] = ["first", "second", "third", "fourth", "fifth", "sixth"];
 

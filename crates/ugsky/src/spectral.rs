@@ -1,9 +1,9 @@
 //! Spectra for light of which only red, green and blue are known, and how it is seen in motion.
 
+use std::fmt;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use thiserror::Error;
 use ugphysics::spectrum::{LightSpectrum, Spectrum, integrate};
 use ugphysics::{luminance, xyz_to_linear_srgb};
 
@@ -28,16 +28,24 @@ pub enum Basis {
 pub const ALL_NM: Range<f64> = 0.0..f64::INFINITY;
 
 /// Why there is no table of a [`Basis`].
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum BasisError {
     /// The temperatures of [`Basis::Planck`].
-    #[error(
-        "black bodies at {}, {} and {} K are no basis of colours: give three different temperatures from 500 to \
-         100000 K, such as 3500 5900 10000",
-        .0[0], .0[1], .0[2]
-    )]
     Temperatures([f64; 3]),
 }
+
+impl fmt::Display for BasisError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::Temperatures([first, second, third]) = self;
+        write!(
+            f,
+            "black bodies at {first}, {second} and {third} K are no basis of colours: give three different \
+             temperatures from 500 to 100000 K, such as 3500 5900 10000"
+        )
+    }
+}
+
+impl std::error::Error for BasisError {}
 
 /// Step of tables in ln D.
 const STEP: f64 = 0.0025;

@@ -22,12 +22,13 @@ use ugpipe::{
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
-use ugsky::{Arrangement, Band, Basis, Extent, Star, StarOptions, VISIBLE_NM, is_star_list};
+use ugsky::{Arrangement, Band, Basis, Extent, Star, StarOptions, VISIBLE_NM};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::open::{Opened, open, read_stars};
+use crate::open::{Opened, open};
 use crate::render::{PROVENANCE, metadata, run};
+use crate::star_list::{is_star_list, read_stars};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///

@@ -50,6 +50,7 @@ mod config;
 mod error;
 mod open;
 mod render;
+mod star_list;
 mod stars;
 mod warp;
 
@@ -57,8 +58,9 @@ mod warp;
 pub use cli::{Args, draw, manual};
 pub use config::Config;
 pub use error::Error;
-pub use open::{Opened, open, read_stars};
+pub use open::{Opened, open};
 pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};
+pub use star_list::{is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{

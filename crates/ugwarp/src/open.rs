@@ -1,7 +1,6 @@
 //! From the bytes of files to a sky.
 
 use ugimage::{PictureLimits, Pixels, read_picture};
-use ugparse::{Diagnostic, Diagnostics, Source, Span};
 use ugscene::Scene;
 use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
@@ -103,18 +102,4 @@ fn texels(pixels: Pixels, notes: &mut Vec<String>) -> Texels {
             Texels::Light(pixels)
         }
     }
-}
-
-/// Reads a list of stars, see [`ugsky::read_stars`]. `name`: of the file, for messages.
-///
-/// # Errors
-/// All errors of up to 20 lines, with line and column.
-pub fn read_stars(name: &str, file: &[u8]) -> Result<Vec<Star>, Box<Diagnostics>> {
-    ugsky::read_stars(file).map_err(|errors| {
-        let found = errors.into_iter().map(|error| {
-            let span = Span { start: error.place.start as u32, end: error.place.end as u32 };
-            Diagnostic::error(span, error.mistake.to_string()).help(error.mistake.remedy())
-        });
-        Box::new(Diagnostics::new(&Source::new(name, file), found.collect()))
-    })
 }

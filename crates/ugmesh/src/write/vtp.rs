@@ -2,7 +2,8 @@
 //! known of the light from every vertex.
 
 use glam::DVec3;
-use ugscene::{Measurement, RestFrames, VtkPolygons};
+use ugmeshfile::VtkPolygons;
+use ugscene::{Measurement, RestFrames};
 
 use crate::polygon_mesh::PolygonMesh;
 

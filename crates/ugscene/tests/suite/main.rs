@@ -9,7 +9,6 @@ mod default_camera;
 mod geometry;
 mod history;
 mod normals;
-mod polygons;
 mod shares;
 mod view;
 

@@ -5,11 +5,11 @@ use std::ops::Range;
 use csv::{ByteRecord, Reader, ReaderBuilder};
 use glam::DVec3;
 use thiserror::Error;
-
-use crate::stars::Star;
+use ugparse::{Diagnostic, Diagnostics, Source, Span};
+use ugsky::Star;
 
 /// Most stars of a list.
-pub const MAX_STARS: usize = 10_000_000;
+const MAX_STARS: usize = 10_000_000;
 
 /// Most mistakes that are reported.
 const MOST_MISTAKES: usize = 20;
@@ -19,7 +19,7 @@ const MOST_QUOTED: usize = 40;
 
 /// A column of a list of stars.
 #[derive(Debug, PartialEq)]
-pub struct StarColumn {
+struct StarColumn {
     /// Its names, of which the first is documented.
     names: &'static [&'static str],
     /// Least and greatest value, and their description.
@@ -65,8 +65,7 @@ static COLUMNS: [StarColumn; 11] = [
 
 impl StarColumn {
     /// Its documented name.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
+    fn name(&self) -> &'static str {
         self.names[0]
     }
 
@@ -75,18 +74,9 @@ impl StarColumn {
     }
 }
 
-/// A mistake in a list of stars.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StarListError {
-    /// Bytes of the file that are wrong.
-    pub place: Range<usize>,
-    /// The error.
-    pub mistake: StarListMistake,
-}
-
 /// An error in a list of stars.
 #[derive(Clone, Debug, Error, PartialEq)]
-pub enum StarListMistake {
+enum StarListMistake {
     /// There is no line but comments.
     #[error("a list of stars without a line of column names")]
     NoNames,
@@ -122,9 +112,14 @@ pub enum StarListMistake {
 }
 
 impl StarListMistake {
+    /// The error with its place, the bytes of the file that are wrong.
+    fn at(&self, place: Range<usize>) -> Diagnostic {
+        let span = Span { start: place.start as u32, end: place.end as u32 };
+        Diagnostic::error(span, self.to_string()).help(self.remedy())
+    }
+
     /// How to correct it.
-    #[must_use]
-    pub fn remedy(&self) -> String {
+    fn remedy(&self) -> String {
         match self {
             Self::NoNames | Self::Missing(_) => "begin with the names of columns: `ra,dec,mag,kelvin`, or `lon,lat` \
                                                  or `x,y,z` in place of `ra,dec`, or `b-v` in place of `kelvin`",
@@ -159,18 +154,22 @@ pub fn is_star_list(file: &[u8]) -> bool {
             >= 2
 }
 
-/// Reads a list of stars.
+/// Reads a list of stars. `name`: of the file, for messages.
 ///
 /// The first line has the names of columns, separated by commas, semicolons or tabs; other columns than the known ones
 /// are allowed and ignored. Lines that are empty or begin with `#` are skipped.
 ///
 /// # Errors
-/// The mistakes of up to 20 lines.
-pub fn read_stars(file: &[u8]) -> Result<Vec<Star>, Vec<StarListError>> {
+/// All errors of up to 20 lines, with line and column.
+pub fn read_stars(name: &str, file: &[u8]) -> Result<Vec<Star>, Box<Diagnostics>> {
+    read(file).map_err(|errors| Box::new(Diagnostics::new(&Source::new(name, file), errors)))
+}
+
+fn read(file: &[u8]) -> Result<Vec<Star>, Vec<Diagnostic>> {
     let separator = separator(file);
     let (mut reader, mut record) = (reader(file, separator), ByteRecord::new());
     if !next(&mut reader, &mut record) {
-        return Err(vec![StarListError { place: 0..0, mistake: StarListMistake::NoNames }]);
+        return Err(vec![StarListMistake::NoNames.at(0..0)]);
     }
     let layout = Layout::new(&record).map_err(|wrong| vec![wrong.at(file, separator, &record)])?;
     let (mut stars, mut errors) = (Vec::new(), Vec::new());
@@ -219,7 +218,7 @@ struct Wrong(Option<usize>, StarListMistake);
 impl Wrong {
     /// The mistake with its place in the file, which is searched again: a record has its fields
     /// without quotes, and begins before the comments above it.
-    fn at(self, file: &[u8], separator: u8, record: &ByteRecord) -> StarListError {
+    fn at(self, file: &[u8], separator: u8, record: &ByteRecord) -> Diagnostic {
         let Self(field, mistake) = self;
         let before = record.position().map_or(0, |position| position.byte() as usize);
         let is_blank = |byte: &u8| byte.is_ascii_whitespace() && *byte != separator;
@@ -235,7 +234,7 @@ impl Wrong {
         }
         let end = if field.is_some() { field_end(rest, separator) } else { line_end(rest) };
         let start = file.len() - rest[..end].trim_ascii_start().len() - rest[end..].len();
-        StarListError { place: start..start + rest[..end].trim_ascii().len(), mistake }
+        mistake.at(start..start + rest[..end].trim_ascii().len())
     }
 }
 

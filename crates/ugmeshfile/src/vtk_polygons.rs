@@ -8,8 +8,7 @@ use std::fmt::Write;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use glam::DVec3;
-
-use crate::{Measurement, VertexId};
+use ugscene::{Measurement, VertexId};
 
 /// A mesh with numbers at its points.
 #[derive(Clone, Debug, Default)]

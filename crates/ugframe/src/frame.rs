@@ -85,23 +85,3 @@ impl Frame {
         self.pixels[y as usize * self.width as usize + x as usize]
     }
 }
-
-/// Frames for testing writers: one pixel, odd sizes, long runs, noise, transparency.
-#[cfg(test)]
-pub(crate) fn test_frames() -> Vec<Frame> {
-    let mut noise = Frame::opaque(37, 19);
-    let mut random = ugtesting::Random(1);
-    for pixel in noise.pixels_mut() {
-        let [r, g, b, ..] = random.bits().to_be_bytes();
-        *pixel = [r, g, b, 255];
-    }
-    let mut runs = Frame::opaque(300, 5);
-    for (idx, pixel) in runs.pixels_mut().iter_mut().enumerate() {
-        *pixel = if idx % 301 < 7 { [idx as u8, 9, 9, 255] } else { [0, 0, 0, 255] };
-    }
-    let mut clear = Frame::clear(16, 16);
-    for (idx, pixel) in clear.pixels_mut().iter_mut().enumerate() {
-        *pixel = [idx as u8, 255 - idx as u8, 7, idx as u8];
-    }
-    vec![Frame::opaque(1, 1), Frame::opaque(129, 3), noise, runs, clear]
-}

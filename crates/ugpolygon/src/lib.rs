@@ -10,8 +10,7 @@ mod ears;
 
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
-
-use crate::{Face, Scene, VertexId, newell_normal};
+use ugscene::{Face, Scene, VertexId, newell_normal};
 
 /// Three corners, as indices of the list of corners.
 pub type Triangle = [u32; 3];

@@ -1,7 +1,10 @@
 //! Triangles of polygons.
 
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
 use glam::DVec3;
-use ugscene::{Triangle, is_convex, newell_normal, triangulate};
+use ugpolygon::{Triangle, is_convex, triangulate};
+use ugscene::newell_normal;
 use ugtesting::Random;
 
 fn ring(points: &[(f64, f64)]) -> Vec<DVec3> {

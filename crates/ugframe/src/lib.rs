@@ -1,0 +1,22 @@
+//! Images in memory, from light to what a display shows.
+//!
+//! A [`LinearFrame`] holds linear light: red, green and blue of the sRGB primaries, unclipped, and
+//! any number of extra channels. A [`Filter`] weights the samples that a pixel is made of. A
+//! [`Development`] converts light for a display: exposure, tone mapping, and gamut mapping that
+//! preserves hue.
+//!
+//! A [`Frame`] holds display-encoded pixels: four bytes per pixel, red, green, blue and alpha, the
+//! colours encoded with the sRGB transfer function. All computations use linear light. Only
+//! [`Quantizer`] converts it to bytes, and it rounds exactly to the nearest of the 256 levels.
+
+mod develop;
+mod filter;
+mod frame;
+mod linear;
+mod quantizer;
+
+pub use develop::{Development, DevelopmentSteps, Tone, auto_exposure};
+pub use filter::Filter;
+pub use frame::Frame;
+pub use linear::{LinearFrame, Plane, Samples, display_pixel};
+pub use quantizer::{Quantizer, ROUNDING_OFFSET};
