@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::{Four, four_velocity, plus, product};
 
 /// Steps of integration between two rows.
-const N_STEPS: usize = 4000;
+const N_STEPS: usize = 2000;
 
 /// A place as a function of the time of the scene.
 #[derive(Clone, Debug)]
