@@ -15,7 +15,12 @@ use super::world::{Body, Surface, World};
 pub fn last(random: &mut Random) -> Outcome {
     let (world, renderer) = random_world(random);
     let row = random.below(world.bodies.len());
-    let decal = decal(random, &world.bodies[row]);
+    let host = &world.bodies[row];
+    if host.paint[3] > 0.0 || host.vertex_paints.iter().any(|paint| paint[3] > 0.0) {
+        // It is seen through its host.
+        return Ok(0);
+    }
+    let decal = decal(random, host);
     let mut other = world.clone();
     let place = row + 1 + random.below(world.bodies.len() - row);
     other.bodies.insert(place, decal);
