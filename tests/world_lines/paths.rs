@@ -55,8 +55,7 @@ fn own_times_and_axes_are_integrated_to_rounding() {
             for (unit, axis) in DVec3::AXES.into_iter().zip(axes) {
                 let found = pose.scene_from_axes.apply(Event { t: 0.0, x: unit });
                 let error = found - event(axis);
-                // The errors of the method of Runge and Kutta, near the ends.
-                assert!(error.t.abs().max(error.x.length()) < 4e-12, "{own_time}: {error:?} {rows:?}");
+                assert!(error.t.abs().max(error.x.length()) < 1e-12, "{own_time}: {error:?} {rows:?}");
             }
         }
     }
