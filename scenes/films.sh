@@ -54,7 +54,7 @@ clip() {
 half() {
     local scene=$out/$2/$1.ug
     sed "/^i cube/{s/<.*>/<$5>/; s/-ta 0/-ta $4/}; s/white glass/white $3/g" room.ug > "$scene"
-    ugfilm -look 1988 -qt -rays --no-doppler --no-flux -frames "$frames" -sz $((width / 2)) $((width * 3 / 8)) -ti "$6" \
+    ugfilm -look 1988 -qt -rays -an eye --no-doppler --no-flux -frames "$frames" -sz $((width / 2)) $((width * 3 / 8)) -ti "$6" \
         "$scene" -keep "$out/$2/$1-%05d.png" -fo "$out/$2-$1.apng"
 }
 

@@ -1,4 +1,5 @@
-//! The file formats of images, areas and text on them. The images in memory are those of [`ugframe`].
+//! The file formats of images, areas and text on them. The images in memory are those of
+//! [`ugframe`].
 //!
 //! The writers ([`Format::encode`], [`Format::encode_linear`]) return the
 //! whole file as a `Vec<u8>`. They do no I/O and read no clock. Everything in the file besides

@@ -122,7 +122,8 @@ pub(crate) struct Criterion<'a, 'b> {
 }
 
 impl Criterion<'_, '_> {
-    /// Does this edge bend, or is a vertex of another face on it? The ends are ordered, so that all pieces that share it get the same
+    /// Does this edge bend, or is a vertex of another face on it? The ends are ordered, so that all
+    /// pieces that share it get the same
     /// result.
     fn bends(&self, a: u32, b: u32) -> bool {
         self.mesh.has_junction(a, b)

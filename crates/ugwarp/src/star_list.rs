@@ -156,7 +156,8 @@ pub fn is_star_list(file: &[u8]) -> bool {
 
 /// Reads a list of stars. `name`: of the file, for messages.
 ///
-/// The first line has the names of columns, separated by commas, semicolons or tabs; other columns than the known ones
+/// The first line has the names of columns, separated by commas, semicolons or tabs; other columns
+/// than the known ones
 /// are allowed and ignored. Lines that are empty or begin with `#` are skipped.
 ///
 /// # Errors

@@ -213,7 +213,8 @@ impl WorldLine {
     /// A motion with the velocity `velocity` at own time 0, with proper acceleration and spin.
     ///
     /// `at`: A, in the coordinates of the body, and its place at own time 0, which is time 0.
-    /// `accelerations`: proper acceleration along the carried axes. `spins`: angular velocity about A in the carried axes, radians per unit of own
+    /// `accelerations`: proper acceleration along the carried axes. `spins`: angular velocity about
+    /// A in the carried axes, radians per unit of own
     /// time. Outside all pieces the motion is inertial.
     ///
     /// # Errors
