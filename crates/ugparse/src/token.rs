@@ -216,13 +216,10 @@ pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
     }
     let (value, len) = match short_decimal(unsigned) {
         Some(read) => read,
-        None => {
-            let len = word_len(unsigned);
-            match std::str::from_utf8(&unsigned[..len]).unwrap_or_default().parse() {
-                Ok(value) => (value, len),
-                Err(_) => return fail(input, Reason::Expected("a number")),
-            }
-        }
+        None => match fast_float2::parse_partial::<f64, _>(unsigned) {
+            Ok(read) => read,
+            Err(_) => return fail(input, Reason::Expected("a number")),
+        },
     };
     let rest = &unsigned[len..];
     if rest.first().is_some_and(|&byte| !ends_word(byte)) {
