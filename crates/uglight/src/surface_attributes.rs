@@ -10,7 +10,7 @@ use ugscene::{
     vertex_shares,
 };
 
-use crate::{ColorShift, HueShift, Palette, RestColor, Swatch, VertexColor, vertex_colors};
+use crate::{ColorShift, HueShift, Mixing, Palette, RestColor, Swatch, VertexColor, vertex_colors};
 
 /// Colours and rest positions of the vertices of a scene.
 #[derive(Clone, Debug)]
@@ -72,7 +72,7 @@ impl SurfaceAttributes {
         };
         let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
         let mut wires = wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
-        let has_spectra = scene.colors.iter().any(crate::is_light);
+        let has_spectra = scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Light);
         has_spectra && is_hue && (faces.any(|moves| moves) || wires.any(|moves| moves))
     }
 
@@ -84,7 +84,7 @@ impl SurfaceAttributes {
 
     /// True if a vertex has a colour of a display.
     pub fn has_display(&self) -> bool {
-        self.rows.iter().any(|&row| self.swatches[row as usize].is_display)
+        self.rows.iter().any(|&row| self.swatches[row as usize].tone.mixing() == Mixing::Display)
     }
 
     /// The row of a colour of the scene, or of white.
@@ -151,11 +151,8 @@ fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut V
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
         VertexColor::Mixed(color) => {
-            let RestColor { hsv, light, is_display, translucency } = color;
-            let light = light.map(DVec3::from_array).or(palette.white().light);
-            let is_display = is_display && light.is_none();
-            let light = light.or(is_display.then(|| color.linear()));
-            swatches.push(Swatch { light, is_display, translucency, ..palette.swatch(hsv) });
+            let RestColor { hsv, tone, translucency } = color;
+            swatches.push(Swatch { tone: palette.marked(tone), translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1
         }

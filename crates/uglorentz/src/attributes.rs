@@ -1,11 +1,10 @@
 //! Names, colours and normals of new vertices, and smooth normals.
 
 use std::borrow::Borrow;
-use std::cell::OnceCell;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use uglight::{RestColor, VertexColor};
+use uglight::{Mixing, RestColor, VertexColor};
 use ugphysics::{Hsv, srgb_encode, unit_or_zero};
 use ugscene::{
     Color, ColorId, ColorValue, Mix, Mixtures, Scene, Shares, Tint, Vertex, face_vertices, vertex_shares,
@@ -69,7 +68,7 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
     let shade = |color: VertexColor| match color {
         VertexColor::Named(id) => Shade::of(scene, Some(id)),
         VertexColor::White => Shade::of(scene, None),
-        VertexColor::Mixed(rest) => Shade::new(None, true, rest),
+        VertexColor::Mixed(rest) => Shade { color: None, is_mixture: true, rest },
     };
     let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
     let shares = vertex_shares(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
@@ -77,15 +76,13 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
 }
 
 /// The look of a vertex at rest.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Shade {
     /// The statement it is given by, or `Some(None)` for white; `None` if there is no statement.
     color: Option<Option<ColorId>>,
     /// Colours of several faces are mixed in it.
     is_mixture: bool,
     rest: RestColor,
-    /// Its linear light, once it is needed: the transfer function takes long.
-    linear: OnceCell<DVec3>,
 }
 
 impl Shade {
@@ -93,15 +90,7 @@ impl Shade {
         let name = |id: ColorId| scene.names.get(scene.colors[id.index()].name);
         let is_mixture =
             id.zip(scene.stage.mixtures).is_some_and(|(id, mixtures)| mixtures.contains(name(id)));
-        Self::new(Some(id), is_mixture, RestColor::new(scene, id))
-    }
-
-    fn new(color: Option<Option<ColorId>>, is_mixture: bool, rest: RestColor) -> Shade {
-        Shade { color, is_mixture, rest, linear: OnceCell::new() }
-    }
-
-    fn linear(&self) -> DVec3 {
-        *self.linear.get_or_init(|| self.rest.linear())
+        Shade { color: Some(id), is_mixture, rest: RestColor::new(scene, id) }
     }
 }
 
@@ -215,7 +204,7 @@ impl ColorMixer {
             Some((first, _))
                 if first.color.is_some() && parts.clone().all(|part| part.0.color == first.color) =>
             {
-                first.clone()
+                *first
             }
             _ => blend(parts),
         }
@@ -292,23 +281,22 @@ fn sum(weighted: impl Iterator<Item = (impl Borrow<Shares>, f64)>) -> Shares {
 /// The mean of hues ([`uglight::mean_hue`]). If a part is given as light, or as a colour of a
 /// display (`c_rgb`), light is averaged instead.
 fn blend<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
-    let mut translucency = 0.0;
-    let (mut has_light, mut has_display, mut is_mixture) = (false, false, false);
+    let (mut translucency, mut mixing, mut is_mixture) = (0.0, Mixing::Hue, false);
     for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts.clone() {
         translucency += weight * rest.translucency;
-        has_light |= rest.light.is_some();
-        has_display |= rest.is_display;
+        mixing = mixing.max(rest.tone.mixing());
         is_mixture |= is_mixed;
     }
     // Weights may add up to more than 1 by rounding.
     let translucency = translucency.min(1.0);
-    let mean = || parts.clone().map(|(shade, weight)| weight * shade.linear()).sum::<DVec3>().to_array();
-    let light = has_light.then(mean);
-    let is_display = has_display && !has_light;
-    let hsv = if is_display {
-        Hsv::from_rgb(mean().map(|channel| srgb_encode(channel).min(1.0)))
-    } else {
-        uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight)))
+    let mean = || parts.clone().map(|(shade, weight)| weight * shade.rest.linear()).sum::<DVec3>();
+    let light = if mixing == Mixing::Hue { DVec3::ZERO } else { mean() };
+    let (hsv, light) = match mixing {
+        Mixing::Display => {
+            let light = light.min(DVec3::ONE);
+            (Hsv::from_rgb(light.to_array().map(srgb_encode)), light)
+        }
+        _ => (uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight))), light),
     };
-    Shade::new(None, is_mixture, RestColor { hsv, light, is_display, translucency })
+    Shade { color: None, is_mixture, rest: RestColor { hsv, tone: mixing.tone(light), translucency } }
 }

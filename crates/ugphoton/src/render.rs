@@ -167,7 +167,7 @@ impl PreparedScene {
             wires: if config.lens == Lens::Pinhole { Some(&wires) } else { None },
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let content = DrawnContent::Light { frame, is_clipped: !scenery.is_uncut };
+        let content = DrawnContent::Light { frame, is_clipped: !scenery.keeps_highlights };
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }

@@ -182,8 +182,8 @@ fn color(
     {
         return now;
     }
-    let common = &scenery.face_colors[found.triangle.face as usize];
-    appearance.color_at(common, found.triangle.corners, found.weights())
+    let colors = &scenery.face_colors[found.triangle.face as usize];
+    appearance.color_at(colors, found.triangle.corners, found.weights())
 }
 
 fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {

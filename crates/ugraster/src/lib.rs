@@ -126,6 +126,4 @@ pub use rasterizer::Rasterizer;
 pub use resolve::{Center, PixelSamples, Resolve, ResolveSingle};
 pub use shading::{Encoding, RUN, SampleStats, ShadedRun, ShadedSample, Shading};
 pub use tile::{Area, Tile, VisibleItem};
-pub use transparency::{
-    Fragment, FragmentShading, FragmentTarget, FragmentWriter, TRANSPARENT_VALUES, TransparentLayer,
-};
+pub use transparency::{Fragment, FragmentTarget, FragmentWriter, TRANSPARENT_VALUES, TransparentLayer};
