@@ -51,8 +51,8 @@ use uglight::{
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Geometry, Provenance, RelativeMotion,
-    RestFrames, Scene, SeenVertices, Shares,
+    Camera, CameraError, CameraOptions, ColorId, ColorMix, DefaultCamera, Geometry, Provenance,
+    RelativeMotion, RestFrames, Scene, SeenVertices,
 };
 
 #[cfg(feature = "cli")]
@@ -163,7 +163,7 @@ fn color(
     let factors = doppler_factors(&scene, eye, frames, &seen);
     let vertices = LitVertices { seen, rest, factors };
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
-        let shares = ugscene::vertex_shares(&scene, &vertices.rest).into_iter();
+        let shares = ugscene::vertex_mixes(&scene, &vertices.rest).into_iter();
         let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
         let (light, factors) =
             light_vertices(&mut scene, config, (eye, frames), vertices, &mut shares, progress)?;
@@ -305,7 +305,7 @@ pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> H
 fn lit_spectra(
     scene: &Scene,
     shift: SpectralShift,
-    shares: &[Shares],
+    shares: &[ColorMix],
     factors: &[f64],
     light: &VertexIrradiance,
 ) -> Vec<Option<[f64; 3]>> {

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use uglight::{SpectralColor, SpectralShift};
 use ugphysics::spectrum::DopplerGrid;
 use ugphysics::xyz_to_linear_srgb;
-use ugscene::{Color, ColorId, ColorValue, Scene, Shares, UniqueNames};
+use ugscene::{Color, ColorId, ColorMix, ColorValue, Scene, UniqueNames};
 
 use crate::Config;
 use crate::notes::Note;
@@ -14,7 +14,7 @@ use crate::quantization::DopplerQuantizer;
 /// The vertices of a scene, of whose spectra the X, Y, Z are written.
 pub(crate) struct SpectralVertices<'a> {
     /// The colours that meet in each.
-    pub shares: &'a [Shares],
+    pub shares: &'a [ColorMix],
     /// ln D.
     pub ln_factors: Vec<f64>,
     /// True for those of faces and wires.
@@ -143,8 +143,8 @@ impl Plan {
                 ([x, y, z, translucency(scene, shares).to_bits()], Seen::Lit(xyz))
             } else {
                 let mixture = match shares {
-                    Shares::One(color) => row(*color),
-                    Shares::Mixed(parts) => {
+                    ColorMix::One(color) => row(*color),
+                    ColorMix::Mixed(parts) => {
                         let bits = parts.iter().map(|&(color, share)| (color, share.to_bits())).collect();
                         let n_mixtures = mixtures.len();
                         colors.len() + *mixtures.entry(bits).or_insert(n_mixtures)
@@ -222,11 +222,11 @@ fn push_colors(
                 }
                 let digits = quantizer.digits(ln_doppler);
                 match shares {
-                    Shares::One(None) => format!("white#{digits}"),
-                    Shares::One(Some(color)) => {
+                    ColorMix::One(None) => format!("white#{digits}"),
+                    ColorMix::One(Some(color)) => {
                         [scene.names.get(scene.colors[color.index()].name), "#", &digits].concat()
                     }
-                    Shares::Mixed(_) => {
+                    ColorMix::Mixed(_) => {
                         n_mixed += 1;
                         format!("mixed{n_mixed}#{digits}")
                     }
@@ -243,7 +243,7 @@ fn push_colors(
     }
 }
 
-fn translucency(scene: &Scene, shares: &Shares) -> f64 {
+fn translucency(scene: &Scene, shares: &ColorMix) -> f64 {
     let of = |(color, share): (Option<ColorId>, f64)| {
         color.map_or(0.0, |id| scene.colors[id.index()].translucency) * share
     };
@@ -251,10 +251,10 @@ fn translucency(scene: &Scene, shares: &Shares) -> f64 {
 }
 
 /// The given colour, if it is written as X, Y, Z and is seen so.
-fn unchanged(scene: &Scene, shares: &Shares, seen: [f64; 3]) -> Option<ColorId> {
+fn unchanged(scene: &Scene, shares: &ColorMix, seen: [f64; 3]) -> Option<ColorId> {
     /// A spectrum has its colour at rest to 10⁻⁹ of its largest channel.
     const NEAR: f64 = 1e-8;
-    let &Shares::One(Some(id)) = shares else { return None };
+    let &ColorMix::One(Some(id)) = shares else { return None };
     let ColorValue::Xyz(given) = scene.colors[id.index()].value else { return None };
     let largest = given.iter().fold(0.0, |largest: f64, part| largest.max(part.abs()));
     given.iter().zip(seen).all(|(a, b)| (a - b).abs() <= NEAR * largest).then_some(id)
@@ -268,9 +268,8 @@ mod tests {
     #[test]
     fn the_largest_light_is_exposed() {
         let mut seen = [[f64::MAX, 0.0, 0.0], [1.0; 3]];
-        let largest = brightest(seen.into_iter());
-        assert_eq!(expose(&mut seen, largest, false), Some(Note::Kept(f64::MAX)));
-        assert_eq!(expose(&mut seen, largest, true), Some(Note::Scaled(f64::MAX)));
+        assert_eq!(brightest(seen.into_iter()), f64::MAX);
+        assert_eq!(expose(&mut seen, f64::MAX, true), Some(Note::Scaled(f64::MAX)));
         assert_eq!(seen[0], [1.0, 0.0, 0.0]);
     }
 }

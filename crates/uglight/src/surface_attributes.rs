@@ -6,8 +6,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
-    BodyId, ColorId, ColorValue, RestFrames, Scene, SeenVertices, Shares, VertexId, Wire, WorldLinePoint,
-    vertex_shares,
+    BodyId, ColorId, ColorMix, ColorValue, RestFrames, Scene, SeenVertices, VertexId, Wire, WorldLinePoint,
+    vertex_mixes,
 };
 
 use crate::{ColorShift, HueShift, Mixing, Palette, RestColor, Swatch, VertexColor, vertex_colors};
@@ -45,12 +45,12 @@ impl SurfaceAttributes {
     }
 
     /// The colours that meet in each row.
-    pub fn mixtures(&self, scene: &Scene) -> Vec<Shares> {
-        let mut mixtures = vec![Shares::One(None); self.swatches.len()];
+    pub fn mixtures(&self, scene: &Scene) -> Vec<ColorMix> {
+        let mut mixtures = vec![ColorMix::One(None); self.swatches.len()];
         for (row, shares) in mixtures[..scene.colors.len()].iter_mut().enumerate() {
-            *shares = Shares::One(Some(ColorId::from_index(row)));
+            *shares = ColorMix::One(Some(ColorId::from_index(row)));
         }
-        for (&row, shares) in self.rows.iter().zip(vertex_shares(scene, &self.rest)) {
+        for (&row, shares) in self.rows.iter().zip(vertex_mixes(scene, &self.rest)) {
             mixtures[row as usize] = shares;
         }
         mixtures.into_iter().map(|shares| shares.of_spectra(scene)).collect()

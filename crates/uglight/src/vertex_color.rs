@@ -1,7 +1,7 @@
 //! The colour of a vertex: its own, or the mean of those of its faces (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugscene::{ColorId, Scene, Shares, vertex_shares};
+use ugscene::{ColorId, ColorMix, Scene, vertex_mixes};
 
 use crate::color::encoded_hsv;
 use crate::{Mixing, RestColor};
@@ -43,9 +43,9 @@ impl VertexColor {
 /// `positions`: one for each vertex, in the rest frame of its body, where
 /// angles do not depend on the speed.
 pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
-    let shares = vertex_shares(scene, positions);
+    let shares = vertex_mixes(scene, positions);
     // Decoding is slow, and in most scenes no vertex has several colours.
-    let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, Shares::Mixed(_))) {
+    let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, ColorMix::Mixed(_))) {
         let ids = (0..scene.colors.len()).map(ColorId::from_index);
         ids.map(|color| RestColor::new(scene, Some(color)).linear()).collect()
     } else {
@@ -54,8 +54,8 @@ pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
     shares
         .into_iter()
         .map(|share| match share {
-            Shares::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
-            Shares::Mixed(parts) => mean(scene, &linear, &parts),
+            ColorMix::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
+            ColorMix::Mixed(parts) => mean(scene, &linear, &parts),
         })
         .collect()
 }
@@ -76,7 +76,6 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Tone;
 
     fn check(text: &str, expected: &[&str]) {
         let source = ugparse::Source::new("t.ug", text);
@@ -128,12 +127,9 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let VertexColor::Mixed(RestColor { tone: Tone::Light(light), .. }) =
-            vertex_colors(&scene, &positions)[0]
-        else {
-            panic!("two faces with two colours meet there")
-        };
-        let xyz = ugphysics::linear_srgb_to_xyz(light.to_array());
+        let color = vertex_colors(&scene, &positions)[0];
+        assert_eq!(color.mixing(&scene), Mixing::Light);
+        let xyz = ugphysics::linear_srgb_to_xyz(color.at_rest(&scene).linear().to_array());
         // Both corners have 90 degrees.
         assert!((DVec3::from_array(xyz) - DVec3::new(4.5, 4.5, 3.5)).length() < 1e-9, "{xyz:?}");
     }

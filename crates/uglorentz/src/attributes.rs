@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use uglight::{Mixing, RestColor, VertexColor};
 use ugphysics::{Hsv, srgb_encode, unit_or_zero};
 use ugscene::{
-    Color, ColorId, ColorValue, Mix, Mixtures, Scene, Shares, Tint, Vertex, face_vertices, vertex_shares,
+    Color, ColorId, ColorMix, ColorValue, Mix, MixtureNames, Scene, Tint, Vertex, face_vertices, vertex_mixes,
 };
 
 use crate::refined_mesh::Recipe;
@@ -25,7 +25,7 @@ const PREFIX: &str = "s#";
 pub(crate) fn add_vertices(
     scene: &mut Scene,
     recipes: &[Recipe],
-    mut shades: Option<Vec<(Shade, Shares)>>,
+    mut shades: Option<Vec<(Shade, ColorMix)>>,
     is_apart: bool,
 ) -> Vec<bool> {
     if recipes.is_empty() {
@@ -57,7 +57,7 @@ pub(crate) fn add_vertices(
 /// The shades of the vertices of a scene, and the colours in them, from which those of new vertices
 /// are interpolated; `None` if no new vertex needs that, because vertices and faces have their
 /// colours and meet no others.
-pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shares)>> {
+pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, ColorMix)>> {
     let mut has_color = scene.vertices.iter().map(|vertex| vertex.color.is_some());
     let first = has_color.next()?;
     let is_partial = has_color.any(|has_color| has_color != first);
@@ -71,7 +71,7 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
         VertexColor::Mixed(rest) => Shade { color: None, is_mixture: true, rest },
     };
     let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
-    let shares = vertex_shares(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
+    let shares = vertex_mixes(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
     Some(shades.zip(shares).collect())
 }
 
@@ -134,7 +134,7 @@ fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
 struct ColorMixer {
     prefix: String,
     mixed: FxHashMap<Mixture, ColorId>,
-    mixtures: Mixtures,
+    mixtures: MixtureNames,
     stated: FxHashMap<([u64; 5], bool, MixedColors), ColorId>,
     white: Option<ColorId>,
 }
@@ -150,8 +150,8 @@ impl ColorMixer {
         let names = scene.colors.iter().map(|color| scene.names.get(color.name));
         let prefix = free_prefix(PREFIX, names.clone());
         // Then the names of a scene that has mixtures already are continued.
-        let earlier = scene.stage.mixtures.map(Mixtures::prefix);
-        let mixtures = Mixtures::unused(names.chain(earlier.as_deref()));
+        let earlier = scene.stage.mixtures.map(MixtureNames::prefix);
+        let mixtures = MixtureNames::unused(names.chain(earlier.as_deref()));
         let (mixed, stated) = (FxHashMap::default(), FxHashMap::default());
         ColorMixer { prefix, mixed, mixtures, stated, white: None }
     }
@@ -173,7 +173,7 @@ impl ColorMixer {
         let shades: Vec<Shade> = parts.iter().map(|&(color, _)| Shade::of(scene, Some(color))).collect();
         let shade = blend(shades.iter().zip(parts.iter().map(|&(_, weight)| weight)));
         let parts =
-            parts.into_iter().map(|(color, weight)| (Shares::One(Some(color)).of_spectra(scene), weight));
+            parts.into_iter().map(|(color, weight)| (ColorMix::One(Some(color)).of_spectra(scene), weight));
         let shares = sum(parts);
         let color = self.add(scene, &shade, &shares);
         self.mixed.insert(key, color);
@@ -185,11 +185,11 @@ impl ColorMixer {
         &self,
         scene: &Scene,
         recipe: &Recipe,
-        shades: &[(Shade, Shares)],
+        shades: &[(Shade, ColorMix)],
         color: Option<ColorId>,
-    ) -> (Shade, Shares) {
+    ) -> (Shade, ColorMix) {
         if color.is_some() {
-            return (Shade::of(scene, color), Shares::One(color).of_spectra(scene));
+            return (Shade::of(scene, color), ColorMix::One(color).of_spectra(scene));
         }
         let parts = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
         let shares = sum(parts.clone().map(|(row, weight)| (&shades[row as usize].1, weight)));
@@ -211,7 +211,7 @@ impl ColorMixer {
     }
 
     /// The statement for a shade; `None` if it is that of a face.
-    fn statement(&mut self, scene: &mut Scene, shade: &Shade, shares: &Shares) -> Option<ColorId> {
+    fn statement(&mut self, scene: &mut Scene, shade: &Shade, shares: &ColorMix) -> Option<ColorId> {
         if shade.color.is_some() {
             return None;
         }
@@ -226,7 +226,7 @@ impl ColorMixer {
     }
 
     /// Adds a statement, and that of what it is mixed of where colours are spectra.
-    fn add(&mut self, scene: &mut Scene, shade: &Shade, shares: &Shares) -> ColorId {
+    fn add(&mut self, scene: &mut Scene, shade: &Shade, shares: &ColorMix) -> ColorId {
         let prefix = if shade.is_mixture {
             scene.stage.mixtures.get_or_insert(self.mixtures);
             self.mixtures.prefix()
@@ -259,7 +259,7 @@ impl ColorMixer {
 }
 
 /// The colours in weighted parts, each once.
-fn sum(weighted: impl Iterator<Item = (impl Borrow<Shares>, f64)>) -> Shares {
+fn sum(weighted: impl Iterator<Item = (impl Borrow<ColorMix>, f64)>) -> ColorMix {
     let mut parts = Vec::new();
     for (shares, weight) in weighted {
         parts.extend(shares.borrow().parts().map(|(color, share)| (color, weight * share)));
@@ -273,8 +273,8 @@ fn sum(weighted: impl Iterator<Item = (impl Borrow<Shares>, f64)>) -> Shares {
         is_same
     });
     match parts[..] {
-        [(color, _)] => Shares::One(color),
-        _ => Shares::Mixed(parts),
+        [(color, _)] => ColorMix::One(color),
+        _ => ColorMix::Mixed(parts),
     }
 }
 

@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::lens::Lens;
 use crate::notes::notes;
 use crate::scenery::Scenery;
-use crate::{middles, pixels, wires};
+use crate::{pixel_centers, pixels, wires};
 
 /// The event of the eye.
 const ORIGIN: Event = Event { t: 0.0, x: glam::DVec3::ZERO };
@@ -158,7 +158,7 @@ impl PreparedScene {
     ) -> Result<Rendering, Error> {
         let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
-        let items = || Ok(middles::seen_items(scenery, picture.size, picture.samples));
+        let items = || Ok(pixel_centers::seen_items(scenery, picture.size, picture.samples));
         let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
         let subject = Subject::Surfaces {
             view: &scenery.view,

@@ -159,9 +159,9 @@ impl SurfacePoint {
 
     /// The surface of the face, if it has one.
     pub fn surface(&self, scenery: &Scenery<'_>) -> Option<SurfaceId> {
-        match scenery.scene.illums[scenery.scene.faces[self.face as usize].illum?.index()] {
-            ugscene::Illum::Surface(surface) => Some(surface),
-            ugscene::Illum::Level(_) => None,
+        match scenery.scene.shadings[scenery.scene.faces[self.face as usize].shading?.index()] {
+            ugscene::Shading::Surface(surface) => Some(surface),
+            ugscene::Shading::Level(_) => None,
         }
     }
 }

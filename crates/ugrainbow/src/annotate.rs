@@ -4,9 +4,9 @@ use ugpicture::{Emissions, SeenItem};
 use ugraster::Center;
 use ugscene::{CameraOptions, Scene};
 
+use crate::center_surface::of_surface;
 use crate::config::Config;
 use crate::error::Error;
-use crate::front::of_surface;
 use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 

@@ -49,7 +49,7 @@ impl<const N: usize> CornerTable<N> for Corners<'_, N> {
 
     fn values(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
         let face = &self.painter.scene.faces[item as usize];
-        if let (Some(level), None) = (self.even_level, face.illum) {
+        if let (Some(level), None) = (self.even_level, face.shading) {
             let [a, b, c] = corners.map(|corner| self.painter.appearance.surface.swatch(VertexId(corner)));
             if !(a.is_grey() | b.is_grey() | c.is_grey()) {
                 return [(self.pack)(a, level), (self.pack)(b, level), (self.pack)(c, level)];

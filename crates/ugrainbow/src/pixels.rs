@@ -7,8 +7,8 @@ use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pi
 use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
 use ugraster::{Center, Encoding, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
+use crate::center_surface::center_surface;
 use crate::config::Config;
-use crate::front::front;
 use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
@@ -148,13 +148,13 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
         let mut frame = frame(pixels);
         if !channels.is_empty() {
             // Channels show the middle of a pixel and are not filtered.
-            let front = |center: &Center<'_>| front(&setup.view, center);
-            let seen = with_rasterizer!(layers, |all| all.paint_centers(front, &layers.progress()));
+            let seen = |center: &Center<'_>| center_surface(&setup.view, center);
+            let seen = with_rasterizer!(layers, |all| all.paint_centers(seen, &layers.progress()));
             push_channels(&mut frame, setup, config, &seen);
         }
         return (frame, stats);
     }
-    let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), front(&setup.view, &all.center));
+    let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), center_surface(&setup.view, &all.center));
     let (pixels, stats) = with_rasterizer!(layers, |rasterizer| {
         rasterizer.paint_with_centers(layers.shader, &both, &layers.progress())
     });

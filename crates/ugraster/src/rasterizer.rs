@@ -9,7 +9,7 @@ use crate::grid::SampleGrid;
 use crate::layer::OpaqueLayer;
 use crate::progress::BandProgress;
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver, center};
-use crate::shading::{SampleStats, Shading};
+use crate::shading::{SampleShading, SampleStats};
 use crate::tile::{Area, Tile};
 use crate::transparency::{Keep, TransparencyBuffer, TransparentLayer};
 
@@ -30,7 +30,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     /// no [`PixelSamples::center`]. Progress counts bands.
     pub fn paint<P: Copy + Send + Sync>(
         &self,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         resolve: &impl Resolve<P>,
         progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
@@ -40,7 +40,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     /// As [`Rasterizer::paint`], and `resolve` receives what is visible at the centres of pixels.
     pub fn paint_with_centers<P: Copy + Send + Sync>(
         &self,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         resolve: &impl Resolve<P>,
         progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
@@ -49,7 +49,7 @@ impl<const N: usize> Rasterizer<'_, N> {
 
     fn paint_bands<P: Copy + Send + Sync>(
         &self,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         keep: Keep,
         resolve: &impl Resolve<P>,
         progress: &dyn BandProgress,

@@ -288,7 +288,7 @@ fn triangles_are_drawn_like_polygons() {
 /// The light is the interpolated value.
 struct Grey;
 
-impl Shading<1> for Grey {
+impl SampleShading<1> for Grey {
     fn shade(&self, [lights]: [&[f32]; 1], _: Encoding, run: &mut ShadedRun) {
         for (sample, &light) in lights.iter().enumerate() {
             run.set(sample, ShadedSample { light: [light; 3], intensity: light, is_out_of_range: false });

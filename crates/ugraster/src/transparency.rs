@@ -18,7 +18,7 @@ use crate::edges::Scanner;
 use crate::grid::SampleGrid;
 use crate::layer::ShapeTarget;
 use crate::polygons::greater;
-use crate::shading::{Encoding, SampleStats, ShadedRun, Shading};
+use crate::shading::{Encoding, SampleShading, SampleStats, ShadedRun};
 use crate::tile::{Area, EMPTY, OpaqueSamples, shared_plane};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
@@ -288,9 +288,6 @@ pub struct FragmentTarget<'a> {
     stats: SampleStats,
 }
 
-/// Computes the light of transparent samples.
-type FragmentShading<'s> = dyn Shading<TRANSPARENT_VALUES> + 's;
-
 /// Samples that are shaded in one call.
 const TOGETHER: usize = 32;
 
@@ -298,7 +295,7 @@ impl<'a> FragmentTarget<'a> {
     /// Receives samples of faces, or of lines.
     pub fn writer<'t>(
         &'t mut self,
-        shading: &'t FragmentShading<'t>,
+        shading: &'t dyn SampleShading<TRANSPARENT_VALUES>,
         is_line: bool,
     ) -> FragmentWriter<'t, 'a> {
         FragmentWriter { target: self, shading, is_line }
@@ -308,7 +305,7 @@ impl<'a> FragmentTarget<'a> {
 /// Stores samples of transparent shapes as fragments.
 pub struct FragmentWriter<'t, 'a> {
     target: &'t mut FragmentTarget<'a>,
-    shading: &'t FragmentShading<'t>,
+    shading: &'t dyn SampleShading<TRANSPARENT_VALUES>,
     is_line: bool,
 }
 
@@ -347,9 +344,7 @@ impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
                 }
             }
         }
-        if n > 0 {
-            self.push(&places[..n], values.each_ref().map(|all| &all[..n]), item);
-        }
+        self.push(&places[..n], values.each_ref().map(|all| &all[..n]), item);
     }
 }
 
@@ -435,7 +430,7 @@ mod tests {
     }
 
     /// Counts samples.
-    impl Shading<TRANSPARENT_VALUES> for Panes {
+    impl SampleShading<TRANSPARENT_VALUES> for Panes {
         fn shade(&self, values: [&[f32]; TRANSPARENT_VALUES], _: Encoding, run: &mut ShadedRun) {
             self.n_shaded.fetch_add(values[0].len() as u64, Ordering::Relaxed);
             run.light[0][..values[0].len()].copy_from_slice(values[0]);
@@ -455,10 +450,9 @@ mod tests {
             for item in 0..self.n {
                 // A permutation, since the factor is prime.
                 let key = (u64::from(item) * 7919 % u64::from(self.n)) as f32;
+                let values = [key, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5];
                 for row in rows[0]..rows[1] {
-                    writer.draw_each(row, columns[0]..columns[1], item, |_, _| {
-                        Some((key, [key, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5]))
-                    });
+                    writer.draw_each(row, columns[0]..columns[1], item, |_, _| Some((key, values)));
                 }
             }
         }

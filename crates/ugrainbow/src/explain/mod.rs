@@ -15,10 +15,10 @@ use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
 use ugscene::{Geometry, RestPosition, SeenPosition, VertexId};
 
+use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::error::Error;
-use crate::front::{of_fragment, of_surface};
 use crate::packing::Layout;
 use crate::pixels::{self, backdrop, mean};
 use crate::render::warnings;

@@ -5,7 +5,7 @@ mod transfer;
 
 use fearless_simd::{Level, Simd, dispatch};
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
-use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading, TRANSPARENT_VALUES};
+use ugraster::{Encoding, RUN, SampleShading, ShadedRun, ShadedSample, TRANSPARENT_VALUES};
 
 use crate::packing::Layout;
 use hues::{Lights, all_between, decode_all, encode_all};
@@ -54,7 +54,7 @@ impl Shader {
     /// The light of one sample.
     pub fn one<const N: usize>(&self, sample: &[f32; N]) -> ShadedSample
     where
-        Self: Shading<N>,
+        Self: SampleShading<N>,
     {
         let mut run = ShadedRun::default();
         self.shade(sample.each_ref().map(std::slice::from_ref), Encoding::Linear, &mut run);
@@ -202,7 +202,7 @@ impl Shader {
     }
 }
 
-impl Shading<3> for Shader {
+impl SampleShading<3> for Shader {
     fn shade(&self, color: [&[f32]; 3], encoding: Encoding, run: &mut ShadedRun) {
         if self.is_light {
             dispatch!(self.level, simd => set_light(simd, color, |_| true, self.ceiling, run));
@@ -213,7 +213,7 @@ impl Shading<3> for Shader {
     }
 }
 
-impl Shading<TRANSPARENT_VALUES> for Shader {
+impl SampleShading<TRANSPARENT_VALUES> for Shader {
     fn shade(
         &self,
         [a, b, c, red, green, blue, is_light, _]: [&[f32]; TRANSPARENT_VALUES],
@@ -409,7 +409,7 @@ mod tests {
     #[track_caller]
     fn check_runs<const N: usize>(shader: &Shader, samples: &[[f32; N]])
     where
-        Shader: Shading<N>,
+        Shader: SampleShading<N>,
     {
         for n in [1, 7, 64, RUN] {
             for chunk in samples.chunks(n) {
