@@ -1,7 +1,7 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueShift, Mixing, RestColor, Tone, VertexColor};
+use uglight::{ColorForm, HueColor, HueShift, Mixing, RestColor, VertexColor};
 use ugphysics::{hue_to_wavelength, srgb_decode, srgb_encode};
 use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
@@ -178,7 +178,7 @@ impl<'s> HueStatements<'s> {
         let name = self.scene.names.add(&name);
         let translucency = base.translucency;
         if let (false, VertexColor::Mixed(color)) = (is_changed, base.given)
-            && color.tone.mixing() == Mixing::Light
+            && color.form.mixing() == Mixing::Light
         {
             self.scene.colors.push(Color { name, value: color.value(), translucency });
             return ColorId::from_index(self.scene.colors.len() - 1);
@@ -251,8 +251,8 @@ impl<'s> HueStatements<'s> {
         let notes = if self.config.iris { self.scale_values() } else { self.clip_values() };
         for id in self.displays {
             let color = RestColor::new(self.scene, Some(id));
-            let tone = Tone::Display(color.linear());
-            self.scene.colors[id.index()].value = RestColor { tone, ..color }.value();
+            let form = ColorForm::Display(color.linear());
+            self.scene.colors[id.index()].value = RestColor { form, ..color }.value();
         }
         notes
     }

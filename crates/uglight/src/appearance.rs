@@ -9,8 +9,8 @@ use crate::color::shown_light;
 use crate::hue_table::HueTable;
 use crate::spectra::Spectra;
 use crate::{
-    ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette, SpectralFilter,
-    SurfaceAttributes, Swatch, Tone,
+    ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette,
+    SpectralFilter, SurfaceAttributes, Swatch,
 };
 
 /// A colour at rest at a point of a surface.
@@ -75,7 +75,10 @@ impl Appearance {
         shift: ColorShift,
         reach: f64,
     ) -> Self {
-        let palette = Palette::new(scene, interpolation, shift.is_spectral());
+        let (hue_shift, hues) = (shift.of_hues(), HueTable::get());
+        // Light straight from a body crosses no filters, whose hues count.
+        let has_hues_of_light = reach != 1.0 || hue_shift != HueShift::NONE;
+        let palette = Palette::new(scene, interpolation, shift.is_spectral(), has_hues_of_light);
         let surface = SurfaceAttributes::new(scene, eye, &palette);
         let spectra = match shift {
             ColorShift::Spectra(shift) => {
@@ -84,7 +87,6 @@ impl Appearance {
             }
             ColorShift::Hues(_) => None,
         };
-        let (hue_shift, hues) = (shift.of_hues(), HueTable::get());
         Self { palette, surface, hue_shift, hues, spectra, ceiling: f64::INFINITY }
     }
 
@@ -136,20 +138,13 @@ impl Appearance {
     /// The apparent colour of `rest` where wavelengths are stretched by `stretch` = 1/D. `rest_nm`:
     /// the wavelength of its tint.  Eq. (P11), (P12), (P18)
     ///
-    /// A colour given as light is returned unchanged. On moving bodies such colours occur only in
-    /// spectral mode; otherwise the renderer replaces them by hues. One of a display is replaced
-    /// here.
+    /// A colour drawn as light is returned unchanged. On moving bodies such colours occur only in
+    /// spectral mode; otherwise the renderer replaces them by hues.
     #[inline]
     pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
-        let is_kept = match rest.tone {
-            Tone::Hue => false,
-            Tone::Display(_) => self.keeps_light(),
-            Tone::Light(_) => true,
-        };
-        if stretch == 1.0 || is_kept {
+        if stretch == 1.0 || rest.form != ColorForm::Hue {
             return *rest;
         }
-        let rest = &Swatch { tone: Tone::Hue, ..*rest };
         let factor = self.hue_shift.law.factor(1.0 / stretch);
         let seen = if self.hue_shift.law.acts_on_light() {
             Swatch { factor: rest.factor * factor, ..*rest }
@@ -182,7 +177,10 @@ impl Appearance {
     pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
         let doppler = 1.0 / stretch;
         if self.hue_shift.law.acts_on_light() {
-            return Swatch { tone: Tone::Light(self.light_of_lamps(rest, doppler, light, lamps)), ..*rest };
+            return Swatch {
+                form: ColorForm::Light(self.light_of_lamps(rest, doppler, light, lamps)),
+                ..*rest
+            };
         }
         let seen = self.hue_shift.seen_lit(self.hue_color(rest), doppler, light, lamps);
         let tint = match self.palette.interpolation() {
@@ -216,11 +214,11 @@ impl Appearance {
             let base = shift.brightened(self.hue_color(rest), level);
             shift.seen(base, doppler).light()
         };
-        let display = match (rest.tone, light) {
-            (Tone::Display(own), Illumination::Level(level)) if !shift.shifts(doppler) => {
+        let display = match (rest.form, light) {
+            (ColorForm::Display(own), Illumination::Level(level)) if !shift.shifts(doppler) => {
                 Some(shift.lit_display(own, DVec3::splat(level)))
             }
-            (Tone::Display(own), Illumination::Lamps(parts, lamps)) => {
+            (ColorForm::Display(own), Illumination::Lamps(parts, lamps)) => {
                 shift.display_lit((own, self.hue_color(rest)), doppler, parts, lamps)
             }
             _ => None,
@@ -228,9 +226,9 @@ impl Appearance {
         if let Some(lit) = display {
             return lit.min(DVec3::splat(self.ceiling));
         }
-        let seen = match (rest.tone, light) {
-            (Tone::Light(own), Illumination::Level(level)) => return level * own,
-            (Tone::Light(own), Illumination::Lamps(parts, lamps)) => {
+        let seen = match (rest.form, light) {
+            (ColorForm::Light(own), Illumination::Level(level)) => return level * own,
+            (ColorForm::Light(own), Illumination::Lamps(parts, lamps)) => {
                 let received = |part: &Irradiance| part.level * lamps[part.lamp as usize].linear;
                 return own * parts.iter().map(received).sum::<DVec3>();
             }

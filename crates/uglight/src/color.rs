@@ -29,11 +29,11 @@ impl Mixing {
     }
 
     /// Light that mixes so; a hue needs none.
-    pub fn tone(self, light: DVec3) -> Tone {
+    pub fn form(self, light: DVec3) -> ColorForm {
         match self {
-            Self::Hue => Tone::Hue,
-            Self::Display => Tone::Display(light),
-            Self::Light => Tone::Light(light),
+            Self::Hue => ColorForm::Hue,
+            Self::Display => ColorForm::Display(light),
+            Self::Light => ColorForm::Light(light),
         }
     }
 }
@@ -41,7 +41,7 @@ impl Mixing {
 /// What a colour is drawn as: a hue, or linear red, green and blue with the sRGB primaries, neither
 /// clipped nor gamut-mapped.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Tone {
+pub enum ColorForm {
     /// See [`Mixing::Hue`].
     Hue,
     /// See [`Mixing::Display`].
@@ -50,7 +50,7 @@ pub enum Tone {
     Light(DVec3),
 }
 
-impl Tone {
+impl ColorForm {
     /// How it mixes.
     pub fn mixing(self) -> Mixing {
         match self {
@@ -83,8 +83,8 @@ impl Tone {
 pub struct RestColor {
     /// As [`hsv`].
     pub hsv: Hsv,
-    /// As [`tone`].
-    pub tone: Tone,
+    /// As [`color_form`].
+    pub form: ColorForm,
     /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
@@ -92,29 +92,29 @@ pub struct RestColor {
 impl RestColor {
     /// The colour of what has none.
     pub const WHITE: Self =
-        Self { hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }, tone: Tone::Hue, translucency: 0.0 };
+        Self { hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }, form: ColorForm::Hue, translucency: 0.0 };
 
     /// The colour of a statement, or white.
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         color.map_or(Self::WHITE, |id| {
             let color = &scene.colors[id.index()];
-            Self { hsv: hsv(scene, color), tone: tone(scene, color), translucency: color.translucency }
+            Self { hsv: hsv(scene, color), form: color_form(scene, color), translucency: color.translucency }
         })
     }
 
     /// Linear red, green and blue.
     pub fn linear(&self) -> DVec3 {
-        self.tone.light().unwrap_or_else(|| shown_light(self.hsv))
+        self.form.light().unwrap_or_else(|| shown_light(self.hsv))
     }
 
     /// A statement of it. A mixture that is brighter than the largest `c_rgb`, because a colour of
     /// it has a factor above 1, is written as light (`c_xyz`).
     pub fn value(&self) -> ColorValue {
         let Hsv { hue, saturation, value } = self.hsv;
-        match self.tone {
-            Tone::Hue => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
-            Tone::Display(_) if value <= 1.0 => ColorValue::Rgb(self.hsv.to_rgb()),
-            Tone::Display(light) | Tone::Light(light) => {
+        match self.form {
+            ColorForm::Hue => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
+            ColorForm::Display(_) if value <= 1.0 => ColorValue::Rgb(self.hsv.to_rgb()),
+            ColorForm::Display(light) | ColorForm::Light(light) => {
                 ColorValue::Xyz(linear_srgb_to_xyz(light.to_array()))
             }
         }
@@ -123,13 +123,13 @@ impl RestColor {
     /// Equal for equal colours.
     pub fn key(&self) -> [u64; 5] {
         let Hsv { hue, saturation, value } = self.hsv;
-        let [a, b, c] = match self.tone {
+        let [a, b, c] = match self.form {
             // Its hue is clipped.
-            Tone::Light(light) => light.to_array(),
+            ColorForm::Light(light) => light.to_array(),
             _ => [hue, saturation, value],
         };
         let [a, b, c, translucency] = [a, b, c, self.translucency].map(f64::to_bits);
-        [self.tone.mixing() as u64, a, b, c, translucency]
+        [self.form.mixing() as u64, a, b, c, translucency]
     }
 }
 
@@ -215,11 +215,11 @@ pub fn display_hue(scene: &Scene, id: ColorId) -> Hsv {
 
 /// What a colour statement is drawn as at rest: unless it is a hue, linear red, green and blue without
 /// clipping, so channels may be above 1 and below 0.  Eq. (P19)
-pub fn tone(scene: &Scene, color: &Color) -> Tone {
-    let light = |xyz| Tone::Light(DVec3::from_array(xyz_to_linear_srgb(xyz)));
+pub fn color_form(scene: &Scene, color: &Color) -> ColorForm {
+    let light = |xyz| ColorForm::Light(DVec3::from_array(xyz_to_linear_srgb(xyz)));
     match color.value {
-        ColorValue::Hsv { .. } => Tone::Hue,
-        ColorValue::Rgb(rgb) => Tone::Display(DVec3::from_array(rgb.map(srgb_decode))),
+        ColorValue::Hsv { .. } => ColorForm::Hue,
+        ColorValue::Rgb(rgb) => ColorForm::Display(DVec3::from_array(rgb.map(srgb_decode))),
         ColorValue::Xyz(xyz) => light(ugphysics::limited(xyz, ugphysics::MOST_LIGHT)),
         _ => light(spectrum(scene, color).0.seen(1.0)),
     }

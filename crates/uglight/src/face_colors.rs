@@ -5,7 +5,7 @@ use std::borrow::Borrow;
 use rayon::prelude::*;
 use ugscene::{Face, Scene, VertexId};
 
-use crate::{Appearance, Mixing, SurfaceColor, Swatch, Tone};
+use crate::{Appearance, ColorForm, Mixing, SurfaceColor, Swatch};
 
 /// What the corners of a face have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,15 +43,15 @@ impl Appearance {
         if !self.palette.has_light() && !self.palette.has_display() {
             return Mixing::Hue;
         }
-        let most = swatches.clone().max_by_key(|swatch| swatch.borrow().tone.mixing());
+        let most = swatches.clone().max_by_key(|swatch| swatch.borrow().form.mixing());
         let Some(most) = most.as_ref().map(Borrow::borrow) else { return Mixing::Hue };
-        match most.tone {
-            Tone::Display(_) => {
+        match most.form {
+            ColorForm::Display(_) => {
                 let mut all = swatches.clone();
                 let is_mixed = all.any(|swatch| swatch.borrow() != most) || self.palette.is_faded(most);
                 if is_mixed { Mixing::Display } else { Mixing::Hue }
             }
-            tone => tone.mixing(),
+            form => form.mixing(),
         }
     }
 

@@ -9,7 +9,7 @@ use ugphysics::{length, unit_or_zero};
 use ugscene::{ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
 
 use crate::color::shown_light;
-use crate::{Tone, hsv, spectrum, tone};
+use crate::{ColorForm, color_form, hsv, spectrum};
 
 /// The intensity of the ambient light in a scene without lights.
 pub const DEFAULT_AMBIENT: f64 = 0.3;
@@ -215,8 +215,8 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3, is_spectral: bool) -> Lamp
     let color = &scene.colors[id.index()];
     let shown = hsv(scene, color);
     let encoded = shown.to_rgb();
-    let linear = match tone(scene, color) {
-        Tone::Light(light) => light,
+    let linear = match color_form(scene, color) {
+        ColorForm::Light(light) => light,
         _ => shown_light(shown),
     };
     Lamp {

@@ -4,7 +4,7 @@
 //! that shades corners or samples, a program that refines edges where light changes: each asks
 //! which [`Lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps
 //! at rest with what they light, [`SurfaceElement`] for lamps that move against it), and which
-//! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`tone`],
+//! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`color_form`],
 //! [`spectrum`]).
 //!
 //! The effect of motion on a colour depends on the model: a [`HueColor`] has one wavelength, which
@@ -56,7 +56,8 @@ mod vertex_color;
 
 pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor};
 pub use color::{
-    Mixing, RestColor, Tone, display_hue, hsv, hsv_and_factor, mean_hue, spectra_note, spectrum, tone,
+    ColorForm, Mixing, RestColor, color_form, display_hue, hsv, hsv_and_factor, mean_hue, spectra_note,
+    spectrum,
 };
 pub use face_colors::FaceColors;
 pub use hue::{HueColor, HueShift};

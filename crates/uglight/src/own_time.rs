@@ -5,7 +5,7 @@ use ugphysics::Hsv;
 use ugscene::{ColorId, Mix, Scene};
 
 use crate::color::{encoded_hsv, shown_light};
-use crate::{Appearance, Mixing, RestColor, SurfaceColor, Swatch, Tone};
+use crate::{Appearance, ColorForm, Mixing, RestColor, SurfaceColor, Swatch};
 
 /// The colour of parts with shares that add up to 1, the second of which may have none: the mean of
 /// their light.
@@ -14,15 +14,15 @@ pub fn mean_color([a, b]: [(RestColor, f64); 2]) -> RestColor {
     if b.1 == 0.0 {
         return a.0;
     }
-    let (hsv, tone) = mean([a, b].map(|(color, share)| (color.tone, color.linear(), share)));
-    RestColor { hsv, tone, ..a.0 }
+    let (hsv, form) = mean([a, b].map(|(color, share)| (color.form, color.linear(), share)));
+    RestColor { hsv, form, ..a.0 }
 }
 
 /// The mean of two tones with their light and shares: light if one of them is, else a hue.
-fn mean([a, b]: [(Tone, DVec3, f64); 2]) -> (Hsv, Tone) {
+fn mean([a, b]: [(ColorForm, DVec3, f64); 2]) -> (Hsv, ColorForm) {
     let linear = a.2 * a.1 + b.2 * b.1;
     let is_light = a.0.mixing().max(b.0.mixing()) == Mixing::Light;
-    (encoded_hsv(linear), if is_light { Tone::Light(linear) } else { Tone::Hue })
+    (encoded_hsv(linear), if is_light { ColorForm::Light(linear) } else { ColorForm::Hue })
 }
 
 /// Gives all colours that change with own time their colour at own time 0, for programs that show
@@ -61,21 +61,21 @@ impl Appearance {
         let of = |color: ColorId| {
             let swatch = self.palette.get(color);
             // One colour of a display is drawn as a hue.
-            let is_light = keeps_light && swatch.tone.mixing() == Mixing::Light;
-            Swatch { tone: if is_light { swatch.tone } else { Tone::Hue }, ..swatch }
+            let is_light = keeps_light && swatch.form.mixing() == Mixing::Light;
+            Swatch { form: if is_light { swatch.form } else { ColorForm::Hue }, ..swatch }
         };
         let [(a, share), (b, rest)] = parts;
         let rows = [(a.index() as u32, share), (b.index() as u32, rest), (a.index() as u32, 0.0)];
         let part = |(color, share)| {
             let swatch = of(color);
-            let linear = swatch.tone.light().unwrap_or_else(|| shown_light(self.palette.hsv(&swatch)));
-            (swatch.tone, linear, share)
+            let linear = swatch.form.light().unwrap_or_else(|| shown_light(self.palette.hsv(&swatch)));
+            (swatch.form, linear, share)
         };
         let swatch = if rest == 0.0 {
             of(a)
         } else {
-            let (hsv, tone) = mean(parts.map(part));
-            Swatch { tone, translucency: of(a).translucency, ..self.palette.swatch(hsv) }
+            let (hsv, form) = mean(parts.map(part));
+            Swatch { form, translucency: of(a).translucency, ..self.palette.swatch(hsv) }
         };
         Some(SurfaceColor { swatch, rows })
     }

@@ -7,7 +7,7 @@ use ugphysics::{
 use ugscene::{ColorId, ColorValue, Scene, Tint};
 
 use crate::color::shown_light;
-use crate::{Mixing, Tone};
+use crate::{ColorForm, Mixing};
 
 /// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,7 +35,7 @@ pub struct Swatch {
     /// What it is drawn as. If it is light, tint, saturation and value are those of the nearest
     /// colour that a display has. In a [`Palette`], the light of a display is drawn as the hue it
     /// stands for, unless corners of a face differ.
-    pub tone: Tone,
+    pub form: ColorForm,
     /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
@@ -43,7 +43,7 @@ pub struct Swatch {
 impl Swatch {
     /// The colour of objects without a colour.
     pub const WHITE: Self =
-        Self { tint: 0.0, saturation: 0.0, value: 1.0, factor: 1.0, tone: Tone::Hue, translucency: 0.0 };
+        Self { tint: 0.0, saturation: 0.0, value: 1.0, factor: 1.0, form: ColorForm::Hue, translucency: 0.0 };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
@@ -58,13 +58,15 @@ impl Swatch {
         let number = |of: fn(&Self) -> f64| {
             others().fold(of(&first), |sum, (one, weight)| sum + weight * (of(one) - of(&first)))
         };
-        let parts = all.iter().zip(weights).map(|(one, weight)| Some(weight * one.tone.light()?));
+        let parts = all.iter().zip(weights).map(|(one, weight)| Some(weight * one.form.light()?));
         Self {
             tint: number(|swatch| swatch.tint),
             saturation: number(|swatch| swatch.saturation),
             value: number(|swatch| swatch.value),
             factor: number(|swatch| swatch.factor),
-            tone: parts.sum::<Option<DVec3>>().map_or(Tone::Hue, |light| first.tone.mixing().tone(light)),
+            form: parts
+                .sum::<Option<DVec3>>()
+                .map_or(ColorForm::Hue, |light| first.form.mixing().form(light)),
             translucency: number(|swatch| swatch.translucency),
         }
     }
@@ -77,6 +79,8 @@ pub struct Palette {
     interpolation: Interpolation,
     /// Colours are spectra.
     is_spectral: bool,
+    /// Light may be drawn as the nearest hue.
+    has_hues_of_light: bool,
     has_light: bool,
     has_display: bool,
     has_translucency: bool,
@@ -85,14 +89,21 @@ pub struct Palette {
 impl Palette {
     /// Converts all colours of a scene.
     ///
-    /// `is_spectral`: colours are spectra, so all of them are drawn as light.
-    pub fn new(scene: &Scene, interpolation: Interpolation, is_spectral: bool) -> Self {
+    /// `is_spectral`: colours are spectra, so all of them are drawn as light. `has_hues_of_light`: if
+    /// not, colours given as light have no tint, since finding it takes long.
+    pub fn new(
+        scene: &Scene,
+        interpolation: Interpolation,
+        is_spectral: bool,
+        has_hues_of_light: bool,
+    ) -> Self {
         let has_light = is_spectral || scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let mut palette = Self {
             swatches: Vec::new(),
             interpolation,
             is_spectral,
+            has_hues_of_light,
             has_light,
             has_display: false,
             has_translucency,
@@ -102,7 +113,7 @@ impl Palette {
         // One colour is drawn as a hue, unless hues fade there.
         let has_mixtures = palette.swatches.len() > 1;
         let is_drawn = |swatch: &Swatch| {
-            swatch.tone.mixing() == Mixing::Display && (has_mixtures || palette.is_faded(swatch))
+            swatch.form.mixing() == Mixing::Display && (has_mixtures || palette.is_faded(swatch))
         };
         palette.has_display = palette.swatches.iter().any(is_drawn);
         palette
@@ -125,13 +136,13 @@ impl Palette {
 
     /// The colour of objects without a colour; given as light if colours are spectra.
     pub fn white(&self) -> Swatch {
-        Swatch { tone: self.marked(Tone::Hue), ..Swatch::WHITE }
+        Swatch { form: self.marked(ColorForm::Hue), ..Swatch::WHITE }
     }
 
-    /// A tone of the scene as it is drawn. Where colours are spectra all are light, which is computed
-    /// per sample.
-    pub(crate) fn marked(&self, tone: Tone) -> Tone {
-        if self.is_spectral { Tone::Light(tone.light().unwrap_or(DVec3::ONE)) } else { tone }
+    /// The form in which a colour is drawn. Where colours are spectra all are light, which is
+    /// computed per sample.
+    pub(crate) fn marked(&self, form: ColorForm) -> ColorForm {
+        if self.is_spectral { ColorForm::Light(form.light().unwrap_or(DVec3::ONE)) } else { form }
     }
 
     /// True if a colour of the scene is drawn as light.
@@ -162,7 +173,7 @@ impl Palette {
     /// The light of a colour: linear red, green and blue. Its hue is attenuated near the ends of
     /// the visible range.  Eq. (P17)
     pub fn light(&self, swatch: &Swatch) -> DVec3 {
-        swatch.tone.light().unwrap_or_else(|| {
+        swatch.form.light().unwrap_or_else(|| {
             let seen = self.hsv(swatch).attenuated(attenuation(self.wavelength_nm(swatch)));
             swatch.factor * shown_light(seen)
         })
@@ -197,11 +208,11 @@ impl Palette {
     /// The colour drawn as `mixing` says.
     #[inline]
     pub fn drawn_as(&self, mixing: Mixing, swatch: Swatch) -> Swatch {
-        let tone = match mixing {
-            Mixing::Hue => Tone::Hue,
-            mixing => mixing.tone(self.light(&swatch)),
+        let form = match mixing {
+            Mixing::Hue => ColorForm::Hue,
+            mixing => mixing.form(self.light(&swatch)),
         };
-        Swatch { tone, ..swatch }
+        Swatch { form, ..swatch }
     }
 
     fn read(&self, scene: &Scene, id: ColorId) -> Swatch {
@@ -223,9 +234,10 @@ impl Palette {
                 Swatch { factor, ..self.swatch(color) }
             }
             ColorValue::Rgb(_) if !self.is_spectral => self.swatch(crate::display_hue(scene, id)),
+            _ if !self.has_hues_of_light && Mixing::of(color) == Mixing::Light => Swatch::WHITE,
             _ => self.swatch(crate::hsv(scene, color)),
         };
-        Swatch { tone: self.marked(crate::tone(scene, color)), translucency, ..swatch }
+        Swatch { form: self.marked(crate::color_form(scene, color)), translucency, ..swatch }
     }
 }
 

@@ -84,7 +84,7 @@ impl SurfaceAttributes {
 
     /// True if a vertex has a colour of a display.
     pub fn has_display(&self) -> bool {
-        self.rows.iter().any(|&row| self.swatches[row as usize].tone.mixing() == Mixing::Display)
+        self.rows.iter().any(|&row| self.swatches[row as usize].form.mixing() == Mixing::Display)
     }
 
     /// The row of a colour of the scene, or of white.
@@ -151,8 +151,8 @@ fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut V
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
         VertexColor::Mixed(color) => {
-            let RestColor { hsv, tone, translucency } = color;
-            swatches.push(Swatch { tone: palette.marked(tone), translucency, ..palette.swatch(hsv) });
+            let RestColor { hsv, form, translucency } = color;
+            swatches.push(Swatch { form: palette.marked(form), translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1
         }

@@ -33,7 +33,7 @@ impl VertexColor {
         match self {
             Self::Named(id) => Mixing::of(&scene.colors[id.index()]),
             Self::White => Mixing::Hue,
-            Self::Mixed(color) => color.tone.mixing(),
+            Self::Mixed(color) => color.form.mixing(),
         }
     }
 }
@@ -70,7 +70,7 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
         sum += color.map_or(DVec3::ONE, |color| linear[color.index()]) * share;
         translucency += color.map_or(0.0, |color| scene.colors[color.index()].translucency) * share;
     }
-    VertexColor::Mixed(RestColor { hsv: encoded_hsv(sum), tone: mixing.tone(sum), translucency })
+    VertexColor::Mixed(RestColor { hsv: encoded_hsv(sum), form: mixing.form(sum), translucency })
 }
 
 #[cfg(test)]

@@ -284,7 +284,7 @@ fn blend<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
     let (mut translucency, mut mixing, mut is_mixture) = (0.0, Mixing::Hue, false);
     for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts.clone() {
         translucency += weight * rest.translucency;
-        mixing = mixing.max(rest.tone.mixing());
+        mixing = mixing.max(rest.form.mixing());
         is_mixture |= is_mixed;
     }
     // Weights may add up to more than 1 by rounding.
@@ -298,5 +298,5 @@ fn blend<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
         }
         _ => (uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight))), light),
     };
-    Shade { color: None, is_mixture, rest: RestColor { hsv, tone: mixing.tone(light), translucency } }
+    Shade { color: None, is_mixture, rest: RestColor { hsv, form: mixing.form(light), translucency } }
 }

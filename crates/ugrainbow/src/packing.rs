@@ -9,7 +9,7 @@
 //! | | | or lit linear red, green, blue; 1, 1, 1; 1; translucency |
 
 use glam::DVec3;
-use uglight::{Appearance, Lighting, Swatch, Tone};
+use uglight::{Appearance, ColorForm, Lighting, Swatch};
 use ugraster::TRANSPARENT_VALUES;
 use ugscene::Scene;
 
@@ -49,20 +49,20 @@ pub fn pack_hue(swatch: &Swatch, level: DVec3) -> [f64; 3] {
 
 /// Lit light.
 pub fn pack_light(swatch: &Swatch, level: DVec3) -> [f64; 3] {
-    swatch.tone.lit(level).unwrap_or_default().to_array()
+    swatch.form.lit(level).unwrap_or_default().to_array()
 }
 
 /// Hues as in [`pack_hue`], and light.
 pub fn pack_white(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALUES] {
-    let tone = swatch.tone.lit(level).map_or(Tone::Hue, Tone::Light);
+    let form = swatch.form.lit(level).map_or(ColorForm::Hue, ColorForm::Light);
     let value = swatch.value * level.x;
-    pack_transparent(&Swatch { value, factor: 1.0, tone, ..*swatch }, DVec3::ONE)
+    pack_transparent(&Swatch { value, factor: 1.0, form, ..*swatch }, DVec3::ONE)
 }
 
 /// Levels of light and factors of linear light are interpolated beside the colour.
 pub fn pack_transparent(swatch: &Swatch, level: DVec3) -> [f64; TRANSPARENT_VALUES] {
     let translucency = swatch.translucency;
-    if let Some(light) = swatch.tone.lit(level) {
+    if let Some(light) = swatch.form.lit(level) {
         return [light.x, light.y, light.z, 1.0, 1.0, 1.0, 1.0, translucency];
     }
     let [red, green, blue] = (level * swatch.factor).to_array();

@@ -1,7 +1,7 @@
 //! Colour and light of the corners of faces and wires.
 
 use glam::DVec3;
-use uglight::{Appearance, FaceColors, Lighting, Mixing, Swatch, Tone};
+use uglight::{Appearance, ColorForm, FaceColors, Lighting, Mixing, Swatch};
 use ugraster::{Corner, SampleGrid, ScreenPoint};
 use ugscene::{CameraPoint, ColorId, Face, Scene, Slab, VertexId, View, Wire, unit_normal};
 
@@ -64,9 +64,9 @@ impl Painter<'_> {
     /// the picture names a quantity.
     #[inline]
     pub fn lit_as_written(&self, swatch: Swatch) -> Swatch {
-        match swatch.tone {
-            Tone::Display(light) if self.lighting.acts_on_light() => {
-                Swatch { tone: Tone::Light(light), ..swatch }
+        match swatch.form {
+            ColorForm::Display(light) if self.lighting.acts_on_light() => {
+                Swatch { form: ColorForm::Light(light), ..swatch }
             }
             _ => swatch,
         }

@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
 use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
-use ugraster::{Center, Encoding, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
+use ugraster::{Center, Encoding, Keep, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
 use crate::center_surface::center_surface;
 use crate::config::Config;
@@ -156,7 +156,7 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
     }
     let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), center_surface(&setup.view, &all.center));
     let (pixels, stats) = with_rasterizer!(layers, |rasterizer| {
-        rasterizer.paint_with_centers(layers.shader, &both, &layers.progress())
+        rasterizer.paint(layers.shader, Keep::Centers, &both, &layers.progress())
     });
     let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<SurfaceSample>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);

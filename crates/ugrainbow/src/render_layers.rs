@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ugpicture::{DepthPoint, Filter};
 use ugpipe::Progress;
 use ugraster::{
-    BandProgress, Corner, FragmentTarget, FragmentWriter, NoTriangles, OpaqueLayer, PolygonLayer,
+    BandProgress, Corner, FragmentTarget, FragmentWriter, Keep, NoTriangles, OpaqueLayer, PolygonLayer,
     PolygonList, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample, TRANSPARENT_VALUES, Tile,
     TransparentLayer,
 };
@@ -280,7 +280,7 @@ impl<'a> RenderLayers<'a> {
         resolve: &impl Resolve<P>,
     ) -> (Vec<P>, SampleStats) {
         with_rasterizer!(self, |rasterizer| match filter {
-            Filter::Box => rasterizer.paint(self.shader, resolve, &self.progress()),
+            Filter::Box => rasterizer.paint(self.shader, Keep::Light, resolve, &self.progress()),
             _ => rasterizer.paint_filtered(filter, self.shader, resolve, &self.progress()),
         })
     }

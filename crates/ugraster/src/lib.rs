@@ -12,7 +12,7 @@
 //! to a pixel. The nearer one is visible at each pixel:
 //!
 //! ```
-//! use ugraster::{Corner, Encoding, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
+//! use ugraster::{Corner, Encoding, Keep, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
 //! use ugraster::{SampleGrid, ShadedRun, ShadedSample, SampleShading, TileShape};
 //!
 //! /// The only interpolated value is grey light.
@@ -43,7 +43,7 @@
 //! let opaque = &PolygonLayer { lists: &[polygons], corners: &NoTriangles };
 //! let rasterizer = Rasterizer { grid: &grid, opaque, transparent: None };
 //! let red = |samples: &PixelSamples<'_>| samples.sum[0];
-//! let (pixels, stats) = rasterizer.paint(&Grey, &red, &());
+//! let (pixels, stats) = rasterizer.paint(&Grey, Keep::Light, &red, &());
 //! let middle_row = &pixels[2 * 9..3 * 9];
 //! assert_eq!(middle_row[..4], [0.75; 4]);
 //! assert_eq!(middle_row[5..], [0.25; 4]);
@@ -126,4 +126,6 @@ pub use rasterizer::Rasterizer;
 pub use resolve::{Center, PixelSamples, Resolve, ResolveSingle};
 pub use shading::{Encoding, RUN, SampleShading, SampleStats, ShadedRun, ShadedSample};
 pub use tile::{Area, Tile, VisibleItem};
-pub use transparency::{Fragment, FragmentTarget, FragmentWriter, TRANSPARENT_VALUES, TransparentLayer};
+pub use transparency::{
+    Fragment, FragmentTarget, FragmentWriter, Keep, TRANSPARENT_VALUES, TransparentLayer,
+};

@@ -26,28 +26,10 @@ pub struct Rasterizer<'a, const N: usize> {
 }
 
 impl<const N: usize> Rasterizer<'_, N> {
-    /// The pixels of the grid, row after row, and statistics of their samples. `resolve` receives
-    /// no [`PixelSamples::center`]. Progress counts bands.
+    /// The pixels of the grid, row after row, and statistics of their samples. With
+    /// [`Keep::Centers`], `resolve` receives what is visible at the centres of pixels. Progress counts
+    /// bands.
     pub fn paint<P: Copy + Send + Sync>(
-        &self,
-        shading: &dyn SampleShading<N>,
-        resolve: &impl Resolve<P>,
-        progress: &dyn BandProgress,
-    ) -> (Vec<P>, SampleStats) {
-        self.paint_bands(shading, Keep::Light, resolve, progress)
-    }
-
-    /// As [`Rasterizer::paint`], and `resolve` receives what is visible at the centres of pixels.
-    pub fn paint_with_centers<P: Copy + Send + Sync>(
-        &self,
-        shading: &dyn SampleShading<N>,
-        resolve: &impl Resolve<P>,
-        progress: &dyn BandProgress,
-    ) -> (Vec<P>, SampleStats) {
-        self.paint_bands(shading, Keep::Centers, resolve, progress)
-    }
-
-    fn paint_bands<P: Copy + Send + Sync>(
         &self,
         shading: &dyn SampleShading<N>,
         keep: Keep,

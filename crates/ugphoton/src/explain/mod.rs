@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 use serde::Serialize;
-use uglight::{ColorShift, Interpolation, Tone, light_names};
+use uglight::{ColorForm, ColorShift, Interpolation, light_names};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::Velocity;
 use ugpicture::explain::{
@@ -251,7 +251,7 @@ impl Teller<'_> {
 
     fn color(&self, visit: &Visit) -> SampleColor {
         let (scenery, point) = (self.scenery, &visit.point);
-        if scenery.appearance.is_spectral() || point.color.swatch.tone != Tone::Hue {
+        if scenery.appearance.is_spectral() || point.color.swatch.form != ColorForm::Hue {
             return SampleColor::of_light(visit.light.to_array(), self.is_lit(point));
         }
         let base = scenery.appearance.hue_color(&point.color.swatch);

@@ -1,7 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{Appearance, Mixing, Swatch, Tone};
+use uglight::{Appearance, ColorForm, Mixing, Swatch};
 use ugscene::{Face, VertexId};
 
 use super::frame::{PictureRays, Ray};
@@ -184,11 +184,11 @@ impl Look {
         match spot.filter(|spot| spot.mesh.has_colors) {
             None => {
                 let light = appearance.seen_light([(self.row, 1.0)], stretch, place);
-                Swatch { tone: Tone::Light(light), ..self.color }
+                Swatch { form: ColorForm::Light(light), ..self.color }
             }
             Some(spot) => {
                 let light = appearance.seen_light(spot.rows(), stretch, place);
-                Swatch { tone: Tone::Light(light), ..spot.color() }
+                Swatch { form: ColorForm::Light(light), ..spot.color() }
             }
         }
     }
@@ -258,10 +258,10 @@ impl Spot<'_> {
         // A number that is the same at all corners keeps its bits.
         let [tint, saturation, value] = self.triangle.numbers.map(|[a, b, c]| a + second * b + third * c);
         let first = &self.mesh.corners[self.triangle.corners[0] as usize];
-        let mixing = first.color.tone.mixing();
-        let tone = if mixing == Mixing::Hue { Tone::Hue } else { mixing.tone(self.light()) };
+        let mixing = first.color.form.mixing();
+        let form = if mixing == Mixing::Hue { ColorForm::Hue } else { mixing.form(self.light()) };
         let translucency = if self.mesh.has_translucency { self.translucency() } else { 0.0 };
-        Swatch { tint, saturation, value, factor: first.color.factor, tone, translucency }
+        Swatch { tint, saturation, value, factor: first.color.factor, form, translucency }
     }
 
     fn translucency(&self) -> f64 {
@@ -271,7 +271,7 @@ impl Spot<'_> {
     }
 
     fn light(&self) -> DVec3 {
-        let light = |corner: u32| self.mesh.corners[corner as usize].color.tone.light();
+        let light = |corner: u32| self.mesh.corners[corner as usize].color.form.light();
         self.mean(self.triangle.corners.map(|corner| light(corner).unwrap_or_default()))
     }
 

@@ -1,7 +1,7 @@
 //! Lines of moving bodies, which are seen as curves.
 
 use glam::DVec3;
-use uglight::{Appearance, Swatch, Tone};
+use uglight::{Appearance, ColorForm, Swatch};
 use ugphysics::doppler_at;
 use ugscene::BodyId;
 
@@ -79,7 +79,7 @@ impl Curve<'_> {
         let color = match self.rows.filter(|_| self.appearance.is_spectral()) {
             Some([a, b]) => {
                 let light = self.appearance.seen_light([(a, 1.0 - part), (b, part)], stretch, None);
-                Swatch { tone: Tone::Light(light), ..rest }
+                Swatch { form: ColorForm::Light(light), ..rest }
             }
             None => self.appearance.seen(&rest, self.appearance.wavelength_nm(rest.tint), stretch),
         };

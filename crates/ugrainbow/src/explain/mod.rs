@@ -315,7 +315,7 @@ impl Teller<'_> {
             1.0 => hsv.value,
             factor => srgb_encode(factor * srgb_decode(hsv.value)),
         };
-        let light = swatch.tone.light().map(|light| light.to_array());
+        let light = swatch.form.light().map(|light| light.to_array());
         ExplainedCorner {
             vertex: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
             hue_saturation_value: light.is_none().then_some([hsv.hue, hsv.saturation, value]),

@@ -23,7 +23,7 @@ use crate::config::Wireframe;
 use crate::packing::pack_transparent;
 use crate::painter::Painter;
 pub use hidden::{Occluders, Visibility, occluded_part};
-use uglight::{Swatch, Tone};
+use uglight::{ColorForm, Swatch};
 
 /// Lines are moved towards the eye by this part of their distance, so that they pass the depth test
 /// against the faces whose edges they are.
@@ -148,7 +148,7 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
 
 /// A colour that is neither shifted nor attenuated.
 fn plain(color: Hsv) -> Swatch {
-    Swatch { tone: Tone::Light(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
+    Swatch { form: ColorForm::Light(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
 }
 
 /// Straight pieces of lines in the picture, hidden or not, and how many were clipped.

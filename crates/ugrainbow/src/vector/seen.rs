@@ -2,7 +2,7 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ugraster::{Corner, PixelSamples, SampleStats, TRANSPARENT_VALUES};
+use ugraster::{Corner, Keep, PixelSamples, SampleStats, TRANSPARENT_VALUES};
 
 use crate::planar::doubled_area;
 use crate::render_layers::{RenderLayers, with_rasterizer};
@@ -62,7 +62,7 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
         }
     };
     let (_, stats) = with_rasterizer!(layers, |rasterizer| {
-        rasterizer.paint_with_centers(layers.shader, &mark, &layers.progress())
+        rasterizer.paint(layers.shader, Keep::Centers, &mark, &layers.progress())
     });
     let is_seen: Vec<bool> = is_seen.into_iter().map(AtomicBool::into_inner).collect();
     let mut is_corner = vec![false; scene.vertices.len()];
