@@ -129,7 +129,7 @@ impl Appearance {
     /// The wavelength that a tint stands for, as [`Appearance::seen`] requires it.
     #[inline]
     pub fn wavelength_nm(&self, tint: f64) -> f64 {
-        match self.palette.interpolation() {
+        match self.palette.interpolation {
             Interpolation::Hue => self.hues.wavelength_nm(tint),
             Interpolation::Wavelength => tint,
         }
@@ -157,7 +157,7 @@ impl Appearance {
         // λ/D, as a product, since this runs for every sample.
         let seen_nm = rest_nm * stretch;
         // The wavelength may be invisible; a hue is clamped to the end of its range.
-        let tint = match self.palette.interpolation() {
+        let tint = match self.palette.interpolation {
             Interpolation::Hue => self.hues.hue(seen_nm),
             Interpolation::Wavelength => seen_nm,
         };
@@ -183,7 +183,7 @@ impl Appearance {
             };
         }
         let seen = self.hue_shift.seen_lit(self.hue_color(rest), doppler, light, lamps);
-        let tint = match self.palette.interpolation() {
+        let tint = match self.palette.interpolation {
             Interpolation::Hue => seen.hue,
             Interpolation::Wavelength => seen.wavelength_nm,
         };

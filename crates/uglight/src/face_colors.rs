@@ -40,7 +40,7 @@ impl Appearance {
     /// between different colours, or where its hue would fade.
     #[inline]
     pub fn mixing<S: Borrow<Swatch>>(&self, swatches: impl Iterator<Item = S> + Clone) -> Mixing {
-        if !self.palette.has_light() && !self.palette.has_display() {
+        if !self.palette.has_light && !self.palette.has_display {
             return Mixing::Hue;
         }
         let most = swatches.clone().max_by_key(|swatch| swatch.borrow().form.mixing());
@@ -66,7 +66,7 @@ impl Appearance {
 
     /// Whether faces are drawn as hues, and whether faces are drawn as light.
     pub fn draws_light(&self, scene: &Scene) -> [bool; 2] {
-        if !(self.palette.has_light() || self.palette.has_display() && self.surface.has_display()) {
+        if !(self.palette.has_light || self.palette.has_display && self.surface.has_display()) {
             return [!scene.faces.is_empty(), false];
         }
         let is_light = |face: &&Face| {
@@ -106,7 +106,7 @@ impl Appearance {
     /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
     pub fn is_translucent(&self, scene: &Scene, face: &Face) -> bool {
-        if !self.palette.has_translucency() {
+        if !self.palette.has_translucency {
             return false;
         }
         match face.color {

@@ -75,15 +75,20 @@ impl Swatch {
 /// The colours of a scene, and how they are interpolated.
 #[derive(Clone, Debug)]
 pub struct Palette {
-    swatches: Vec<Swatch>,
-    interpolation: Interpolation,
+    /// All colours in the order of the scene's table.
+    pub swatches: Vec<Swatch>,
+    /// The interpolated quantity.
+    pub interpolation: Interpolation,
     /// Colours are spectra.
     is_spectral: bool,
     /// Light may be drawn as the nearest hue.
     has_hues_of_light: bool,
-    has_light: bool,
-    has_display: bool,
-    has_translucency: bool,
+    /// A colour of the scene is drawn as light.
+    pub has_light: bool,
+    /// Colours of a display may be drawn as light.
+    pub has_display: bool,
+    /// A colour of the scene is not opaque.
+    pub has_translucency: bool,
 }
 
 impl Palette {
@@ -124,16 +129,6 @@ impl Palette {
         self.swatches[color.index()]
     }
 
-    /// All colours in the order of the scene's table.
-    pub fn all(&self) -> &[Swatch] {
-        &self.swatches
-    }
-
-    /// The interpolated quantity.
-    pub fn interpolation(&self) -> Interpolation {
-        self.interpolation
-    }
-
     /// The colour of objects without a colour; given as light if colours are spectra.
     pub fn white(&self) -> Swatch {
         Swatch { form: self.marked(ColorForm::Hue), ..Swatch::WHITE }
@@ -145,16 +140,6 @@ impl Palette {
         if self.is_spectral { ColorForm::Light(form.light().unwrap_or(DVec3::ONE)) } else { form }
     }
 
-    /// True if a colour of the scene is drawn as light.
-    pub fn has_light(&self) -> bool {
-        self.has_light
-    }
-
-    /// True if colours of a display may be drawn as light.
-    pub fn has_display(&self) -> bool {
-        self.has_display
-    }
-
     /// True if a hue is attenuated, because it stands for a wavelength near the ends of the visible
     /// range.  Eq. (P17)
     pub fn is_faded(&self, swatch: &Swatch) -> bool {
@@ -163,11 +148,6 @@ impl Palette {
             Interpolation::Wavelength => attenuation(swatch.tint) >= 1.0,
         };
         !swatch.is_grey() && !is_full
-    }
-
-    /// True if a colour of the scene is not opaque.
-    pub fn has_translucency(&self) -> bool {
-        self.has_translucency
     }
 
     /// The light of a colour: linear red, green and blue. Its hue is attenuated near the ends of

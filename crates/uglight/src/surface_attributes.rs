@@ -32,7 +32,7 @@ impl SurfaceAttributes {
         let frames = RestFrames::new(scene);
         let seen = SeenVertices::new(scene, eye, &frames);
         let rest = seen.rest_positions(scene, eye, &frames);
-        let mut swatches = palette.all().to_vec();
+        let mut swatches = palette.swatches.to_vec();
         // Scenes have fewer than 2^32 colours.
         let white = swatches.len() as u32;
         swatches.push(palette.white());

@@ -140,7 +140,7 @@ impl<'a> Scenery<'a> {
             })
         };
         let lamp_motions = lamps.iter().map(lamp_motion).collect();
-        let keeps_highlights = appearance.palette.has_light() || config.picture.keeps_light();
+        let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
         let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);

@@ -33,7 +33,7 @@ pub enum Layout {
 impl Layout {
     /// The one with the fewest interpolants.
     pub fn new(scene: &Scene, appearance: &Appearance, lighting: &Lighting) -> Self {
-        let has_levels = lighting.is_colored() || lighting.acts_on_light();
+        let has_levels = lighting.is_colored() || lighting.acts_on_light;
         match appearance.draws_light(scene) {
             [_, false] if !has_levels => Self::Hues,
             [false, true] => Self::Light,

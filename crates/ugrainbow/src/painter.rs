@@ -65,7 +65,7 @@ impl Painter<'_> {
     #[inline]
     pub fn lit_as_written(&self, swatch: Swatch) -> Swatch {
         match swatch.form {
-            ColorForm::Display(light) if self.lighting.acts_on_light() => {
+            ColorForm::Display(light) if self.lighting.acts_on_light => {
                 Swatch { form: ColorForm::Light(light), ..swatch }
             }
             _ => swatch,
@@ -176,7 +176,7 @@ impl Painter<'_> {
     /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {
         let is_even = !self.lighting.needs_geometry() && self.layout == Layout::Hues;
-        let is_opaque = !self.appearance.palette.has_translucency();
+        let is_opaque = !self.appearance.palette.has_translucency;
         (is_even && is_opaque).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 

@@ -221,7 +221,7 @@ impl<'a> RenderLayers<'a> {
         let faces = painter
             .appearance
             .palette
-            .has_translucency()
+            .has_translucency
             .then(|| Layers::new(painter, &planes, mode, true, pack_transparent));
         let shape: Box<dyn LineShape> = match mode.exact {
             Some(_) => Box::new(CurvedLines::new(painter)),

@@ -67,7 +67,7 @@ impl<'a> Setup<'a> {
         let law = config.law(&scene);
         let lighting = Lighting::new(&scene, view.eye, view.forward, law);
         let palette = &appearance.palette;
-        let keeps_highlights = palette.has_light() || config.picture.keeps_light();
+        let keeps_highlights = palette.has_light || config.picture.keeps_light();
         if config.exact.is_some() {
             check_exact(&scene, &view)?;
             if appearance.surface.has_moving_spectra(&scene, &scene.wires, shift) {
@@ -75,7 +75,7 @@ impl<'a> Setup<'a> {
             }
         }
         let layout = Layout::new(&scene, &appearance, &lighting);
-        let shader = Shader::new(palette.interpolation(), !keeps_highlights, law.acts_on_light(), layout);
+        let shader = Shader::new(palette.interpolation, !keeps_highlights, law.acts_on_light(), layout);
         let is_culled = config.cull;
         Ok(Self { scene, view, grid, appearance, lighting, layout, shader, is_culled, keeps_highlights })
     }

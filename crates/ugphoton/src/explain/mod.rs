@@ -255,7 +255,7 @@ impl Teller<'_> {
             return SampleColor::of_light(visit.light.to_array(), self.is_lit(point));
         }
         let base = scenery.appearance.hue_color(&point.color.swatch);
-        let is_hue = scenery.appearance.palette.interpolation() == Interpolation::Hue;
+        let is_hue = scenery.appearance.palette.interpolation == Interpolation::Hue;
         let wavelength = (!point.color.swatch.is_grey()).then(|| {
             let seen_nm = scenery.appearance.hue_shift.wavelength_nm(base.wavelength_nm, point.doppler());
             HueWavelength::new(base.wavelength_nm, seen_nm, is_hue.then_some(base.hue))

@@ -260,7 +260,7 @@ impl Teller<'_> {
         let has_levels = self.setup.layout == Layout::Mixed { has_levels: true };
         let light_level = has_levels.then(|| [3, 4, 5].map(|i| f64::from(values[i])));
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
-        let interpolation = self.setup.appearance.palette.interpolation();
+        let interpolation = self.setup.appearance.palette.interpolation;
         let hue = match interpolation {
             Interpolation::Hue => tint,
             Interpolation::Wavelength => wavelength_to_hue(tint),

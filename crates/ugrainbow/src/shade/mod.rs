@@ -100,19 +100,21 @@ impl Shader {
         run: &mut ShadedRun,
     ) {
         let n = tints.len();
-        let (mut own_hues, mut own_fades) = ([0.0; RUN], [0.0; RUN]);
+        // Set only where they are needed, since many runs are short.
+        let (mut own_hues, mut own_fades): ([f32; RUN], [f32; RUN]);
         let hues = match self.interpolation {
             Interpolation::Hue => tints,
             Interpolation::Wavelength => {
+                own_hues = [0.0; RUN];
                 own_hues.iter_mut().zip(tints).for_each(|(hue, &tint)| *hue = self.hue(tint));
                 &own_hues[..n]
             }
         };
         let fades = if all_between(self.level, tints, self.bright_tints()) {
-            run.is_out_of_range = [false; RUN];
+            run.is_out_of_range[..n].fill(false);
             None
         } else {
-            own_fades[..n].fill(1.0);
+            own_fades = [1.0; RUN];
             let [low, high] = self.bright_tints();
             for (idx, fade) in own_fades[..n].iter_mut().enumerate() {
                 let is_product = || lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
