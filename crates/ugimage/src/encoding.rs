@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3};
 use libm::pow;
 use ugphysics::{srgb_decode, xyz_to_linear_srgb};
 
-use crate::read_light::Pixels;
+use crate::pixels::Pixels;
 
 /// The light that the numbers of a picture stand for.
 #[derive(Clone, Debug, PartialEq)]

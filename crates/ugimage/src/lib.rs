@@ -47,6 +47,7 @@ mod orientation;
 mod panorama;
 mod pdf;
 mod pfm;
+mod pixels;
 mod png;
 mod postscript;
 mod ppm;
@@ -65,9 +66,10 @@ pub use format::Format;
 pub use history::read_history;
 pub use metadata::Metadata;
 pub use panorama::PanoramaArea;
+pub use pixels::Pixels;
 pub use png::Compression;
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
-pub use read_light::{Pixels, ReadPicture, read_picture};
+pub use read_light::{ReadPicture, read_picture};
 pub use ugframe::{
     Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET, Samples,
     Tone, auto_exposure, display_pixel,

@@ -196,8 +196,13 @@ fn decoded<P>(
 }
 
 fn broken(error: png::DecodingError) -> ReadError {
+    unreadable("PNG", &error)
+}
+
+/// The error of a decoder for a kind of files.
+pub(crate) fn unreadable(kind: &str, error: &dyn fmt::Display) -> ReadError {
     let problem = error.to_string();
-    ReadError::new(&format!("not a readable PNG file: {}", problem.trim_end_matches('.')))
+    ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
 }
 
 fn decoder(file: &[u8]) -> Result<Decoder<Cursor<&[u8]>>, ReadError> {

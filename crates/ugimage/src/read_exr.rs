@@ -9,8 +9,7 @@ use exr::meta::header::Header;
 use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader};
 
 use crate::encoding::Encoding;
-use crate::read::{Declared, MOST_INFLATED, PictureLimits, ReadError, check_packed, reserved};
-use crate::read_light::broken;
+use crate::read::{Declared, MOST_INFLATED, PictureLimits, ReadError, check_packed, reserved, unreadable};
 
 /// Bytes of a pixel of light.
 const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
@@ -27,7 +26,7 @@ pub(crate) fn read(
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     /// Of headers, as the decoder of pixels checks them.
     const PEDANTIC: bool = true;
-    let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
+    let broken = |error: &dyn std::fmt::Display| unreadable("EXR", error);
     let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), PEDANTIC);
     let headers = headers.map_err(|error| broken(&error))?.headers;
     // The first layer with these channels is read, so none may be too large.
@@ -116,54 +115,33 @@ impl Channels {
     }
 
     fn read(&self, file: &[u8]) -> exr::error::Result<([u32; 2], Vec<[f32; 4]>)> {
-        type Image = PixelVec<[f32; 4]>;
-        let new =
-            |resolution: Vec2<usize>, _: &_| Image { resolution, pixels: vec![[0.0; 4]; resolution.area()] };
-        let set = |image: &mut Image, position: Vec2<usize>, pixel: [f32; 4]| {
-            let idx = position.flat_index_for_size(image.resolution);
-            image.pixels[idx] = pixel;
+        // A name that no channel has, so the only one is repeated.
+        let [red, green, blue] = match &self.names[..] {
+            [red, green, blue] => [red.as_str(), green, blue],
+            names => [names[0].as_str(), "\u{1}", "\u{2}"],
         };
-        let reader = exr_reader().no_deep_data().largest_resolution_level().specific_channels();
-        let data = match &self.names[..] {
-            [red, green, blue] => {
-                reader
-                    .required(red.as_str())
-                    .required(green.as_str())
-                    .required(blue.as_str())
-                    .optional(self.alpha.as_str(), 1.0_f32)
-                    .collect_pixels(
-                        |resolution, _| new(resolution, &()),
-                        move |image, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
-                            set(image, position, [red, green, blue, alpha]);
-                        },
-                    )
-                    .first_valid_layer()
-                    .all_attributes()
-                    .non_parallel()
-                    .from_buffered(Cursor::new(file))?
-                    .layer_data
-                    .channel_data
-                    .pixels
-            }
-            names => {
-                reader
-                    .required(names[0].as_str())
-                    .optional(self.alpha.as_str(), 1.0_f32)
-                    .collect_pixels(
-                        |resolution, _| new(resolution, &()),
-                        move |image, position, (grey, alpha): (f32, f32)| {
-                            set(image, position, [grey, grey, grey, alpha]);
-                        },
-                    )
-                    .first_valid_layer()
-                    .all_attributes()
-                    .non_parallel()
-                    .from_buffered(Cursor::new(file))?
-                    .layer_data
-                    .channel_data
-                    .pixels
-            }
-        };
+        let is_grey = self.names.len() == 1;
+        let image = exr_reader()
+            .no_deep_data()
+            .largest_resolution_level()
+            .specific_channels()
+            .required(red)
+            .optional(green, 0.0_f32)
+            .optional(blue, 0.0_f32)
+            .optional(self.alpha.as_str(), 1.0_f32)
+            .collect_pixels(
+                |resolution, _| PixelVec { resolution, pixels: vec![[0.0_f32; 4]; resolution.area()] },
+                move |image, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
+                    let idx = position.flat_index_for_size(image.resolution);
+                    let [green, blue] = if is_grey { [red; 2] } else { [green, blue] };
+                    image.pixels[idx] = [red, green, blue, alpha];
+                },
+            )
+            .first_valid_layer()
+            .all_attributes()
+            .non_parallel()
+            .from_buffered(Cursor::new(file))?;
+        let data = image.layer_data.channel_data.pixels;
         Ok(([data.resolution.width() as u32, data.resolution.height() as u32], data.pixels))
     }
 }

@@ -7,31 +7,12 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use crate::orientation::{self, upright};
 use crate::panorama::part_of_xmp;
+use crate::pixels::Pixels;
 use crate::read::{
     self, Declared, PictureLimits, ReadError, check_packed, encoding_of_profile, is_png_deep, read_png,
-    read_png_light, reserved,
+    read_png_light, reserved, unreadable,
 };
 use crate::{read_exr, read_hdr, read_pfm};
-
-/// The pixels of a picture, row after row from the top.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Pixels {
-    /// Display-encoded sRGB, and alpha.
-    Srgb(Vec<[u8; 4]>),
-    /// Linear light with the sRGB primaries, not multiplied by alpha; white is 1. Numbers that are
-    /// not finite occur as they are in the file.
-    Light(Vec<[f32; 4]>),
-}
-
-impl Pixels {
-    /// Their bytes in memory.
-    pub fn n_bytes(&self) -> u64 {
-        match self {
-            Self::Srgb(pixels) => size_of_val(pixels.as_slice()) as u64,
-            Self::Light(pixels) => size_of_val(pixels.as_slice()) as u64,
-        }
-    }
-}
 
 /// A picture that was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -101,11 +82,6 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
     Ok(ReadPicture { size, pixels, part, notes })
 }
 
-pub(crate) fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
-    let problem = error.to_string();
-    ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
-}
-
 fn jpeg(
     file: &[u8],
     limits: &PictureLimits,
@@ -116,7 +92,7 @@ fn jpeg(
     const N_BYTES: usize = 4;
     /// Bytes of its coefficients, which a progressive file needs all at once.
     const N_BYTES_OF_COEFFICIENTS: usize = 6;
-    let broken = |error: &dyn std::fmt::Display| broken("JPEG", error);
+    let broken = |error: &dyn std::fmt::Display| unreadable("JPEG", error);
     // The decoder fills what is missing of a truncated file with grey.
     let Some(Packed { n_bytes: n_packed, is_progressive }) = packed(file) else {
         return Err(broken(&"the file is truncated"));
@@ -398,7 +374,7 @@ mod tests {
             panic!("light")
         };
         for (pixel, level) in pixels.iter().zip(&stored) {
-            let light = [0, 1, 2].map(|idx| (f64::from(level[idx]) / 255.0).powf(2.2));
+            let light = [0, 1, 2].map(|idx| libm::pow(f64::from(level[idx]) / 255.0, 2.2));
             for (found, row) in pixel.iter().zip(SRGB_FROM_P3) {
                 let expected: f64 = row.iter().zip(light).map(|(part, light)| part * light).sum();
                 assert!((f64::from(*found) - expected).abs() < 2e-3, "{pixel:?} {level:?}");

@@ -9,11 +9,12 @@ use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use rustc_hash::FxHashMap;
+use serde_json::Value;
 use ugphysics::srgb_encode;
 use ugscene::{VertexId, shorten};
 
-use super::gltf_document::{Document, Instances, Material, Node, Primitive, Whole, split, view_bytes};
-use super::{Input, strip};
+use super::gltf_document::{Document, numbers, split, whole};
+use super::{Input, accessor, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 use crate::textures::{MAX_TEXTURE_BYTES, Textures};
@@ -21,7 +22,7 @@ use crate::textures::{MAX_TEXTURE_BYTES, Textures};
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let (json, blob) = split(input.bytes)?;
     let document = Document::parse(json)?;
-    if let Some(copyright) = &document.asset.copyright {
+    if let Some(copyright) = document.0["asset"]["copyright"].as_str() {
         builder.comment(copyright);
     }
     let mut reader = Reader {
@@ -37,7 +38,7 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
     };
     reader.scene()?;
     let Reader { n_skipped, n_without_positions, textures, .. } = reader;
-    if document.nodes.iter().any(|node| node.skin.is_some()) {
+    if document.table("nodes").iter().any(|node| !node["skin"].is_null()) {
         builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
     textures.warn(builder);
@@ -66,13 +67,13 @@ fn buffers<'a>(
 ) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
     let mut buffers = Vec::new();
     let mut room = MAX_BUFFER_BYTES;
-    for (index, buffer) in document.buffers.iter().enumerate() {
-        let length = buffer.byte_length.0;
+    for (index, buffer) in document.table("buffers").iter().enumerate() {
+        let length = whole(&buffer["byteLength"]).unwrap_or(0);
         room = room.checked_sub(length as u64).ok_or_else(|| {
             let what = "the buffers have more than";
             Problem::new(format!("{what} {MAX_BUFFER_BYTES} bytes together, the limit; split the mesh"))
         })?;
-        let bytes: Cow<[u8]> = match &buffer.uri {
+        let bytes: Cow<[u8]> = match buffer["uri"].as_str() {
             Some(uri) => load(uri, length as u64, input)?.into(),
             None => match blob.take() {
                 Some(blob) => blob.into(),
@@ -159,90 +160,84 @@ impl Reader<'_, '_> {
     /// Reads all nodes of the default scene or, if there is none, of the first scene. Without any
     /// scene, the nodes without parents are the roots.
     fn scene(&mut self) -> Result<(), Problem> {
-        let Document { nodes, meshes, scenes, .. } = self.document;
-        let roots: Vec<Whole> = match scenes.get(self.document.scene.unwrap_or_default().0) {
-            Some(scene) => scene.nodes.clone(),
+        let nodes = self.document.table("nodes");
+        let children = |node: &Value| -> Vec<usize> {
+            node.as_array().into_iter().flatten().filter_map(whole).collect()
+        };
+        let scene = whole(&self.document.0["scene"]).unwrap_or(0);
+        let roots: Vec<usize> = match self.document.table("scenes").get(scene) {
+            Some(scene) => children(&scene["nodes"]),
             None => {
-                let children = nodes.iter().flat_map(|node| &node.children).map(|child| child.0);
-                let children: BTreeSet<usize> = children.collect();
-                (0..nodes.len()).filter(|row| !children.contains(row)).map(Whole).collect()
+                let inner: BTreeSet<usize> =
+                    nodes.iter().flat_map(|node| children(&node["children"])).collect();
+                (0..nodes.len()).filter(|row| !inner.contains(row)).collect()
             }
         };
         let mut is_visited = vec![false; nodes.len()];
         let mut todo: Vec<_> = roots.into_iter().map(|node| (node, DAffine3::IDENTITY)).collect();
         todo.reverse();
         while let Some((index, scene_from_parent)) = todo.pop() {
-            let node = Document::row(nodes, index, "node")?;
-            if std::mem::replace(&mut is_visited[index.0], true) {
-                let what = format!("node {} has two parents; export the mesh again", index.0);
+            let node = self.document.row("nodes", index)?;
+            if std::mem::replace(&mut is_visited[index], true) {
+                let what = format!("node {index} has two parents; export the mesh again");
                 return Err(Problem::new(what));
             }
             let scene_from_node = scene_from_parent * local_transform(node);
-            if let Some(mesh) = node.mesh {
-                let mesh = Document::row(meshes, mesh, "mesh")?;
-                self.builder.name_faces(node.name.as_deref().or(mesh.name.as_deref()).unwrap_or_default());
+            if let Some(mesh) = whole(&node["mesh"]) {
+                let mesh = self.document.row("meshes", mesh)?;
+                self.builder.name_faces(node["name"].as_str().or(mesh["name"].as_str()).unwrap_or_default());
                 // Joints place a mesh with a skin; its node does not.
-                let placed = if node.skin.is_some() { DAffine3::IDENTITY } else { scene_from_node };
+                let placed = if node["skin"].is_null() { scene_from_node } else { DAffine3::IDENTITY };
                 for node_from_instance in self.instances(node)? {
-                    for primitive in &mesh.primitives {
+                    for primitive in mesh["primitives"].as_array().into_iter().flatten() {
                         self.primitive(primitive, placed * node_from_instance)?;
                     }
                 }
             }
-            todo.extend(node.children.iter().rev().map(|&child| (child, scene_from_node)));
+            todo.extend(children(&node["children"]).into_iter().rev().map(|child| (child, scene_from_node)));
         }
         Ok(())
     }
 
     /// The transforms of the instances of a node's mesh; the identity if it states none.
-    fn instances(&mut self, node: &Node) -> Result<Vec<DAffine3>, Problem> {
-        let Some(Instances { attributes }) = &node.extensions.instances else {
+    fn instances(&mut self, node: &Value) -> Result<Vec<DAffine3>, Problem> {
+        let attributes = &node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"];
+        if attributes.is_null() {
             return Ok(vec![DAffine3::IDENTITY]);
-        };
-        let mut rows = |name: &str, n_components: usize| match attributes.get(name) {
-            Some(&index) => self.rows(index, n_components, name).map(Some),
-            None => Ok(None),
-        };
-        let (places, turns, sizes) = (rows("TRANSLATION", 3)?, rows("ROTATION", 4)?, rows("SCALE", 3)?);
+        }
+        let places = self.rows(&attributes["TRANSLATION"], 3, "TRANSLATION")?;
+        let turns = self.rows(&attributes["ROTATION"], 4, "ROTATION")?;
+        let sizes = self.rows(&attributes["SCALE"], 3, "SCALE")?;
         let lengths = [(&places, 3), (&turns, 4), (&sizes, 3)];
         let count = lengths.iter().filter_map(|(rows, width)| Some(rows.as_ref()?.len() / width)).min();
-        let row = |rows: &Option<Rc<Vec<f64>>>, row: usize, width: usize| {
-            rows.as_ref().map(|rows| rows[width * row..width * (row + 1)].to_vec())
-        };
         let instance = |idx: usize| {
-            let part = |rows, width| row(rows, idx, width);
-            transform(
-                part(&places, 3).and_then(|part| part.try_into().ok()),
-                part(&turns, 4).and_then(|part| part.try_into().ok()),
-                part(&sizes, 3).and_then(|part| part.try_into().ok()),
-            )
+            let triple = |rows: &Option<Rc<Vec<f64>>>| rows.as_ref().map(|rows| vector(rows, idx).to_array());
+            let turn = turns.as_ref().and_then(|rows| rows[4 * idx..4 * idx + 4].try_into().ok());
+            transform(triple(&places), turn, triple(&sizes))
         };
         Ok((0..count.unwrap_or(1)).map(instance).collect())
     }
 
-    fn primitive(&mut self, primitive: &Primitive, scene_from_node: DAffine3) -> Result<(), Problem> {
-        let mode = primitive.mode.map_or(TRIANGLES, |mode| mode.0);
+    fn primitive(&mut self, primitive: &Value, scene_from_node: DAffine3) -> Result<(), Problem> {
+        let mode = whole(&primitive["mode"]).unwrap_or(TRIANGLES);
         if !(TRIANGLES..=TRIANGLE_FAN).contains(&mode) {
             self.n_skipped += 1;
             return Ok(());
         }
-        let Some(&positions) = primitive.attributes.get("POSITION") else {
+        let attributes = &primitive["attributes"];
+        let Some(positions) = self.rows(&attributes["POSITION"], 3, "POSITION")? else {
             self.n_without_positions += 1;
             return Ok(());
         };
-        let positions = self.rows(positions, 3, "POSITION")?;
         let n_positions = positions.len() / 3;
-        let normals = match primitive.attributes.get("NORMAL") {
-            Some(&normals) => Some(self.rows(normals, 3, "NORMAL")?),
-            None => None,
-        };
-        let material = match primitive.material {
-            Some(index) => Some(Document::row(&self.document.materials, index, "material")?),
+        let normals = self.rows(&attributes["NORMAL"], 3, "NORMAL")?;
+        let material = match whole(&primitive["material"]) {
+            Some(index) => Some(self.document.row("materials", index)?),
             None => None,
         };
         let surface = self.surface(material);
-        let colors = self.colors(primitive, &surface)?;
-        let corners = self.corners(primitive, n_positions)?;
+        let colors = self.colors(&attributes["COLOR_0"], &surface)?;
+        let corners = self.corners(&primitive["indices"], n_positions)?;
 
         // The inverse transpose keeps normals perpendicular to surfaces under non-uniform scaling.
         let normal_matrix: DMat3 = scene_from_node.matrix3.inverse().transpose();
@@ -260,7 +255,8 @@ impl Reader<'_, '_> {
         }
         let color = match (&colors, material) {
             (None, Some(material)) => {
-                Some(self.builder.material(surface.display_color([1.0; 4]), &material.name))
+                let name = material["name"].as_str().unwrap_or_default();
+                Some(self.builder.material(surface.display_color([1.0; 4]), name))
             }
             _ => None,
         };
@@ -274,42 +270,46 @@ impl Reader<'_, '_> {
     }
 
     /// The colour of a material, times the mean of its texture; white without one.
-    fn surface(&mut self, material: Option<&Material>) -> Surface {
+    fn surface(&mut self, material: Option<&Value>) -> Surface {
         let Some(material) = material else { return Surface { factor: [1.0; 4], is_blended: false } };
-        let specular = material.extensions.specular_glossiness.as_ref();
-        let color = specular.unwrap_or(&material.pbr_metallic_roughness);
-        let mut factor = color.factor.unwrap_or([1.0; 4]);
-        if let Some(mean) = color.texture.as_ref().and_then(|texture| self.texture_mean(texture.index)) {
+        let glossy = &material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
+        let (factor, texture) = if glossy.is_null() {
+            let surface = &material["pbrMetallicRoughness"];
+            (&surface["baseColorFactor"], &surface["baseColorTexture"])
+        } else {
+            (&glossy["diffuseFactor"], &glossy["diffuseTexture"])
+        };
+        let mut factor = numbers(factor).unwrap_or([1.0; 4]);
+        if let Some(mean) = whole(&texture["index"]).and_then(|texture| self.texture_mean(texture)) {
             factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
         }
-        Surface { factor, is_blended: material.alpha_mode == "BLEND" }
+        Surface { factor, is_blended: material["alphaMode"] == "BLEND" }
     }
 
     /// The mean linear light of a texture.
-    fn texture_mean(&mut self, index: Whole) -> Option<[f64; 3]> {
-        let Document { textures, images, buffer_views, .. } = self.document;
-        let (buffers, input) = (&self.buffers, self.input);
-        let source = textures.get(index.0).and_then(|texture| texture.source);
-        let Some(image) = source.and_then(|source| images.get(source.0)) else {
+    fn texture_mean(&mut self, index: usize) -> Option<[f64; 3]> {
+        let (document, buffers, input) = (self.document, &self.buffers, self.input);
+        let source = document.table("textures").get(index).and_then(|texture| whole(&texture["source"]));
+        let image = source.and_then(|source| Some((source, document.table("images").get(source)?)));
+        let Some((source, image)) = image else {
             let none = || Err("it has no PNG or JPEG picture".to_owned());
-            return self.textures.mean(&format!("texture {}", index.0), none);
+            return self.textures.mean(&format!("texture {index}"), none);
         };
-        let number = format!("image {}", source.unwrap_or_default().0);
-        if let Some(uri) = &image.uri {
+        let number = format!("image {source}");
+        if let Some(uri) = image["uri"].as_str() {
             let name = if uri.starts_with("data:") { number } else { percent_decoded(uri) };
             let load = || load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what);
             return self.textures.mean(&name, load);
         }
-        let view = image.buffer_view.and_then(|view| buffer_views.get(view.0));
-        let bytes = view.and_then(|view| view_bytes(view, buffers));
+        let bytes = whole(&image["bufferView"]).and_then(|view| document.view(view, buffers));
         self.textures
             .mean(&number, || bytes.map(<[u8]>::to_vec).ok_or_else(|| "it is not in the buffers".to_owned()))
     }
 
     /// The index of the primitive's vertex for each corner.
-    fn corners(&mut self, primitive: &Primitive, n_positions: usize) -> Result<Vec<usize>, Problem> {
-        let Some(index) = primitive.indices else { return Ok((0..n_positions).collect()) };
-        if !Document::row(&self.document.accessors, index, "accessor")?.is_index() {
+    fn corners(&mut self, indices: &Value, n_positions: usize) -> Result<Vec<usize>, Problem> {
+        let Some(index) = whole(indices) else { return Ok((0..n_positions).collect()) };
+        if !accessor::is_index(self.document.row("accessors", index)?) {
             return Err(Problem::new("indices are not unsigned integers; export the mesh again"));
         }
         let corners: Vec<usize> = self.numbers(index)?.iter().map(|&row| row as usize).collect();
@@ -322,9 +322,9 @@ impl Reader<'_, '_> {
     }
 
     /// `COLOR_0` times the colour of the material (both linear), display-encoded.
-    fn colors(&mut self, primitive: &Primitive, surface: &Surface) -> Result<Option<Vec<Rgba>>, Problem> {
-        let Some(&index) = primitive.attributes.get("COLOR_0") else { return Ok(None) };
-        let n_components = Document::row(&self.document.accessors, index, "accessor")?.n_components()?;
+    fn colors(&mut self, colors: &Value, surface: &Surface) -> Result<Option<Vec<Rgba>>, Problem> {
+        let Some(index) = whole(colors) else { return Ok(None) };
+        let [n_components, _] = accessor::shape(self.document.row("accessors", index)?)?;
         if !(3..=4).contains(&n_components) {
             return Err(Problem::new("`COLOR_0` must have three or four components"));
         }
@@ -336,30 +336,30 @@ impl Reader<'_, '_> {
         Ok(Some(colors.collect()))
     }
 
-    /// The numbers of an accessor with rows of `width` components.
-    fn rows(&mut self, index: Whole, width: usize, name: &str) -> Result<Rc<Vec<f64>>, Problem> {
-        let accessor = Document::row(&self.document.accessors, index, "accessor")?;
-        if accessor.n_components()? != width {
+    /// The numbers of an accessor with rows of `width` components; `None` without an index.
+    fn rows(&mut self, index: &Value, width: usize, name: &str) -> Result<Option<Rc<Vec<f64>>>, Problem> {
+        let Some(index) = whole(index) else { return Ok(None) };
+        if accessor::shape(self.document.row("accessors", index)?)?[0] != width {
             return Err(Problem::new(format!(
                 "`{name}` must have {width} components; export the mesh again"
             )));
         }
-        self.numbers(index)
+        self.numbers(index).map(Some)
     }
 
-    fn numbers(&mut self, index: Whole) -> Result<Rc<Vec<f64>>, Problem> {
-        if let Some(known) = self.numbers.get(&index.0) {
+    fn numbers(&mut self, index: usize) -> Result<Rc<Vec<f64>>, Problem> {
+        if let Some(known) = self.numbers.get(&index) {
             return Ok(Rc::clone(known));
         }
-        let accessor = Document::row(&self.document.accessors, index, "accessor")?;
-        let n_numbers = accessor.count.0.saturating_mul(accessor.n_components()?);
-        self.room = self.room.checked_sub(n_numbers).ok_or_else(|| {
+        let accessor = self.document.row("accessors", index)?;
+        let [n_components, count] = accessor::shape(accessor)?;
+        self.room = self.room.checked_sub(count.saturating_mul(n_components)).ok_or_else(|| {
             Problem::new(format!(
                 "the accessors have more than {MAX_NUMBERS} numbers together; split the mesh"
             ))
         })?;
-        let numbers = Rc::new(accessor.read(self.document, &self.buffers)?);
-        self.numbers.insert(index.0, Rc::clone(&numbers));
+        let numbers = Rc::new(accessor::read(accessor, self.document, &self.buffers)?);
+        self.numbers.insert(index, Rc::clone(&numbers));
         Ok(numbers)
     }
 }
@@ -383,10 +383,10 @@ fn triangles(mode: usize, len: usize) -> Vec<[usize; 3]> {
 }
 
 /// The transform of a node: a column-major matrix, or scale, rotation and translation.
-fn local_transform(node: &Node) -> DAffine3 {
-    match &node.matrix {
-        Some(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(matrix)),
-        None => transform(node.translation, node.rotation, node.scale),
+fn local_transform(node: &Value) -> DAffine3 {
+    match numbers(&node["matrix"]) {
+        Some(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(&matrix)),
+        None => transform(numbers(&node["translation"]), numbers(&node["rotation"]), numbers(&node["scale"])),
     }
 }
 

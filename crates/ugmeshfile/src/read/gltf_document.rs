@@ -1,188 +1,15 @@
-//! The parts of a glTF 2.0 document that are read here. Everything else may be anything, since
-//! exporters write much that Khronos' validator accepts and a full data model refuses.
+//! glTF 2.0 documents. Only what is read has to be valid, since exporters write much that Khronos'
+//! validator accepts and a full data model refuses.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde_json::Value;
+use ugscene::shorten;
 
 use crate::error::Problem;
 
-/// An index or a count, which some exporters write with a decimal point.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
-#[serde(try_from = "f64")]
-pub(super) struct Whole(pub usize);
-
-impl TryFrom<f64> for Whole {
-    type Error = String;
-
-    fn try_from(number: f64) -> Result<Self, String> {
-        let whole = number as usize;
-        if whole as f64 == number { Ok(Self(whole)) } else { Err(format!("{number} is not a whole number")) }
-    }
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct Document {
-    pub asset: Asset,
-    pub extensions_required: Vec<String>,
-    pub scene: Option<Whole>,
-    pub scenes: Vec<SceneRoots>,
-    pub nodes: Vec<Node>,
-    pub meshes: Vec<Mesh>,
-    pub materials: Vec<Material>,
-    pub textures: Vec<Texture>,
-    pub images: Vec<Image>,
-    pub accessors: Vec<Accessor>,
-    pub buffer_views: Vec<BufferView>,
-    pub buffers: Vec<Buffer>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Asset {
-    pub version: String,
-    pub copyright: Option<String>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct SceneRoots {
-    pub nodes: Vec<Whole>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Node {
-    pub name: Option<String>,
-    pub children: Vec<Whole>,
-    pub mesh: Option<Whole>,
-    pub skin: Option<Whole>,
-    pub matrix: Option<[f64; 16]>,
-    pub translation: Option<[f64; 3]>,
-    pub rotation: Option<[f64; 4]>,
-    pub scale: Option<[f64; 3]>,
-    pub extensions: NodeExtensions,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct NodeExtensions {
-    #[serde(rename = "EXT_mesh_gpu_instancing")]
-    pub instances: Option<Instances>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Instances {
-    pub attributes: BTreeMap<String, Whole>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Mesh {
-    pub name: Option<String>,
-    pub primitives: Vec<Primitive>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Primitive {
-    pub attributes: BTreeMap<String, Whole>,
-    pub indices: Option<Whole>,
-    pub material: Option<Whole>,
-    pub mode: Option<Whole>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct Material {
-    pub name: String,
-    pub alpha_mode: String,
-    pub pbr_metallic_roughness: BaseColor,
-    pub extensions: MaterialExtensions,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct MaterialExtensions {
-    #[serde(rename = "KHR_materials_pbrSpecularGlossiness")]
-    pub specular_glossiness: Option<BaseColor>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct BaseColor {
-    #[serde(rename = "baseColorFactor", alias = "diffuseFactor")]
-    pub factor: Option<[f64; 4]>,
-    #[serde(rename = "baseColorTexture", alias = "diffuseTexture")]
-    pub texture: Option<TextureUse>,
-}
-
-#[derive(Debug, Deserialize)]
-pub(super) struct TextureUse {
-    pub index: Whole,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Texture {
-    pub source: Option<Whole>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct Image {
-    pub uri: Option<String>,
-    pub buffer_view: Option<Whole>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct Accessor {
-    pub buffer_view: Option<Whole>,
-    pub byte_offset: Whole,
-    pub component_type: Whole,
-    pub normalized: bool,
-    pub count: Whole,
-    #[serde(rename = "type")]
-    pub shape: String,
-    pub sparse: Option<Sparse>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default)]
-pub(super) struct Sparse {
-    pub count: Whole,
-    pub indices: SparsePart,
-    pub values: SparsePart,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct SparsePart {
-    pub buffer_view: Whole,
-    pub byte_offset: Whole,
-    /// Of indices.
-    pub component_type: Whole,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct BufferView {
-    pub buffer: Whole,
-    pub byte_offset: Whole,
-    pub byte_length: Whole,
-    pub byte_stride: Option<Whole>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(default, rename_all = "camelCase")]
-pub(super) struct Buffer {
-    pub uri: Option<String>,
-    pub byte_length: Whole,
-}
+/// The JSON of a file, of which what is not read may be anything.
+pub(super) struct Document(pub Value);
 
 /// Beginnings of the names of extensions that a file may require: they do not affect the geometry.
 const HARMLESS: [&str; 7] = [
@@ -198,46 +25,64 @@ const HARMLESS: [&str; 7] = [
 impl Document {
     /// Parses the JSON text of a file.
     pub fn parse(json: &[u8]) -> Result<Self, Problem> {
-        let parsed = serde_json::from_slice::<Self>(json);
-        // glTF 1.0 has objects where 2.0 has arrays.
-        let version = match &parsed {
-            Ok(document) => document.asset.version.clone(),
-            Err(_) => {
-                let value = serde_json::from_slice::<serde_json::Value>(json).unwrap_or_default();
-                value["asset"]["version"].as_str().unwrap_or_default().to_owned()
+        let document: Value =
+            serde_json::from_slice(json).map_err(|error| Problem::new(error.to_string()))?;
+        match document["asset"]["version"].as_str() {
+            None => {
+                return Err(Problem::new("this is not a glTF document: it has no `asset` with a version"));
             }
-        };
-        if version.starts_with("1.") || version == "1" {
-            return Err(Problem::new("glTF 1.0 is not read; convert the mesh to glTF 2.0"));
+            Some(version) if version == "1" || version.starts_with("1.") => return Err(old()),
+            Some(_) => {}
         }
-        let document = parsed.map_err(|error| Problem::new(error.to_string()))?;
-        if version.is_empty() {
-            return Err(Problem::new("this is not a glTF document: it has no `asset` with a version"));
+        let required =
+            document["extensionsRequired"].as_array().into_iter().flatten().filter_map(Value::as_str);
+        let mut unknown = required.filter(|name| !HARMLESS.iter().any(|known| name.starts_with(known)));
+        match unknown.next().map(shorten) {
+            None => Ok(Self(document)),
+            Some(name) => {
+                let compression = ["draco", "meshopt"].into_iter().find(|kind| name.contains(kind));
+                Err(Problem::new(match compression {
+                    Some(kind) => format!("the mesh has {kind} compression ({name}); export without it"),
+                    None => format!("the mesh requires `{name}`, which is not read; export without it"),
+                }))
+            }
         }
-        let required = &document.extensions_required;
-        if let Some(name) = required.iter().find(|name| !HARMLESS.iter().any(|known| name.starts_with(known)))
-        {
-            let name = ugscene::shorten(name);
-            return Err(Problem::new(match name.as_str() {
-                "KHR_draco_mesh_compression" => {
-                    "the mesh has Draco compression (KHR_draco_mesh_compression); export without it"
-                        .to_owned()
-                }
-                "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-                    format!("the mesh has meshopt compression ({name}); export without it")
-                }
-                _ => format!("the mesh requires `{name}`, which is not read; export without it"),
-            }));
-        }
-        Ok(document)
     }
 
-    /// The node or other row with an index of the file; `what` names the table in errors.
-    pub fn row<'t, T>(table: &'t [T], index: Whole, what: &str) -> Result<&'t T, Problem> {
-        table
-            .get(index.0)
-            .ok_or_else(|| Problem::new(format!("{what} {} does not exist; export the mesh again", index.0)))
+    /// The rows of a table.
+    pub fn table(&self, name: &str) -> &[Value] {
+        self.0[name].as_array().map_or(&[], Vec::as_slice)
     }
+
+    /// The row of a table with an index of the file.
+    pub fn row(&self, table: &str, index: usize) -> Result<&Value, Problem> {
+        let none = || Problem::new(format!("`{table}[{index}]` does not exist; export the mesh again"));
+        self.table(table).get(index).ok_or_else(none)
+    }
+
+    /// The bytes of a buffer view.
+    pub fn view<'b>(&self, index: usize, buffers: &'b [Cow<'_, [u8]>]) -> Option<&'b [u8]> {
+        let view = self.table("bufferViews").get(index)?;
+        let start = whole(&view["byteOffset"]).unwrap_or(0);
+        let end = start.checked_add(whole(&view["byteLength"])?)?;
+        buffers.get(whole(&view["buffer"])?)?.get(start..end)
+    }
+}
+
+/// An index or a count, which some exporters write with a decimal point.
+pub(super) fn whole(value: &Value) -> Option<usize> {
+    let number = value.as_f64()?;
+    Some(number as usize).filter(|&whole| whole as f64 == number)
+}
+
+/// Numbers of an array.
+pub(super) fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
+    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
+    numbers?.try_into().ok()
+}
+
+fn old() -> Problem {
+    Problem::new("glTF 1.0 is not read; convert the mesh to glTF 2.0")
 }
 
 /// The JSON text of a file and, of GLB, its binary chunk.
@@ -252,7 +97,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     };
     match number(4) {
         Some(2) => {}
-        Some(1) => return Err(Problem::new("glTF 1.0 is not read; convert the mesh to glTF 2.0")),
+        Some(1) => return Err(old()),
         _ => return Err(truncated()),
     }
     let mut rest = number(8).and_then(|len| bytes.get(12..len)).ok_or_else(truncated)?;
@@ -272,10 +117,4 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     let json = json.ok_or_else(truncated)?;
     let end = json.iter().rposition(|&byte| byte != 0).map_or(0, |last| last + 1);
     Ok((&json[..end], binary))
-}
-
-/// The bytes of a part of a buffer.
-pub(super) fn view_bytes<'b>(view: &BufferView, buffers: &'b [Cow<'_, [u8]>]) -> Option<&'b [u8]> {
-    let end = view.byte_offset.0.checked_add(view.byte_length.0)?;
-    buffers.get(view.buffer.0)?.get(view.byte_offset.0..end)
 }
