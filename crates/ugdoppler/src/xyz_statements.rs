@@ -35,8 +35,8 @@ impl SpectralVertices<'_> {
     }
 }
 
-/// Gives every used vertex the X, Y, Z with which the spectra of its colours are seen. The colours of
-/// the scene stay, for lights and for vertices that nothing uses. Returns what to tell the user.
+/// Gives every used vertex the X, Y, Z with which the spectra of its colours are seen. The colours
+/// of the scene stay, for lights and for vertices that nothing uses. Returns what to tell the user.
 pub(crate) fn write(
     scene: &mut Scene,
     config: &Config,

@@ -206,8 +206,8 @@ impl Appearance {
         }
     }
 
-    /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters. Light
-    /// of a display that something shifts is the hue that it stands for.
+    /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters.
+    /// Light of a display that something shifts is the hue that it stands for.
     fn hue_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
         let shift = self.hue_shift;
         let of_level = |level: f64| {

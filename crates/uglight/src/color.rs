@@ -213,8 +213,8 @@ pub fn display_hue(scene: &Scene, id: ColorId) -> Hsv {
     }
 }
 
-/// What a colour statement is drawn as at rest: unless it is a hue, linear red, green and blue without
-/// clipping, so channels may be above 1 and below 0.  Eq. (P19)
+/// What a colour statement is drawn as at rest: unless it is a hue, linear red, green and blue
+/// without clipping, so channels may be above 1 and below 0.  Eq. (P19)
 pub fn color_form(scene: &Scene, color: &Color) -> ColorForm {
     let light = |xyz| ColorForm::Light(DVec3::from_array(xyz_to_linear_srgb(xyz)));
     match color.value {

@@ -36,8 +36,8 @@ impl Appearance {
         FaceColors { grey_tint, translucency, mixing: self.mixing(swatches()) }
     }
 
-    /// What colours are drawn as that meet in a face or wire. Light of a display is drawn as such only
-    /// between different colours, or where its hue would fade.
+    /// What colours are drawn as that meet in a face or wire. Light of a display is drawn as such
+    /// only between different colours, or where its hue would fade.
     #[inline]
     pub fn mixing<S: Borrow<Swatch>>(&self, swatches: impl Iterator<Item = S> + Clone) -> Mixing {
         if !self.palette.has_light && !self.palette.has_display {
@@ -55,9 +55,9 @@ impl Appearance {
         }
     }
 
-    /// As [`Appearance::face_colors`], of a face that moves or not. Colours given as light have no hue
-    /// to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode. So
-    /// are colours of a display, and their hues are mixed.
+    /// As [`Appearance::face_colors`], of a face that moves or not. Colours given as light have no
+    /// hue to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode.
+    /// So are colours of a display, and their hues are mixed.
     pub fn face_colors_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> FaceColors {
         let colors = self.face_colors(scene, face);
         let keeps_light = self.keeps_light() || !is_moving;

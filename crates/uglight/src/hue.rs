@@ -138,8 +138,8 @@ impl HueShift {
         Some(lit + light.iter().filter(is_shifted).map(seen).sum::<DVec3>())
     }
 
-    /// Linear light of a display under levels of red, green and blue, which multiply linear light under
-    /// a law that names a quantity, else display-encoded channels.
+    /// Linear light of a display under levels of red, green and blue, which multiply linear light
+    /// under a law that names a quantity, else display-encoded channels.
     pub(crate) fn lit_display(self, linear: DVec3, level: DVec3) -> DVec3 {
         if self.law.acts_on_light() { linear * level } else { lit_display(linear, level) }
     }

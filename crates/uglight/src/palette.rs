@@ -94,8 +94,8 @@ pub struct Palette {
 impl Palette {
     /// Converts all colours of a scene.
     ///
-    /// `is_spectral`: colours are spectra, so all of them are drawn as light. `has_hues_of_light`: if
-    /// not, colours given as light have no tint, since finding it takes long.
+    /// `is_spectral`: colours are spectra, so all of them are drawn as light. `has_hues_of_light`:
+    /// if not, colours given as light have no tint, since finding it takes long.
     pub fn new(
         scene: &Scene,
         interpolation: Interpolation,

@@ -25,7 +25,7 @@
 //! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
-//! pixel_centers  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
+//! pixel_centers  pixels  notes  render  explain  from samples to a picture; one pixel
 //! cli                                       the command line
 //! ```
 //!

@@ -54,7 +54,8 @@
 //! shade  packing                                      colours of samples
 //! planar  clip  painter                               geometry in the picture plane
 //! drawlist  lines  exact                              polygons, lines, faces hit by rays
-//! render_layers  setup  depth_cue  center_surface  drawn_scene the whole scene for one camera
+//! setup  render_layers  depth_cue                     the whole scene for one camera
+//! center_surface  drawn_scene                         one surface of a pixel; what was drawn
 //! pixels  annotate  notes                             from samples to an image, with messages
 //! vector  render  explain                             vector graphics, pictures, one pixel
 //! cli                                                 the command line

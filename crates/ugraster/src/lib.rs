@@ -2,9 +2,9 @@
 //!
 //! It draws on a grid of samples, several to a pixel, with a depth test at each sample. It knows
 //! no scenes, cameras or colours: corners carry a depth key and N values ([`Corner`]), and a
-//! [`SampleShading`] turns the N interpolated values of a sample into linear light. [`Resolve`] makes a
-//! pixel of the light of its samples, so the caller decides about backgrounds and pixel formats.
-//! Output is the same bits on any number of threads and on every processor.
+//! [`SampleShading`] turns the N interpolated values of a sample into linear light. [`Resolve`]
+//! makes a pixel of the light of its samples, so the caller decides about backgrounds and pixel
+//! formats. Output is the same bits on any number of threads and on every processor.
 //!
 //! # Example
 //!
@@ -12,7 +12,8 @@
 //! to a pixel. The nearer one is visible at each pixel:
 //!
 //! ```
-//! use ugraster::{Corner, Encoding, Keep, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
+//! use ugraster::{Corner, Encoding, Keep, NoTriangles, PixelSamples, PolygonLayer, PolygonList};
+//! use ugraster::Rasterizer;
 //! use ugraster::{SampleGrid, ShadedRun, ShadedSample, SampleShading, TileShape};
 //!
 //! /// The only interpolated value is grey light.

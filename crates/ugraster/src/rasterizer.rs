@@ -27,8 +27,8 @@ pub struct Rasterizer<'a, const N: usize> {
 
 impl<const N: usize> Rasterizer<'_, N> {
     /// The pixels of the grid, row after row, and statistics of their samples. With
-    /// [`Keep::Centers`], `resolve` receives what is visible at the centres of pixels. Progress counts
-    /// bands.
+    /// [`Keep::Centers`], `resolve` receives what is visible at the centres of pixels. Progress
+    /// counts bands.
     pub fn paint<P: Copy + Send + Sync>(
         &self,
         shading: &dyn SampleShading<N>,
