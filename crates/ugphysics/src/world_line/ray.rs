@@ -435,7 +435,8 @@ impl RayStretch<'_> {
     #[must_use]
     pub fn at(&self, own_time: f64) -> RayPoint {
         let Range { start, end } = self.passage.own_times;
-        let nearest = own_time.max(start).min(end);
+        // At the end the next passage has begun.
+        let nearest = own_time.max(start).min(end.next_down());
         let at = self.inside(nearest);
         let beyond = own_time - nearest;
         if beyond == 0.0 {
