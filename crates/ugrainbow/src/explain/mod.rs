@@ -13,7 +13,7 @@ use ugpicture::explain::{
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
-use ugscene::{Geometry, RestPosition, SeenPosition, VertexId};
+use ugscene::{ColorScale, ColorValue, Geometry, RestPosition, SeenPosition, VertexId};
 
 use crate::config::Config;
 use crate::depth_cue::prepare;
@@ -202,7 +202,7 @@ impl Teller<'_> {
             angle_deg: angle(place),
             angle_at_rest_deg: angle(rest),
             doppler,
-            color: values.map(|values| self.color(values, doppler)),
+            color: values.map(|values| self.color(values, seen.item, doppler)),
             linear: light.map(f64::from),
         };
         ExplainedSample {
@@ -245,10 +245,10 @@ impl Teller<'_> {
     }
 
     /// The colour that interpolated values stand for.
-    fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
+    fn color(&self, values: &[f32], item: u32, doppler: f64) -> SampleColor {
         let layout = PackedLayout::new(&self.setup.appearance, &self.setup.lighting);
         let (Plain { tint, saturation, value }, light_level) = match layout.color(values) {
-            Interpolated::Light(light) => return SampleColor::of_light(light, true),
+            Interpolated::Light(light) => return SampleColor::of_light(light, self.is_lit(item)),
             Interpolated::Hue { color, level } => (color, level),
         };
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
@@ -264,6 +264,18 @@ impl Teller<'_> {
             HueWavelength::new(rest_nm, seen_nm, (interpolation == Interpolation::Hue).then_some(hue))
         });
         SampleColor::Hue { hue, saturation, value, light_level, wavelength }
+    }
+
+    /// False for faces that shine by themselves: with a light level of their own, and in spectra as
+    /// seen those of black bodies and sampled spectra.
+    fn is_lit(&self, item: u32) -> bool {
+        let scene = self.setup.scene();
+        let Some(face) = scene.faces.get(item as usize) else { return true };
+        let is_spectral =
+            scene.stage.seen_colors().is_some_and(|seen| matches!(seen.scale, ColorScale::Spectra { .. }));
+        let color = face.color.map(|color| scene.colors[color.index()].value);
+        let emits = matches!(color, Some(ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. }));
+        scene.light_level(face).is_none() && !(is_spectral && emits)
     }
 
     fn corners(&self, item: u32) -> Vec<ExplainedCorner> {
