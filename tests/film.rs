@@ -403,6 +403,7 @@ fn mistakes() {
             &format!("{kind} is not transparent: leave out -tb"),
         );
     }
+    check(&shell, &format!("{frames} -pz -fo a.gif"), 2, "-pz packs PNG files, not a film in gif");
     check(&shell, &format!("{frames} -fps 10 -fo f_%d.png"), 2, "leave out -fps");
     check(&shell, &format!("{frames} -keep k_%d.png -fo f_%d.png"), 2, "--keep is for films in one file");
     check(&shell, &format!("{frames} -moments 3 -fo f_%d.png"), 2, "`-moments` needs `-blur TIME`");

@@ -129,6 +129,39 @@ fn mistakes_are_answered() {
     check("ugwarp -fish 180 -va 30 photo.jpg", "`-fish` and `-va` cannot be given together");
     check("ugmesh -dt obj -name part ship.ug", "not a mesh, so -name has no effect; leave it out");
     check("ugwarp --white 1 photo.jpg", "there are no stars: leave out --star-width and --white");
+    let both = "cannot be given together";
+    check("uglorentz -sd 2 -se 1 ship.ug", both);
+    check("uglorentz -sd 2 -sc 1 ship.ug", both);
+    check("uglorentz -sd 2 -sl 1 ship.ug", both);
+    check("uglorentz -vel .5 0 0 -in ship.ug | ugdoppler -vel .3 0 0", "so -vel has no effect");
+    check("ugdoppler -sp -gw ship.ug", "give one of them");
+    check("ugdoppler -sp -hd ship.ug", "leave out -hd");
+    check("ugdoppler -br none --no-flux ship.ug", both);
+    check("ugrainbow -xc -sp -iw ship.ug", both);
+    check("ugrainbow -pz -dt ppm ship.ug", "leave out -pz");
+    check("ugrainbow -pz -vec -dt pdf ship.ug", "leave out -pz");
+    check("ugrainbow -ch D ship.ug", "write -dt exr");
+    check("ugrainbow -ex 1 -dt exr ship.ug", "leave out -ex and -tc");
+    check("ugrainbow -tc filmic -dt hdr ship.ug", "leave out -ex and -tc");
+    check("ugrainbow -lg -dt pfm ship.ug", "leave out -cap, -lg, -dl and -gr");
+    check("ugrainbow -tb -dt pfm ship.ug", "leave out -tb");
+    check("ugrainbow -vec -dt pdf -fl triangle ship.ug", "leave out -fl");
+    check("ugrainbow -lc 1 ship.ug", "add -wf or -ed, or leave it out");
+    check("ugphoton -sp -iw ship.ug", both);
+    check("ugphoton -ad .1 -aa 1 ship.ug", "leave out -ad");
+    check("ugphoton --film-shutter 1 -pan ship.ug", "leave it out");
+    check("ugphoton -pan -gr ship.ug", "leave them out");
+    check("ugphoton -crop 0 0 2 2 -lg ship.ug", "leave them out, or -crop");
+    check("ugphoton --stereo .1 -cube ship.ug", both);
+    check("ugwarp -ep 0 1 0 photo.jpg", "leave out -ep");
+    check("ugwarp -bg .5 photo.jpg", "leave out -bg and -tb");
+    check("ugwarp -tb -pan photo.jpg", "leave out -bg and -tb");
+    check("ugwarp -gr photo.jpg", "leave them out");
+    check("ugwarp --no-doppler --infrared photo.jpg photo.jpg", both);
+    check("ugwarp -aa 4 stars.csv", "leave out -aa and -fl");
+    check("ugwarp -fl spline stars.csv", "leave out -aa and -fl");
+    check("ugmesh -dt obj --ascii ship.ug", "applies only to PLY");
+    check("ugsheet --history -cols 2 a.png", both);
 
     // Files.
     check("ugrainbow photo.jpg", "help: `ugwarp photo.jpg` shows it as the sky around an observer in motion");
@@ -176,6 +209,14 @@ fn nothing_is_black_in_silence() {
     check(
         "uglorentz -qt -cv 0 -.9 0 -in ship.ug | ugdoppler | ugrainbow -look light -sz 40 30 -fo x.png",
         "its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or -look shape",
+    );
+    let flash = "c_rgb on 1 1 1; c_rgb off 0 0 0; c_time fl -step -.001 off 0 on .2 off;
+        v a -9 10 -9; v b 9 10 -9; v c 9 10 9; v d -9 10 9; f (a b c d); l 1 0 4 0 0 fl <0 0 0>;
+        cam -ep 0 0 0 -vc 0 1 0 -va 60;";
+    shell.write("flash.ug", flash);
+    check(
+        "uglorentz -ti 5 flash.ug | ugdoppler -li -sp | ugrainbow -sz 40 30 -fo x.png",
+        "black: its colours are, or the light of its lamps does not reach it at this time",
     );
     check(
         "uglorentz -look light -vel .1 0 0 -fo x.ug ship.ug",

@@ -183,6 +183,11 @@ fn faces_are_cut_by_the_light_of_lamps_that_move_and_change() {
         v a -30 10 -30; v b 30 10 -30; v c 30 10 30; v d -30 10 30; f (a b c d) w;
         l 1 0 4 0 0 fl <0 0 0>; cam -ep 0 0 0 -vc 0 1 0 -va 100;";
     for (text, time, mean_error) in [(circle, 0.0, 0.004), (flash, 17.0, 0.004)] {
+        let source = ugparse::Source::new("lamp.ug", text);
+        let scene = ugparse::read(&source, &ugparse::Options::default(), None).unwrap().scene;
+        let config = uglorentz::Config { time, light_error: 0.01, measure: true, ..Default::default() };
+        let left = uglorentz::apply(scene, &config).unwrap().1.remaining_errors.unwrap().light.unwrap();
+        assert!(left.error < 0.01, "{time} {left:?}");
         let rays = Picture::of_scene(text.to_owned(), SPECTRA).like_pipe();
         let motion = ugscene::MotionOptions { time, ..rays.motion.clone() };
         let rays = Picture { size: [72, 54], motion, ..rays };

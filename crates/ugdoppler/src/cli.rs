@@ -132,6 +132,11 @@ impl Args {
                 "-sp writes X, Y, Z and -gw writes wavelengths of hues: give one of them",
             ));
         }
+        if self.shift.sp && self.hd {
+            return Err(Failure::usage(
+                "-sp keeps intensities above 1 for the renderer by itself: leave out -hd",
+            ));
+        }
         if self.ir && self.hd {
             return Err(Failure::usage("-ir scales intensities to 1 and -hd keeps them: give one of them"));
         }
@@ -187,6 +192,7 @@ impl Words for Note {
             Self::Scene(note) => note.words(),
             Self::Kept(_) => format!("{self}; -ir scales it to 1.0"),
             Self::TakenAsSeen => remedies::MOVE_FIRST.replacen("{}", &self.to_string(), 1),
+            Self::AllMove => format!("{self}, so -vel has no effect"),
             Self::NoLights => "no lights in the scene, so -li puts none into its colours".to_owned(),
             Self::Scaled(_) | Self::Clipped(_) | Self::TooSaturated { .. } => self.to_string(),
         }

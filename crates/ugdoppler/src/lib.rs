@@ -103,9 +103,15 @@ pub fn apply_with(
         return Err(Error::VertexAtEye { vertex, name });
     }
     let is_taken_as_seen = !config.velocity.is_zero() && scene.stage.seen_geometry().is_none();
+    let mut bodies = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
+    let all_move =
+        !config.velocity.is_zero() && bodies.all(|body| scene.bodies.stated_velocity(body).is_some());
     let (mut scene, mut notes) = color(scene, config, eye, &frames, progress)?;
     if is_taken_as_seen {
         notes.push(Note::TakenAsSeen);
+    }
+    if all_move {
+        notes.push(Note::AllMove);
     }
     if let Some(camera) = default_camera {
         let (eye, center) = (Some(camera.eye), Some(camera.center));

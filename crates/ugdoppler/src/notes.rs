@@ -20,6 +20,8 @@ pub enum Note {
     },
     /// The configuration has a velocity for bodies that have none, and positions are at rest.
     TakenAsSeen,
+    /// The configuration has a velocity for bodies that have none, and all have one.
+    AllMove,
     /// The light of the scene is to be put into its colours, and there is none.
     NoLights,
 }
@@ -37,6 +39,7 @@ impl fmt::Display for Note {
                  give it by `c_spd`"
             ),
             Self::TakenAsSeen => f.write_str("positions in this scene are taken as seen already"),
+            Self::AllMove => f.write_str("every face of this scene has a velocity of its own"),
             Self::NoLights => f.write_str("no lights in the scene, so its colours contain none"),
         }
     }

@@ -264,6 +264,9 @@ fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Resu
         let message = format!("{name} is not transparent: leave out -tb, or write an apng, gif or webm");
         return Err(Failure::Usage(message));
     }
+    if picture.small {
+        return Err(Failure::Usage(format!("-pz packs PNG files, not a film in {name}: leave it out")));
+    }
     let [width, height] = picture.size.map(|side| side.next_multiple_of(2));
     if kind == Kind::Mp4 && picture.size != [width, height] {
         let message =

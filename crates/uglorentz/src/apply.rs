@@ -65,8 +65,12 @@ pub fn apply_with(
     let clocks = Clocks::new(&scene, config.color_error);
     let bounds = Bounds::new(tolerances, (near_lamps, clocks), view_volume, motions);
     let mut mesh = RefinedMesh::new(motions, points);
-    if let Pieces::UpTo(_) = config.pieces {
-        mesh.junctions = junctions::find(&scene, &mesh.points, motions);
+    let mut n_open_junctions = 0;
+    match config.pieces {
+        Pieces::UpTo(_) => mesh.junctions = junctions::find(&scene, &mesh.points, motions),
+        // Rays (`ugrainbow -xc`) meet the faces at rest.
+        Pieces::PerEdge(1) => {}
+        Pieces::PerEdge(_) => n_open_junctions = junctions::find(&scene, &mesh.points, motions).len(),
     }
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
@@ -105,6 +109,7 @@ pub fn apply_with(
         n_culled,
         n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
+        n_open_junctions,
         is_full: outcome.is_full,
         max_pieces,
         remaining_errors,

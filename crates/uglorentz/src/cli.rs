@@ -41,18 +41,19 @@ pub struct Args {
     ///
     /// The default is below the threshold of human vision. off makes fewer faces, for pictures
     /// without Doppler colours (ugdoppler --no-doppler --no-flux). D above 10000, or below 0.0001,
-    /// is not resolved. Has no effect with -sd.
-    #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", allow_hyphen_values = true,
-          value_parser = percent_or_off)]
+    /// is not resolved.
+    #[arg(long = "sc", visible_alias = "color-error", value_name = "PERCENT", conflicts_with = "equal",
+          allow_hyphen_values = true, value_parser = percent_or_off)]
     color_error: Option<f64>,
 
     /// Subdivide also until the interpolated light of near lamps deviates by at most PERCENT
     /// [default: off]
     ///
     /// For ugdoppler -li, which computes light at vertices: large faces near a lamp are cut, also
-    /// those at rest. An error of 2 percent is hardly visible. Has no effect with -sd.
-    #[arg(long = "sl", visible_alias = "light-error", value_name = "PERCENT", allow_hyphen_values = true,
-          value_parser = percent_or_off)]
+    /// those at rest. An error of 2 percent is hardly visible. Where the light of a lamp jumps
+    /// (c_time), edges are halved up to 12 times, and the shortest do not count as errors.
+    #[arg(long = "sl", visible_alias = "light-error", value_name = "PERCENT", conflicts_with = "equal",
+          allow_hyphen_values = true, value_parser = percent_or_off)]
     light_error: Option<f64>,
 
     /// Cut every edge into N equal pieces, instead of -se, -sc and -sl

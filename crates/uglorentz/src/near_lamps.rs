@@ -273,19 +273,21 @@ impl SampledLamps {
     }
 
     /// The error of the light on an edge, as of [`NearLamp::error`], but relative to the light that
-    /// arrives there at normal incidence: a lamp in motion may always be far away.
+    /// arrives there at normal incidence: a lamp in motion may always be far away. A jump lies in
+    /// some edge, however short, so it does not count in edges that are not cut further.
     fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
         let middles = SAMPLES.map(|s| match motion.world_line() {
             Some(line) => between(a, b, line, s),
             None => Point::new(motion, a.body, a.rest.lerp(b.rest, s)),
         });
+        let is_shortest = a.generation.max(b.generation) >= MAX_GENERATION;
         let of_lamp = |lamp: &Lamp| {
             let sample = |point: &Point| self.sample(lamp, point, motion);
             let (Some(from), Some(to)) = (sample(a), sample(b)) else { return 0.0 };
             let at = |(s, point): (f64, &Point)| {
                 let Some(light) = sample(point) else { return 0.0 };
                 if is_jump(lamp, from, light) || is_jump(lamp, light, to) {
-                    return brightest(lamp, &self.lamps);
+                    return if is_shortest { 0.0 } else { brightest(lamp, &self.lamps) };
                 }
                 let off = (light.light - from.light.lerp(to.light, s)).length();
                 let power = |doppler: f64| libm::pow(doppler / light.doppler, SPECTRAL_POWER);

@@ -18,6 +18,8 @@ pub struct Report {
     pub n_uncut: usize,
     /// Edges above the error bound that reached the limit of halvings.
     pub n_too_deep: usize,
+    /// Edges with vertices of other faces on them (T-junctions), cut into equal pieces.
+    pub n_open_junctions: usize,
     /// Subdivision stopped at the limit of pieces.
     pub is_full: bool,
     /// The limit of pieces for a picture of this size.

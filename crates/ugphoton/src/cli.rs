@@ -36,7 +36,7 @@ pub struct Args {
     shift: ShiftArgs,
 
     /// Interpolate wavelengths between corners, instead of hues
-    #[arg(long, visible_alias = "interpolate-wavelength", help_heading = COLOR)]
+    #[arg(long, visible_alias = "interpolate-wavelength", conflicts_with = "sp", help_heading = COLOR)]
     iw: bool,
 
     /// Hues in colour statements are wavelengths in nm; implies -iw
@@ -204,6 +204,11 @@ impl Args {
     /// # Errors
     /// [`Failure::Usage`]: options that exclude each other, or a value out of range.
     pub fn config(&self, output: Option<&Path>) -> Result<Config, Failure> {
+        if self.ad.is_some() && self.picture.samples() == 1 {
+            return Err(Failure::usage(
+                "-ad leaves out samples, and -aa 1 has one a pixel: leave out -ad, or give more with -aa",
+            ));
+        }
         Ok(Config {
             motion: self.motion.options()?,
             shift: self.color_shift(),

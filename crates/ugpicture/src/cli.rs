@@ -133,6 +133,11 @@ impl PictureArgs {
         })
     }
 
+    /// Samples along a side of a pixel.
+    pub fn samples(&self) -> u32 {
+        self.aa
+    }
+
     fn background(&self) -> Result<Background, Failure> {
         if self.tb {
             return Ok(Background::Transparent);

@@ -36,11 +36,11 @@ const MAX_LINE_WIDTH: f64 = 100.0;
 #[command(mut_args(with_exact))]
 pub struct Args {
     /// Interpolate hue between corners (default)
-    #[arg(long, visible_alias = "interpolate-hue", conflicts_with_all = ["iw", "wi"])]
+    #[arg(long, visible_alias = "interpolate-hue", conflicts_with_all = ["iw", "wi", "sp"])]
     ih: bool,
 
     /// Interpolate wavelength between corners
-    #[arg(long, visible_alias = "interpolate-wavelength")]
+    #[arg(long, visible_alias = "interpolate-wavelength", conflicts_with = "sp")]
     iw: bool,
 
     /// Hues in colour statements are wavelengths in nm; implies -iw

@@ -204,7 +204,7 @@ pub struct ShiftArgs {
 
 impl ShiftArgs {
     /// Shifted spectra, for the looks of a program.
-    pub const SPECTRA: Preset = Preset::new(&["sp"], &["br", "gw", "wi"]);
+    pub const SPECTRA: Preset = Preset::new(&["sp"], &["br", "gw", "iw", "wi"]);
 
     /// Wavelengths as at rest, for the looks of a program.
     pub const REST_WAVELENGTHS: Preset = Preset::new(&["no-doppler"], &[]);

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{ArgAction, Parser};
 use glam::DVec3;
-use ugimage::{Format, PictureLimits};
+use ugimage::{Filter, Format, PictureLimits};
 use uglight::ColorShift;
 use ugmeshfile::{Foreign, foreign_data};
 use ugparse::{Source, pipe};
@@ -16,6 +16,7 @@ use ugpicture::cli::{
     AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
     write_picture,
 };
+use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
@@ -107,7 +108,7 @@ pub struct Args {
     /// A grey picture with the same arrangement of directions. Its light has the spectrum of
     /// daylight from 830 nm to --infrared-to at rest, and 1 is a white surface; the panorama itself
     /// has none there. Without it, --basis says what infrared light there is. Implies -sp.
-    #[arg(long, value_name = "FILE", conflicts_with = "br", help_heading = COLOR)]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["br", "no_doppler"], help_heading = COLOR)]
     infrared: Option<PathBuf>,
 
     /// Longest wavelength of the infrared panorama, nm [default: 1400]
@@ -117,7 +118,7 @@ pub struct Args {
     /// Panorama of ultraviolet light
     ///
     /// As --infrared, from --ultraviolet-from to 360 nm.
-    #[arg(long, value_name = "FILE", conflicts_with = "br", help_heading = COLOR)]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["br", "no_doppler"], help_heading = COLOR)]
     ultraviolet: Option<PathBuf>,
 
     /// Shortest wavelength of the ultraviolet panorama, nm [default: 200]
@@ -217,6 +218,18 @@ impl Args {
         if self.scene.is_some() {
             // It chose the camera when the scene was read.
             picture.camera.name = None;
+        } else if picture.camera.eye.is_some() && picture.camera.center.is_none() {
+            return Err(Failure::usage(
+                "a sky is infinitely far away from any eye, and -ep is where -vc is seen from: add -vc, or leave \
+                 out -ep",
+            ));
+        }
+        let lens = self.lens.lens();
+        let is_full = self.part.is_none() && !matches!(lens, Lens::Fisheye { .. });
+        if is_full && picture.background != PictureOptions::default().background {
+            return Err(Failure::usage(
+                "the sky is everywhere in the picture, so it has no background: leave out -bg and -tb",
+            ));
         }
         Ok(Config {
             velocity: self.velocity()?,
@@ -224,7 +237,7 @@ impl Args {
             shift: self.color_shift(),
             basis: self.basis.as_deref().map_or(Ok(Basis::Mixture), basis)?,
             picture,
-            lens: self.lens.lens(),
+            lens,
             stars: StarOptions {
                 width: self.star_width.unwrap_or(StarOptions::default().width),
                 white: self.white.unwrap_or(StarOptions::default().white),
@@ -307,6 +320,12 @@ impl Args {
         }
         if self.from.is_some() || self.part.is_some() || self.highlights.is_some() {
             return refused("the input is a list of stars: leave out -from, -part and --highlights");
+        }
+        let PictureOptions { samples, filter, .. } = self.picture_options(None)?;
+        if samples > 1 || filter != Filter::default() {
+            return refused(
+                "the input is a list of stars, whose light is spread by --star-width: leave out -aa and -fl",
+            );
         }
         if self.shift.br.is_some() || self.basis.is_some() || self.bands().next().is_some() {
             return refused(

@@ -1,4 +1,4 @@
-//! A natural spline through events, without a formula for second derivatives: its slopes at the rows
+//! The spline through events, without a formula for second derivatives: its slopes at the rows
 //! follow from their equations by elimination with all rows, and cubics from Hermite's polynomials.
 
 use glam::DVec3;
@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::{Four, four_velocity, plus, product};
 
 /// Steps of integration between two rows.
-const N_STEPS: usize = 2000;
+const N_STEPS: usize = 4000;
 
 /// A place as a function of the time of the scene.
 #[derive(Clone, Debug)]
@@ -20,12 +20,12 @@ fn place(row: Four) -> DVec3 {
 }
 
 impl Curve {
-    /// The natural spline through these events.
+    /// The spline through these events.
     pub fn new(rows: &[Four]) -> Self {
         let n = rows.len();
         let inverse = |k: usize| 1.0 / (rows[k + 1][0] - rows[k][0]);
         let rise = |k: usize| 3.0 * inverse(k) * inverse(k) * (place(rows[k + 1]) - place(rows[k]));
-        // The second derivative is 0 at the ends, and that of both sides inside.
+        // The second derivative is that of both sides inside.
         let mut matrix = vec![vec![0.0; n]; n];
         let mut right = vec![DVec3::ZERO; n];
         for k in 0..n - 1 {
@@ -34,6 +34,17 @@ impl Curve {
                 matrix[row][other] += inverse(k);
                 right[row] += rise(k);
             }
+        }
+        // At the ends it changes as between the next two rows, (1 + r) m₁ − r m₂ = m₀.
+        let ends = [[0, 1, 2], [n - 1, n - 2, n.saturating_sub(3)]];
+        for [end, next, far] in ends.into_iter().filter(|_| n > 2) {
+            let (outer, inner) = (end.min(next), next.min(far));
+            let r = if n == 3 { 0.0 } else { (inverse(inner) / inverse(outer)).min(1.0) };
+            matrix[end] = vec![0.0; n];
+            matrix[end][end] = (6.0 + 2.0 * r) * inverse(outer);
+            matrix[end][next] = (6.0 + 4.0 * r) * inverse(outer) - 2.0 * r * inverse(inner);
+            matrix[end][far] -= 4.0 * r * inverse(inner);
+            right[end] = (4.0 + 2.0 * r) * rise(outer) - 2.0 * r * rise(inner);
         }
         for pivot in 0..n {
             for row in (0..n).filter(|&row| row != pivot) {
@@ -55,13 +66,19 @@ impl Curve {
     /// Velocity and acceleration at a time of the scene; those of constant velocity outside.
     pub fn at(&self, t: f64) -> (DVec3, DVec3) {
         let last = self.rows.len() - 1;
-        if t <= self.rows[0][0] {
+        if t < self.rows[0][0] {
             return (self.slopes[0], DVec3::ZERO);
         }
-        if t >= self.rows[last][0] {
+        if t > self.rows[last][0] {
             return (self.slopes[last], DVec3::ZERO);
         }
-        let k = self.rows.partition_point(|row| row[0] <= t) - 1;
+        self.inside(t)
+    }
+
+    /// The same at a time between the rows, or so near to them that only rounding is between.
+    fn inside(&self, t: f64) -> (DVec3, DVec3) {
+        let last = self.rows.len() - 1;
+        let k = self.rows[..last].partition_point(|row| row[0] <= t).max(1) - 1;
         let h = self.rows[k + 1][0] - self.rows[k][0];
         let (s, rise) = ((t - self.rows[k][0]) / h, place(self.rows[k + 1]) - place(self.rows[k]));
         let (a, b) = (self.slopes[k], self.slopes[k + 1]);
@@ -71,9 +88,9 @@ impl Curve {
         (velocity, acceleration / h)
     }
 
-    /// du/dτ where the 4-velocity is that of the curve.
+    /// du/dτ where the 4-velocity is that of the curve, between the rows.
     pub fn acceleration(&self, t: f64) -> Four {
-        let (v, a) = self.at(t);
+        let (v, a) = self.inside(t);
         let squared = 1.0 / (1.0 - v.length_squared());
         let along = squared * squared * v.dot(a);
         let x = squared * a + along * v;

@@ -22,6 +22,8 @@ type State = [f64; N_NUMBERS];
 #[derive(Clone, Copy, Debug)]
 struct Rates {
     acceleration: DVec3,
+    /// Between the first and the last event of a path.
+    is_on_curve: bool,
     spins: [DVec3; MOST_TURNS],
 }
 
@@ -85,12 +87,14 @@ impl Body {
             };
             let mut spins = [DVec3::ZERO; MOST_TURNS];
             spins.iter_mut().zip(&turns).for_each(|(spin, (_, pieces))| *spin = of(pieces));
-            Rates { acceleration: of(accelerations), spins }
+            let is_on_curve =
+                knots.first().zip(knots.last()).is_some_and(|(from, to)| (*from..*to).contains(&inside));
+            Rates { acceleration: of(accelerations), is_on_curve, spins }
         };
         let pieces = accelerations.iter().chain(turns.iter().flat_map(|(_, spins)| *spins));
         let mut changes: Vec<f64> = pieces.flat_map(|piece| [piece.from, piece.to]).collect();
         changes.extend([begin, 0.0, end]);
-        changes.extend(knots);
+        changes.extend(&knots);
         changes.retain(|change| (begin..=end).contains(change));
         changes.sort_by(f64::total_cmp);
         changes.dedup();
@@ -125,7 +129,13 @@ impl Body {
         let four = |row: usize| [s[row], s[row + 1], s[row + 2], s[row + 3]];
         let (u, axes) = (four(4), [four(8), four(12), four(16)]);
         let a = match self.orbit {
-            None if let Some(curve) = &self.curve => curve.acceleration(s[0]),
+            None if let Some(curve) = &self.curve => {
+                if rates.is_on_curve {
+                    curve.acceleration(s[0])
+                } else {
+                    [0.0; 4]
+                }
+            }
             None => {
                 let of = rates.acceleration.to_array();
                 (0..3).fold([0.0; 4], |sum, k| plus(sum, of[k], axes[k]))

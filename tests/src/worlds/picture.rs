@@ -263,13 +263,14 @@ impl Picture {
             UNSHIFTED => "--no-doppler --no-flux".to_owned(),
             ColorShift::Hues(shift) => format!("-br {}", shift.law.name()),
         };
+        let keep = if self.shift.is_spectral() { "" } else { "-hd " };
         let command = match self.renderer {
             Renderer::Rays => {
                 format!("ugphoton {motion} {shift} {picture}{}", self.of_rays())
             }
             Renderer::Exact => format!("uglorentz -sd 1 {motion} | ugrainbow -xc {shift} {picture}"),
             Renderer::Pipe => {
-                format!("uglorentz -sl .5 {motion} | ugdoppler -li -hd {shift} | ugrainbow {picture}")
+                format!("uglorentz -sl .5 {motion} | ugdoppler -li {keep}{shift} | ugrainbow {picture}")
             }
         };
         format!("{{ {command} }}\n{}", self.text)

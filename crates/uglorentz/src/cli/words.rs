@@ -104,9 +104,17 @@ impl Report {
         warnings
     }
 
-    /// The choices made for the user.
+    /// The choices made for the user, and what they leave open.
     pub fn notes(&self) -> Vec<String> {
-        self.default_camera.iter().map(|camera| Note::DefaultCamera(*camera).words()).collect()
+        let camera = self.default_camera.map(|camera| Note::DefaultCamera(camera).words());
+        let junctions = (self.n_open_junctions > 0).then(|| {
+            format!(
+                "-sd leaves cracks where vertices of other faces are on an edge (edges: {}): give -se instead, \
+                 which cuts them there",
+                self.n_open_junctions
+            )
+        });
+        camera.into_iter().chain(junctions).collect()
     }
 
     /// Statistics, for `-vb`.

@@ -102,6 +102,15 @@ fn warnings_do_not_stop_it() {
     assert!(warned.status.success() && messages(&warned).contains("face is not flat"));
     let quiet = UGLORENTZ.run("-vel .5 0 0 -qt", bent);
     assert_eq!((quiet.stdout, quiet.stderr), (warned.stdout, Vec::new()));
+    // The vertex d of the second face is on the edge from a to c.
+    let junction = "v a 3 0 1; v b 4 1 1; v c 3 2 1; v d 3 1 1; v e 2 1 1;
+        f (a b c) <.5 0 0>; f (a d e) <.5 0 0>; f (d c e) <.5 0 0>;";
+    for (pieces, has_note) in [("", false), ("-sd 1", false), ("-sd 3", true)] {
+        let notes = UGLORENTZ.notes(pieces, junction);
+        let note =
+            "-sd leaves cracks where vertices of other faces are on an edge (edges: 1): give -se instead";
+        assert_eq!(notes.contains(note), has_note, "{pieces}: {notes}");
+    }
     let talk = UGLORENTZ.notes("-vel .5 0 0 -vb", TILE);
     assert!(talk.contains("subdivision added"), "{talk}");
 }

@@ -44,13 +44,25 @@ fn motion(random: &mut Random, kind: usize) -> String {
         let [a, b] = [0, 1].map(|_| vector(random, most));
         format!("-acc {a} {} {} -acc {b} {} {}", times[0], times[1], times[1], times[2])
     };
-    match kind % 4 {
+    match kind % 5 {
         0 => format!("-vel {velocity} {}", push(random, 0.4)),
         1 => format!("-vel {velocity} -spin {}", vector(random, 0.45)),
         2 => format!("-vel {velocity} {} -spin {}", push(random, 0.1), vector(random, 0.35)),
-        _ => {
+        3 => {
             let (center, axis) = (vector(random, 1.0), vector(random, 1.0));
             format!("-at 0.3 0 0 -orbit {center} {axis} 0.2 -spin {}", vector(random, 0.2))
+        }
+        _ => {
+            let velocity = random.in_ball(0.6);
+            let row = |time: f64| {
+                let DVec3 { x, y, z } = time * velocity + random.in_ball(0.03);
+                format!("{time} {x} {y} {z}")
+            };
+            // Own time 0 is at its first event, before which the motion is another.
+            let rows = times.map(row).join(" ");
+            let spin =
+                if random.one_in(2) { format!("-spin {}", vector(random, 0.2)) } else { String::new() };
+            format!("-path ({rows}) {spin}")
         }
     }
 }

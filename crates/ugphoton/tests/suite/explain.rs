@@ -43,6 +43,22 @@ fn point(value: &Value) -> DVec3 {
 }
 
 #[test]
+fn spectra_that_emit_are_not_lit() {
+    for (color, is_lit) in [("bands", false), ("paint", true)] {
+        let scene = format!(
+            "c_spd bands 455 0 460 2 465 0; c_spd narrow 498 0 500 50 502 0; c_rgb paint .8 .7 .6;
+            v a -5 10 -5; v b 5 10 -5; v c 5 10 5; v d -5 10 5; f (a b c d) {color};
+            l sun 1 0 -1 1 narrow; cam -ep 0 0 0 -vc 0 1 0 -va 30;"
+        );
+        let told = of_scene("--explain 30,22 --format json", &scene);
+        let told: Value = serde_json::from_slice(&told).unwrap();
+        let surface = &told["sample"]["surfaces"][0];
+        assert_eq!(surface["color"]["is_lit"], is_lit, "{told}");
+        assert_eq!(surface["lamps"].as_array().unwrap().len(), usize::from(is_lit), "{told}");
+    }
+}
+
+#[test]
 fn the_last_step_is_the_picture() {
     let mut seen = [0; 5];
     for options in [

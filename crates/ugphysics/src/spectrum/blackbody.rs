@@ -35,6 +35,12 @@ pub fn planck(wavelength_nm: f64, kelvin: f64) -> f64 {
     FIRST_RADIATION / (fifth * libm::expm1(SECOND_RADIATION_NM_K / (wavelength_nm * kelvin)))
 }
 
+/// ln of [`planck`] in the unit of [`ln_xyz`].
+pub(crate) fn ln_planck(wavelength_nm: f64, kelvin: f64) -> f64 {
+    let exponent = SECOND_RADIATION_NM_K / (wavelength_nm * kelvin.clamp(MIN_KELVIN, MAX_KELVIN));
+    libm::log(1e13) - 5.0 * libm::log(wavelength_nm) - exponent - libm::log(-libm::expm1(-exponent))
+}
+
 /// ln X, ln Y, ln Z of a black body's radiance, in the same unit for all temperatures. Logarithms,
 /// because the visible light of cold bodies underflows: at 30 K, Y is e⁻⁵⁷⁸, and at 20 K it is
 /// below the smallest f64.  Eq. (P13), (P19)

@@ -1,5 +1,7 @@
 //! Surfaces under a light of any spectrum, which may move relative to them.
 
+use crate::MOST_LIGHT;
+use crate::spectrum::blackbody;
 use crate::spectrum::daylight::daylight;
 use crate::spectrum::observer::integrate;
 use crate::spectrum::radiance::{Kind, Spectrum};
@@ -17,6 +19,11 @@ pub struct LightSpectrum {
 enum Source {
     Filtered(Reflectance),
     Blackbody(f64),
+    /// A black body of so many kelvins whose visible light underflows. `ln_scale`: ln of a factor.
+    ColdBody {
+        kelvin: f64,
+        ln_scale: f64,
+    },
     Samples(Vec<[f64; 2]>),
 }
 
@@ -30,12 +37,12 @@ impl LightSpectrum {
                 Self { source: Source::Filtered(*filter), scale: 1.0 / integrate(daylight)[1] }
             }
             Kind::Blackbody { kelvin, luminance } => {
-                let white = integrate(|nm| planck(nm, *kelvin))[1];
-                let scale = luminance / white;
-                Self {
-                    source: Source::Blackbody(*kelvin),
-                    scale: if scale.is_finite() { scale } else { 0.0 },
+                let scale = luminance / integrate(|nm| planck(nm, *kelvin))[1];
+                if scale.is_finite() {
+                    return Self { source: Source::Blackbody(*kelvin), scale };
                 }
+                let ln_scale = libm::log(*luminance) - blackbody::ln_xyz(*kelvin)[1];
+                Self { source: Source::ColdBody { kelvin: *kelvin, ln_scale }, scale: 1.0 }
             }
             Kind::Samples(samples) => Self { source: Source::Samples(samples.to_vec()), scale: 1.0 },
         }
@@ -47,6 +54,9 @@ impl LightSpectrum {
         let light = match &self.source {
             Source::Filtered(filter) => filter.at(wavelength_nm) * daylight(wavelength_nm),
             Source::Blackbody(kelvin) => planck(wavelength_nm, *kelvin),
+            Source::ColdBody { kelvin, ln_scale } => {
+                libm::exp(blackbody::ln_planck(wavelength_nm, *kelvin) + ln_scale).min(MOST_LIGHT)
+            }
             Source::Samples(samples) => interpolate(samples, wavelength_nm),
         };
         light * self.scale
@@ -62,6 +72,14 @@ impl LightSpectrum {
         let xyz = match &self.source {
             Source::Filtered(filter) => curve.times(|nm| filter.at(nm * doppler)).xyz_of_daylight(doppler),
             Source::Blackbody(kelvin) => curve.times(|nm| planck(nm * doppler, *kelvin)).xyz(),
+            Source::ColdBody { kelvin, ln_scale } => {
+                let ln = |nm: f64| blackbody::ln_planck(nm * doppler, *kelvin) + ln_scale;
+                // Limited by one factor, so that it keeps its hue. By Wien's law the maximum is at
+                // 2.898·10⁶/(D T) nm.
+                let strongest = ln((2.898e6 / (doppler * kelvin)).clamp(360.0, 830.0));
+                let excess = (strongest - libm::log(MOST_LIGHT)).max(0.0);
+                curve.xyz_of(|nm| libm::exp(ln(nm) - excess))
+            }
             Source::Samples(samples) => curve.xyz_of(|nm| interpolate(samples, nm * doppler)),
         };
         xyz.map(|part| part * self.scale)

@@ -429,8 +429,23 @@ fn reach(turns: &[Turn], point: DVec3) -> f64 {
 
 impl RayStretch<'_> {
     /// The point of the ray on the plane of simultaneity of an own time.  Eq. (P46)
+    ///
+    /// Beyond its passage, where the body moves otherwise, the curve goes on straight: tangents
+    /// may touch there.
     #[must_use]
     pub fn at(&self, own_time: f64) -> RayPoint {
+        let Range { start, end } = self.passage.own_times;
+        // At the end the next passage has begun.
+        let nearest = own_time.max(start).min(end.next_down());
+        let at = self.inside(nearest);
+        let beyond = own_time - nearest;
+        if beyond == 0.0 {
+            return at;
+        }
+        RayPoint { s: at.s + beyond * at.rate, point: at.point + beyond * at.derivative, ..at }
+    }
+
+    fn inside(&self, own_time: f64) -> RayPoint {
         let carried = self.carried(own_time);
         if !self.turns.is_empty() {
             return self.turned_back(carried, own_time);

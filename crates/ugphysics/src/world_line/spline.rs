@@ -1,4 +1,4 @@
-//! The natural cubic spline through events.
+//! The cubic spline through events whose acceleration at the ends is that of the rows there.
 
 use glam::DVec3;
 
@@ -76,10 +76,14 @@ impl Instant {
     }
 }
 
-/// Solves for the second derivatives m of a natural spline: at every inner row, with the times h
-/// between rows and the mean velocities s,
+/// Solves for the second derivatives m of a spline: at every inner row, with the times h between
+/// rows and the mean velocities s,
 ///
 /// h₋ m₋ + 2 (h₋ + h₊) m + h₊ m₊ = 6 (s₊ − s₋).
+///
+/// At the ends m changes as between the next two rows, m₀ = (1 + r) m₁ − r m₂ with r = h₀/h₁, so
+/// that the error is of the fourth order there as well. A time h₀ longer than h₁ has r = 1: what
+/// happens between the next rows says little about it.
 ///
 /// # Errors
 /// [`WorldLineError::NotFinite`]
@@ -87,20 +91,48 @@ pub(super) fn spline(events: &[Event]) -> Result<Vec<Row>, WorldLineError> {
     let n = events.len();
     let time = |row: usize| events[row + 1].t - events[row].t;
     let mean = |row: usize| (events[row + 1].x - events[row].x) / time(row);
+    let ratio = |outer: usize, inner: usize| (time(outer) / time(inner)).min(1.0);
     // Elimination from the first row on, as m = value − factor m₊.
     let mut second = vec![(0.0, DVec3::ZERO); n];
     for row in 1..n - 1 {
-        let (before, after) = (time(row - 1), time(row));
+        let (mut before, mut after) = (time(row - 1), time(row));
+        let mut diagonal = 2.0 * (before + after);
+        // With three rows the acceleration is constant.
+        let is_parabola = n == 3;
+        if row == 1 {
+            let r = if is_parabola { 0.0 } else { ratio(0, 1) };
+            diagonal += before * (1.0 + r);
+            after -= before * r;
+        }
+        if row == n - 2 {
+            let r = if is_parabola { 0.0 } else { ratio(row, row - 1) };
+            diagonal += after * (1.0 + r);
+            (before, after) = (before - after * r, 0.0);
+        }
         let (factor, value) = second[row - 1];
-        let diagonal = 2.0 * (before + after) - before * factor;
-        second[row] = (after / diagonal, (6.0 * (mean(row) - mean(row - 1)) - before * value) / diagonal);
+        let right = 6.0 * (mean(row) - mean(row - 1));
+        let before = if row == 1 { 0.0 } else { before };
+        diagonal -= before * factor;
+        second[row] = (after / diagonal, (right - before * value) / diagonal);
     }
-    let mut later = DVec3::ZERO;
-    let last = Row { event: events[n - 1], velocity: DVec3::ZERO, second: later, third: DVec3::ZERO };
+    let mut accelerations = vec![DVec3::ZERO; n];
+    for row in (1..n - 1).rev() {
+        let (factor, value) = second[row];
+        accelerations[row] = value - factor * accelerations[row + 1];
+    }
+    if n > 2 {
+        let end = |outer: usize, inner: usize, [near, next]: [DVec3; 2]| {
+            let r = if n == 3 { 0.0 } else { ratio(outer, inner) };
+            near + r * (near - next)
+        };
+        accelerations[0] = end(0, 1, [accelerations[1], accelerations[2]]);
+        accelerations[n - 1] = end(n - 2, n - 3, [accelerations[n - 2], accelerations[n - 3]]);
+    }
+    let mut later = accelerations[n - 1];
+    let last = Row { event: events[n - 1], velocity: DVec3::ZERO, second: DVec3::ZERO, third: DVec3::ZERO };
     let mut rows = vec![last; n];
     for row in (0..n - 1).rev() {
-        let (factor, value) = second[row];
-        let here = if row == 0 { DVec3::ZERO } else { value - factor * later };
+        let here = accelerations[row];
         let time = time(row);
         rows[row] = Row {
             event: events[row],

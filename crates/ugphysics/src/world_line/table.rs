@@ -1,7 +1,7 @@
 //! Motion through the events of a table.
 //!
 //! Between two rows the place is a cubic polynomial of the time of the scene. Second derivatives
-//! agree at the rows and are 0 at both ends (a natural spline), where the motion is inertial.
+//! agree at the rows; beyond both ends the motion is inertial.
 //! Eq. (P48)
 
 use std::sync::Arc;

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use ugphysics::spectrum::{
-    DopplerGrid, LightSpectrum, Reflectance, Spectrum, daylight, integrate, observer, planck,
+    DopplerGrid, LightSpectrum, Reflectance, SmoothCurve, Spectrum, daylight, integrate, observer, planck,
 };
 use ugphysics::{linear_srgb_to_xyz, srgb_decode, xyz_to_linear_srgb};
 
@@ -247,7 +247,11 @@ fn light_beyond_the_range_of_numbers_keeps_its_hue() {
         let same = chromaticity(Spectrum::blackbody(kelvin * doppler, 1.0).seen(1.0));
         let gain = libm::pow(doppler, 5.0);
         let table = grid.table(&cold).xyz(libm::log(doppler)).map(|part| part * gain);
-        for (seen, tolerance) in [(cold.seen(doppler), 1e-12), (table, 1e-4)] {
+        // As a lamp on white.
+        let (lamp, white) = (LightSpectrum::new(&cold), SmoothCurve::new(|_| 1.0));
+        assert!((lamp.seen_through(&white, 1.0)[1] - 1.0).abs() < 1e-9, "{kelvin}");
+        let lit = lamp.seen_through(&white, doppler);
+        for (seen, tolerance) in [(cold.seen(doppler), 1e-12), (table, 1e-4), (lit, 1e-9)] {
             assert!(seen.iter().all(|part| *part < f64::from(f32::MAX) / 100.0), "{seen:?}");
             let off = [0, 1].map(|k| (chromaticity(seen)[k] - same[k]).abs());
             assert!(off[0] < tolerance && off[1] < tolerance, "{kelvin} {doppler}: {seen:?} {same:?}");

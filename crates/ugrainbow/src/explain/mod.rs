@@ -13,7 +13,7 @@ use ugpicture::explain::{
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
-use ugscene::{Geometry, RestPosition, SeenPosition, VertexId};
+use ugscene::{ColorScale, ColorValue, Geometry, RestPosition, SeenPosition, VertexId};
 
 use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
@@ -204,7 +204,7 @@ impl Teller<'_> {
             angle_deg: angle(place),
             angle_at_rest_deg: angle(rest),
             doppler,
-            color: values.map(|values| self.color(values, doppler)),
+            color: values.map(|values| self.color(values, seen.item, doppler)),
             linear: light.map(f64::from),
         };
         ExplainedSample {
@@ -247,7 +247,7 @@ impl Teller<'_> {
     }
 
     /// The colour that interpolated values stand for.
-    fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
+    fn color(&self, values: &[f32], item: u32, doppler: f64) -> SampleColor {
         let [tint, saturation, value] = [0, 1, 2].map(|i| f64::from(values[i]));
         let is_light = match self.setup.layout {
             Layout::Hues => false,
@@ -255,7 +255,7 @@ impl Teller<'_> {
             Layout::Mixed { .. } => values[6] > 0.5,
         };
         if is_light {
-            return SampleColor::of_light([tint, saturation, value], true);
+            return SampleColor::of_light([tint, saturation, value], self.is_lit(item));
         }
         let has_levels = self.setup.layout == Layout::Mixed { has_levels: true };
         let light_level = has_levels.then(|| [3, 4, 5].map(|i| f64::from(values[i])));
@@ -272,6 +272,18 @@ impl Teller<'_> {
             HueWavelength::new(rest_nm, seen_nm, (interpolation == Interpolation::Hue).then_some(hue))
         });
         SampleColor::Hue { hue, saturation, value, light_level, wavelength }
+    }
+
+    /// False for faces that shine by themselves: with a light level of their own, and in spectra as
+    /// seen those of black bodies and sampled spectra.
+    fn is_lit(&self, item: u32) -> bool {
+        let scene = self.setup.scene();
+        let Some(face) = scene.faces.get(item as usize) else { return true };
+        let is_spectral =
+            scene.stage.seen_colors().is_some_and(|seen| matches!(seen.scale, ColorScale::Spectra { .. }));
+        let color = face.color.map(|color| scene.colors[color.index()].value);
+        let emits = matches!(color, Some(ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. }));
+        scene.light_level(face).is_none() && !(is_spectral && emits)
     }
 
     fn corners(&self, item: u32) -> Vec<ExplainedCorner> {

@@ -41,7 +41,7 @@ fn corner_text(corner: &ExplainedCorner) -> String {
             format!("hue {hue}, saturation {saturation}, value {value}")
         }
     };
-    let mut text = format!("`{}` {color}; lit {}", corner.vertex, level(&corner.light_level));
+    let mut text = format!("`{}` {color}; light level {}", corner.vertex, level(&corner.light_level));
     if corner.lights.len() > 1 {
         let parts: Vec<String> =
             corner.lights.iter().map(|part| format!("{} {}", level(&part.level), part.light)).collect();

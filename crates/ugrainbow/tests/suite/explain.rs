@@ -83,6 +83,25 @@ fn the_last_step_is_the_picture() {
     assert!(seen[0] > 10 && seen[1] > 60 && seen[2] > 1, "background, faces, wires: {seen:?}");
 }
 
+/// As `ugdoppler -sp` writes them: what a sampled spectrum emits, and paint.
+#[test]
+fn spectra_that_emit_are_not_lit() {
+    for (color, is_lit) in [("bands", false), ("paint", true)] {
+        let scene = format!(
+            "(ugstage 1 colors as-seen spectra lights)
+            c_spd bands 455 0 460 2 465 0; c_rgb paint .8 .7 .6; c_xyz seen .4 .4 .2;
+            v a -5 10 -5 seen; v b 5 10 -5 seen; v c 5 10 5 seen; v d -5 10 5 seen;
+            f (a b c d) {color}; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 30;"
+        );
+        let told = told(&scene, "--explain 30,22");
+        assert_eq!(told["sample"]["color"]["is_lit"], is_lit, "{told}");
+        let [word, other] =
+            if is_lit { [", lit", "emitted"] } else { ["emitted: no lamp lights it", "lit\n"] };
+        let text = text(&scene, "--explain 30,22");
+        assert!(text.contains(word) && !text.contains(other), "{text}");
+    }
+}
+
 fn check_parts(told: &Value) {
     let covers = told["covers"].as_array().unwrap();
     let sum: u64 = covers.iter().map(|cover| cover["samples"].as_u64().unwrap()).sum();
