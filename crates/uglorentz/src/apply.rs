@@ -1,9 +1,8 @@
 //! The filter: a scene at rest to the scene as seen.
 
-use glam::DVec3;
 use rayon::prelude::*;
 use ugpipe::Progress;
-use ugscene::{BodyId, CameraOptions, Geometry, Item, PlacedBodies, Scene, Vertex};
+use ugscene::{CameraOptions, Geometry, Item, PlacedBodies, Scene};
 
 use crate::clocks::Clocks;
 use crate::criterion::Bounds;
@@ -42,7 +41,7 @@ pub fn apply_with(
     let motion_options = config.motion();
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
     let placed = PlacedBodies::new(&mut scene, &motion_options, &camera, config.size)?;
-    let PlacedBodies { eye, default_camera, motions, shifts, .. } = &placed;
+    let PlacedBodies { eye, default_camera, motions, .. } = &placed;
     let mut points = points(&scene, &placed);
     viewpoint::refuse_vertices_at_eye(&scene, &points, motions)?;
     if config.smooth {
@@ -81,9 +80,12 @@ pub fn apply_with(
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
     let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart);
-    set_positions(&mut scene, &mesh, shifts, *eye)?;
     if placed.has_motion || config.geometry != Geometry::default() {
         scene.stage.geometry = placed.seen_stage(&motion_options);
+    }
+    let n_placed = mesh.points.len() - mesh.recipes.len();
+    if let Some(row) = placed.show(&mut scene, &mesh.points, n_placed) {
+        return Err(Error::OutOfRange { name: viewpoint::vertex_name(&scene, row), row });
     }
 
     progress.check()?;
@@ -143,26 +145,5 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
         if let Item::Face(row) = &mut comment.at {
             *row = first_pieces[*row as usize];
         }
-    }
-}
-
-/// Writes the seen positions. Those of a body at rest that was not shifted stay the same to the
-/// bit.
-fn set_positions(scene: &mut Scene, mesh: &RefinedMesh, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
-    let n_old = mesh.points.len() - mesh.recipes.len();
-    let stays = |body: BodyId| mesh.motion_of(body).is_at_rest() && shifts[body.index()] == DVec3::ZERO;
-    let is_finite = |(row, (vertex, point)): (usize, (&mut Vertex, &Point))| {
-        if row >= n_old || !stays(point.body) {
-            vertex.position = point.seen + eye;
-        }
-        vertex.position.is_finite()
-    };
-    let positions = scene.vertices.par_iter_mut().zip(&mesh.points).enumerate().map(is_finite);
-    if positions.reduce(|| true, |all, one| all & one) {
-        return Ok(());
-    }
-    match scene.vertices.iter().position(|vertex| !vertex.position.is_finite()) {
-        None => Ok(()),
-        Some(row) => Err(Error::OutOfRange { name: viewpoint::vertex_name(scene, row), row }),
     }
 }

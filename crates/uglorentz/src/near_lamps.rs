@@ -15,7 +15,6 @@ use ugscene::{BodyId, GeometryStage, RestFrames, Scene};
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::world_line::between;
 
 /// Where on an edge the light is compared with its linear interpolation.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -255,10 +254,9 @@ impl SampledLamps {
     }
 
     fn sample(&self, lamp: &Lamp, point: &Point, motion: &RelativeMotion) -> Option<Sample> {
-        let (place, time) = match motion.world_line() {
-            Some(_) => (point.rest, ScatteringTime::Own(point.own_time)),
-            None => (motion.turned_back(point.rest), ScatteringTime::Delay(0.0)),
-        };
+        let own = motion.world_line().map(|_| ScatteringTime::Own(point.own_time));
+        let time = own.unwrap_or(ScatteringTime::Delay(0.0));
+        let place = motion.turned_back(point.rest);
         let element = SurfaceElement { point: place, time, normal: DVec3::ZERO, body: point.body };
         let (toward, doppler, part) = element.light_from(lamp, &self.frames)?;
         let (level, step) = match &lamp.table {
@@ -275,10 +273,7 @@ impl SampledLamps {
     /// The error of the light on an edge, as of [`NearLamp::error`], but relative to the light that
     /// arrives there at normal incidence: a lamp in motion may always be far away.
     fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
-        let middles = SAMPLES.map(|s| match motion.world_line() {
-            Some(line) => between(a, b, line, s),
-            None => Point::new(motion, a.body, a.rest.lerp(b.rest, s)),
-        });
+        let middles = SAMPLES.map(|s| Point::between(motion, a, b, s));
         let of_lamp = |lamp: &Lamp| {
             let sample = |point: &Point| self.sample(lamp, point, motion);
             let (Some(from), Some(to)) = (sample(a), sample(b)) else { return 0.0 };
@@ -298,13 +293,7 @@ impl SampledLamps {
     }
 
     fn jumps(&self, corners: [&Point; 3], motion: &RelativeMotion) -> bool {
-        let [a, b, c] = corners;
-        let (rest, own_time) =
-            ((a.rest + b.rest + c.rest) / 3.0, (a.own_time + b.own_time + c.own_time) / 3.0);
-        let middle = match motion.world_line() {
-            Some(line) => Point::on_world_line(line, a.body, rest, Some(own_time)),
-            None => Point::new(motion, a.body, rest),
-        };
+        let middle = Point::middle(motion, corners);
         self.of(motion).filter(|lamp| lamp.table.is_some()).any(|lamp| {
             let sample = |point: &Point| self.sample(lamp, point, motion);
             let here = sample(&middle);

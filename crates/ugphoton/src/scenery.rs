@@ -124,9 +124,8 @@ impl<'a> Scenery<'a> {
             let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
             return Err(Error::MovingMedium { name: name.to_string() });
         }
-        let is_moving =
-            |body| surface.frames().world_line(body).is_some() || !surface.velocity(body).is_zero();
-        let common = |face: &Face| appearance.common_in_motion(&scene, face, is_moving(face.body));
+        let is_moving = |face: &Face| surface.frames().is_moving(face.body);
+        let common = |face: &Face| appearance.common_in_motion(&scene, face, is_moving(face));
         let face_colors = scene.faces.par_iter().map(common).collect();
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);

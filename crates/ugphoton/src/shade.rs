@@ -142,8 +142,8 @@ fn seen_from(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: usize) -> DVec3 
     match (&scenery.lamp_motions[lamp], &scenery.world.parts[point.part].motion, &point.element) {
         (Some(LampMotion::Inertial(frame)), ..) => frame.rest_from_camera(point.event).x,
         // Where its light came from decides only how its disk is turned.
-        (Some(LampMotion::OnLine(line)), ..) => line.at_event(point.event).map_or(point.place, |at| at.point),
-        (None, Some(motion), Some(element)) => motion.line.turned_point(point.place, element.own_time),
+        (Some(LampMotion::OnLine(line)), ..) => line.at_event(point.event).map_or(point.place, |(at, _)| at),
+        (None, Some(motion), Some(element)) => motion.line.standing(point.place, element.own_time).0,
         _ => point.place,
     }
 }

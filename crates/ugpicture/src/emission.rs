@@ -81,13 +81,13 @@ impl<'a> Emissions<'a> {
         let body = self.body(seen.item);
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
-        let on_line = self.frames.body_event(body, place);
+        let (velocity, own_time) = self.frames.at_event(body, ugscene::seen_event(place));
         Emission {
             place,
             depth,
             time,
-            velocity: on_line.map_or(self.frames.velocity(body), |at| at.velocity),
-            own_time: on_line.map(|at| at.own_time),
+            velocity,
+            own_time,
             scene_from_axes: self.frames.of(body).scene_from_boosted(),
             in_medium: None,
         }

@@ -2,10 +2,11 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
+use ugphysics::{Event, Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
 use crate::{
-    BodyId, RestFrames, RestPosition, Scene, SeenPosition, Vertex, VertexId, WorldLinePoint, vertex_bodies,
+    BodyId, Face, RestFrames, RestPosition, Scene, SeenPosition, Vertex, VertexId, seen_event, seen_normal,
+    vertex_bodies,
 };
 
 /// Which of the two effects are included in the seen positions of a scene: both, unless its stage
@@ -84,65 +85,86 @@ impl Geometry {
     }
 }
 
-/// The points of bodies that are seen at the vertices of a scene.
+/// The points of bodies that are seen at the vertices of a scene, as columns.
 #[derive(Clone, Debug)]
 pub struct SeenVertices {
     /// The body of each vertex.
     pub bodies: Vec<BodyId>,
-    /// For each vertex of a body on a world line, the point that is seen there; empty without such
-    /// bodies.
-    pub on_world_lines: Vec<Option<WorldLinePoint>>,
+    /// The rest position of each vertex, see [`rest_positions`]; empty if it is not needed.
+    pub rest: Vec<DVec3>,
+    /// For each vertex of a body on a world line, the own time at emission; NaN for others, and where
+    /// no point of the body can be seen. Empty without such bodies.
+    own_times: Vec<f64>,
 }
 
 impl SeenVertices {
-    /// `eye`: in scene coordinates.
-    pub fn new(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Self {
+    /// `eye`: in scene coordinates. The columns of the scene where it has them ([`Scene::rest`]); else
+    /// they follow from seen positions, by (P4) and (P45).
+    pub fn new(scene: &Scene, eye: DVec3, frames: &RestFrames, needs_rest: bool) -> Self {
         let bodies = vertex_bodies(scene);
-        let point = |(vertex, &body): (&Vertex, &BodyId)| {
-            WorldLinePoint::new(frames.world_line(body)?, vertex.position - eye)
+        let is_known = !scene.rest.is_empty();
+        if is_known && (needs_rest || frames.have_world_lines()) {
+            return Self { bodies, rest: scene.rest.clone(), own_times: scene.own_times.clone() };
+        }
+        let geometry = Geometry::of(scene);
+        let rest = |(vertex, &body): (&Vertex, &BodyId)| {
+            let seen = vertex.position - eye;
+            match frames.world_line(body) {
+                Some(line) => line.at_event(seen_event(seen)).unwrap_or((DVec3::NAN, f64::NAN)),
+                None => (
+                    frames.of(body).scene_from_boosted()
+                        * geometry.rest(SeenPosition(seen), frames.velocity(body)).0,
+                    f64::NAN,
+                ),
+            }
         };
-        let vertices = scene.vertices.par_iter().zip(&bodies).filter(|_| frames.have_world_lines());
-        let on_world_lines = vertices.map(point).collect();
-        Self { bodies, on_world_lines }
+        let vertices = || scene.vertices.par_iter().zip(&bodies);
+        let (rest, own_times) = if frames.have_world_lines() {
+            vertices().map(rest).unzip()
+        } else if !needs_rest {
+            (Vec::new(), Vec::new())
+        } else if frames.are_at_rest() {
+            (vertices().map(|(vertex, _)| vertex.position - eye).collect(), Vec::new())
+        } else {
+            (vertices().map(|vertex| rest(vertex).0).collect(), Vec::new())
+        };
+        Self { bodies, rest, own_times }
     }
 
-    /// The point at a vertex of a body on a world line.
+    /// For a vertex of a body on a world line, the own time at which its light left; `None` if no
+    /// point of the body can be seen there.
     #[inline]
-    pub fn on_world_line(&self, row: usize) -> Option<&WorldLinePoint> {
-        self.on_world_lines.get(row)?.as_ref()
+    pub fn own_time(&self, row: usize) -> Option<f64> {
+        self.own_times.get(row).copied().filter(|own_time| !own_time.is_nan())
     }
 
     /// The velocity of the point at a vertex, in the frame of the camera: on a world line that at
     /// emission; where no point of the body can be seen, that at own time 0.
     pub fn velocity(&self, row: usize, frames: &RestFrames) -> Velocity {
-        let at_own_time_0 = frames.velocity(self.bodies[row]);
-        self.on_world_line(row).map_or(at_own_time_0, |point| point.velocity)
+        let body = self.bodies[row];
+        let of_line = |own_time| frames.world_line(body)?.velocity(self.rest[row], own_time).ok();
+        self.own_time(row).and_then(of_line).unwrap_or(frames.velocity(body))
+    }
+
+    /// The rest normal of a face on the side that is seen from `eye`.
+    pub fn seen_normal(&self, scene: &Scene, face: &Face, (eye, frames): (DVec3, &RestFrames)) -> DVec3 {
+        let outline = scene.contours.get(face.contours.start);
+        let first = outline[0].index();
+        let facing = |own_time| {
+            let Event { t, x } = seen_event(scene.vertices[first].position - eye);
+            let ray = Event { t: -t, x: -x };
+            Some(frames.world_line(face.body)?.facing_covector(self.rest[first], own_time, ray))
+        };
+        let toward_eye = self.own_time(first).and_then(facing).unwrap_or(-self.rest[first]);
+        seen_normal(outline.iter().map(|corner| self.rest[corner.index()]), toward_eye)
     }
 
     /// Adds a copy of a vertex.
     pub fn copy(&mut self, original: VertexId) {
-        self.bodies.push(self.bodies[original.index()]);
-        self.on_world_lines.extend(self.on_world_lines.get(original.index()).copied());
-    }
-
-    /// See [`rest_positions`].
-    pub fn rest_positions(&self, scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
-        if !scene.rest.is_empty() {
-            return scene.rest.clone();
-        }
-        if frames.are_at_rest() {
-            return scene.vertices.par_iter().map(|vertex| vertex.position - eye).collect();
-        }
-        let geometry = Geometry::of(scene);
-        let vertices = scene.vertices.par_iter().zip(&self.bodies).enumerate();
-        let rest = |(row, (vertex, &body)): (usize, (&Vertex, &BodyId))| {
-            if frames.world_line(body).is_some() {
-                return self.on_world_line(row).map_or(DVec3::NAN, |point| point.point);
-            }
-            let seen = SeenPosition(vertex.position - eye);
-            frames.of(body).scene_from_boosted() * geometry.rest(seen, frames.velocity(body)).0
-        };
-        vertices.map(rest).collect()
+        let row = original.index();
+        self.bodies.push(self.bodies[row]);
+        self.rest.extend(self.rest.get(row).copied());
+        self.own_times.extend(self.own_times.get(row).copied());
     }
 }
 
@@ -150,5 +172,5 @@ impl SeenVertices {
 /// its body, with the axes of the scene. [`Scene::rest`] if it is known, else (P4), (P25), or (P45)
 /// for bodies on world lines; NaN where such a body cannot be seen.
 pub fn rest_positions(scene: &Scene, eye: DVec3, frames: &RestFrames) -> Vec<DVec3> {
-    SeenVertices::new(scene, eye, frames).rest_positions(scene, eye, frames)
+    SeenVertices::new(scene, eye, frames, true).rest
 }

@@ -76,7 +76,9 @@ pub use geometry::{Geometry, SeenVertices, rest_positions};
 pub use half_space::HalfSpace;
 pub use measurement::{Measurement, measure};
 pub use mixing::{mixing_vertices, n_mixing_vertices, repeat_vertices, separate_wires};
-pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera, moving_camera};
+pub use motion::{
+    Anchor, MotionError, MotionOptions, PlacedBodies, ShownPoint, common_camera, moving_camera,
+};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use note::{Note, may_miss_motion};
 pub use position::{RestPosition, SeenPosition};
@@ -90,5 +92,5 @@ pub use shared_planes::shared_planes;
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
+pub use world_lines::seen_event;
 use world_lines::world_lines;
-pub use world_lines::{WorldLinePoint, seen_event};

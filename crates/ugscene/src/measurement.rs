@@ -32,7 +32,7 @@ pub struct Measurement {
 pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
     let frames = RestFrames::new(scene);
     let has_flight_time = Geometry::of(scene).flight_time;
-    let vertices = SeenVertices::new(scene, eye, &frames);
+    let vertices = SeenVertices::new(scene, eye, &frames, false);
     let one = |seen: DVec3, v: Velocity| {
         let distance = seen.length();
         Measurement {

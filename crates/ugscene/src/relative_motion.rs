@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{RestFrame, Velocity, WorldLine, contracted, elongated};
+use ugphysics::{Event, RestFrame, Velocity, WorldLine, WorldLineError, contracted, elongated};
 
 use crate::{Geometry, HalfSpace, RestPosition, SeenPosition};
 
 /// Relative rounding error of the bound of (P27), which is computed with about ten operations.
 const ROUNDING: f64 = 1e-12;
+
+/// The event of the eye.
+const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
 
 /// How one body moves relative to the camera, and which effects are shown.
 #[derive(Clone, Debug)]
@@ -90,6 +93,19 @@ impl RelativeMotion {
     /// Where a point of the body is seen.
     pub fn seen(&self, rest: RestPosition) -> SeenPosition {
         self.geometry.seen(rest, self.velocity())
+    }
+
+    /// Where a point is seen, and the own time at which its light left: on a world line that of the
+    /// body, else the time of the rest frame after the event of the eye.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn light(&self, rest: DVec3) -> Result<(DVec3, f64), WorldLineError> {
+        match &self.line {
+            None if self.is_at_rest() => Ok((rest, -rest.length())),
+            None => Ok((self.seen(RestPosition(rest)).0, -self.boosted_rest(rest).length())),
+            Some(line) => line.light(rest, EYE).map(|light| (light.event.x, light.own_time)),
+        }
     }
 
     /// The rest position of what is seen at `seen`.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{BodyEvent, Lorentz, RestFrame, Velocity, WorldLine};
+use ugphysics::{Event, Lorentz, RestFrame, Velocity, WorldLine};
 
 use crate::{BodyId, FaceOrWire, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
 
@@ -55,11 +55,25 @@ impl RestFrames {
         !self.world_lines.is_empty()
     }
 
-    /// Own time and velocity, in the frame of the camera, of the point of a body on a world line
-    /// that is seen at `seen` relative to the eye. `None` for an inertial body, and where no point
-    /// of the body can be seen.
-    pub fn body_event(&self, body: BodyId, seen: DVec3) -> Option<BodyEvent> {
-        self.world_line(body)?.at_event(crate::seen_event(seen)).ok()
+    /// The velocity, in the frame of the camera, of what of a body is at an event relative to that of
+    /// the eye; and the own time of a body on a world line, unless no point of it can be there.
+    pub fn at_event(&self, body: BodyId, event: Event) -> (Velocity, Option<f64>) {
+        let of_line = || {
+            let line = self.world_line(body)?;
+            let (point, own_time) = line.at_event(event).ok()?;
+            Some((line.velocity(point, own_time).ok()?, Some(own_time)))
+        };
+        of_line().unwrap_or((self.velocity(body), None))
+    }
+
+    /// True if a body, or a part of it, moves relative to the camera.
+    pub fn is_moving(&self, body: BodyId) -> bool {
+        self.world_line(body).is_some() || !self.velocity(body).is_zero()
+    }
+
+    /// True if two bodies have the same motion.
+    pub fn move_alike(&self, a: BodyId, b: BodyId) -> bool {
+        self.velocity(a) == self.velocity(b) && self.world_line(a) == self.world_line(b)
     }
 
     /// The rest frame of a body.

@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
 use crate::{BodyId, Scene};
@@ -37,44 +37,4 @@ pub(crate) fn world_lines(scene: &Scene) -> Vec<Option<Arc<WorldLine>>> {
         is_on_one.then(|| Arc::new(line.in_frame(frame, origin).with_body_origin(seen.eye)))
     };
     scene.bodies.ids().map(line).collect()
-}
-
-/// A point of a body on a world line, as it is seen.
-#[derive(Clone, Copy, Debug)]
-pub struct WorldLinePoint {
-    /// The point, in the coordinates of the body, relative to the eye.
-    pub point: DVec3,
-    /// The own time of the body at emission.
-    pub own_time: f64,
-    /// The velocity of the point at emission, in the frame of the camera.
-    pub velocity: Velocity,
-    /// The turn of the body at emission.
-    pub turn: DQuat,
-    /// Where the point would be in the scene if the body only turned, relative to the eye.
-    pub standing: DVec3,
-    /// Toward the eye, in the coordinates of the body, up to a factor: a surface with the normal n
-    /// there is seen on its front if n·`toward_eye` > 0.
-    pub toward_eye: DVec3,
-}
-
-impl WorldLinePoint {
-    /// The point of a body that is seen at `seen`, relative to the eye; `None` if none can be.
-    pub fn new(line: &WorldLine, seen: DVec3) -> Option<Self> {
-        let event = seen_event(seen);
-        let at = line.at_event(event).ok()?;
-        let turn = line.pose(at.own_time).turn;
-        Some(Self {
-            point: at.point,
-            own_time: at.own_time,
-            velocity: at.velocity,
-            turn,
-            standing: line.turned_point(at.point, at.own_time),
-            toward_eye: line.toward(at.point, at.own_time, Event { t: -event.t, x: -event.x }),
-        })
-    }
-
-    /// The normal of a surface of the body as it stands in the scene if the body only turned.
-    pub fn standing_normal(&self, normal: DVec3) -> DVec3 {
-        self.turn * normal
-    }
 }

@@ -91,7 +91,7 @@ impl Moving {
         (begin, end): (f64, f64),
         inside: f64,
     ) -> Result<(), WorldLineError> {
-        let is_at = |own_time: f64| self.moment(point, own_time).map(drop);
+        let is_at = |own_time: f64| self.point_event(point, own_time).map(drop);
         if let Path::Along(along) = &self.path
             && begin >= 0.0
             && end <= along.path.end()
@@ -132,7 +132,7 @@ impl Moving {
             {
                 continue;
             }
-            self.moment(point, middle)?;
+            self.point_event(point, middle)?;
             n_samples += 1;
             parts.extend([(begin, middle), (middle, end)]);
         }

@@ -17,7 +17,7 @@ use observer::Observer;
 use crate::camera_options::half_side;
 use crate::{
     BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Projection,
-    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError,
+    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError, Vertex,
 };
 
 /// How bodies, camera and lights move, and when the picture is taken.
@@ -96,6 +96,26 @@ pub enum MotionError {
     /// A single effect is asked for, and a colour changes with own time.
     #[error("colours that change with time are seen with contraction and flight time together")]
     PartialTimes,
+}
+
+/// A point of a body as it is seen. Both positions are relative to the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownPoint {
+    /// The body.
+    pub body: BodyId,
+    /// Rest coordinates, in the axes of [`RelativeMotion::turned`].
+    pub rest: DVec3,
+    /// Where it is seen.
+    pub seen: DVec3,
+    /// The own time of the body at emission, of one on a world line.
+    pub own_time: f64,
+}
+
+impl From<&ShownPoint> for ShownPoint {
+    #[inline]
+    fn from(point: &ShownPoint) -> Self {
+        *point
+    }
 }
 
 /// Where the bodies of a scene are relative to the camera.
@@ -186,6 +206,44 @@ impl PlacedBodies {
                 self.motions[body.index()].turned(vertex.position - self.eye) + self.shifts[body.index()]
             })
             .collect()
+    }
+
+    /// Puts vertices where they are seen, and fills the columns of rest positions and own times if
+    /// the stage of the scene says that it is as seen. Vertices before `n_placed` have their place:
+    /// on a body at rest that was not shifted it stays the same to the bit.
+    ///
+    /// `points`: of each vertex. Returns the first row whose position is not finite.
+    pub fn show<'p, P: Sync>(&self, scene: &mut Scene, points: &'p [P], n_placed: usize) -> Option<usize>
+    where
+        ShownPoint: From<&'p P>,
+    {
+        let stays: Vec<bool> = (self.motions.iter().zip(&self.shifts))
+            .map(|(motion, shift)| motion.is_at_rest() && *shift == DVec3::ZERO)
+            .collect();
+        if scene.stage.seen_geometry().is_some() {
+            let rest = |point: &'p P| {
+                let ShownPoint { body, rest, .. } = ShownPoint::from(point);
+                self.motions[body.index()].turned_back(rest)
+            };
+            scene.rest = points.par_iter().map(rest).collect();
+            let own_time = |point: &'p P| {
+                let ShownPoint { body, own_time, .. } = ShownPoint::from(point);
+                if self.motions[body.index()].world_line().is_some() { own_time } else { f64::NAN }
+            };
+            if self.motions.iter().any(|motion| motion.world_line().is_some()) {
+                scene.own_times = points.par_iter().map(own_time).collect();
+            }
+        }
+        let is_finite = |(row, (vertex, point)): (usize, (&mut Vertex, &'p P))| {
+            let ShownPoint { body, seen, .. } = ShownPoint::from(point);
+            if row >= n_placed || !stays[body.index()] {
+                vertex.position = seen + self.eye;
+            }
+            vertex.position.is_finite()
+        };
+        let are_finite = scene.vertices.par_iter_mut().zip(points).enumerate().map(is_finite);
+        let has_others = !are_finite.reduce(|| true, |all, one| all & one);
+        has_others.then(|| scene.vertices.iter().position(|vertex| !vertex.position.is_finite())).flatten()
     }
 
     /// The stage of the scene when its vertices are where they are seen.
