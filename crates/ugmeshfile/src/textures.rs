@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ugimage::{PictureLimits, Pixels, read_picture};
 use ugphysics::{srgb_decode, srgb_encode};
-use ugpipe::shorten;
+use ugscene::shorten;
 
 use crate::builder::{Builder, Rgba};
 

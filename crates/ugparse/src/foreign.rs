@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use ugpipe::remedies;
-
-use crate::diagnostic::Diagnostic;
-use crate::source::{Source, Span};
+#[cfg(feature = "report")]
+use crate::{Diagnostic, Source, Span};
 
 /// The error for a text that is not UniGrafix, by its first bytes or the extension of its name.
 /// Call it only for texts with errors: a scene may have any name.
+#[cfg(feature = "report")]
 pub(crate) fn error(source: &Source) -> Option<Diagnostic> {
+    use ugpipe::remedies;
     let file = Some(&*source.name).filter(|name| !name.starts_with('<'));
     let (what, help) = match foreign_data(&source.name, &source.text) {
         Some(Foreign::Utf16) => ("UTF-16 text", "save it as UTF-8 or ASCII".to_owned()),

@@ -64,7 +64,7 @@ pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
 
 /// A word for a message, without its end if it is long.
 pub(crate) fn shorten(word: &[u8]) -> String {
-    ugpipe::shorten(&String::from_utf8_lossy(word))
+    ugscene::shorten(&String::from_utf8_lossy(word))
 }
 
 /// The syntax of a statement, for messages.

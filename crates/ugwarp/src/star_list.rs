@@ -336,7 +336,7 @@ fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMist
         format!("{}{rest}", String::from_utf8_lossy(&field[..field.len().min(MOST_QUOTED)]))
     };
     let ([least, most], _) = column.range;
-    match fast_float2::parse::<f64, _>(field) {
+    match std::str::from_utf8(field).unwrap_or_default().parse::<f64>() {
         _ if field.is_empty() => Err(StarListMistake::Empty(column)),
         Err(_) => Err(StarListMistake::NotANumber(column, quoted())),
         Ok(number) if !(least..=most).contains(&number) => Err(StarListMistake::OutOfRange(column, quoted())),

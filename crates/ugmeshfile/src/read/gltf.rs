@@ -17,8 +17,8 @@ use gltf::{Accessor, Document, Primitive};
 use rustc_hash::FxHashMap;
 use serde_json::Value;
 use ugphysics::srgb_encode;
-use ugpipe::shorten;
 use ugscene::VertexId;
+use ugscene::shorten;
 
 use super::Input;
 use super::{accessor, strip};

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugpipe::shorten;
+use ugscene::shorten;
 use ugscene::{ColorId, VertexId};
 
 use super::Input;
@@ -142,7 +142,7 @@ impl<'a> Reader<'a> {
 
     /// NaN is accepted: some exporters write `nan` for faces without area.
     fn normal(&mut self, rest: &str) -> Result<(), Problem> {
-        let mut parts = rest.split_whitespace().map_while(|word| fast_float2::parse(word).ok());
+        let mut parts = rest.split_whitespace().map_while(|word| word.parse().ok());
         let (Some(x), Some(y), Some(z)) = (parts.next(), parts.next(), parts.next()) else {
             return Err(Problem::new("a normal needs 3 numbers"));
         };

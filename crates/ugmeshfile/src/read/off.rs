@@ -1,7 +1,7 @@
 //! Reads Geomview OFF: the keyword `[ST][C][N]OFF`, counts, vertices and faces, one per line.
 
 use glam::DVec3;
-use ugpipe::shorten;
+use ugscene::shorten;
 
 use super::text::{number, numbers};
 use crate::builder::{Builder, Rgba};

@@ -6,8 +6,8 @@ use std::io::Cursor;
 use glam::DVec3;
 use ply_rs_bw::parser::{Parser, Reader};
 use ply_rs_bw::ply::{Header, Property, PropertyAccess, PropertyAccessResult, PropertyType};
-use ugpipe::shorten;
 use ugscene::VertexId;
+use ugscene::shorten;
 
 use super::strip;
 use crate::builder::{Builder, Rgba};

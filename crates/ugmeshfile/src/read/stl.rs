@@ -5,8 +5,8 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugpipe::shorten;
 use ugscene::VertexId;
+use ugscene::shorten;
 
 use super::text::numbers;
 use crate::builder::Builder;

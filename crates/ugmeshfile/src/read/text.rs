@@ -1,12 +1,12 @@
 //! Parses words and numbers of text formats.
 
-use ugpipe::shorten;
+use ugscene::shorten;
 
 use crate::error::Problem;
 
 /// Parses a finite number; `what` names its owner for the error message.
 pub(super) fn number(word: &str, line: usize, what: &str) -> Result<f64, Problem> {
-    fast_float2::parse(word)
+    word.parse()
         .ok()
         .filter(|number: &f64| number.is_finite())
         .ok_or_else(|| Problem::at(line, format!("`{}` in a {what} is not a finite number", shorten(word))))
