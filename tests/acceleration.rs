@@ -94,7 +94,6 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
                 };
                 let placed =
                     PlacedBodies::new(&mut scene, &options, &CameraOptions::default(), [64, 64]).unwrap();
-                scene.stage.geometry = placed.seen_stage(&options);
                 let frames = RestFrames::new(&scene);
                 let lamps = uglight::Lamps::new(&scene, placed.eye, false);
                 for face in &scene.faces {

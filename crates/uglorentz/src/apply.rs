@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use ugpipe::Progress;
-use ugscene::{CameraOptions, Geometry, Item, PlacedBodies, Scene};
+use ugscene::{CameraOptions, Item, PlacedBodies, Scene};
 
 use crate::clocks::Clocks;
 use crate::criterion::Bounds;
@@ -38,9 +38,8 @@ pub fn apply_with(
     progress.step("moving and cutting", 0);
     check(config)?;
     let n_faces = scene.faces.len();
-    let motion_options = config.motion();
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
-    let placed = PlacedBodies::new(&mut scene, &motion_options, &camera, config.size)?;
+    let placed = PlacedBodies::new(&mut scene, &config.motion(), &camera, config.size)?;
     let PlacedBodies { eye, default_camera, motions, .. } = &placed;
     let mut points = points(&scene, &placed);
     viewpoint::refuse_vertices_at_eye(&scene, &points, motions)?;
@@ -57,8 +56,7 @@ pub fn apply_with(
     let n_culled = cull::cull(&mut scene, &mut points, motions, &view_volume);
 
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
-    let near_lamps =
-        NearLamps::new(&scene, (*eye, placed.seen_stage(&motion_options)), motions, config.light_error);
+    let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
     let tolerance = Tolerance::new(error, config.color_error);
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
     let clocks = Clocks::new(&scene, config.color_error);
@@ -80,11 +78,9 @@ pub fn apply_with(
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
     let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart);
-    if placed.has_motion || config.geometry != Geometry::default() {
-        scene.stage.geometry = placed.seen_stage(&motion_options);
-    }
     let n_placed = mesh.points.len() - mesh.recipes.len();
-    if let Some(row) = placed.show(&mut scene, &mesh.points, n_placed) {
+    let shown: Vec<_> = mesh.points.par_iter().map(Point::shown).collect();
+    if let Some(row) = placed.show(&mut scene, &shown, n_placed) {
         return Err(Error::OutOfRange { name: viewpoint::vertex_name(&scene, row), row });
     }
 

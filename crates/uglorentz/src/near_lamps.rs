@@ -11,7 +11,7 @@
 use glam::DVec3;
 use uglight::{FallOff, Lamp, LampPlace, Lamps, ScatteringTime, SurfaceElement};
 use ugphysics::{Velocity, illumination};
-use ugscene::{BodyId, GeometryStage, RestFrames, Scene};
+use ugscene::{BodyId, RestFrames, Scene};
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -51,20 +51,15 @@ struct NearLamp {
 }
 
 impl NearLamps {
-    /// `scene`: with its lights shifted. `seen`: the stage that it will have. `bound`: relative to
+    /// `scene`: with its lights shifted and its stage as seen. `bound`: relative to
     /// the light of a lamp at normal incidence; infinite for none.
-    pub(crate) fn new(
-        scene: &Scene,
-        (eye, seen): (DVec3, GeometryStage),
-        motions: &[RelativeMotion],
-        bound: f64,
-    ) -> Self {
+    pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[RelativeMotion], bound: f64) -> Self {
         if bound == f64::INFINITY {
             return Self::default();
         }
         let lamps = Lamps::new(scene, eye, false).over_time(scene, eye, false);
-        let is_on_line =
-            |lamp: &Lamp| lamp.motion.body().is_some_and(|body| motions[body.index()].world_line().is_some());
+        let frames = RestFrames::new(scene);
+        let is_on_line = |lamp: &Lamp| is_on_line(lamp, &frames);
         let is_steady = |lamp: &&Lamp| lamp.table.is_none() && lamp.color_of.is_none() && !is_on_line(lamp);
         let near = lamps.iter().filter(is_steady).filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
@@ -74,7 +69,6 @@ impl NearLamps {
             let intensity = lamp.color.max_element();
             Some(NearLamp { intensity, place, velocity, fall_off: lamp.fall_off })
         });
-        let frames = RestFrames::new(scene);
         let shift = |(body, motion): (BodyId, &RelativeMotion)| motion.turned(frames.lamp_shift(body));
         let near: Vec<NearLamp> = near.filter(|lamp| lamp.intensity > 0.0).collect();
         let are_sampled = !lamps.is_empty()
@@ -82,8 +76,8 @@ impl NearLamps {
                 || motions.iter().any(|motion| motion.world_line().is_some()));
         Self {
             lamps: near,
-            sampled: are_sampled.then(|| SampledLamps::new(scene, lamps.clone(), seen)),
             shifts: scene.bodies.ids().zip(motions).map(shift).collect(),
+            sampled: are_sampled.then(|| SampledLamps { lamps: lamps.clone(), frames: frames.clone() }),
             bound,
         }
     }
@@ -211,6 +205,10 @@ impl NearLamp {
     }
 }
 
+fn is_on_line(lamp: &Lamp, frames: &RestFrames) -> bool {
+    lamp.motion.body().is_some_and(|body| frames.world_line(body).is_some())
+}
+
 /// Lamps whose light is computed as programs downstream compute it: those on world lines, those that
 /// change, and all of them on bodies on world lines.
 #[derive(Clone, Debug)]
@@ -233,16 +231,9 @@ struct Sample {
 }
 
 impl SampledLamps {
-    fn new(scene: &Scene, lamps: Lamps, seen: GeometryStage) -> Self {
-        let mut scene = Scene { bodies: scene.bodies.clone(), ..Scene::default() };
-        scene.stage.geometry = seen;
-        Self { lamps, frames: RestFrames::new(&scene) }
-    }
-
     /// The lamps that are sampled for a body.
     fn of(&self, motion: &RelativeMotion) -> impl Iterator<Item = &Lamp> {
-        let is_on_line =
-            |lamp: &Lamp| lamp.motion.body().is_some_and(|body| self.frames.world_line(body).is_some());
+        let is_on_line = |lamp: &Lamp| is_on_line(lamp, &self.frames);
         let all = motion.world_line().is_some();
         self.lamps
             .iter()

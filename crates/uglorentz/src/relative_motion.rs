@@ -27,13 +27,6 @@ pub(crate) struct Point {
     pub generation: u32,
 }
 
-impl From<&Point> for ShownPoint {
-    #[inline]
-    fn from(&Point { body, rest, seen, own_time, .. }: &Point) -> Self {
-        Self { body, rest, seen, own_time }
-    }
-}
-
 impl Point {
     /// The point at `rest`, relative to the eye.
     pub(crate) fn new(motion: &RelativeMotion, body: BodyId, rest: DVec3) -> Point {
@@ -72,6 +65,12 @@ impl Point {
         let seen_distance = seen.length();
         let rest_distance = seen_distance * inverse_doppler;
         Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation: 0 }
+    }
+
+    /// The point for the scene as seen.
+    pub(crate) fn shown(&self) -> ShownPoint {
+        let &Point { body, rest, seen, own_time, .. } = self;
+        ShownPoint { body, rest, seen, own_time }
     }
 
     /// The point of an edge at the parameter `s`.

@@ -196,7 +196,6 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     };
     let points = rest.into_iter().zip(&placed.bodies).enumerate().map(point);
     let points = points.collect::<Result<Vec<ShownPoint>, Error>>()?;
-    scene.stage.geometry = placed.seen_stage(&config.motion);
     if let Some(row) = placed.show(&mut scene, &points, points.len()) {
         return Err(Error::OutOfRange { name: scene.names.get(scene.vertices[row].name).to_string() });
     }

@@ -2,12 +2,11 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, Common, Interpolation, Lamp, Lamps};
-use ugphysics::{Event, Medium, RestFrame, WorldLine};
+use uglight::{Appearance, ColorShift, Common, Interpolation, Lamps};
+use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugscene::{BodyId, Face, Geometry, HueScale, RestFrames, Scene, SurfaceProperties, View};
 
@@ -24,14 +23,6 @@ const REACH: f64 = 5.0;
 
 /// The event at which the light of a picture arrives at a single eye.
 const ORIGIN: Event = Event { t: 0.0, x: DVec3::ZERO };
-
-/// How a lamp moves whose motion is stated.
-pub enum LampMotion {
-    /// With constant velocity: its rest frame.
-    Inertial(RestFrame),
-    /// On a world line, in the frame of the camera.
-    OnLine(Arc<WorldLine>),
-}
 
 /// A scene prepared for rays, for one camera.
 pub struct Scenery<'a> {
@@ -55,8 +46,6 @@ pub struct Scenery<'a> {
     pub rays: RayOptions,
     /// The lights, or the default ones.
     pub lamps: Lamps,
-    /// The motion of each, if it is stated.
-    pub lamp_motions: Vec<Option<LampMotion>>,
     /// How motion changes colours.
     pub shift: ColorShift,
     /// True if a transparent solid absorbs light.
@@ -131,14 +120,6 @@ impl<'a> Scenery<'a> {
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
         let lamps = lamps.over_time(&scene, view.eye, shift.is_spectral());
-        let lamp_motion = |lamp: &Lamp| {
-            let body = lamp.motion.body()?;
-            Some(match surface.frames().world_line(body) {
-                Some(line) => LampMotion::OnLine(line.clone()),
-                None => LampMotion::Inertial(*surface.frames().of(body)),
-            })
-        };
-        let lamp_motions = lamps.iter().map(lamp_motion).collect();
         let is_uncut = appearance.palette.has_light() || config.picture.keeps_light();
         let appearance = if is_uncut { appearance } else { appearance.clipped() };
         let rays = config.rays;
@@ -155,7 +136,6 @@ impl<'a> Scenery<'a> {
             face_colors,
             rays,
             lamps,
-            lamp_motions,
             shift,
             is_uncut,
         })

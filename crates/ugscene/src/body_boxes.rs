@@ -149,7 +149,6 @@ impl BodyBoxes {
         let camera = CameraOptions { eye: None, ..camera.clone() };
         let view = View::new(&scene, &camera, size).map_err(MotionError::Camera)?;
         let n_boxes = scene.wires.len();
-        scene.stage.geometry = placed.seen_stage(motion);
         let stage = scene.stage.seen_geometry();
         let camera_speed = stage.map_or(0.0, |stage| stage.camera_velocity.beta().length());
         Ok(SeenBoxes { placed, rest, seen, n_boxes, camera_speed, view })

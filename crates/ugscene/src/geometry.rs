@@ -106,16 +106,12 @@ impl SeenVertices {
         if is_known && (needs_rest || frames.have_world_lines()) {
             return Self { bodies, rest: scene.rest.clone(), own_times: scene.own_times.clone() };
         }
-        let geometry = Geometry::of(scene);
         let rest = |(vertex, &body): (&Vertex, &BodyId)| {
             let seen = vertex.position - eye;
-            match frames.world_line(body) {
+            let motion = frames.motion(body);
+            match motion.world_line() {
                 Some(line) => line.at_event(seen_event(seen)).unwrap_or((DVec3::NAN, f64::NAN)),
-                None => (
-                    frames.of(body).scene_from_boosted()
-                        * geometry.rest(SeenPosition(seen), frames.velocity(body)).0,
-                    f64::NAN,
-                ),
+                None => (motion.turned_back(motion.rest(SeenPosition(seen)).0), f64::NAN),
             }
         };
         let vertices = || scene.vertices.par_iter().zip(&bodies);

@@ -92,6 +92,5 @@ pub use shared_planes::shared_planes;
 pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
-pub use world_lines::seen_event;
 pub use words::shorten;
-use world_lines::world_lines;
+pub use world_lines::seen_event;

@@ -43,8 +43,18 @@ impl RelativeMotion {
     /// The motion of a body on a world line, in the frame of the camera with the event of the eye
     /// as its origin.
     pub(crate) fn on_world_line(line: WorldLine) -> RelativeMotion {
-        let motion = Self::new(line.initial_velocity(), Geometry::default());
-        RelativeMotion { line: Some(Arc::new(line)), ..motion }
+        Self::new(line.initial_velocity(), Geometry::default()).with_line(Some(line))
+    }
+
+    /// The same on a world line.
+    pub(crate) fn with_line(self, line: Option<WorldLine>) -> RelativeMotion {
+        RelativeMotion { line: line.map(Arc::new), ..self }
+    }
+
+    /// The rest frame of the body.
+    #[inline]
+    pub fn rest_frame(&self) -> &RestFrame {
+        &self.frame
     }
 
     /// The world line of a body that is not inertial, in the frame of the camera with the event of
@@ -67,12 +77,12 @@ impl RelativeMotion {
     /// Rest coordinates, or a direction, in the axes of the rest positions of (P3); `p` is in the
     /// axes of the scene.  Eq. (P25)
     pub fn turned(&self, p: DVec3) -> DVec3 {
-        self.frame.boosted_from_scene() * p
+        if self.frame.is_turned() { self.frame.boosted_from_scene() * p } else { p }
     }
 
     /// The inverse of [`RelativeMotion::turned`].
     pub fn turned_back(&self, p: DVec3) -> DVec3 {
-        self.frame.scene_from_boosted() * p
+        if self.frame.is_turned() { self.frame.scene_from_boosted() * p } else { p }
     }
 
     /// True if the body rests in the frame of the camera.

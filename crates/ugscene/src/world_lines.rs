@@ -4,8 +4,6 @@
 //! where and when the eye is and how it moves. So the event at which light left a point that is
 //! seen at p, (−|p|, p) relative to the eye, leads back to the point and its own time (P45).
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
@@ -22,19 +20,11 @@ pub(crate) fn eye_event(eye: DVec3, time: f64, camera: Velocity) -> Event {
     Lorentz::boost(camera).apply(Event { t: time, x: DVec3::ZERO }) + Event { t: 0.0, x: eye }
 }
 
-/// The world lines of the bodies of a scene as seen that are not inertial, in the frame of the
-/// camera with the event of the eye as its origin; coordinates of bodies are relative to the eye.
-/// Empty without such bodies.
-pub(crate) fn world_lines(scene: &Scene) -> Vec<Option<Arc<WorldLine>>> {
-    let Some(seen) = scene.stage.seen_geometry().filter(|_| scene.bodies.has_world_lines()) else {
-        return Vec::new();
-    };
+/// The world line of a body of a scene as seen that is not inertial, in the frame of the camera with
+/// the event of the eye as its origin; coordinates of the body are relative to the eye.
+pub(crate) fn world_line(scene: &Scene, body: BodyId) -> Option<WorldLine> {
+    let seen = scene.stage.seen_geometry().filter(|_| scene.bodies.is_on_world_line(body))?;
     let origin = eye_event(seen.eye, seen.time, seen.camera_velocity);
     let frame = Lorentz::boost(seen.camera_velocity).inverse();
-    let line = |body: BodyId| {
-        let line = scene.bodies.motion(body);
-        let is_on_one = scene.bodies.is_on_world_line(body);
-        is_on_one.then(|| Arc::new(line.in_frame(frame, origin).with_body_origin(seen.eye)))
-    };
-    scene.bodies.ids().map(line).collect()
+    Some(scene.bodies.motion(body).in_frame(frame, origin).with_body_origin(seen.eye))
 }

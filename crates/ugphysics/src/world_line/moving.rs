@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::orbit::Orbit;
 use super::pieces::{Acceleration, Offset, Spin};
-use super::table::Along;
+use super::table::{ALL_TIMES, Along};
 use super::{EmissionEvent, Pose, SeenLight, WorldLineError};
 use crate::{Event, Lorentz, Velocity, unit_or_zero};
 
@@ -35,6 +35,30 @@ pub(super) enum Path {
     Accelerated(Acceleration),
     Orbit(Box<Orbit>),
     Along(Box<Along>),
+}
+
+impl Path {
+    /// The greatest |a| of all times.
+    pub(super) fn greatest_acceleration(&self) -> f64 {
+        match self {
+            Self::Accelerated(acceleration) => acceleration.greatest(),
+            Self::Orbit(orbit) => orbit.acceleration(0.0).length(),
+            Self::Along(along) => along.path.bounds(ALL_TIMES)[0],
+        }
+    }
+
+    /// |a| and |da/dτ|, or upper bounds of them, between own times at which the acceleration does not
+    /// jump. `inside`: one of these.
+    pub(super) fn bounds(&self, own_times: [f64; 2], inside: f64) -> [f64; 2] {
+        match self {
+            Self::Accelerated(acceleration) => [acceleration.at(inside).length(), 0.0],
+            Self::Orbit(orbit) => {
+                let acceleration = orbit.acceleration(inside).length();
+                [acceleration, orbit.turn_rate() * acceleration]
+            }
+            Self::Along(along) => along.path.bounds(own_times),
+        }
+    }
 }
 
 /// A point of a body at an own time: its event and ∂X/∂τ.

@@ -16,7 +16,6 @@ use core::ops::{ControlFlow, Range};
 use glam::{DMat3, DVec3};
 
 use super::moving::{Moving, Path, Turn};
-use super::table::ALL_TIMES;
 use super::{Kind, WorldLine, WorldLineError};
 use crate::{Event, Lorentz};
 
@@ -281,12 +280,11 @@ impl Moving {
                 .fold(1.0, f64::min),
             // Whatever the directions.
             Path::Accelerated(_) => 1.0 + acceleration.dot(offset) - acceleration.length() * radius,
-            Path::Orbit(_) | Path::Along(_) => 1.0 - acceleration.length() * (offset.length() + radius),
+            _ => 1.0 - acceleration.length() * (offset.length() + radius),
         };
         let least_pace = match &self.path {
             Path::Accelerated(path) => path.values().map(pace).fold(1.0, f64::min),
-            Path::Orbit(orbit) => pace(orbit.acceleration(0.0)),
-            Path::Along(along) => pace(along.path.bounds(ALL_TIMES)[0] * DVec3::X),
+            path => pace(path.greatest_acceleration() * DVec3::X),
         };
         let carried = Moving { turns: Vec::new(), ..self.clone() };
         WorldTube { carried, offset, radius, least_pace: least_pace.max(LEAST) }
@@ -359,24 +357,17 @@ impl Moving {
             }
             _ => (self.at, DVec3::ZERO, DMat3::IDENTITY),
         };
-        let (path, acceleration, jerk) = match &self.path {
+        let [acceleration, jerk] = self.path.bounds([own_times.start, own_times.end], known_at);
+        let path = match &self.path {
             Path::Accelerated(path) => {
                 let pose = path.pose(known_at);
                 let axes = pose.scene_from_axes.inverse();
                 let acceleration = path.at(known_at);
                 let Event { t, x } = axes.apply(origin - pose.event);
                 let origin = Event { t, x: back * x };
-                let path = PassagePath::Accelerated { origin, axes, acceleration: back * acceleration };
-                (path, acceleration.length(), 0.0)
+                PassagePath::Accelerated { origin, axes, acceleration: back * acceleration }
             }
-            Path::Orbit(orbit) => {
-                let acceleration = orbit.acceleration(known_at).length();
-                (PassagePath::Any { origin }, acceleration, orbit.turn_rate() * acceleration)
-            }
-            Path::Along(along) => {
-                let [acceleration, jerk] = along.path.bounds([own_times.start, own_times.end]);
-                (PassagePath::Any { origin }, acceleration, jerk)
-            }
+            _ => PassagePath::Any { origin },
         };
         let spin = back * spin;
         let rate = spin.length();

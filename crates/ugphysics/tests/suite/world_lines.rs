@@ -292,7 +292,7 @@ fn events_are_of_the_points_that_are_there() {
             // The velocity is the derivative of the event.
             let [early, late] = [-1e-5, 1e-5].map(|step| motion.event(point, own_time + step).unwrap());
             let slope = (late.x - early.x) / (late.t - early.t);
-            assert!((found.velocity.beta() - slope).length() < 1e-8, "{slope}");
+            assert!((velocity.beta() - slope).length() < 1e-8, "{slope}");
         }
     }
 }

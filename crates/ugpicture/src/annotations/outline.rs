@@ -11,11 +11,7 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 use ugimage::label::Drawing;
-use ugphysics::Event;
-use ugscene::{
-    BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
-    vertex_bodies,
-};
+use ugscene::{BodyId, Scene, VertexId, View, face_edges, rest_positions, unit_normal, vertex_bodies};
 
 use super::seen::SeenScene;
 use super::style::Style;
@@ -60,7 +56,6 @@ pub fn draw<E: From<Error>>(
 fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
     let SeenScene { scene, view, frames, .. } = seen;
     let at_rest = rest_positions(scene, view.eye, frames);
-    let geometry = Geometry::of(scene);
     let bodies = vertex_bodies(scene);
     let mut bounds: Vec<Option<[DVec3; 2]>> = vec![None; scene.bodies.len()];
     for (&place, body) in at_rest.iter().zip(&bodies) {
@@ -71,13 +66,9 @@ fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
     let standing = |body: BodyId| {
         let [low, high] = bounds[body.index()].filter(|_| seen.frames.is_moving(body))?;
         let center = 0.5 * low + 0.5 * high;
-        let Some(line) = frames.world_line(body) else {
-            let rest = RestPosition(frames.of(body).scene_from_boosted().inverse() * center);
-            return Some((center, geometry.seen(rest, frames.velocity(body)).0, DQuat::IDENTITY));
-        };
-        let emission = line.emission(center, Event { t: 0.0, x: DVec3::ZERO }).ok();
-        let seen = emission.map(|seen| (seen.event.x, line.pose(seen.own_time).turn));
-        let (place, turn) = seen.unwrap_or((center, DQuat::IDENTITY));
+        let motion = frames.motion(body);
+        let (place, own_time) = motion.light(motion.turned(center)).unwrap_or((center, 0.0));
+        let turn = motion.world_line().map_or(DQuat::IDENTITY, |line| line.standing(center, own_time).1);
         Some((center, place, turn))
     };
     let standing: Vec<_> = scene.bodies.ids().map(standing).collect();

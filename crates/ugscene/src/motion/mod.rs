@@ -14,11 +14,12 @@ use rayon::prelude::*;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
 use observer::Observer;
+use placement::Placement;
 
 use crate::camera_options::half_side;
 use crate::{
     BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Projection,
-    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError, Vertex,
+    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError,
 };
 
 /// How bodies, camera and lights move, and when the picture is taken.
@@ -100,13 +101,6 @@ pub struct ShownPoint {
     pub own_time: f64,
 }
 
-impl From<&ShownPoint> for ShownPoint {
-    #[inline]
-    fn from(point: &ShownPoint) -> Self {
-        *point
-    }
-}
-
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -147,16 +141,14 @@ pub struct PlacedBodies {
     /// For each body, what has to be added to its rest coordinates, in the axes of
     /// [`RelativeMotion::turned`].
     pub shifts: Vec<DVec3>,
-    /// True if a body, a light or the camera moves or has moved, or a colour changes with own time.
-    pub has_motion: bool,
-    /// The velocity of the camera in the frame of the scene.
-    camera: Velocity,
 }
 
 impl PlacedBodies {
     /// Places the bodies of a scene at rest. In the scene, velocities become those in the frame of
     /// the camera, each body gets its own vertices, lights that move with a body are shifted with
-    /// it, and the camera receives the eye and `camera`; vertices keep their positions.
+    /// it, and the camera receives the eye and `camera`; vertices keep their positions, until
+    /// [`PlacedBodies::show`] moves them. If anything moves or has moved, or a colour changes with own
+    /// time, the stage becomes that of a scene as seen.
     ///
     /// `camera`: options of the camera. `size`: pixels of the picture across and down, of which the
     /// aspect ratio decides how far a camera must stand back.
@@ -191,25 +183,30 @@ impl PlacedBodies {
         let default_camera = DefaultCamera::new(scene, camera, size, fitted);
         let default_camera = default_camera.map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
-        let roots = world_lines::roots(scene);
+        let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
-        let frames = placement::frames(scene, (&bodies, &roots), (eye, overridden), options);
+        let frames = placement.frames(scene);
         camera_frame::state_relative_motions(scene, &motions, of_camera)?;
-        world_lines::place(scene, (&bodies, &roots), &mut motions, (eye, &observer), options)?;
+        world_lines::place(scene, &mut motions, &placement)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
             || observer.has_left()
             || crate::has_moving_bodies(scene)
             || crate::has_moving_lights(scene)
             || !scene.color_tables.is_empty();
-        let shifts = placement::shifts(&motions, &frames, (eye, &observer), options);
+        let shifts = placement.shifts(&motions, &frames);
         placement::shift_lights(scene, &motions, &shifts);
-        clocks::count_from_eye(scene, (&motions, &frames), (eye, &observer), options)?;
+        clocks::count_from_eye(scene, (&motions, &frames), &placement)?;
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;
         turn_camera(scene, eye, &observer);
-        Ok(Self { eye, default_camera, motions, bodies, shifts, has_motion, camera: of_camera })
+        let MotionOptions { time, geometry: Geometry { contraction, flight_time }, .. } = *options;
+        if has_motion || options.geometry != Geometry::default() {
+            let seen = SeenGeometry { eye, time, camera_velocity: of_camera, contraction, flight_time };
+            scene.stage.geometry = GeometryStage::AsSeen(seen);
+        }
+        Ok(Self { eye, default_camera, motions, bodies, shifts })
     }
 
     /// The rest position p' of each vertex, relative to the eye, in the axes of
@@ -228,48 +225,26 @@ impl PlacedBodies {
     /// on a body at rest that was not shifted it stays the same to the bit.
     ///
     /// `points`: of each vertex. Returns the first row whose position is not finite.
-    pub fn show<'p, P: Sync>(&self, scene: &mut Scene, points: &'p [P], n_placed: usize) -> Option<usize>
-    where
-        ShownPoint: From<&'p P>,
-    {
-        let stays: Vec<bool> = (self.motions.iter().zip(&self.shifts))
-            .map(|(motion, shift)| motion.is_at_rest() && *shift == DVec3::ZERO)
-            .collect();
+    pub fn show(&self, scene: &mut Scene, points: &[ShownPoint], n_placed: usize) -> Option<usize> {
+        let motion = |point: &ShownPoint| &self.motions[point.body.index()];
         if scene.stage.seen_geometry().is_some() {
-            let rest = |point: &'p P| {
-                let ShownPoint { body, rest, .. } = ShownPoint::from(point);
-                self.motions[body.index()].turned_back(rest)
-            };
-            scene.rest = points.par_iter().map(rest).collect();
-            let own_time = |point: &'p P| {
-                let ShownPoint { body, own_time, .. } = ShownPoint::from(point);
-                if self.motions[body.index()].world_line().is_some() { own_time } else { f64::NAN }
-            };
-            if self.motions.iter().any(|motion| motion.world_line().is_some()) {
-                scene.own_times = points.par_iter().map(own_time).collect();
+            scene.rest = points.iter().map(|point| motion(point).turned_back(point.rest)).collect();
+        }
+        if scene.bodies.has_world_lines() {
+            let own_time = |point: &ShownPoint| motion(point).world_line().map(|_| point.own_time);
+            scene.own_times = points.iter().map(|point| own_time(point).unwrap_or(f64::NAN)).collect();
+        }
+        let mut first = None;
+        for (row, (vertex, point)) in scene.vertices.iter_mut().zip(points).enumerate() {
+            let stays = motion(point).is_at_rest() && self.shifts[point.body.index()] == DVec3::ZERO;
+            if row >= n_placed || !stays {
+                vertex.position = point.seen + self.eye;
+            }
+            if !vertex.position.is_finite() {
+                first = first.or(Some(row));
             }
         }
-        let is_finite = |(row, (vertex, point)): (usize, (&mut Vertex, &'p P))| {
-            let ShownPoint { body, seen, .. } = ShownPoint::from(point);
-            if row >= n_placed || !stays[body.index()] {
-                vertex.position = seen + self.eye;
-            }
-            vertex.position.is_finite()
-        };
-        let are_finite = scene.vertices.par_iter_mut().zip(points).enumerate().map(is_finite);
-        let has_others = !are_finite.reduce(|| true, |all, one| all & one);
-        has_others.then(|| scene.vertices.iter().position(|vertex| !vertex.position.is_finite())).flatten()
-    }
-
-    /// The stage of the scene when its vertices are where they are seen.
-    pub fn seen_stage(&self, options: &MotionOptions) -> GeometryStage {
-        GeometryStage::AsSeen(SeenGeometry {
-            eye: self.eye,
-            time: options.time,
-            camera_velocity: self.camera,
-            contraction: options.geometry.contraction,
-            flight_time: options.geometry.flight_time,
-        })
+        first
     }
 }
 

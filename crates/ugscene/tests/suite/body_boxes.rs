@@ -171,7 +171,6 @@ fn motion_in_view_is_not_noted() {
         for (vertex, (rest, body)) in seen.vertices.iter_mut().zip(rest) {
             vertex.position = eye + placed.motions[body.index()].seen(RestPosition(rest)).0;
         }
-        seen.stage.geometry = placed.seen_stage(&motion);
         let note = BodyBoxes::new(&scene).note(&seen, &motion, &camera, SIZE);
         let may_miss_motion = ugscene::may_miss_motion(&seen, &camera, SIZE);
         assert!(may_miss_motion || note.is_none(), "{note:?}");
