@@ -50,8 +50,8 @@ use uglight::{
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Geometry, Provenance, RelativeMotion,
-    RestFrames, Scene, SeenVertices, Shares,
+    Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Provenance, RelativeMotion, RestFrames,
+    Scene, SeenVertices, Shares, ShownEffects,
 };
 
 #[cfg(feature = "cli")]
@@ -139,7 +139,7 @@ fn default_camera(scene: &Scene, config: &Config, frames: &RestFrames) -> Option
         return None;
     }
     let options = CameraOptions { eye: config.eye, ..CameraOptions::default() };
-    let motion = |body| vec![RelativeMotion::new(frames.velocity(body), Geometry::default())];
+    let motion = |body| vec![RelativeMotion::new(frames.velocity(body), ShownEffects::default())];
     DefaultCamera::new(scene, &options, [4, 3], motion).ok().flatten()
 }
 

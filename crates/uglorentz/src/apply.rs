@@ -39,7 +39,7 @@ pub fn apply_with(
     check(config)?;
     let n_faces = scene.faces.len();
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
-    let placed = PlacedBodies::new(&mut scene, &config.motion(), &camera, config.size)?;
+    let placed = PlacedBodies::move_to_camera_frame(&mut scene, &config.motion(), &camera, config.size)?;
     let PlacedBodies { eye, default_camera, motions, .. } = &placed;
     let mut points = points(&scene, &placed);
     viewpoint::refuse_vertices_at_eye(&scene, &points, motions)?;

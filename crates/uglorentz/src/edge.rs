@@ -297,12 +297,12 @@ impl<'a> Edge<'a> {
 mod tests {
     use glam::DVec3;
     use ugphysics::Velocity;
-    use ugscene::{BodyId, Geometry};
+    use ugscene::{BodyId, ShownEffects};
 
     use super::*;
 
     fn motion(beta: DVec3) -> RelativeMotion {
-        RelativeMotion::new(Velocity::from_beta(beta).unwrap(), Geometry::default())
+        RelativeMotion::new(Velocity::from_beta(beta).unwrap(), ShownEffects::default())
     }
 
     fn at(motion: &RelativeMotion, rest: DVec3) -> Point {

@@ -320,7 +320,7 @@ struct Light {
 
 #[cfg(test)]
 mod tests {
-    use ugscene::Geometry;
+    use ugscene::ShownEffects;
 
     use super::*;
 
@@ -328,7 +328,7 @@ mod tests {
     /// error to about a quarter.
     #[test]
     fn the_error_is_that_of_the_chord() {
-        let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let motion = RelativeMotion::new(Velocity::ZERO, ShownEffects::default());
         let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None, fall_off: None };
         let level = |x: f64| 1.0 / (1.0 + x * x).sqrt();
         for (from, to) in [(-0.2, 0.3), (0.5, 0.9), (-3.0, 2.0), (1.0, 1.1)] {
@@ -348,7 +348,7 @@ mod tests {
     /// the intensity, the error is relative.
     #[test]
     fn light_that_falls_off_has_the_error_of_its_chord() {
-        let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let motion = RelativeMotion::new(Velocity::ZERO, ShownEffects::default());
         let fall_off = Some(FallOff::new(2.0, 0.0));
         let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None, fall_off };
         let level = |x: f64| 4.0 * libm::pow(1.0 + x * x, -1.5);
@@ -369,8 +369,8 @@ mod tests {
     fn only_relative_motion_matters() {
         let fast = Velocity::from_beta(DVec3::new(0.8, 0.0, 0.0)).unwrap();
         let (at_rest, moving) = (
-            RelativeMotion::new(Velocity::ZERO, Geometry::default()),
-            RelativeMotion::new(fast, Geometry::default()),
+            RelativeMotion::new(Velocity::ZERO, ShownEffects::default()),
+            RelativeMotion::new(fast, ShownEffects::default()),
         );
         let lamp = |velocity| NearLamp {
             intensity: 1.0,
@@ -388,7 +388,7 @@ mod tests {
     /// A lamp flies past an edge: D of its light nearly is linear, D⁵ is not.
     #[test]
     fn shifted_spectra_have_the_error_of_their_chord() {
-        let at_rest = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let at_rest = RelativeMotion::new(Velocity::ZERO, ShownEffects::default());
         let velocity = Velocity::from_beta(DVec3::X * 0.6).unwrap();
         let place = DVec3::new(0.0, 0.0, 40.0);
         let lamp = NearLamp { intensity: 1.0, place, velocity: Some(velocity), fall_off: None };
@@ -406,7 +406,7 @@ mod tests {
     #[test]
     fn surely_linear_edges_are_linear() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
-        let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
+        let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Default::default());
         let (mut n_linear, mut n_nonlinear) = (0, 0);
         for k in 1..4000_u32 {
             let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));

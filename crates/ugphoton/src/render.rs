@@ -8,7 +8,7 @@ use ugparse::{Diagnostics, Source};
 use ugphysics::WorldLineError;
 use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
-use ugscene::{BodyBoxes, BodyId, PlacedBodies, Provenance, Scene, ShownPoint};
+use ugscene::{BodyBoxes, PlacedBodies, Provenance, Scene, ShownPoint};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -175,7 +175,8 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;
-    let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
+    let placed =
+        PlacedBodies::move_to_camera_frame(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
     let rest = placed.rest_positions(&scene);
     if config.smooth {
         let normals = ugscene::smooth_normals(&scene, &rest);
@@ -184,18 +185,17 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
             vertex.normal = vertex.normal.or((normal != DVec3::ZERO).then_some(normal));
         }
     }
-    let point = |(row, (rest, &body)): (usize, (DVec3, &BodyId))| {
+    let mut points = Vec::with_capacity(rest.len());
+    for ((rest, &body), vertex) in rest.into_iter().zip(&placed.bodies).zip(&scene.vertices) {
         let (seen, own_time) = placed.motions[body.index()].light(rest).map_err(|error| {
-            let name = scene.names.get(scene.vertices[row].name).to_string();
+            let name = scene.names.get(vertex.name).to_string();
             match error {
                 WorldLineError::NotFinite => Error::OutOfRange { name },
                 _ => Error::WorldLine { vertex: name, error },
             }
         })?;
-        Ok(ShownPoint { body, rest, seen, own_time })
-    };
-    let points = rest.into_iter().zip(&placed.bodies).enumerate().map(point);
-    let points = points.collect::<Result<Vec<ShownPoint>, Error>>()?;
+        points.push(ShownPoint { body, rest, seen, own_time });
+    }
     if let Some(row) = placed.show(&mut scene, &points, points.len()) {
         return Err(Error::OutOfRange { name: scene.names.get(scene.vertices[row].name).to_string() });
     }

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use uglight::{Appearance, ColorShift, Common, Interpolation, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
-use ugscene::{BodyId, Face, Geometry, HueScale, RestFrames, Scene, SurfaceProperties, View};
+use ugscene::{BodyId, Face, HueScale, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -74,7 +74,7 @@ impl<'a> Scenery<'a> {
         if scene.faces.is_empty() {
             return Err(Error::Empty);
         }
-        if Geometry::of(&scene) != Geometry::default() {
+        if ShownEffects::of(&scene) != ShownEffects::default() {
             return Err(Error::PartialGeometry);
         }
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;

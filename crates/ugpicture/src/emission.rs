@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
-use ugscene::{BodyId, Geometry, RestFrames, Scene, View};
+use ugscene::{BodyId, RestFrames, Scene, ShownEffects, View};
 
 /// A surface at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ pub struct Emissions<'a> {
 impl<'a> Emissions<'a> {
     /// `view`: must have samples as its picture coordinates.
     pub fn new(scene: &'a Scene, view: &'a View, frames: &'a RestFrames) -> Self {
-        Self { scene, view, frames, has_flight_time: Geometry::of(scene).flight_time }
+        Self { scene, view, frames, has_flight_time: ShownEffects::of(scene).flight_time }
     }
 
     /// The emission event seen at the middle of a sample.

@@ -121,7 +121,7 @@ fn draw_pixels<'a>(
     progress: &dyn Progress,
 ) -> Result<DrawnScene<'a>, Error> {
     let setup = prepare(scene, config)?;
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
+    let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).with_progress(progress);
     let (content, stats) = pixels::draw(&setup, &layers, config);
     let clip_counts = layers.clip_counts();
     drop(layers);

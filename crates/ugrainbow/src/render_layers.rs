@@ -264,7 +264,7 @@ impl<'a> RenderLayers<'a> {
     }
 
     /// With progress reports while drawing.
-    pub fn telling(self, progress: &'a dyn Progress) -> Self {
+    pub fn with_progress(self, progress: &'a dyn Progress) -> Self {
         Self { progress, ..self }
     }
 

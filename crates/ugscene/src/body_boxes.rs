@@ -120,7 +120,7 @@ impl BodyBoxes {
     /// Where they are seen.
     ///
     /// # Errors
-    /// See [`PlacedBodies::new`] and [`View::new`].
+    /// See [`PlacedBodies::move_to_camera_frame`] and [`View::new`].
     pub fn seen(
         &self,
         motion: &MotionOptions,
@@ -128,7 +128,7 @@ impl BodyBoxes {
         size: [u32; 2],
     ) -> Result<SeenBoxes, MotionError> {
         let mut scene = self.scene.clone();
-        let placed = PlacedBodies::new(&mut scene, motion, camera, size)?;
+        let placed = PlacedBodies::move_to_camera_frame(&mut scene, motion, camera, size)?;
         let rest = placed.rest_positions(&scene);
         let middle = |row: usize| {
             let first = row - row % N_ROWS;

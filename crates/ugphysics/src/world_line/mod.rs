@@ -23,7 +23,7 @@ pub use inertial::InertialFrame;
 pub use moving::ElementFrame;
 pub use orbit::Orbit;
 pub use pieces::Piece;
-pub use ray::{Passage, RayPoint, RayStretch, WorldTube};
+pub use ray::{RayPoint, RayStretch, SmoothStretch, WorldTube};
 pub use seen::{SeenPoint, SeenTriangle};
 pub use table::SampledPath;
 
@@ -510,9 +510,11 @@ impl WorldLine {
     /// `ray`: a null vector in the frame of the scene.
     #[must_use]
     pub fn facing_covector(&self, point: DVec3, own_time: f64, ray: Event) -> DVec3 {
-        let (moving, pose) = (self.moving(), self.pose(own_time));
+        let moving = self.moving();
+        let (offset, turn) = moving.offset_and_turn(point, own_time);
+        let (pose, acceleration) = moving.carried_with_acceleration(own_time);
         let Event { t, x } = pose.scene_from_axes.inverse().apply(ray);
-        pose.turn.inverse() * (x - moving.velocity_in_axes(point, own_time) * t)
+        turn.inverse() * (x - offset.velocity_in_axes(acceleration) * t)
     }
 
     /// Checks that a point of the body can move so at all times.

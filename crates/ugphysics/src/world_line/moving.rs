@@ -66,20 +66,20 @@ impl Path {
 pub(super) struct PointEvent {
     pub event: Event,
     pub rate: Event,
-    /// |∂X/∂τ|: the pace of the point's own clock.
+    /// |∂X/∂τ|: the lapse of the point's own clock.
     pub clock: f64,
 }
 
-/// The pace of the clock of a point, ((1 + a·ξ)² − |dξ/dτ|²)^½.
-fn clock(pace: f64, swing: DVec3) -> f64 {
+/// The lapse of the clock of a point, ((1 + a·ξ)² − |dξ/dτ|²)^½.
+fn clock(lapse: f64, swing: DVec3) -> f64 {
     let swing = swing.length();
-    ((pace - swing) * (pace + swing)).sqrt()
+    ((lapse - swing) * (lapse + swing)).sqrt()
 }
 
 /// 1 + a·ξ, if it is above |dξ/dτ|.
-fn check_pace(pace: f64, swing: DVec3, own_time: f64) -> Result<f64, WorldLineError> {
-    match pace.partial_cmp(&swing.length()) {
-        Some(core::cmp::Ordering::Greater) => Ok(pace),
+fn check_lapse(lapse: f64, swing: DVec3, own_time: f64) -> Result<f64, WorldLineError> {
+    match lapse.partial_cmp(&swing.length()) {
+        Some(core::cmp::Ordering::Greater) => Ok(lapse),
         Some(_) if own_time.is_finite() => Err(WorldLineError::Horizon { own_time }),
         _ => Err(WorldLineError::NotFinite),
     }
@@ -92,17 +92,17 @@ fn decreasing_root(value: impl Fn(f64) -> (f64, f64)) -> f64 {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut own_time = 0.0;
     for _ in 0..MOST_STEPS {
-        let (left, pace) = value(own_time);
+        let (left, lapse) = value(own_time);
         if left > 0.0 {
             low = own_time;
         } else {
             high = own_time;
         }
-        let newton = own_time + left / pace;
+        let newton = own_time + left / lapse;
         if newton == own_time {
             return own_time;
         }
-        let next = if pace > 0.0 && newton > low && newton < high {
+        let next = if lapse > 0.0 && newton > low && newton < high {
             newton
         } else if low.is_finite() && high.is_finite() {
             low.midpoint(high)
@@ -188,25 +188,25 @@ impl Moving {
     pub(super) fn point_event(&self, point: DVec3, own_time: f64) -> Result<PointEvent, WorldLineError> {
         let offset = self.offset(point, own_time);
         let Offset { xi, swing } = offset;
-        let (pace, (event, rate)) = match &self.path {
+        let (lapse, (event, rate)) = match &self.path {
             Path::Accelerated(acceleration) => {
-                let pace = check_pace(1.0 + acceleration.at(own_time).dot(xi), swing, own_time)?;
-                (pace, acceleration.moment(offset, own_time))
+                let lapse = check_lapse(1.0 + acceleration.at(own_time).dot(xi), swing, own_time)?;
+                (lapse, acceleration.moment(offset, own_time))
             }
             Path::Orbit(_) | Path::Along(_) => {
                 let (pose, acceleration) = self.carried_with_acceleration(own_time);
                 let Pose { event, scene_from_axes: axes, .. } = pose;
-                let pace = check_pace(1.0 + acceleration.dot(xi), swing, own_time)?;
+                let lapse = check_lapse(1.0 + acceleration.dot(xi), swing, own_time)?;
                 let at = event + axes.apply(Event { t: 0.0, x: xi });
-                (pace, (at, axes.apply(Event { t: pace, x: swing })))
+                (lapse, (at, axes.apply(Event { t: lapse, x: swing })))
             }
         };
-        Ok(PointEvent { event, rate, clock: clock(pace, swing) })
+        Ok(PointEvent { event, rate, clock: clock(lapse, swing) })
     }
 
     /// See [`super::WorldLine::at_event`].
     pub(super) fn at_event(&self, event: Event) -> Result<(DVec3, f64), WorldLineError> {
-        let (own_time, xi, pace) = match &self.path {
+        let (own_time, xi, lapse) = match &self.path {
             Path::Accelerated(acceleration) => {
                 let (own_time, xi) = acceleration.own_time_at(event)?;
                 (own_time, xi, 1.0 + acceleration.at(own_time).dot(xi))
@@ -225,7 +225,7 @@ impl Moving {
             swing += outer * spin.rate(own_time).cross(arm);
             (point, outer) = (*pivot + turn.inverse() * arm, outer * turn);
         }
-        check_pace(pace, swing, own_time).map(|_| (point, own_time))
+        check_lapse(lapse, swing, own_time).map(|_| (point, own_time))
     }
 
     /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ.
@@ -241,8 +241,8 @@ impl Moving {
     pub(super) fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
         decreasing_root(|own_time| {
             let Pose { event: at, scene_from_axes, .. } = self.carried(own_time);
-            let pace = frame.apply(scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO })).t;
-            (frame.apply(event - at).t, pace)
+            let lapse = frame.apply(scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO })).t;
+            (frame.apply(event - at).t, lapse)
         })
     }
 
@@ -370,7 +370,7 @@ impl Moving {
             }
         }
         let Offset { xi, swing } = self.offset(point, own_time);
-        check_pace(1.0, swing, own_time)?;
+        check_lapse(1.0, swing, own_time)?;
         let event = start + axes.apply(Event { t: own_time, x: xi });
         let rate = axes.apply(Event { t: 1.0, x: swing });
         Ok((own_time, PointEvent { event, rate, clock: clock(1.0, swing) }))
@@ -386,14 +386,13 @@ impl Moving {
 
     /// w = (dξ/dτ)/(1 + a·ξ): the velocity of a point in the rest frame of A.
     pub(super) fn velocity_in_axes(&self, point: DVec3, own_time: f64) -> DVec3 {
-        let Offset { xi, swing } = self.offset(point, own_time);
-        swing / (1.0 + self.acceleration(own_time).dot(xi))
+        self.offset(point, own_time).velocity_in_axes(self.acceleration(own_time))
     }
 
     pub(super) fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
         let (Pose { scene_from_axes, .. }, acceleration) = self.carried_with_acceleration(own_time);
-        let (Offset { xi, swing }, turn) = self.offset_and_turn(point, own_time);
-        let velocity_in_axes = swing / (1.0 + acceleration.dot(xi));
+        let (offset, turn) = self.offset_and_turn(point, own_time);
+        let velocity_in_axes = offset.velocity_in_axes(acceleration);
         let rate = scene_from_axes.apply(Event { t: 1.0, x: velocity_in_axes });
         let velocity = Velocity::from_proper(
             rate.x / ((1.0 - velocity_in_axes.length()) * (1.0 + velocity_in_axes.length())).sqrt(),

@@ -75,7 +75,7 @@ pub fn draw<'a>(
         setup = prepare(scene, &at_scale(config, scale))?;
         layers = RenderLayers::new(setup.painter(), &config.draw_mode());
     }
-    let layers = layers.telling(progress);
+    let layers = layers.with_progress(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
         return Err(Error::FigureBackground);
     }

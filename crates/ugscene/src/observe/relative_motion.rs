@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use ugphysics::{Event, RestFrame, Velocity, WorldLine, WorldLineError, contracted, elongated};
 
-use crate::{Geometry, HalfSpace, RestPosition, SeenPosition};
+use crate::{HalfSpace, RestPosition, SeenPosition, ShownEffects};
 
 /// Relative rounding error of the bound of (P27), which is computed with about ten operations.
 const ROUNDING: f64 = 1e-12;
@@ -18,14 +18,14 @@ const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
 pub struct RelativeMotion {
     frame: RestFrame,
     in_scene: Velocity,
-    geometry: Geometry,
+    geometry: ShownEffects,
     line: Option<Arc<WorldLine>>,
 }
 
 impl RelativeMotion {
     /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the
     /// scene.
-    pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
+    pub fn new(velocity: Velocity, geometry: ShownEffects) -> RelativeMotion {
         RelativeMotion { frame: RestFrame::new(velocity), in_scene: velocity, geometry, line: None }
     }
 
@@ -35,15 +35,15 @@ impl RelativeMotion {
         velocity: Velocity,
         in_scene: Velocity,
         camera: Velocity,
-        geometry: Geometry,
+        geometry: ShownEffects,
     ) -> RelativeMotion {
-        RelativeMotion { frame: crate::rest_frames::frame(velocity, camera), in_scene, geometry, line: None }
+        RelativeMotion { frame: super::rest_frames::frame(velocity, camera), in_scene, geometry, line: None }
     }
 
     /// The motion of a body on a world line, in the frame of the camera with the event of the eye
     /// as its origin.
     pub(crate) fn on_world_line(line: WorldLine) -> RelativeMotion {
-        Self::new(line.initial_velocity(), Geometry::default()).with_line(Some(line))
+        Self::new(line.initial_velocity(), ShownEffects::default()).with_line(Some(line))
     }
 
     /// The same on a world line.
@@ -60,11 +60,13 @@ impl RelativeMotion {
     /// The world line of a body that is not inertial, in the frame of the camera with the event of
     /// the eye as its origin. Coordinates of the body are relative to the eye. The velocity and the
     /// rest frame below are those at its own time 0.
+    #[inline]
     pub fn world_line(&self) -> Option<&Arc<WorldLine>> {
         self.line.as_ref()
     }
 
     /// In the frame of the camera.
+    #[inline]
     pub fn velocity(&self) -> Velocity {
         self.frame.velocity()
     }
@@ -86,11 +88,13 @@ impl RelativeMotion {
     }
 
     /// True if the body rests in the frame of the camera.
+    #[inline]
     pub fn is_at_rest(&self) -> bool {
         self.line.is_none() && self.frame.is_at_rest()
     }
 
     /// True if the time of flight of light is included, so that straight edges are seen as curves.
+    #[inline]
     pub fn has_flight_time(&self) -> bool {
         self.geometry.flight_time
     }
@@ -124,22 +128,26 @@ impl RelativeMotion {
     }
 
     /// û.
+    #[inline]
     pub fn direction(&self) -> DVec3 {
         self.velocity().direction()
     }
 
     /// γ.
+    #[inline]
     pub fn gamma(&self) -> f64 {
         self.velocity().gamma()
     }
 
     /// γβ.
+    #[inline]
     pub fn proper_speed(&self) -> f64 {
         self.velocity().proper_speed()
     }
 
     /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction
     /// it is `rest` elongated along the motion by γ, which cancels the contraction in (P3).
+    #[inline]
     pub fn boosted_rest(&self, rest: DVec3) -> DVec3 {
         if self.geometry.contraction { rest } else { elongated(rest, self.velocity()) }
     }

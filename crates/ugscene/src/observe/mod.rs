@@ -1,10 +1,18 @@
-//! Motions of bodies, camera and lights relative to each other, and where the bodies are in their
-//! rest frames: what a filter for seen positions and a ray tracer have in common.
+//! Where bodies are for one observer: their motions relative to the camera, their rest frames, and
+//! for the vertices of a scene as seen the columns of rest positions and own times.
 
 mod camera_frame;
+mod camera_motion;
 mod clocks;
+mod eye;
 mod observer;
 mod placement;
+mod position;
+mod relative_motion;
+mod rest_frames;
+mod seen_event;
+mod seen_vertices;
+mod shown_effects;
 mod world_lines;
 
 use std::fmt;
@@ -13,13 +21,22 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
+pub use camera_motion::{axes_from_scene, camera_velocity};
+pub use eye::{eye, vertex_at_eye};
+pub use position::{RestPosition, SeenPosition};
+pub use relative_motion::RelativeMotion;
+pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
+pub use seen_event::seen_event;
+pub use seen_vertices::{SeenVertices, rest_positions};
+pub use shown_effects::ShownEffects;
+
 use observer::Observer;
 use placement::Placement;
 
 use crate::camera_options::half_side;
 use crate::{
-    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Projection,
-    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError,
+    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, GeometryStage, Projection, Scene,
+    SeenGeometry, StageError,
 };
 
 /// How bodies, camera and lights move, and when the picture is taken.
@@ -38,7 +55,7 @@ pub struct MotionOptions {
     /// Place each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
     pub in_place: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
-    pub geometry: Geometry,
+    pub geometry: ShownEffects,
 }
 
 /// The fixed point of the contraction of a body.
@@ -155,7 +172,7 @@ impl PlacedBodies {
     ///
     /// # Errors
     /// See [`MotionError`].
-    pub fn new(
+    pub fn move_to_camera_frame(
         scene: &mut Scene,
         options: &MotionOptions,
         camera: &CameraOptions,
@@ -171,8 +188,8 @@ impl PlacedBodies {
         if !of_camera.is_zero() {
             camera_frame::state_motions(scene, velocity);
         }
-        crate::separate_bodies(scene);
-        let bodies = crate::vertex_bodies(scene);
+        separate_bodies(scene);
+        let bodies = vertex_bodies(scene);
         placement::turn_bodies(scene, &bodies);
         let mut motions = motions(scene, velocity, of_camera, options.geometry)?;
         // Bodies on world lines are fitted at rest.
@@ -182,7 +199,7 @@ impl PlacedBodies {
         };
         let default_camera = DefaultCamera::new(scene, camera, size, fitted);
         let default_camera = default_camera.map_err(MotionError::Camera)?;
-        let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
+        let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
         let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
         let frames = placement.frames(scene);
@@ -201,8 +218,8 @@ impl PlacedBodies {
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;
         turn_camera(scene, eye, &observer);
-        let MotionOptions { time, geometry: Geometry { contraction, flight_time }, .. } = *options;
-        if has_motion || options.geometry != Geometry::default() {
+        let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } = *options;
+        if has_motion || options.geometry != ShownEffects::default() {
             let seen = SeenGeometry { eye, time, camera_velocity: of_camera, contraction, flight_time };
             scene.stage.geometry = GeometryStage::AsSeen(seen);
         }
@@ -253,7 +270,7 @@ fn motions(
     scene: &Scene,
     default: Velocity,
     camera: Velocity,
-    geometry: Geometry,
+    geometry: ShownEffects,
 ) -> Result<Vec<RelativeMotion>, MotionError> {
     let motion = |body: BodyId| {
         if scene.bodies.is_on_world_line(body) {
@@ -270,7 +287,11 @@ fn motions(
 ///
 /// # Errors
 /// Their relative velocity rounds to that of light.
-fn seen_by(camera: Velocity, in_scene: Velocity, geometry: Geometry) -> Result<RelativeMotion, MotionError> {
+fn seen_by(
+    camera: Velocity,
+    in_scene: Velocity,
+    geometry: ShownEffects,
+) -> Result<RelativeMotion, MotionError> {
     let velocity = camera_frame::in_camera_frame(in_scene, camera)?;
     Ok(RelativeMotion::composed(velocity, in_scene, camera, geometry))
 }
@@ -313,7 +334,7 @@ pub fn moving_camera(
     let (cameras, bodies) = (scene.cameras.clone(), scene.bodies.clone());
     let mut scene = Scene { cameras, bodies, ..Scene::default() };
     let observer = Observer::take(&mut scene, options, camera.eye)?;
-    let eye = crate::eye(&scene, camera.eye);
+    let eye = eye(&scene, camera.eye);
     camera.check_up().map_err(MotionError::Camera)?;
     set_camera(&mut scene, eye, Some(middle), camera).map_err(MotionError::Camera)?;
     turn_camera(&mut scene, eye, &observer);

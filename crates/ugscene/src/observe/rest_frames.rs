@@ -5,9 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, RestFrame, Velocity, WorldLine};
 
-use crate::world_lines::world_line;
+use super::seen_event::world_line;
 use crate::{
-    BodyId, FaceOrWire, Geometry, RelativeMotion, Scene, axes_from_scene, camera_velocity, split_vertices,
+    BodyId, FaceOrWire, RelativeMotion, Scene, ShownEffects, axes_from_scene, camera_velocity, split_vertices,
 };
 
 /// The motion of each body of a scene as seen, and its rest frame, relative to the camera.
@@ -29,7 +29,7 @@ impl RestFrames {
 
     /// Like [`RestFrames::new`], with `velocity` for bodies whose motion is not stated.
     pub fn with_default(scene: &Scene, velocity: Velocity) -> Self {
-        let (camera, geometry) = (camera_velocity(scene), Geometry::of(scene));
+        let (camera, geometry) = (camera_velocity(scene), ShownEffects::of(scene));
         let motion = |body| {
             let velocity = scene.bodies.stated_velocity(body).unwrap_or(velocity);
             let motion = RelativeMotion::composed(velocity, velocity, camera, geometry);

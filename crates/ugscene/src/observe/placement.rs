@@ -38,8 +38,9 @@ impl<'o> Placement<'o> {
         // This reads every vertex.
         let own = if is_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; scene.bodies.len()] };
         // A part keeps the place of the body that carries all others that it is part of.
-        let centers = scene.bodies.ids().map(|body| own[super::world_lines::root(scene, body).index()]);
-        Self { options, observer, eye, overridden, centers: centers.collect() }
+        let root = |body: BodyId| scene.bodies.carriers(body).last().unwrap_or(body);
+        let centers = scene.bodies.ids().map(|body| own[root(body).index()]).collect();
+        Self { options, observer, eye, overridden, centers }
     }
 
     /// The event of the eye when the picture is taken, in the frame of the scene.

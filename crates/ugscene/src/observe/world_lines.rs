@@ -6,7 +6,7 @@ use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
 use super::MotionError;
 use super::placement::Placement;
-use crate::world_lines::eye_event;
+use super::seen_event::eye_event;
 use crate::{BodyId, Carrier, RelativeMotion, Scene, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
@@ -53,7 +53,7 @@ pub(super) fn place(
     }
     // Carriers first, whatever the order of the text.
     let mut parts: Vec<(usize, BodyId)> =
-        scene.bodies.stated_by_name().map(|body| (carriers(scene, body).count(), body)).collect();
+        scene.bodies.stated_by_name().map(|body| (scene.bodies.carriers(body).count(), body)).collect();
     parts.sort_unstable();
     for (_, body) in parts.into_iter().filter(|&(n_carriers, _)| n_carriers > 1) {
         if let Some(motion) = scene.bodies.statement(body).cloned()
@@ -89,20 +89,9 @@ pub(super) fn release_parts_of_inertial_bodies(scene: &mut Scene) -> Result<(), 
     Ok(())
 }
 
-/// A body, the one that it is part of, the one that this is part of, and so on.
-fn carriers(scene: &Scene, body: BodyId) -> impl Iterator<Item = BodyId> + '_ {
-    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::body);
-    std::iter::successors(Some(body), carrier)
-}
-
-/// The body that carries all others that a body is part of; itself if it is part of none.
-pub(super) fn root(scene: &Scene, body: BodyId) -> BodyId {
-    carriers(scene, body).last().unwrap_or(body)
-}
-
 /// True if a body is on a world line, and not part of another one.
 fn is_root(scene: &Scene, body: BodyId) -> bool {
-    scene.bodies.is_on_world_line(body) && root(scene, body) == body
+    scene.bodies.is_on_world_line(body) && scene.bodies.carriers(body).count() == 1
 }
 
 fn restate(
@@ -130,7 +119,7 @@ fn in_place_shift(
     anchor: DVec3,
     (eye, camera): (DVec3, Velocity),
 ) -> Result<Event, ugphysics::WorldLineError> {
-    let seen = crate::world_lines::seen_event(anchor - eye);
+    let seen = crate::seen_event(anchor - eye);
     let event = Lorentz::boost(camera).apply(seen) + Event { t: 0.0, x: eye };
     line.displacement_to(anchor, event)
 }
