@@ -244,18 +244,13 @@ impl<'a> MovingElement<'a> {
 
     /// Where and when it scatters the light, in the frame of the camera.
     fn event(&self) -> Event {
-        let in_rest_frame = || {
-            let (x, delay) = (self.element.point, self.delay().unwrap_or_default());
-            Event { t: delay - ugphysics::length(x), x }
-        };
-        self.on_line.unwrap_or_else(|| self.frames.of(self.element.body).camera_from_rest(in_rest_frame()))
+        let (x, frame) = (self.element.point, self.frames.of(self.element.body));
+        let in_rest_frame = || Event { t: self.delay() - ugphysics::length(x), x };
+        self.on_line.unwrap_or_else(|| frame.camera_from_rest(in_rest_frame()))
     }
 
-    fn delay(&self) -> Option<f64> {
-        match self.element.time {
-            ScatteringTime::Delay(delay) => Some(delay),
-            ScatteringTime::Own(_) => None,
-        }
+    fn delay(&self) -> f64 {
+        if let ScatteringTime::Delay(delay) = self.element.time { delay } else { 0.0 }
     }
 
     /// Calls `add` with level, D_l, direction with distance and part of the light of a lamp of
@@ -283,7 +278,7 @@ impl<'a> MovingElement<'a> {
             LampPlace::At(place) => match (self.frames.world_line(body), self.on_line) {
                 (None, None) => {
                     let (motion, axes) = self.motion_of(body)?;
-                    let (point, delay) = (self.axes * self.element.point, self.delay()?);
+                    let (point, delay) = (self.axes * self.element.point, self.delay());
                     illumination(point, delay, velocity, axes * place, motion)
                 }
                 (None, Some(event)) => {
