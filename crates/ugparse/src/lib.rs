@@ -46,6 +46,7 @@ mod event_table;
 mod expand;
 mod fast_path;
 mod flatness;
+#[cfg(feature = "cli")]
 mod foreign;
 mod grammar;
 mod include;
@@ -86,7 +87,6 @@ pub use diagnostic::{Diagnostic, MAX_ERRORS, Setting, Severity};
 pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;
 pub use flatness::FLAT;
-pub use foreign::{Foreign, foreign_data};
 pub use include::include;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
@@ -168,7 +168,7 @@ fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
 /// Returns the findings as errors if there is an error among them.
 fn refuse_errors(source: &Source, findings: &mut Vec<Diagnostic>) -> Result<(), Diagnostics> {
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
-        #[cfg(feature = "report")]
+        #[cfg(feature = "cli")]
         if let Some(finding) = foreign::error(source) {
             return Err(Diagnostics::one(source, finding));
         }
