@@ -158,7 +158,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
     // Meshes show no times.
-    uglight::settle(&mut scene);
+    uglight::freeze_colors_at_zero(&mut scene);
     if config.target != Target::Ug && !config.rest_normals {
         as_seen::see_normals(&mut scene);
     }

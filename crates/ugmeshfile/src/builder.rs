@@ -166,7 +166,7 @@ impl Builder {
             name: self.face_name,
             contours,
             color,
-            illum: None,
+            shading: None,
             body: self.scene.bodies.unstated(),
         });
         self.lines.faces.push(self.line);

@@ -25,7 +25,7 @@
 //! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
-//! middles  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
+//! pixel_centers  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
 //! cli                                       the command line
 //! ```
 //!
@@ -57,12 +57,12 @@ mod corridor;
 mod error;
 pub mod explain;
 mod immersion;
-mod middles;
 mod moving_boxes;
 mod notes;
 mod open_solids;
 mod outline;
 mod path;
+mod pixel_centers;
 mod pixels;
 mod render;
 mod sampling;

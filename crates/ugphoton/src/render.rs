@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::lens::Lens;
 use crate::notes::notes;
 use crate::scenery::Scenery;
-use crate::{middles, pixels, wires};
+use crate::{pixel_centers, pixels, wires};
 
 /// This program, without a command line, for the history of what it makes.
 pub const PROVENANCE: Provenance<'static> =
@@ -156,7 +156,7 @@ impl PreparedScene {
     ) -> Result<Rendering, Error> {
         let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
-        let items = || Ok(middles::seen_items(scenery, picture.size, picture.samples));
+        let items = || Ok(pixel_centers::seen_items(scenery, picture.size, picture.samples));
         let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
         let subject = Subject::Surfaces {
             view: &scenery.view,
@@ -165,7 +165,7 @@ impl PreparedScene {
             wires: if config.lens == Lens::Pinhole { Some(&wires) } else { None },
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let content = DrawnContent::Light { frame, is_clipped: !scenery.is_uncut };
+        let content = DrawnContent::Light { frame, is_clipped: !scenery.keeps_highlights };
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }

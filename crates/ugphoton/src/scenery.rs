@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, Common, Interpolation, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugscene::{BodyId, Face, HueScale, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
@@ -41,7 +41,7 @@ pub struct Scenery<'a> {
     /// The colours of the scene, and how motion changes them.
     pub appearance: Appearance,
     /// What the colours of the corners of each face have in common.
-    pub face_colors: Vec<Common>,
+    pub face_colors: Vec<FaceColors>,
     /// Which secondary rays are traced.
     pub rays: RayOptions,
     /// The lights, or the default ones.
@@ -52,7 +52,7 @@ pub struct Scenery<'a> {
     pub has_absorption: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
-    pub is_uncut: bool,
+    pub keeps_highlights: bool,
 }
 
 /// A body on a world line with a surface that transmits light. A medium in which light has one
@@ -114,14 +114,14 @@ impl<'a> Scenery<'a> {
             return Err(Error::MovingMedium { name: name.to_string() });
         }
         let is_moving = |face: &Face| surface.frames().is_moving(face.body);
-        let common = |face: &Face| appearance.common_in_motion(&scene, face, is_moving(face));
-        let face_colors = scene.faces.par_iter().map(common).collect();
+        let colors = |face: &Face| appearance.face_colors_in_motion(&scene, face, is_moving(face));
+        let face_colors = scene.faces.par_iter().map(colors).collect();
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
         let lamps = lamps.over_time(&scene, view.eye, shift.is_spectral());
-        let is_uncut = appearance.palette.has_light() || config.picture.keeps_light();
-        let appearance = if is_uncut { appearance } else { appearance.clipped() };
+        let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
+        let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
         Ok(Self {
@@ -137,7 +137,7 @@ impl<'a> Scenery<'a> {
             rays,
             lamps,
             shift,
-            is_uncut,
+            keeps_highlights,
         })
     }
 

@@ -8,7 +8,7 @@ use rustc_hash::FxHashSet;
 use ugphysics::Velocity;
 
 use crate::{
-    BodyId, Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, Scene, SurfaceId,
+    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
     SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
 };
 
@@ -245,9 +245,9 @@ impl SceneBuilder {
             let (color, normal) = (mesh.colors.get(row).copied(), mesh.normals.get(row).copied());
             self.scene.add_vertex(Vertex { name, position, color, normal });
         }
-        let illum = mesh.surface.map(|surface| {
-            self.scene.illums.push(Illum::Surface(surface));
-            IllumId::from_index(self.scene.illums.len() - 1)
+        let shading = mesh.surface.map(|surface| {
+            self.scene.shadings.push(Shading::Surface(surface));
+            ShadingId::from_index(self.scene.shadings.len() - 1)
         });
         let name = Some(self.scene.names.add(mesh.name));
         let body = mesh.body.unwrap_or(self.scene.bodies.unstated());
@@ -261,7 +261,7 @@ impl SceneBuilder {
             }
             let ids = corners.iter().map(|&corner| VertexId::from_index(first + corner as usize));
             let contours = self.scene.contours.push_all([ids]);
-            self.scene.faces.push(Face { name, contours, color: mesh.color, illum, body });
+            self.scene.faces.push(Face { name, contours, color: mesh.color, shading, body });
         }
         let faces = first_face..self.scene.faces.len();
         let n_degenerate = sizes.len() - faces.len();

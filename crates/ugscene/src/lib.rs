@@ -8,7 +8,7 @@
 //! - Vertices of a scene as seen: rest positions and own times ([`SeenVertices`],
 //!   [`rest_positions`], equations (P4) and (P45)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
-//! - The colours that meet at a vertex ([`vertex_shares`]).
+//! - The colours that meet at a vertex ([`vertex_mixes`]).
 //! - The faces that are not flat ([`bent_faces`]).
 //! - The faces that lie in one plane ([`shared_planes`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
@@ -38,6 +38,7 @@ mod camera_fit;
 mod camera_options;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod color_mix;
 mod data;
 mod default_camera;
 mod edges;
@@ -50,7 +51,6 @@ mod note;
 mod observe;
 mod requirements;
 mod shared_planes;
-mod shares;
 mod split;
 mod times_in_view;
 mod words;
@@ -60,6 +60,7 @@ pub use body_boxes::{BodyBoxes, SeenBoxes};
 pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
 pub use camera::{CameraPoint, Slab, View, view_distance};
 pub use camera_options::{CameraError, CameraOptions};
+pub use color_mix::{ColorMix, face_vertices, vertex_mixes};
 pub use data::*;
 pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
@@ -75,7 +76,6 @@ pub use requirements::{
     require_eye, require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
 pub use shared_planes::shared_planes;
-pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
 pub use words::shorten;

@@ -1,7 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{Appearance, Swatch};
+use uglight::{Appearance, ColorForm, Mixing, Swatch};
 use ugscene::{Face, VertexId};
 
 use super::frame::{PictureRays, Ray};
@@ -72,10 +72,10 @@ impl Look {
     /// The appearance of `face`. `contours`: its corners at rest, in the axes of `frame`.
     pub fn new(painter: &Painter<'_>, frame: &PictureRays, face: &Face, contours: &[Vec<DVec3>]) -> Self {
         let appearance = painter.appearance;
-        let common = appearance.common_in_motion(painter.scene, face, !frame.velocity.is_zero());
+        let colors = appearance.face_colors_in_motion(painter.scene, face, !frame.velocity.is_zero());
         let normal = painter.seen_normal(face);
         let corner = |&vertex: &VertexId| {
-            let color = appearance.swatch(vertex, &common);
+            let color = appearance.swatch(vertex, &colors);
             Corner {
                 color,
                 row: painter.appearance.surface.row(vertex),
@@ -92,12 +92,12 @@ impl Look {
         let has_normals = differ(&|a, b| a.normal != b.normal);
         let has_level = painter.scene.light_level(face).is_some();
         let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
-        let keeps_light = common.is_light || common.is_display;
+        let (keeps_light, is_light) = (colors.mixing != Mixing::Hue, colors.mixing == Mixing::Light);
         let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && painter.lighting.is_colored();
         let is_even = has_level
             || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
         let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)
-            .then(|| painter.level(face, vertices[0], normal, common.is_light));
+            .then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
         let has_translucency = corners.iter().any(|corner| corner.color.translucency > 0.0);
         let mesh = || {
@@ -112,7 +112,7 @@ impl Look {
             needs_place: painter.lighting.needs_places(),
             is_lit_by_spectra,
             is_lit_by_hues,
-            is_light: common.is_light,
+            is_light,
             color: first.color,
             wavelength_nm: appearance.wavelength_nm(first.color.tint),
             row: first.row,
@@ -183,12 +183,12 @@ impl Look {
     ) -> Swatch {
         match spot.filter(|spot| spot.mesh.has_colors) {
             None => {
-                let light = Some(appearance.seen_light([(self.row, 1.0)], stretch, place));
-                Swatch { light, ..self.color }
+                let light = appearance.seen_light([(self.row, 1.0)], stretch, place);
+                Swatch { form: ColorForm::Light(light), ..self.color }
             }
             Some(spot) => {
-                let light = Some(appearance.seen_light(spot.rows(), stretch, place));
-                Swatch { light, ..spot.color() }
+                let light = appearance.seen_light(spot.rows(), stretch, place);
+                Swatch { form: ColorForm::Light(light), ..spot.color() }
             }
         }
     }
@@ -258,10 +258,10 @@ impl Spot<'_> {
         // A number that is the same at all corners keeps its bits.
         let [tint, saturation, value] = self.triangle.numbers.map(|[a, b, c]| a + second * b + third * c);
         let first = &self.mesh.corners[self.triangle.corners[0] as usize];
-        let light = first.color.light.and_then(|_| self.light());
+        let mixing = first.color.form.mixing();
+        let form = if mixing == Mixing::Hue { ColorForm::Hue } else { mixing.form(self.light()) };
         let translucency = if self.mesh.has_translucency { self.translucency() } else { 0.0 };
-        let is_display = first.color.is_display;
-        Swatch { tint, saturation, value, factor: first.color.factor, light, is_display, translucency }
+        Swatch { tint, saturation, value, factor: first.color.factor, form, translucency }
     }
 
     fn translucency(&self) -> f64 {
@@ -270,9 +270,9 @@ impl Spot<'_> {
         a + self.weights[1] * (b - a) + self.weights[2] * (c - a)
     }
 
-    fn light(&self) -> Option<DVec3> {
-        let [a, b, c] = self.triangle.corners.map(|corner| self.mesh.corners[corner as usize].color.light);
-        Some(self.mean([a?, b?, c?]))
+    fn light(&self) -> DVec3 {
+        let light = |corner: u32| self.mesh.corners[corner as usize].color.form.light();
+        self.mean(self.triangle.corners.map(|corner| light(corner).unwrap_or_default()))
     }
 
     #[inline]

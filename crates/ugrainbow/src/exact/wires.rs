@@ -1,7 +1,7 @@
 //! Lines of moving bodies, which are seen as curves.
 
 use glam::DVec3;
-use uglight::{Appearance, Swatch};
+use uglight::{Appearance, ColorForm, Swatch};
 use ugphysics::doppler_at;
 use ugscene::BodyId;
 
@@ -73,23 +73,13 @@ impl Curve<'_> {
     }
 
     fn joint(&self, part: f64) -> Joint {
-        let [a, b] = self.colors;
-        let mix = |a: f64, b: f64| a + part * (b - a);
-        let rest = Swatch {
-            tint: mix(a.tint, b.tint),
-            saturation: mix(a.saturation, b.saturation),
-            value: mix(a.value, b.value),
-            factor: mix(a.factor, b.factor),
-            translucency: 0.0,
-            is_display: a.is_display,
-            light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
-        };
+        let rest = Swatch::mean(&self.colors, [1.0 - part, part]);
         let seen = self.point(part);
         let stretch = 1.0 / self.doppler(seen);
         let color = match self.rows.filter(|_| self.appearance.is_spectral()) {
             Some([a, b]) => {
                 let light = self.appearance.seen_light([(a, 1.0 - part), (b, part)], stretch, None);
-                Swatch { light: Some(light), ..rest }
+                Swatch { form: ColorForm::Light(light), ..rest }
             }
             None => self.appearance.seen(&rest, self.appearance.wavelength_nm(rest.tint), stretch),
         };

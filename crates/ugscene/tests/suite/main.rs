@@ -5,11 +5,11 @@
 mod bodies;
 mod body_boxes;
 mod builder;
+mod color_mix;
 mod default_camera;
 mod geometry;
 mod history;
 mod normals;
-mod shares;
 mod view;
 
 use ugscene::{Scene, shorten};
