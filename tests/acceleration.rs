@@ -92,9 +92,13 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
                     time: late / gamma,
                     ..MotionOptions::default()
                 };
-                let placed =
-                    PlacedBodies::new(&mut scene, &options, &CameraOptions::default(), [64, 64]).unwrap();
-                scene.stage.geometry = placed.seen_stage(&options);
+                let placed = PlacedBodies::move_to_camera_frame(
+                    &mut scene,
+                    &options,
+                    &CameraOptions::default(),
+                    [64, 64],
+                )
+                .unwrap();
                 let frames = RestFrames::new(&scene);
                 let lamps = uglight::Lamps::new(&scene, placed.eye, false);
                 for face in &scene.faces {

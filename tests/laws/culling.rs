@@ -4,7 +4,7 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugphysics::Brightness;
 use ugpipe::Words;
-use ugscene::{CameraOptions, Geometry};
+use ugscene::{CameraOptions, ShownEffects};
 use ugtests::picture::assert_same;
 use ugtests::pipe::{Pipe, lorentz_scene};
 use ugtests::scenes;
@@ -114,7 +114,7 @@ fn teaching_switches_are_culled_right() {
     for (contraction, flight_time) in [(true, false), (false, true), (false, false)] {
         let lorentz = uglorentz::Config {
             velocity: Some(DVec3::new(0.3, -0.9, 0.0)),
-            geometry: Geometry { contraction, flight_time },
+            geometry: ShownEffects { contraction, flight_time },
             pieces: uglorentz::Pieces::PerEdge(2),
             ..Default::default()
         };

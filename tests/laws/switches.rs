@@ -215,7 +215,7 @@ fn with_both_positions_are_p1_and_then_p2() {
 #[test]
 fn without_both_positions_are_as_at_rest() {
     check_positions(
-        |config| config.geometry = ugscene::Geometry { contraction: false, flight_time: false },
+        |config| config.geometry = ugscene::ShownEffects { contraction: false, flight_time: false },
         |p| p,
     );
 }

@@ -5,10 +5,7 @@ use rayon::prelude::*;
 use uglight::{Irradiance, Lamps, ScatteringTime, SurfaceElement};
 use ugphysics::InertialFrame;
 use ugpipe::Progress;
-use ugscene::{
-    Face, Light, LightKind, LightMotion, RestFrames, Scene, SeenVertices, VertexId, seen_normal,
-    shading_normal,
-};
+use ugscene::{Light, LightKind, LightMotion, RestFrames, Scene, SeenVertices, VertexId, shading_normal};
 
 /// Normals that differ by less than this in every component count as equal, so that the pieces of a
 /// face that was cut share their vertices. The error of the irradiance is at most as large.
@@ -26,12 +23,12 @@ pub(crate) struct VertexIrradiance {
 /// vertices of their own there, unless the vertex carries a normal, and so do faces with a light
 /// level of their own.
 ///
-/// `rest`: position of each vertex, (P4). Returns the originals of the new vertices, and the normal
+/// Returns the originals of the new vertices, and the normal
 /// to light each vertex with; `None` where it is not lit.
 pub(crate) fn split(
     scene: &mut Scene,
-    rest: &[DVec3],
     vertices: &SeenVertices,
+    observer: (DVec3, &RestFrames),
 ) -> (Vec<VertexId>, Vec<Option<DVec3>>) {
     /// How a vertex is lit.
     #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -40,8 +37,10 @@ pub(crate) fn split(
         Smooth { is_turned: bool },
         Flat([i64; 3]),
     }
-    let normals: Vec<Option<DVec3>> =
-        scene.faces.par_iter().map(|face| face_normal(scene, face, rest, vertices)).collect();
+    // `None` for a face that is not lit.
+    let normal =
+        |face| scene.light_level(face).is_none().then(|| vertices.seen_normal(scene, face, observer));
+    let normals: Vec<Option<DVec3>> = scene.faces.par_iter().map(normal).collect();
     let users: Vec<_> = scene.drawn().map(|drawn| drawn.contours).collect();
     let originals = ugscene::split_corners(scene, users.into_iter(), |user, _, vertex| {
         let Some(&Some(seen)) = normals.get(user) else { return Some(Kind::Unlit) };
@@ -61,37 +60,24 @@ pub(crate) fn split(
     (originals, of_vertex)
 }
 
-/// The rest normal of the side that is seen; `None` for a face that is not lit.
-fn face_normal(scene: &Scene, face: &Face, rest: &[DVec3], vertices: &SeenVertices) -> Option<DVec3> {
-    if scene.light_level(face).is_some() {
-        return None;
-    }
-    let outline = scene.face_contours(face).next()?;
-    let corners = outline.iter().map(|corner| rest[corner.index()]);
-    let first = outline.first()?.index();
-    let toward_eye = vertices.on_world_line(first).map_or(-rest[first], |point| point.toward_eye);
-    Some(seen_normal(corners, toward_eye))
-}
-
 impl VertexIrradiance {
     /// The irradiance by the lamps of a scene at its vertices.
     ///
-    /// `rest`: position of each vertex, relative to the eye, (P4). `normals`: of [`split`].
-    /// Vertices stay unlit if the caller stops it.
+    /// `normals`: of [`split`]. Vertices stay unlit if the caller stops it.
     pub fn new(
         scene: &Scene,
         eye: DVec3,
         frames: &RestFrames,
-        (seen, rest): (&SeenVertices, &[DVec3]),
+        seen: &SeenVertices,
         normals: &[Option<DVec3>],
         is_spectral: bool,
         progress: &dyn Progress,
     ) -> Self {
         let lamps = Lamps::new(scene, eye, is_spectral).over_time(scene, eye, is_spectral);
-        let of_vertex = (rest.par_iter().zip(normals).zip(&seen.bodies).enumerate())
+        let of_vertex = (seen.rest.par_iter().zip(normals).zip(&seen.bodies).enumerate())
             .map(|(row, ((&point, normal), &body))| {
                 progress.check().ok()?;
-                let own = seen.on_world_line(row).map(|point| ScatteringTime::Own(point.own_time));
+                let own = seen.own_time(row).map(ScatteringTime::Own);
                 let time = own.unwrap_or(ScatteringTime::Delay(0.0));
                 let surface = SurfaceElement { point, time, normal: (*normal)?, body };
                 Some(surface.irradiances(&lamps, frames))

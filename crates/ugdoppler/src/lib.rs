@@ -51,8 +51,8 @@ use uglight::{
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, ColorMix, DefaultCamera, Geometry, Provenance,
-    RelativeMotion, RestFrames, Scene, SeenVertices,
+    Camera, CameraError, CameraOptions, ColorId, ColorMix, DefaultCamera, Provenance, RelativeMotion,
+    RestFrames, Scene, SeenVertices, ShownEffects,
 };
 
 #[cfg(feature = "cli")]
@@ -147,7 +147,7 @@ fn default_camera(scene: &Scene, config: &Config, frames: &RestFrames) -> Option
         return None;
     }
     let options = CameraOptions { eye: config.eye, ..CameraOptions::default() };
-    let motion = |body| vec![RelativeMotion::new(frames.velocity(body), Geometry::default())];
+    let motion = |body| vec![RelativeMotion::new(frames.velocity(body), ShownEffects::default())];
     DefaultCamera::new(scene, &options, [4, 3], motion).ok().flatten()
 }
 
@@ -164,12 +164,11 @@ fn color(
     let mixing_note = ugscene::Note::mixed_colors(&scene);
     // Only for lamps, and for the angles at which colours of faces meet.
     let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
-    let seen = SeenVertices::new(&scene, eye, frames);
-    let rest = if needs_rest { seen.rest_positions(&scene, eye, frames) } else { Vec::new() };
+    let seen = SeenVertices::new(&scene, eye, frames, needs_rest);
     let factors = doppler_factors(&scene, eye, frames, &seen);
-    let vertices = LitVertices { seen, rest, factors };
+    let vertices = (seen, factors);
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
-        let shares = ugscene::vertex_mixes(&scene, &vertices.rest).into_iter();
+        let shares = ugscene::vertex_mixes(&scene, &vertices.0.rest).into_iter();
         let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
         let (light, factors) =
             light_vertices(&mut scene, config, (eye, frames), vertices, &mut shares, progress)?;
@@ -180,7 +179,7 @@ fn color(
         xyz_statements::write(&mut scene, config, shift, &vertices)
     } else {
         let shift = config.shift.of_hues();
-        let mut colors = uglight::vertex_colors(&scene, &vertices.rest);
+        let mut colors = uglight::vertex_colors(&scene, &vertices.0.rest);
         let (light, factors) =
             light_vertices(&mut scene, config, (eye, frames), vertices, &mut colors, progress)?;
         let used = vertices::used(&scene);
@@ -208,15 +207,6 @@ fn color(
     Ok((scene, notes))
 }
 
-/// The vertices of a scene as they are seen.
-struct LitVertices {
-    seen: SeenVertices,
-    /// Rest positions; empty if they are not needed.
-    rest: Vec<DVec3>,
-    /// Doppler factors.
-    factors: Vec<f64>,
-}
-
 /// The irradiance of every vertex, if it is asked for and the scene has lamps, and the Doppler
 /// factor of every vertex. Vertices where the irradiance differs between faces are repeated, together
 /// with their row of `of_vertex`.
@@ -224,17 +214,16 @@ fn light_vertices<T: Clone>(
     scene: &mut Scene,
     config: &Config,
     (eye, frames): (DVec3, &RestFrames),
-    LitVertices { mut seen, mut rest, mut factors }: LitVertices,
+    (mut seen, mut factors): (SeenVertices, Vec<f64>),
     of_vertex: &mut Vec<T>,
     progress: &dyn Progress,
 ) -> Result<(Option<VertexIrradiance>, Vec<f64>), Error> {
     if !config.light || scene.lights.is_empty() {
         return Ok((None, factors));
     }
-    let (originals, normals) = irradiance::split(scene, &rest, &seen);
+    let (originals, normals) = irradiance::split(scene, &seen, (eye, frames));
     for original in originals {
         seen.copy(original);
-        rest.push(rest[original.index()]);
         factors.push(factors[original.index()]);
         of_vertex.push(of_vertex[original.index()].clone());
     }
@@ -243,7 +232,7 @@ fn light_vertices<T: Clone>(
         return Err(Error::TooManyLights { n_lights, n_vertices });
     }
     let is_spectral = config.shift.is_spectral();
-    let light = VertexIrradiance::new(scene, eye, frames, (&seen, &rest), &normals, is_spectral, progress);
+    let light = VertexIrradiance::new(scene, eye, frames, &seen, &normals, is_spectral, progress);
     progress.check()?;
     Ok((Some(light), factors))
 }

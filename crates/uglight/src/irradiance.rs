@@ -93,11 +93,13 @@ impl SurfaceElement {
         mut visit: impl FnMut(IncidentLamp),
     ) {
         let (shift, standing) = (frames.lamp_shift(self.body), self.standing(frames));
+        let any_moves = lamps.iter().any(|lamp| self.moving_body(lamp, frames).is_some());
+        let moving = if any_moves { MovingElement::new(self, frames) } else { None };
         // Those that follow are colours of lamps that change.
         for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
             let place = lamp.shifted(place(row, lamp), shift);
             let colors = match &lamp.table {
-                Some(table) => match self.lamp_time(lamp, place, frames) {
+                Some(table) => match self.time_of(lamp, place, frames, moving.as_ref()) {
                     Some(own_time) => Some(table.at(own_time)),
                     None => continue,
                 },
@@ -122,7 +124,7 @@ impl SurfaceElement {
                     add(level, 1.0, toward, part);
                 }
                 Some(body) => {
-                    self.of_moving(lamp, (place, body), frames, &mut add);
+                    moving.as_ref().and_then(|moving| moving.light_of(lamp, (place, body), &mut add));
                 }
             }
         }
@@ -138,7 +140,7 @@ impl SurfaceElement {
             return Some((toward, 1.0, lamp.part_at(distance)));
         };
         let mut light = None;
-        self.of_moving(lamp, (place, body), frames, &mut |_, doppler, toward, part| {
+        MovingElement::new(self, frames)?.light_of(lamp, (place, body), &mut |_, doppler, toward, part| {
             light = toward.map(|(toward, _)| (toward, doppler, part));
         });
         light
@@ -148,12 +150,23 @@ impl SurfaceElement {
     /// a motion. `place`: that of the lamp.
     #[must_use]
     pub fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
+        let moving = MovingElement::new(self, frames);
+        self.time_of(lamp, place, frames, moving.as_ref())
+    }
+
+    fn time_of(
+        &self,
+        lamp: &Lamp,
+        place: LampPlace,
+        frames: &RestFrames,
+        moving: Option<&MovingElement<'_>>,
+    ) -> Option<f64> {
         let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
         if let (None, ScatteringTime::Delay(delay)) = (self.moving_body(lamp, frames), self.time) {
             let (_, distance) = self.direction_at_rest(place)?;
             return Some(delay - ugphysics::length(self.point) - distance);
         }
-        let event = MovingElement::new(self, frames)?.event_at(self, frames)?;
+        let event = moving?.event();
         match frames.world_line(own) {
             Some(line) => Some(line.emission(at, event).ok()?.own_time),
             None => {
@@ -167,11 +180,10 @@ impl SurfaceElement {
     /// the scene if it only turned.
     fn standing(&self, frames: &RestFrames) -> Self {
         match (frames.world_line(self.body), self.time) {
-            (Some(line), ScatteringTime::Own(own_time)) => Self {
-                point: line.turned_point(self.point, own_time),
-                normal: line.pose(own_time).turn * self.normal,
-                ..*self
-            },
+            (Some(line), ScatteringTime::Own(own_time)) => {
+                let (point, turn) = line.standing(self.point, own_time);
+                Self { point, normal: turn * self.normal, ..*self }
+            }
             _ => *self,
         }
     }
@@ -196,58 +208,13 @@ impl SurfaceElement {
             && frames.velocity(body) == frames.velocity(self.body);
         (!rests).then_some(body)
     }
-
-    fn of_moving(
-        &self,
-        lamp: &Lamp,
-        (place, body): (LampPlace, BodyId),
-        frames: &RestFrames,
-        add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
-    ) -> Option<()> {
-        let surface = MovingElement::new(self, frames)?;
-        let velocity = surface.velocity;
-        let light = match place {
-            LampPlace::Everywhere => {
-                let (motion, _) = surface.motion_of(self, body, frames)?;
-                let relative = compose(motion, -velocity);
-                for SkyRing { level, doppler } in ambient_illumination(surface.normal, relative) {
-                    add(level, doppler, None, 1.0);
-                }
-                return None;
-            }
-            LampPlace::Afar(toward) => {
-                let (motion, axes) = surface.motion_of(self, body, frames)?;
-                illumination_from_afar(velocity, axes * toward, motion)
-            }
-            LampPlace::At(place) => match (frames.world_line(body), surface.event) {
-                (None, None) => {
-                    let ScatteringTime::Delay(delay) = self.time else { return None };
-                    let (motion, axes) = surface.motion_of(self, body, frames)?;
-                    illumination(surface.axes * self.point, delay, velocity, axes * place, motion)
-                }
-                (None, Some(event)) => {
-                    let at = frames.of(body).rest_from_camera(event).x;
-                    let (motion, axes) = surface.motion_of(self, body, frames)?;
-                    illumination_at(axes * at, velocity, axes * place, motion)
-                }
-                (Some(line), _) => {
-                    let event = surface.event_at(self, frames)?;
-                    let emission = line.emission(place, event).ok()?;
-                    illumination_along(emission.event.x - event.x, velocity, emission.velocity)
-                }
-            },
-        }?;
-        let toward = surface.axes.inverse() * light.toward;
-        let part = lamp.part_at(light.rest_distance);
-        let level = part * surface.normal.dot(light.toward);
-        add(level, light.doppler, Some((toward, light.distance)), part);
-        Some(())
-    }
 }
 
 /// A surface element that moves, in common axes with lamps: velocities of two frames can be
 /// composed only in those of the camera, which boosts do not turn.  Eq. (P25)
-struct MovingElement {
+struct MovingElement<'a> {
+    element: &'a SurfaceElement,
+    frames: &'a RestFrames,
     velocity: Velocity,
     /// These axes from those of the element.
     axes: DQuat,
@@ -255,51 +222,91 @@ struct MovingElement {
     normal: DVec3,
     /// For a body on a world line, where and when it scatters the light, in the frame of the
     /// camera.
-    event: Option<Event>,
+    on_line: Option<Event>,
 }
 
-impl MovingElement {
-    fn new(element: &SurfaceElement, frames: &RestFrames) -> Option<Self> {
+impl<'a> MovingElement<'a> {
+    fn new(element: &'a SurfaceElement, frames: &'a RestFrames) -> Option<Self> {
         let SurfaceElement { point, time, normal, body } = *element;
-        match (frames.world_line(body), time) {
+        let (velocity, axes, normal, on_line) = match (frames.world_line(body), time) {
             (Some(line), ScatteringTime::Own(own_time)) => {
                 let event = line.event(point, own_time).ok()?;
                 let surface = line.element(point, own_time);
-                Some(Self {
-                    velocity: surface.velocity,
-                    axes: DQuat::IDENTITY,
-                    normal: surface.normal(normal),
-                    event: Some(event),
-                })
+                (surface.velocity, DQuat::IDENTITY, surface.normal(normal), Some(event))
             }
             _ => {
                 let axes = frames.of(body).boosted_from_scene();
-                Some(Self { velocity: frames.velocity(body), axes, normal: axes * normal, event: None })
+                (frames.velocity(body), axes, axes * normal, None)
             }
-        }
+        };
+        Some(Self { element, frames, velocity, axes, normal, on_line })
     }
 
     /// Where and when it scatters the light, in the frame of the camera.
-    fn event_at(&self, element: &SurfaceElement, frames: &RestFrames) -> Option<Event> {
-        let ScatteringTime::Delay(delay) = element.time else { return self.event };
-        let x = element.point;
-        let event = Event { t: delay - ugphysics::length(x), x };
-        Some(self.event.unwrap_or_else(|| frames.of(element.body).camera_from_rest(event)))
+    fn event(&self) -> Event {
+        let (x, frame) = (self.element.point, self.frames.of(self.element.body));
+        let in_rest_frame = || Event { t: self.delay() - ugphysics::length(x), x };
+        self.on_line.unwrap_or_else(|| frame.camera_from_rest(in_rest_frame()))
+    }
+
+    fn delay(&self) -> f64 {
+        if let ScatteringTime::Delay(delay) = self.element.time { delay } else { 0.0 }
+    }
+
+    /// Calls `add` with level, D_l, direction with distance and part of the light of a lamp of
+    /// `body` at `place`.
+    fn light_of(
+        &self,
+        lamp: &Lamp,
+        (place, body): (LampPlace, BodyId),
+        add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
+    ) -> Option<()> {
+        let velocity = self.velocity;
+        let light = match place {
+            LampPlace::Everywhere => {
+                let (motion, _) = self.motion_of(body)?;
+                let relative = compose(motion, -velocity);
+                for SkyRing { level, doppler } in ambient_illumination(self.normal, relative) {
+                    add(level, doppler, None, 1.0);
+                }
+                return None;
+            }
+            LampPlace::Afar(toward) => {
+                let (motion, axes) = self.motion_of(body)?;
+                illumination_from_afar(velocity, axes * toward, motion)
+            }
+            LampPlace::At(place) => match (self.frames.world_line(body), self.on_line) {
+                (None, None) => {
+                    let (motion, axes) = self.motion_of(body)?;
+                    let (point, delay) = (self.axes * self.element.point, self.delay());
+                    illumination(point, delay, velocity, axes * place, motion)
+                }
+                (None, Some(event)) => {
+                    let at = self.frames.of(body).rest_from_camera(event).x;
+                    let (motion, axes) = self.motion_of(body)?;
+                    illumination_at(axes * at, velocity, axes * place, motion)
+                }
+                (Some(line), _) => {
+                    let event = self.event();
+                    let emission = line.emission(place, event).ok()?;
+                    illumination_along(emission.event.x - event.x, velocity, emission.velocity)
+                }
+            },
+        }?;
+        let toward = self.axes.inverse() * light.toward;
+        let part = lamp.part_at(light.rest_distance);
+        let level = part * self.normal.dot(light.toward);
+        add(level, light.doppler, Some((toward, light.distance)), part);
+        Some(())
     }
 
     /// The velocity of a lamp's body and the turn of its directions: of one on a world line at the
     /// time, in the frame of the scene, at which the light is scattered.
-    fn motion_of(
-        &self,
-        element: &SurfaceElement,
-        body: BodyId,
-        frames: &RestFrames,
-    ) -> Option<(Velocity, DQuat)> {
-        let Some(line) = frames.world_line(body) else {
-            return Some((frames.velocity(body), frames.of(body).boosted_from_scene()));
+    fn motion_of(&self, body: BodyId) -> Option<(Velocity, DQuat)> {
+        let Some(line) = self.frames.world_line(body) else {
+            return Some((self.frames.velocity(body), self.frames.of(body).boosted_from_scene()));
         };
-        let event = self.event_at(element, frames)?;
-        let pose = line.pose(line.own_time_when(event, frames.scene_from_camera()));
+        let pose = line.pose(line.own_time_when(self.event(), self.frames.scene_from_camera()));
         let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
         let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
         Some((velocity, carried.turn() * pose.turn))

@@ -6,8 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
-    BodyId, ColorId, ColorMix, ColorValue, RestFrames, Scene, SeenVertices, VertexId, Wire, WorldLinePoint,
-    vertex_mixes,
+    BodyId, ColorId, ColorMix, ColorValue, RestFrames, Scene, SeenVertices, VertexId, Wire, vertex_mixes,
 };
 
 use crate::{ColorShift, HueShift, Mixing, Palette, RestColor, Swatch, VertexColor, vertex_colors};
@@ -21,7 +20,6 @@ pub struct SurfaceAttributes {
     rows: Vec<u32>,
     /// Row of white, the default colour; it follows the scene's colours.
     white: u32,
-    rest: Vec<DVec3>,
     seen: SeenVertices,
     frames: RestFrames,
 }
@@ -30,8 +28,7 @@ impl SurfaceAttributes {
     /// `scene`: its vertices are part of one body each.
     pub fn new(scene: &Scene, eye: DVec3, palette: &Palette) -> Self {
         let frames = RestFrames::new(scene);
-        let seen = SeenVertices::new(scene, eye, &frames);
-        let rest = seen.rest_positions(scene, eye, &frames);
+        let seen = SeenVertices::new(scene, eye, &frames, true);
         let mut swatches = palette.swatches.to_vec();
         // Scenes have fewer than 2^32 colours.
         let white = swatches.len() as u32;
@@ -39,9 +36,9 @@ impl SurfaceAttributes {
         let own = scene.vertices.par_iter().map(|vertex| vertex.color.map(row));
         let rows = match own.collect() {
             Some(rows) => rows,
-            None => mixed_rows(scene, &rest, palette, &mut swatches),
+            None => mixed_rows(scene, &seen.rest, palette, &mut swatches),
         };
-        Self { swatches, rows, white, rest, seen, frames }
+        Self { swatches, rows, white, seen, frames }
     }
 
     /// The colours that meet in each row.
@@ -50,7 +47,7 @@ impl SurfaceAttributes {
         for (row, shares) in mixtures[..scene.colors.len()].iter_mut().enumerate() {
             *shares = ColorMix::One(Some(ColorId::from_index(row)));
         }
-        for (&row, shares) in self.rows.iter().zip(vertex_mixes(scene, &self.rest)) {
+        for (&row, shares) in self.rows.iter().zip(vertex_mixes(scene, &self.seen.rest)) {
             mixtures[row as usize] = shares;
         }
         mixtures.into_iter().map(|shares| shares.of_spectra(scene)).collect()
@@ -67,8 +64,7 @@ impl SurfaceAttributes {
         let moves = |body: BodyId, contours: &Range<u32>, color: Option<ColorId>| {
             let corners = scene.contours.corners(contours.clone());
             let color_of = |corner: &VertexId| scene.vertices[corner.index()].color.or(color);
-            let moves = !self.velocity(body).is_zero() || self.frames.world_line(body).is_some();
-            moves && corners.iter().filter_map(color_of).any(is_spectrum)
+            self.frames.is_moving(body) && corners.iter().filter_map(color_of).any(is_spectrum)
         };
         let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
         let mut wires = wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
@@ -101,24 +97,25 @@ impl SurfaceAttributes {
     /// Where the vertex is in the rest frame of its body, relative to the eye, in the axes of the
     /// scene.  Eq. (P4)
     pub fn rest(&self, vertex: VertexId) -> DVec3 {
-        self.rest[vertex.index()]
+        self.seen.rest[vertex.index()]
     }
 
-    /// The vertex as it is seen on the world line of its body; `None` if its body is inertial.
+    /// The vertices as they are seen.
     #[inline]
-    pub fn on_world_line(&self, vertex: VertexId) -> Option<&WorldLinePoint> {
-        self.seen.on_world_line(vertex.index())
+    pub fn seen(&self) -> &SeenVertices {
+        &self.seen
     }
 
     /// The rest positions of all vertices, see [`SurfaceAttributes::rest`].
     pub fn all_rest(&self) -> &[DVec3] {
-        &self.rest
+        &self.seen.rest
     }
 
     /// The greatest rapidity with which a body, or a vertex of a body on a world line, is seen.
     pub fn greatest_rapidity(&self) -> f64 {
-        let on_lines = self.seen.on_world_lines.iter().flatten().map(|point| point.velocity.rapidity());
-        on_lines.fold(self.frames.greatest_rapidity(), f64::max)
+        let rows = 0..if self.frames.have_world_lines() { self.seen.bodies.len() } else { 0 };
+        let rapidities = rows.map(|row| self.seen.velocity(row, &self.frames).rapidity());
+        rapidities.fold(self.frames.greatest_rapidity(), f64::max)
     }
 
     /// The rest frames of the bodies.

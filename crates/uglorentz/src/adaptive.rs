@@ -247,7 +247,7 @@ fn halve_marked(mesh: &mut RefinedMesh, line: &Polyline, marks: &[bool], least: 
 mod tests {
     use glam::DVec3;
     use ugphysics::Velocity;
-    use ugscene::{BodyId, Geometry};
+    use ugscene::{BodyId, ShownEffects};
 
     use super::*;
     use crate::clocks::Clocks;
@@ -262,7 +262,7 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let motions =
-            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
+            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), ShownEffects::default())];
         for max_pieces in [10, 100, 1000, 10_000] {
             let points = scene
                 .vertices

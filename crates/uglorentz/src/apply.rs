@@ -1,9 +1,8 @@
 //! The filter: a scene at rest to the scene as seen.
 
-use glam::DVec3;
 use rayon::prelude::*;
 use ugpipe::Progress;
-use ugscene::{BodyId, CameraOptions, Geometry, Item, PlacedBodies, Scene, Vertex};
+use ugscene::{CameraOptions, Item, PlacedBodies, Scene};
 
 use crate::clocks::Clocks;
 use crate::criterion::Bounds;
@@ -39,10 +38,9 @@ pub fn apply_with(
     progress.step("moving and cutting", 0);
     check(config)?;
     let n_faces = scene.faces.len();
-    let motion_options = config.motion();
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
-    let placed = PlacedBodies::new(&mut scene, &motion_options, &camera, config.size)?;
-    let PlacedBodies { eye, default_camera, motions, shifts, .. } = &placed;
+    let placed = PlacedBodies::move_to_camera_frame(&mut scene, &config.motion(), &camera, config.size)?;
+    let PlacedBodies { eye, default_camera, motions, .. } = &placed;
     let mut points = points(&scene, &placed);
     viewpoint::refuse_vertices_at_eye(&scene, &points, motions)?;
     if config.smooth {
@@ -58,8 +56,7 @@ pub fn apply_with(
     let n_culled = cull::cull(&mut scene, &mut points, motions, &view_volume);
 
     let error = if let Pieces::UpTo(error) = config.pieces { error } else { DEFAULT_ERROR };
-    let near_lamps =
-        NearLamps::new(&scene, (*eye, placed.seen_stage(&motion_options)), motions, config.light_error);
+    let near_lamps = NearLamps::new(&scene, *eye, motions, config.light_error);
     let tolerance = Tolerance::new(error, config.color_error);
     let tolerances = depth_factors.iter().map(|&factor| tolerance.with_depth(factor)).collect();
     let clocks = Clocks::new(&scene, config.color_error);
@@ -85,9 +82,10 @@ pub fn apply_with(
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
     let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart);
-    set_positions(&mut scene, &mesh, shifts, *eye)?;
-    if placed.has_motion || config.geometry != Geometry::default() {
-        scene.stage.geometry = placed.seen_stage(&motion_options);
+    let n_placed = mesh.points.len() - mesh.recipes.len();
+    let shown: Vec<_> = mesh.points.par_iter().map(Point::shown).collect();
+    if let Some(row) = placed.show(&mut scene, &shown, n_placed) {
+        return Err(Error::OutOfRange { name: viewpoint::vertex_name(&scene, row), row });
     }
 
     progress.check()?;
@@ -148,26 +146,5 @@ fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
         if let Item::Face(row) = &mut comment.at {
             *row = first_pieces[*row as usize];
         }
-    }
-}
-
-/// Writes the seen positions. Those of a body at rest that was not shifted stay the same to the
-/// bit.
-fn set_positions(scene: &mut Scene, mesh: &RefinedMesh, shifts: &[DVec3], eye: DVec3) -> Result<(), Error> {
-    let n_old = mesh.points.len() - mesh.recipes.len();
-    let stays = |body: BodyId| mesh.motion_of(body).is_at_rest() && shifts[body.index()] == DVec3::ZERO;
-    let is_finite = |(row, (vertex, point)): (usize, (&mut Vertex, &Point))| {
-        if row >= n_old || !stays(point.body) {
-            vertex.position = point.seen + eye;
-        }
-        vertex.position.is_finite()
-    };
-    let positions = scene.vertices.par_iter_mut().zip(&mesh.points).enumerate().map(is_finite);
-    if positions.reduce(|| true, |all, one| all & one) {
-        return Ok(());
-    }
-    match scene.vertices.iter().position(|vertex| !vertex.position.is_finite()) {
-        None => Ok(()),
-        Some(row) => Err(Error::OutOfRange { name: viewpoint::vertex_name(scene, row), row }),
     }
 }

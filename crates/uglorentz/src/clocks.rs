@@ -15,7 +15,7 @@ use ugscene::{BodyId, Color, ColorId, ColorTable, FaceOrWire, Mix, Scene};
 
 use crate::attributes::free_prefix;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::world_line::{between, is_short};
+use crate::world_line::is_short;
 
 /// Where an edge is sampled.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -81,10 +81,7 @@ impl Clocks {
         }
         let ends = [a, b].map(|end| end.own_time);
         SAMPLES.into_iter().any(|s| {
-            let point = match motion.world_line() {
-                Some(line) => between(a, b, line, s),
-                None => Point::new(motion, a.body, a.rest.lerp(b.rest, s)),
-            };
+            let point = Point::between(motion, a, b, s);
             let chord = b.seen - a.seen;
             let along = (point.seen - a.seen).dot(chord) / chord.length_squared();
             let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { s };
@@ -102,14 +99,7 @@ impl Clocks {
         if [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| is_short(a, b, tan_half)) {
             return false;
         }
-        let rest = (a.rest + b.rest + c.rest) / 3.0;
-        let point = match motion.world_line() {
-            Some(line) => {
-                let guess = (a.own_time + b.own_time + c.own_time) / 3.0;
-                Point::on_world_line(line, a.body, rest, Some(guess))
-            }
-            None => Point::new(motion, a.body, rest),
-        };
+        let point = Point::middle(motion, corners);
         let (ends, weights) = (corners.map(|corner| corner.own_time), [1.0 / 3.0; 3]);
         lights.iter().any(|lights| lights.is_off(ends, weights, point.own_time, self.bound))
     }

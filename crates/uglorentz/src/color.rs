@@ -134,7 +134,7 @@ impl<'a> Chord<'a> {
 #[cfg(test)]
 mod tests {
     use ugphysics::Velocity;
-    use ugscene::{BodyId, Geometry};
+    use ugscene::{BodyId, ShownEffects};
 
     use super::*;
 
@@ -148,7 +148,7 @@ mod tests {
         for k in 1..400_u32 {
             for gamma in [2.0, 99.0, 101.0, 1e4, 1e6, 6e7] {
                 let v = Velocity::from_rapidity(DVec3::Y, libm::acosh(gamma)).unwrap();
-                let motion = RelativeMotion::new(v, Geometry::default());
+                let motion = RelativeMotion::new(v, ShownEffects::default());
                 // Around the point that is seen straight ahead, at every scale down to 1/γ.
                 let scale = libm::pow(gamma, -f64::from(k % 7) / 6.0);
                 let a = DVec3::new(step(k, 0.618_034), 0.0, step(k, 0.414_214)) * scale + DVec3::Y;

@@ -1,7 +1,7 @@
 //! Options of `apply`: velocities, eye, time, subdivision.
 
 use glam::DVec3;
-use ugscene::{Anchor, CameraOptions, Geometry, MotionOptions};
+use ugscene::{Anchor, CameraOptions, MotionOptions, ShownEffects};
 
 /// Default of [`Pieces::UpTo`]: 0.1 milliradians, in radians. A pixel of a picture 40° wide and
 /// 1920 pixels across is 0.36, so every edge is right to a third of a pixel.
@@ -53,7 +53,7 @@ pub struct Config {
     /// (`-vr`).
     pub repeat: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
-    pub geometry: Geometry,
+    pub geometry: ShownEffects,
 }
 
 impl Default for Config {
@@ -74,7 +74,7 @@ impl Default for Config {
             measure: false,
             smooth: false,
             repeat: false,
-            geometry: Geometry::default(),
+            geometry: ShownEffects::default(),
         }
     }
 }

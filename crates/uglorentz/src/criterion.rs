@@ -196,7 +196,7 @@ impl Criterion<'_, '_> {
         let body = body.index();
         let tolerance = &tolerances[body];
         let is_shape_right = || match motion.world_line() {
-            Some(line) => world_line::is_surely_right(points.clone(), line, tolerance.on_world_line()),
+            Some(_) => world_line::is_surely_right(points.clone(), motion, tolerance.on_world_line()),
             None => {
                 motion.is_at_rest()
                     || early_accept::is_close(points.clone(), spreads[body])
@@ -280,7 +280,7 @@ impl Criterion<'_, '_> {
         let points: [&Point; 3] = corners.map(|corner| self.mesh.point(corner));
         let is_deep = points.iter().any(|point| point.generation >= MAX_GENERATION);
         let offset = || match motion.world_line() {
-            Some(line) => world_line::offset_inside(points, line),
+            Some(_) => world_line::offset_inside(points, motion),
             None => interior::offset(motion, points),
         };
         let tolerance = self.bounds.tolerance(points[0]);

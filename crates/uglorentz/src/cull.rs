@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::{Event, Passage, SeenLight, SeenPoint, WorldLine, WorldTube};
+use ugphysics::{Event, SeenLight, SeenPoint, SmoothStretch, WorldLine, WorldTube};
 use ugscene::{Face, HalfSpace, Item, Scene, VertexId, View, Wire};
 
 use crate::relative_motion::{Point, RelativeMotion};
@@ -38,7 +38,7 @@ impl ViewVolume {
 struct SeenBody<'m> {
     line: &'m WorldLine,
     tube: WorldTube,
-    passages: Vec<Passage>,
+    passages: Vec<SmoothStretch>,
 }
 
 const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
@@ -52,7 +52,7 @@ impl<'m> SeenBody<'m> {
         let line: &WorldLine = motion.world_line()?;
         let own = points.iter().filter(|point| point.body.index() == body).map(|point| point.rest);
         let tube = line.tube(own)?;
-        let passages = line.passages(&tube, EYE).ok()?;
+        let passages = line.smooth_stretches(&tube, EYE).ok()?;
         Some(Self { line, tube, passages })
     }
 

@@ -38,7 +38,7 @@ impl Extent {
     const EMPTY: Extent = Extent { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY, nearest: f64::INFINITY };
 
     fn add(&mut self, point: &Point, motion: &RelativeMotion) {
-        let rest = if motion.world_line().is_some() { point.rest } else { motion.boosted_rest(point.rest) };
+        let rest = motion.boosted_rest(point.rest);
         (self.low, self.high) = (self.low.min(rest), self.high.max(rest));
         self.nearest = self.nearest.min(point.rest_distance);
     }

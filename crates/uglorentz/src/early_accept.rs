@@ -105,7 +105,7 @@ fn color_of(motion: &RelativeMotion, change: f64, least: f64, reach2: f64, neare
 mod tests {
     use glam::DVec3;
     use ugphysics::Velocity;
-    use ugscene::{BodyId, Geometry};
+    use ugscene::{BodyId, ShownEffects};
 
     use super::*;
 
@@ -118,7 +118,7 @@ mod tests {
             let speed = [0.1, 0.3, 0.7, 0.95][k as usize % 4];
             let motion = RelativeMotion::new(
                 Velocity::from_beta(DVec3::new(0.6, 0.0, 0.8) * speed).unwrap(),
-                Geometry::default(),
+                ShownEffects::default(),
             );
             let size = libm::pow(10.0, -f64::from(k % 23) / 4.0);
             let a = point(0.618_034, 0.414_214, 0.732_051);

@@ -80,8 +80,8 @@ pub(crate) fn bends(a: &Point, b: &Point, motion: &RelativeMotion, tolerance: &T
     if motion.is_at_rest() {
         return false;
     }
-    if let Some(line) = motion.world_line() {
-        return world_line::exceeds(a, b, line, tolerance.on_world_line());
+    if motion.world_line().is_some() {
+        return world_line::exceeds(a, b, motion, tolerance.on_world_line());
     }
     (motion.has_flight_time() && leaves_chord(a, b, motion, tolerance))
         || color::is_off(a, b, motion, tolerance.color)
@@ -144,8 +144,8 @@ pub(crate) fn errors(
     if motion.is_at_rest() {
         return Errors::default();
     }
-    if let Some(line) = motion.world_line() {
-        return world_line::errors(a, b, line);
+    if motion.world_line().is_some() {
+        return world_line::errors(a, b, motion);
     }
     let color = if matches!(shown, Shown::Outline) { 0.0 } else { color(a, b, motion) };
     if !motion.has_flight_time() {
@@ -297,12 +297,12 @@ impl<'a> Edge<'a> {
 mod tests {
     use glam::DVec3;
     use ugphysics::Velocity;
-    use ugscene::{BodyId, Geometry};
+    use ugscene::{BodyId, ShownEffects};
 
     use super::*;
 
     fn motion(beta: DVec3) -> RelativeMotion {
-        RelativeMotion::new(Velocity::from_beta(beta).unwrap(), Geometry::default())
+        RelativeMotion::new(Velocity::from_beta(beta).unwrap(), ShownEffects::default())
     }
 
     fn at(motion: &RelativeMotion, rest: DVec3) -> Point {

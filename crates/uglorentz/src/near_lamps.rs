@@ -11,11 +11,10 @@
 use glam::DVec3;
 use uglight::{FallOff, Lamp, LampPlace, Lamps, ScatteringTime, SurfaceElement};
 use ugphysics::{Velocity, illumination};
-use ugscene::{BodyId, GeometryStage, RestFrames, Scene};
+use ugscene::{BodyId, RestFrames, Scene};
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};
-use crate::world_line::between;
 
 /// Where on an edge the light is compared with its linear interpolation.
 const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
@@ -52,20 +51,15 @@ struct NearLamp {
 }
 
 impl NearLamps {
-    /// `scene`: with its lights shifted. `seen`: the stage that it will have. `bound`: relative to
+    /// `scene`: with its lights shifted and its stage as seen. `bound`: relative to
     /// the light of a lamp at normal incidence; infinite for none.
-    pub(crate) fn new(
-        scene: &Scene,
-        (eye, seen): (DVec3, GeometryStage),
-        motions: &[RelativeMotion],
-        bound: f64,
-    ) -> Self {
+    pub(crate) fn new(scene: &Scene, eye: DVec3, motions: &[RelativeMotion], bound: f64) -> Self {
         if bound == f64::INFINITY {
             return Self::default();
         }
         let lamps = Lamps::new(scene, eye, false).over_time(scene, eye, false);
-        let is_on_line =
-            |lamp: &Lamp| lamp.motion.body().is_some_and(|body| motions[body.index()].world_line().is_some());
+        let frames = RestFrames::new(scene);
+        let is_on_line = |lamp: &Lamp| is_on_line(lamp, &frames);
         let is_steady = |lamp: &&Lamp| lamp.table.is_none() && lamp.color_of.is_none() && !is_on_line(lamp);
         let near = lamps.iter().filter(is_steady).filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
@@ -75,7 +69,6 @@ impl NearLamps {
             let intensity = lamp.color.max_element();
             Some(NearLamp { intensity, place, velocity, fall_off: lamp.fall_off })
         });
-        let frames = RestFrames::new(scene);
         let shift = |(body, motion): (BodyId, &RelativeMotion)| motion.turned(frames.lamp_shift(body));
         let near: Vec<NearLamp> = near.filter(|lamp| lamp.intensity > 0.0).collect();
         let are_sampled = !lamps.is_empty()
@@ -83,8 +76,8 @@ impl NearLamps {
                 || motions.iter().any(|motion| motion.world_line().is_some()));
         Self {
             lamps: near,
-            sampled: are_sampled.then(|| SampledLamps::new(scene, lamps.clone(), seen)),
             shifts: scene.bodies.ids().zip(motions).map(shift).collect(),
+            sampled: are_sampled.then(|| SampledLamps { lamps: lamps.clone(), frames: frames.clone() }),
             bound,
         }
     }
@@ -212,6 +205,10 @@ impl NearLamp {
     }
 }
 
+fn is_on_line(lamp: &Lamp, frames: &RestFrames) -> bool {
+    lamp.motion.body().is_some_and(|body| frames.world_line(body).is_some())
+}
+
 /// Lamps whose light is computed as programs downstream compute it: those on world lines, those that
 /// change, and all of them on bodies on world lines.
 #[derive(Clone, Debug)]
@@ -234,16 +231,9 @@ struct Sample {
 }
 
 impl SampledLamps {
-    fn new(scene: &Scene, lamps: Lamps, seen: GeometryStage) -> Self {
-        let mut scene = Scene { bodies: scene.bodies.clone(), ..Scene::default() };
-        scene.stage.geometry = seen;
-        Self { lamps, frames: RestFrames::new(&scene) }
-    }
-
     /// The lamps that are sampled for a body.
     fn of(&self, motion: &RelativeMotion) -> impl Iterator<Item = &Lamp> {
-        let is_on_line =
-            |lamp: &Lamp| lamp.motion.body().is_some_and(|body| self.frames.world_line(body).is_some());
+        let is_on_line = |lamp: &Lamp| is_on_line(lamp, &self.frames);
         let all = motion.world_line().is_some();
         self.lamps
             .iter()
@@ -255,10 +245,9 @@ impl SampledLamps {
     }
 
     fn sample(&self, lamp: &Lamp, point: &Point, motion: &RelativeMotion) -> Option<Sample> {
-        let (place, time) = match motion.world_line() {
-            Some(_) => (point.rest, ScatteringTime::Own(point.own_time)),
-            None => (motion.turned_back(point.rest), ScatteringTime::Delay(0.0)),
-        };
+        let own = motion.world_line().map(|_| ScatteringTime::Own(point.own_time));
+        let time = own.unwrap_or(ScatteringTime::Delay(0.0));
+        let place = motion.turned_back(point.rest);
         let element = SurfaceElement { point: place, time, normal: DVec3::ZERO, body: point.body };
         let (toward, doppler, part) = element.light_from(lamp, &self.frames)?;
         let (level, step) = match &lamp.table {
@@ -276,10 +265,7 @@ impl SampledLamps {
     /// arrives there at normal incidence: a lamp in motion may always be far away. A jump lies in
     /// some edge, however short, so it does not count in edges that are not cut further.
     fn error(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> f64 {
-        let middles = SAMPLES.map(|s| match motion.world_line() {
-            Some(line) => between(a, b, line, s),
-            None => Point::new(motion, a.body, a.rest.lerp(b.rest, s)),
-        });
+        let middles = SAMPLES.map(|s| Point::between(motion, a, b, s));
         let is_shortest = a.generation.max(b.generation) >= MAX_GENERATION;
         let of_lamp = |lamp: &Lamp| {
             let sample = |point: &Point| self.sample(lamp, point, motion);
@@ -300,13 +286,7 @@ impl SampledLamps {
     }
 
     fn jumps(&self, corners: [&Point; 3], motion: &RelativeMotion) -> bool {
-        let [a, b, c] = corners;
-        let (rest, own_time) =
-            ((a.rest + b.rest + c.rest) / 3.0, (a.own_time + b.own_time + c.own_time) / 3.0);
-        let middle = match motion.world_line() {
-            Some(line) => Point::on_world_line(line, a.body, rest, Some(own_time)),
-            None => Point::new(motion, a.body, rest),
-        };
+        let middle = Point::middle(motion, corners);
         self.of(motion).filter(|lamp| lamp.table.is_some()).any(|lamp| {
             let sample = |point: &Point| self.sample(lamp, point, motion);
             let here = sample(&middle);
@@ -342,7 +322,7 @@ struct Light {
 
 #[cfg(test)]
 mod tests {
-    use ugscene::Geometry;
+    use ugscene::ShownEffects;
 
     use super::*;
 
@@ -350,7 +330,7 @@ mod tests {
     /// error to about a quarter.
     #[test]
     fn the_error_is_that_of_the_chord() {
-        let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let motion = RelativeMotion::new(Velocity::ZERO, ShownEffects::default());
         let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None, fall_off: None };
         let level = |x: f64| 1.0 / (1.0 + x * x).sqrt();
         for (from, to) in [(-0.2, 0.3), (0.5, 0.9), (-3.0, 2.0), (1.0, 1.1)] {
@@ -370,7 +350,7 @@ mod tests {
     /// the intensity, the error is relative.
     #[test]
     fn light_that_falls_off_has_the_error_of_its_chord() {
-        let motion = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let motion = RelativeMotion::new(Velocity::ZERO, ShownEffects::default());
         let fall_off = Some(FallOff::new(2.0, 0.0));
         let lamp = NearLamp { intensity: 1.0, place: DVec3::Z, velocity: None, fall_off };
         let level = |x: f64| 4.0 * libm::pow(1.0 + x * x, -1.5);
@@ -391,8 +371,8 @@ mod tests {
     fn only_relative_motion_matters() {
         let fast = Velocity::from_beta(DVec3::new(0.8, 0.0, 0.0)).unwrap();
         let (at_rest, moving) = (
-            RelativeMotion::new(Velocity::ZERO, Geometry::default()),
-            RelativeMotion::new(fast, Geometry::default()),
+            RelativeMotion::new(Velocity::ZERO, ShownEffects::default()),
+            RelativeMotion::new(fast, ShownEffects::default()),
         );
         let lamp = |velocity| NearLamp {
             intensity: 1.0,
@@ -410,7 +390,7 @@ mod tests {
     /// A lamp flies past an edge: D of its light nearly is linear, D⁵ is not.
     #[test]
     fn shifted_spectra_have_the_error_of_their_chord() {
-        let at_rest = RelativeMotion::new(Velocity::ZERO, Geometry::default());
+        let at_rest = RelativeMotion::new(Velocity::ZERO, ShownEffects::default());
         let velocity = Velocity::from_beta(DVec3::X * 0.6).unwrap();
         let place = DVec3::new(0.0, 0.0, 40.0);
         let lamp = NearLamp { intensity: 1.0, place, velocity: Some(velocity), fall_off: None };
@@ -428,7 +408,7 @@ mod tests {
     #[test]
     fn surely_linear_edges_are_linear() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
-        let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Geometry::default());
+        let motion = RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.6).unwrap(), Default::default());
         let (mut n_linear, mut n_nonlinear) = (0, 0);
         for k in 1..4000_u32 {
             let point = |p, q, r| DVec3::new(step(k, p), step(k, q), step(k, r));

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugphysics::{Event, SeenLight, WorldLine, doppler_at};
 pub(crate) use ugscene::RelativeMotion;
-use ugscene::{BodyId, RestPosition};
+use ugscene::{BodyId, RestPosition, ShownPoint};
 
 /// A point of a body. Both positions are relative to the eye.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +52,7 @@ impl Point {
 
     /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
     /// time at emission.
-    pub(crate) fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3, guess: Option<f64>) -> Point {
+    fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3, guess: Option<f64>) -> Point {
         const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
         let light = match guess {
             Some(guess) => line.light_near(rest, EYE, guess),
@@ -65,6 +65,32 @@ impl Point {
         let seen_distance = seen.length();
         let rest_distance = seen_distance * inverse_doppler;
         Point { rest, seen, rest_distance, seen_distance, inverse_doppler, own_time, body, generation: 0 }
+    }
+
+    /// The point for the scene as seen.
+    pub(crate) fn shown(&self) -> ShownPoint {
+        let &Point { body, rest, seen, own_time, .. } = self;
+        ShownPoint { body, rest, seen, own_time }
+    }
+
+    /// The point of an edge at the parameter `s`.
+    pub(crate) fn between(motion: &RelativeMotion, a: &Point, b: &Point, s: f64) -> Point {
+        let guess = (1.0 - s) * a.own_time + s * b.own_time;
+        Self::near(motion, a.body, a.rest.lerp(b.rest, s), guess)
+    }
+
+    /// The point in the middle of a triangle.
+    pub(crate) fn middle(motion: &RelativeMotion, [a, b, c]: [&Point; 3]) -> Point {
+        let guess = (a.own_time + b.own_time + c.own_time) / 3.0;
+        Self::near(motion, a.body, (a.rest + b.rest + c.rest) / 3.0, guess)
+    }
+
+    /// The point at `rest`, whose light left near the own time `guess`.
+    fn near(motion: &RelativeMotion, body: BodyId, rest: DVec3, guess: f64) -> Point {
+        match motion.world_line() {
+            Some(line) => Self::on_world_line(line, body, rest, Some(guess)),
+            None => Self::new(motion, body, rest),
+        }
     }
 
     /// True for a point at the eye, whose direction is undefined if it moves.

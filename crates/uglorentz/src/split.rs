@@ -127,7 +127,7 @@ fn is_second_diagonal_better(mesh: &RefinedMesh, bounds: &Bounds, [a, b, c, d]: 
 mod tests {
     use glam::DVec3;
     use ugphysics::Velocity;
-    use ugscene::{BodyId, Geometry};
+    use ugscene::{BodyId, ShownEffects};
 
     use super::*;
     use crate::clocks::Clocks;
@@ -142,7 +142,7 @@ mod tests {
     fn inner_edges_have_the_smallest_errors() {
         let step = |k: u32, seed: f64| (f64::from(k) * seed).fract() * 2.0 - 1.0;
         let motions =
-            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), Geometry::default())];
+            [RelativeMotion::new(Velocity::from_beta(DVec3::X * 0.99).unwrap(), ShownEffects::default())];
         let bounds = Bounds::new(
             vec![Tolerance::new(1e-4, 1e-3)],
             (NearLamps::default(), Clocks::default()),

@@ -7,10 +7,9 @@
 //! are sampled anew, so what the samples of a long edge miss, those of its halves find.
 
 use glam::DVec3;
-use ugphysics::WorldLine;
 
 use crate::edge_errors::Errors;
-use crate::relative_motion::Point;
+use crate::relative_motion::{Point, RelativeMotion};
 
 /// The factor on sampled errors.
 const MARGIN: f64 = 1.5;
@@ -28,14 +27,8 @@ const MOST_CORNERS: usize = 4;
 /// its colours.
 const BLUR: f64 = 4.0;
 
-/// Where an edge is sampled.
-const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
-
-/// A point of the edge from a to b.
-pub(crate) fn between(a: &Point, b: &Point, line: &WorldLine, s: f64) -> Point {
-    let guess = (1.0 - s) * a.own_time + s * b.own_time;
-    Point::on_world_line(line, a.body, a.rest.lerp(b.rest, s), Some(guess))
-}
+/// Where an edge is sampled: first where the error of most edges is largest.
+const SAMPLES: [f64; 3] = [0.5, 0.25, 0.75];
 
 /// True only if the errors of all edges between these corners, and inside, are below the bounds by
 /// so much that the middles of the edges say so.
@@ -44,11 +37,12 @@ pub(crate) fn between(a: &Point, b: &Point, line: &WorldLine, s: f64) -> Point {
 /// triangle 4/3 of the largest of those at most.
 pub(crate) fn is_surely_right<'a>(
     corners: impl Iterator<Item = &'a Point> + Clone,
-    line: &WorldLine,
+    motion: &RelativeMotion,
     bounds: Deviation,
 ) -> bool {
-    let is_right =
-        |a: &Point, b: &Point| !deviation(a, b, &between(a, b, line, 0.5)).exceeds(bounds, SURE_MARGIN);
+    let is_right = |a: &Point, b: &Point| {
+        !deviation(a, b, &Point::between(motion, a, b, 0.5)).exceeds(bounds, SURE_MARGIN)
+    };
     corners.clone().count() <= MOST_CORNERS
         && corners.clone().enumerate().all(|(row, a)| corners.clone().skip(row + 1).all(|b| is_right(a, b)))
 }
@@ -57,11 +51,11 @@ pub(crate) fn is_surely_right<'a>(
 ///
 /// The colours of short edges are not compared: where a spin begins or the acceleration of a spinning
 /// body changes, D changes abruptly, and no subdivision makes linear interpolation right.
-pub(crate) fn exceeds(a: &Point, b: &Point, line: &WorldLine, bounds: Deviation) -> bool {
+pub(crate) fn exceeds(a: &Point, b: &Point, motion: &RelativeMotion, bounds: Deviation) -> bool {
     let color = if is_short(a, b, bounds.tan_half) { f64::INFINITY } else { bounds.color };
     let bounds = Deviation { color, ..bounds };
     let bounds = bounds.above_rounding(a).above_rounding(b);
-    SAMPLES.into_iter().any(|s| deviation(a, b, &between(a, b, line, s)).exceeds(bounds, MARGIN))
+    SAMPLES.into_iter().any(|s| deviation(a, b, &Point::between(motion, a, b, s)).exceeds(bounds, MARGIN))
         && !is_within_rounding(a, b)
 }
 
@@ -83,8 +77,8 @@ fn is_within_rounding(a: &Point, b: &Point) -> bool {
 }
 
 /// The largest errors of an edge, sampled.
-pub(crate) fn errors(a: &Point, b: &Point, line: &WorldLine) -> Errors {
-    let sampled = SAMPLES.map(|s| deviation(a, b, &between(a, b, line, s)));
+pub(crate) fn errors(a: &Point, b: &Point, motion: &RelativeMotion) -> Errors {
+    let sampled = SAMPLES.map(|s| deviation(a, b, &Point::between(motion, a, b, s)));
     let largest = |error: fn(&Deviation) -> f64| MARGIN * sampled.iter().map(error).fold(0.0, f64::max);
     Errors {
         angle: 2.0 * libm::atan(largest(|sample| sample.tan_half)),
@@ -154,10 +148,8 @@ fn nearest_in_sight(start: DVec3, chord: DVec3, place: DVec3) -> Option<f64> {
 
 /// The distance of the true face from the flat triangle at its middle, over the distance from the
 /// eye.
-pub(crate) fn offset_inside(corners: [&Point; 3], line: &WorldLine) -> f64 {
-    let [a, b, c] = corners;
-    let (rest, own_time) = ((a.rest + b.rest + c.rest) / 3.0, (a.own_time + b.own_time + c.own_time) / 3.0);
-    let middle = Point::on_world_line(line, a.body, rest, Some(own_time));
+pub(crate) fn offset_inside(corners: [&Point; 3], motion: &RelativeMotion) -> f64 {
+    let ([a, b, c], middle) = (corners, Point::middle(motion, corners));
     let normal = (b.seen - a.seen).cross(c.seen - a.seen).normalize_or_zero();
     MARGIN * normal.dot(middle.seen - a.seen).abs() / middle.seen_distance
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use ugscene::{
-    Camera, CameraOptions, Geometry, Projection, RestFrames, RestPosition, Scene, SeenPosition, View,
+    Camera, CameraOptions, Projection, RestFrames, RestPosition, Scene, SeenPosition, ShownEffects, View,
 };
 
 /// Replaces the normals of moving bodies, which scenes store for the shapes at rest, by those of
@@ -13,7 +13,7 @@ pub(crate) fn see_normals(scene: &mut Scene) {
         return;
     }
     ugscene::separate_bodies(scene);
-    let (frames, geometry) = (RestFrames::new(scene), Geometry::of(scene));
+    let (frames, geometry) = (RestFrames::new(scene), ShownEffects::of(scene));
     let bodies = ugscene::vertex_bodies(scene);
     for (vertex, body) in scene.vertices.iter_mut().zip(bodies) {
         let Some(rest) = vertex.normal else { continue };

@@ -10,7 +10,7 @@ use crate::config::Config;
 use crate::immersion::is_enclosed;
 use crate::open_solids::open_face;
 use crate::pixels::Statistics;
-use crate::scenery::{LampMotion, Scenery};
+use crate::scenery::Scenery;
 use crate::shade::transmittance;
 
 /// One in so many samples is not visible.
@@ -80,8 +80,9 @@ fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
     let is_enclosed = |event| is_enclosed(&scenery.world, scenery.faces(), event, is_opaque);
     let is_dark = |row: usize| {
         let LampPlace::At(place) = scenery.lamps[row].place else { return false };
-        let frame = match (&scenery.lamp_motions[row], &scenery.world.parts[..]) {
-            (Some(LampMotion::Inertial(frame)), _) => frame,
+        let frames = scenery.appearance.surface.frames();
+        let frame = match (scenery.lamps[row].motion.body(), &scenery.world.parts[..]) {
+            (Some(body), _) if frames.world_line(body).is_none() => frames.of(body),
             (None, [only]) if only.motion.is_none() => &only.frame,
             // It rests with each of several bodies, or is enclosed for a time.
             _ => return false,

@@ -1,7 +1,7 @@
 //! Surfaces at the centres of pixels: for channels and legends.
 
 use rayon::prelude::*;
-use ugphysics::{BodyEvent, RestFrame};
+use ugphysics::{RestFrame, Velocity};
 use ugpicture::{Emission, MediumLight, SeenItem};
 use ugscene::BodyId;
 
@@ -59,24 +59,24 @@ impl<'a> PixelCenters<'a> {
         let frames = self.scenery.appearance.surface.frames();
         let body = self.scenery.scene.faces[item as usize].body;
         let event = along(ray.origin, ray.step, s);
-        let on_line = frames.world_line(body).and_then(|line| line.at_event(event).ok());
+        let (velocity, own_time) = frames.at_event(body, event);
         let emission = Emission {
             place: s * ray.step.x,
             depth: s,
             time: ray.origin.t + s * ray.step.t,
-            velocity: on_line.map_or(frames.velocity(body), |at| at.velocity),
-            own_time: on_line.map(|at| at.own_time),
+            velocity,
+            own_time,
             scene_from_axes: frames.of(body).scene_from_boosted(),
-            in_medium: self.in_medium(&ray, body, on_line),
+            in_medium: self.in_medium(&ray, body, own_time.map(|_| velocity)),
         };
         Some((item, emission))
     }
 
     /// Light of a body along a ray, if the eye is in a transparent solid.
-    fn in_medium(&self, ray: &Ray, body: BodyId, on_line: Option<BodyEvent>) -> Option<MediumLight> {
+    fn in_medium(&self, ray: &Ray, body: BodyId, on_line: Option<Velocity>) -> Option<MediumLight> {
         self.scenery.media_at(ray.origin).innermost()?;
         let frame = match on_line {
-            Some(at) => RestFrame::new(at.velocity),
+            Some(velocity) => RestFrame::new(velocity),
             None => *self.scenery.appearance.surface.frames().of(body),
         };
         Some(MediumLight {

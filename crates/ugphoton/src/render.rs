@@ -2,12 +2,13 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
-use ugphysics::{Event, WorldLineError};
+use ugphysics::WorldLineError;
 use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
-use ugscene::{BodyBoxes, PlacedBodies, Provenance, RestPosition, Scene};
+use ugscene::{BodyBoxes, PlacedBodies, Provenance, Scene, ShownPoint};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -15,9 +16,6 @@ use crate::lens::Lens;
 use crate::notes::notes;
 use crate::scenery::Scenery;
 use crate::{pixel_centers, pixels, wires};
-
-/// The event of the eye.
-const ORIGIN: Event = Event { t: 0.0, x: glam::DVec3::ZERO };
 
 /// This program, without a command line, for the history of what it makes.
 pub const PROVENANCE: Provenance<'static> =
@@ -177,41 +175,29 @@ pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;
-    let placed = PlacedBodies::new(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
+    let placed =
+        PlacedBodies::move_to_camera_frame(&mut scene, &config.motion, &picture.camera, config.frame_size())?;
     let rest = placed.rest_positions(&scene);
     if config.smooth {
         let normals = ugscene::smooth_normals(&scene, &rest);
         for ((vertex, normal), body) in scene.vertices.iter_mut().zip(normals).zip(&placed.bodies) {
             let normal = placed.motions[body.index()].turned_back(normal);
-            vertex.normal = vertex.normal.or((normal != glam::DVec3::ZERO).then_some(normal));
+            vertex.normal = vertex.normal.or((normal != DVec3::ZERO).then_some(normal));
         }
     }
-    scene.rest.reserve_exact(rest.len());
-    for ((vertex, rest), body) in scene.vertices.iter_mut().zip(rest).zip(&placed.bodies) {
-        let motion = &placed.motions[body.index()];
-        if let Some(line) = motion.world_line() {
-            let seen = line.emission(rest, ORIGIN).map_err(|error| {
-                let name = scene.names.get(vertex.name).to_string();
-                match error {
-                    WorldLineError::NotFinite => Error::OutOfRange { name },
-                    _ => Error::WorldLine { vertex: name, error },
-                }
-            })?;
-            vertex.position = seen.event.x + placed.eye;
-            scene.rest.push(rest);
-            continue;
-        }
-        let is_unmoved = motion.is_at_rest() && placed.shifts[body.index()] == glam::DVec3::ZERO;
-        if is_unmoved {
-            scene.rest.push(vertex.position - placed.eye);
-        } else {
-            vertex.position = motion.seen(RestPosition(rest)).0 + placed.eye;
-            scene.rest.push(motion.turned_back(rest));
-        }
+    let mut points = Vec::with_capacity(rest.len());
+    for ((rest, &body), vertex) in rest.into_iter().zip(&placed.bodies).zip(&scene.vertices) {
+        let (seen, own_time) = placed.motions[body.index()].light(rest).map_err(|error| {
+            let name = scene.names.get(vertex.name).to_string();
+            match error {
+                WorldLineError::NotFinite => Error::OutOfRange { name },
+                _ => Error::WorldLine { vertex: name, error },
+            }
+        })?;
+        points.push(ShownPoint { body, rest, seen, own_time });
     }
-    if let Some(vertex) = scene.vertices.iter().find(|vertex| !vertex.position.is_finite()) {
-        return Err(Error::OutOfRange { name: scene.names.get(vertex.name).to_string() });
+    if let Some(row) = placed.show(&mut scene, &points, points.len()) {
+        return Err(Error::OutOfRange { name: scene.names.get(scene.vertices[row].name).to_string() });
     }
-    scene.stage.geometry = placed.seen_stage(&config.motion);
     Ok(scene)
 }

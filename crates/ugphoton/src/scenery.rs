@@ -2,14 +2,13 @@
 
 use std::borrow::Cow;
 use std::ops::Range;
-use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, Lamps};
-use ugphysics::{Event, Medium, RestFrame, WorldLine};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamps};
+use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
-use ugscene::{BodyId, Face, Geometry, HueScale, RestFrames, Scene, SurfaceProperties, View};
+use ugscene::{BodyId, Face, HueScale, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -24,14 +23,6 @@ const REACH: f64 = 5.0;
 
 /// The event at which the light of a picture arrives at a single eye.
 const ORIGIN: Event = Event { t: 0.0, x: DVec3::ZERO };
-
-/// How a lamp moves whose motion is stated.
-pub enum LampMotion {
-    /// With constant velocity: its rest frame.
-    Inertial(RestFrame),
-    /// On a world line, in the frame of the camera.
-    OnLine(Arc<WorldLine>),
-}
 
 /// A scene prepared for rays, for one camera.
 pub struct Scenery<'a> {
@@ -55,8 +46,6 @@ pub struct Scenery<'a> {
     pub rays: RayOptions,
     /// The lights, or the default ones.
     pub lamps: Lamps,
-    /// The motion of each, if it is stated.
-    pub lamp_motions: Vec<Option<LampMotion>>,
     /// How motion changes colours.
     pub shift: ColorShift,
     /// True if a transparent solid absorbs light.
@@ -85,7 +74,7 @@ impl<'a> Scenery<'a> {
         if scene.faces.is_empty() {
             return Err(Error::Empty);
         }
-        if Geometry::of(&scene) != Geometry::default() {
+        if ShownEffects::of(&scene) != ShownEffects::default() {
             return Err(Error::PartialGeometry);
         }
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
@@ -124,22 +113,13 @@ impl<'a> Scenery<'a> {
             let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
             return Err(Error::MovingMedium { name: name.to_string() });
         }
-        let is_moving =
-            |body| surface.frames().world_line(body).is_some() || !surface.velocity(body).is_zero();
-        let colors = |face: &Face| appearance.face_colors_in_motion(&scene, face, is_moving(face.body));
+        let is_moving = |face: &Face| surface.frames().is_moving(face.body);
+        let colors = |face: &Face| appearance.face_colors_in_motion(&scene, face, is_moving(face));
         let face_colors = scene.faces.par_iter().map(colors).collect();
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
         let lamps = lamps.over_time(&scene, view.eye, shift.is_spectral());
-        let lamp_motion = |lamp: &Lamp| {
-            let body = lamp.motion.body()?;
-            Some(match surface.frames().world_line(body) {
-                Some(line) => LampMotion::OnLine(line.clone()),
-                None => LampMotion::Inertial(*surface.frames().of(body)),
-            })
-        };
-        let lamp_motions = lamps.iter().map(lamp_motion).collect();
         let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
         let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
@@ -156,7 +136,6 @@ impl<'a> Scenery<'a> {
             face_colors,
             rays,
             lamps,
-            lamp_motions,
             shift,
             keeps_highlights,
         })

@@ -10,7 +10,7 @@ use crate::corridor::Corridor;
 use crate::immersion::Crossing;
 use crate::path::{Media, Ray, Solid, Start};
 use crate::sampling::disk_point;
-use crate::scenery::{LampMotion, Scenery};
+use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
 
 /// Shades points of surfaces; it owns the memory it needs for that.
@@ -139,12 +139,12 @@ impl<'a> Shader<'a> {
 /// The place of a point in the frame of a lamp, or as it stands before a lamp that rests with what
 /// it lights.
 fn seen_from(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: usize) -> DVec3 {
-    match (&scenery.lamp_motions[lamp], &scenery.world.parts[point.part].motion, &point.element) {
-        (Some(LampMotion::Inertial(frame)), ..) => frame.rest_from_camera(point.event).x,
-        // Where its light came from decides only how its disk is turned.
-        (Some(LampMotion::OnLine(line)), ..) => line.at_event(point.event).map_or(point.place, |at| at.point),
-        (None, Some(motion), Some(element)) => motion.line.turned_point(point.place, element.own_time),
-        _ => point.place,
+    let frames = scenery.appearance.surface.frames();
+    match (scenery.lamps[lamp].motion.body(), point.world_line(scenery)) {
+        // Where its light came from on a world line decides only how its disk is turned.
+        (Some(body), _) => frames.point_at(body, point.event).unwrap_or(point.place),
+        (None, Some((line, own_time))) => line.standing(point.place, own_time).0,
+        (None, None) => point.place,
     }
 }
 
@@ -162,15 +162,14 @@ impl LampWay {
     /// `toward`: see [`IncidentLamp::toward`].
     fn new(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: u32, (toward, distance): (DVec3, f64)) -> Self {
         let frame = point.frame(scenery);
-        match (&scenery.lamp_motions[lamp as usize], &scenery.world.parts[point.part].motion, &point.element)
-        {
+        let rests_with_surface = scenery.lamps[lamp as usize].motion.body().is_none();
+        match point.world_line(scenery).filter(|_| rests_with_surface) {
             // Such a lamp is in the frame of the body's reference point.
-            (None, Some(motion), Some(element)) => {
-                let axes = motion.line.pose(element.own_time).scene_from_axes;
-                let step = axes.apply(Event { t: -1.0, x: toward });
+            Some((line, own_time)) => {
+                let step = line.pose(own_time).scene_from_axes.apply(Event { t: -1.0, x: toward });
                 Self { toward: ugphysics::unit_or_zero(frame.rest_from_camera(step).x), step, distance }
             }
-            _ => Self { toward, step: frame.camera_from_rest(Event { t: -1.0, x: toward }), distance },
+            None => Self { toward, step: frame.camera_from_rest(Event { t: -1.0, x: toward }), distance },
         }
     }
 }

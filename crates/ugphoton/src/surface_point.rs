@@ -135,6 +135,12 @@ impl SurfacePoint {
         }
     }
 
+    /// The world line of the body, and its own time here; `None` for an inertial body.
+    pub fn world_line<'s>(&self, scenery: &'s Scenery<'_>) -> Option<(&'s WorldLine, f64)> {
+        let own_time = self.element.as_ref()?.own_time;
+        Some((&scenery.world.parts[self.part].motion.as_ref()?.line, own_time))
+    }
+
     /// The surface as lamps light it.
     pub fn lit(&self, scenery: &Scenery<'_>) -> SurfaceElement {
         let (time, normal) = match &self.element {

@@ -177,7 +177,7 @@ impl<'a> Tracer<'a> {
             }
             // Faces at the same place are blended in the order of the scene.
             let mut layers = std::mem::take(&mut self.layers);
-            self.scenery.world.beside(self.scenery.faces(), path.ray, &found, &mut layers);
+            self.scenery.world.coincident(self.scenery.faces(), path.ray, &found, &mut layers);
             let mut end = found.s;
             for layer in &layers {
                 let point = SurfacePoint::new(self.scenery, path.ray, layer);
@@ -313,7 +313,7 @@ impl<'a> Tracer<'a> {
     /// The light that a mirror reflects along the path, before reflection.  Eq. (P23), (P37)
     fn reflected(&self, path: &Path<'_>, point: &SurfacePoint) -> Option<WaveVector> {
         let before = medium(self.scenery, path.media.innermost(), point);
-        let of = |normal: DVec3| before.wave_beside(point.wave, -normal);
+        let of = |normal: DVec3| before.wave_across(point.wave, -normal);
         // With an interpolated normal the light may come from behind the face.
         let is_before = |wave: &WaveVector| wave.k.dot(point.plane_normal) < 0.0;
         of(point.normal).filter(is_before).or_else(|| of(point.plane_normal))
@@ -340,7 +340,7 @@ impl<'a> Tracer<'a> {
         }
         let behind = medium(self.scenery, media.innermost(), point);
         let before = medium(self.scenery, path.media.innermost(), point);
-        let of = |normal: DVec3| behind.wave_beside(point.wave, normal);
+        let of = |normal: DVec3| behind.wave_across(point.wave, normal);
         let is_behind = |wave: &WaveVector| wave.k.dot(point.plane_normal) > 0.0;
         let wave = of(point.normal).filter(is_behind).or_else(|| of(point.plane_normal))?;
         let reflectance = reflectance(before, behind, point.wave, point.normal);

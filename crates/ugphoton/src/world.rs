@@ -218,7 +218,13 @@ impl World {
     }
 
     /// The faces at the place of `first`, such as coplanar ones, in the order of the scene.
-    pub fn beside(&self, faces: Faces<'_>, ray: &Ray, first: &Intersection, found: &mut Vec<Intersection>) {
+    pub fn coincident(
+        &self,
+        faces: Faces<'_>,
+        ray: &Ray,
+        first: &Intersection,
+        found: &mut Vec<Intersection>,
+    ) {
         found.clear();
         let range = first.s * (1.0 - SAME_PLACE)..first.s * (1.0 + SAME_PLACE);
         let _ = self.visit(faces, ray, range, |other| {

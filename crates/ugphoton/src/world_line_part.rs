@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::{Bvh, Curve, DisplacedBvh};
-use ugphysics::{Event, Passage, RayStretch, SeenTriangle, WorldLine, WorldTube};
+use ugphysics::{Event, RayStretch, SeenTriangle, SmoothStretch, WorldLine, WorldTube};
 
 use crate::path::{Ray, Start, along};
 
@@ -19,7 +19,7 @@ pub struct WorldLineMotion {
     pub line: Arc<WorldLine>,
     tube: WorldTube,
     /// What light that arrives at the eye shares; none if the body is beyond the horizon.
-    seen_by_eye: Vec<Passage>,
+    seen_by_eye: Vec<SmoothStretch>,
     /// The triangles where the eye sees them; `None` if light leaves a triangle at very different
     /// own times.
     pub seen: Option<Seen>,
@@ -48,7 +48,7 @@ impl Seen {
     fn new(
         line: &WorldLine,
         tube: &WorldTube,
-        passages: &[Passage],
+        passages: &[SmoothStretch],
         bvh: &Bvh,
         points: &[DVec3],
         corners: &[[u32; 3]],
@@ -94,7 +94,7 @@ impl WorldLineMotion {
     /// motion is inertial.
     pub fn new(line: &Arc<WorldLine>, bvh: &Bvh, points: &[DVec3], corners: &[[u32; 3]]) -> Option<Self> {
         let tube = line.tube(points.iter().copied())?;
-        let seen_by_eye = line.passages(&tube, EYE).unwrap_or_default();
+        let seen_by_eye = line.smooth_stretches(&tube, EYE).unwrap_or_default();
         let seen = Seen::new(line, &tube, &seen_by_eye, bvh, points, corners);
         Some(Self { line: line.clone(), tube, seen_by_eye, seen })
     }

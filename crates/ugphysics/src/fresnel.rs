@@ -24,11 +24,11 @@ use crate::{Medium, WaveVector};
 /// ```
 #[must_use]
 pub fn reflectance(before: Medium, behind: Medium, light: WaveVector, normal: DVec3) -> f64 {
-    let Some(transmitted) = behind.wave_beside(light, -normal) else { return 1.0 };
+    let Some(transmitted) = behind.wave_across(light, -normal) else { return 1.0 };
     let part = if is_at_rest(before) && is_at_rest(behind) {
         at_rest((light, before.index), (transmitted, behind.index), normal)
     } else {
-        let Some(incident) = before.wave_beside(light, -normal) else { return 0.0 };
+        let Some(incident) = before.wave_across(light, -normal) else { return 0.0 };
         in_motion((incident, before), (light, before), (transmitted, behind), normal)
     };
     // NaN at grazing incidence, where all light is reflected.

@@ -1,4 +1,4 @@
-//! HyperbolicMotion motion: constant proper acceleration.
+//! Hyperbolic motion: constant proper acceleration.
 
 use glam::DVec3;
 

@@ -115,12 +115,12 @@ impl Medium {
     /// // Snell's law: light enters glass of index 1.6.
     /// let glass = Medium { index: 1.6, velocity: Velocity::ZERO };
     /// let wave = WaveVector { frequency: 1.0, k: DVec3::new(0.6, 0.8, 0.0) };
-    /// let inside = glass.wave_beside(wave, DVec3::X).ok_or("no light")?;
+    /// let inside = glass.wave_across(wave, DVec3::X).ok_or("no light")?;
     /// assert!((inside.k.normalize().y - 0.5).abs() < 1e-15);
     /// # Ok::<(), &str>(())
     /// ```
     #[must_use]
-    pub fn wave_beside(&self, wave: WaveVector, normal: DVec3) -> Option<WaveVector> {
+    pub fn wave_across(&self, wave: WaveVector, normal: DVec3) -> Option<WaveVector> {
         let tangential = wave.k - wave.k.dot(normal) * normal;
         let (contrast, u) = (self.contrast(), self.velocity.proper());
         let u_n = u.dot(normal);

@@ -75,6 +75,13 @@ impl RestFrame {
         self.scene_from_boosted.inverse()
     }
 
+    /// True if the axes of the scene are not those of a single boost.
+    #[inline]
+    #[must_use]
+    pub fn is_turned(&self) -> bool {
+        self.turn.is_some()
+    }
+
     /// True if the body rests in the frame of the camera.
     #[inline]
     #[must_use]

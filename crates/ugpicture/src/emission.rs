@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use ugphysics::{Velocity, aberrate, doppler_at, length};
-use ugscene::{BodyId, Geometry, RestFrames, Scene, View};
+use ugscene::{BodyId, RestFrames, Scene, ShownEffects, View};
 
 /// A surface at a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,7 +71,7 @@ pub struct Emissions<'a> {
 impl<'a> Emissions<'a> {
     /// `view`: must have samples as its picture coordinates.
     pub fn new(scene: &'a Scene, view: &'a View, frames: &'a RestFrames) -> Self {
-        Self { scene, view, frames, has_flight_time: Geometry::of(scene).flight_time }
+        Self { scene, view, frames, has_flight_time: ShownEffects::of(scene).flight_time }
     }
 
     /// The emission event seen at the middle of a sample.
@@ -81,13 +81,13 @@ impl<'a> Emissions<'a> {
         let body = self.body(seen.item);
         let place = self.view.point([f64::from(column) + 0.5, f64::from(row) + 0.5], depth);
         let time = if self.has_flight_time { -length(place) } else { 0.0 };
-        let on_line = self.frames.body_event(body, place);
+        let (velocity, own_time) = self.frames.at_event(body, ugscene::seen_event(place));
         Emission {
             place,
             depth,
             time,
-            velocity: on_line.map_or(self.frames.velocity(body), |at| at.velocity),
-            own_time: on_line.map(|at| at.own_time),
+            velocity,
+            own_time,
             scene_from_axes: self.frames.of(body).scene_from_boosted(),
             in_medium: None,
         }

@@ -107,21 +107,13 @@ impl Painter<'_> {
         if self.scene.light_level(face).is_some() || !self.lighting.needs_geometry() {
             return DVec3::ZERO;
         }
-        let Some(outline) = self.scene.face_contours(face).next() else { return DVec3::ZERO };
+        let seen = self.appearance.surface.seen();
+        let outline = self.scene.contours.get(face.contours.start);
+        if self.view.is_perspective || seen.own_time(outline[0].index()).is_some() {
+            return seen.seen_normal(self.scene, face, (self.view.eye, self.appearance.surface.frames()));
+        }
         let rest = outline.iter().map(|&vertex| self.appearance.surface.rest(vertex));
-        ugscene::seen_normal(rest, self.toward_eye(face, outline[0]))
-    }
-
-    /// The direction from a corner to the eye in the rest frame of the face.
-    fn toward_eye(&self, face: &Face, corner: VertexId) -> DVec3 {
-        if let Some(point) = self.appearance.surface.on_world_line(corner) {
-            return point.toward_eye;
-        }
-        if self.view.is_perspective {
-            -self.appearance.surface.rest(corner)
-        } else {
-            -self.appearance.surface.rest_direction(self.view.forward, face.body)
-        }
+        ugscene::seen_normal(rest, -self.appearance.surface.rest_direction(self.view.forward, face.body))
     }
 
     /// The light level at a corner, for red, green and blue: linear for a colour given as light,
@@ -142,13 +134,12 @@ impl Painter<'_> {
     #[inline]
     pub fn lit_point(&self, face: &Face, vertex: VertexId, seen_normal: DVec3) -> [DVec3; 3] {
         let normal = self.normal_at(vertex, seen_normal);
-        match self.appearance.surface.on_world_line(vertex) {
+        let (surface, rest) = (&self.appearance.surface, self.appearance.surface.rest(vertex));
+        let standing = |own_time| Some(surface.frames().world_line(face.body)?.standing(rest, own_time));
+        match surface.seen().own_time(vertex.index()).and_then(standing) {
             // It is lit as it stands in the scene if it only turned.
-            Some(point) => [point.standing, point.standing_normal(normal), DVec3::ZERO],
-            None => {
-                let shift = self.appearance.surface.frames().lamp_shift(face.body);
-                [self.appearance.surface.rest(vertex), normal, shift]
-            }
+            Some((place, turn)) => [place, turn * normal, DVec3::ZERO],
+            None => [rest, normal, surface.frames().lamp_shift(face.body)],
         }
     }
 
@@ -156,7 +147,7 @@ impl Painter<'_> {
     #[inline]
     pub fn is_flat(&self, corners: &[VertexId]) -> bool {
         let has_normal = |corner: &VertexId| self.scene.vertices[corner.index()].normal.is_some();
-        let turns = |&corner: &VertexId| self.appearance.surface.on_world_line(corner).is_some();
+        let turns = |&corner: &VertexId| self.appearance.surface.seen().own_time(corner.index()).is_some();
         !self.lighting.needs_places() && !corners.iter().any(|corner| has_normal(corner) || turns(corner))
     }
 

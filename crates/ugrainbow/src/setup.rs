@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use uglight::{Appearance, ColorShift, Lighting};
 use ugpicture::PictureOptions;
 use ugraster::{SampleGrid, TileShape};
-use ugscene::{Geometry, Scene, View};
+use ugscene::{Scene, ShownEffects, View};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -104,7 +104,7 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if scene.stage.seen_colors().is_some() {
         return Err(Error::ExactSeenColors);
     }
-    if Geometry::of(scene) != Geometry::default() {
+    if ShownEffects::of(scene) != ShownEffects::default() {
         return Err(Error::ExactPartialGeometry);
     }
     if !view.is_perspective {

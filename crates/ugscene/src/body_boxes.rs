@@ -3,12 +3,11 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugphysics::Event;
 
 use crate::default_camera::{rounded, unit_of_rounding};
 use crate::{
     BodyId, Camera, CameraOptions, FaceOrWire, HalfSpace, MotionError, MotionOptions, PlacedBodies,
-    RelativeMotion, RestPosition, Scene, Vertex, VertexId, View, Wire,
+    RelativeMotion, Scene, Vertex, VertexId, View, Wire,
 };
 
 /// About how many boxes a scene is divided into, besides one for each body.
@@ -121,7 +120,7 @@ impl BodyBoxes {
     /// Where they are seen.
     ///
     /// # Errors
-    /// See [`PlacedBodies::new`] and [`View::new`].
+    /// See [`PlacedBodies::move_to_camera_frame`] and [`View::new`].
     pub fn seen(
         &self,
         motion: &MotionOptions,
@@ -129,19 +128,20 @@ impl BodyBoxes {
         size: [u32; 2],
     ) -> Result<SeenBoxes, MotionError> {
         let mut scene = self.scene.clone();
-        let placed = PlacedBodies::new(&mut scene, motion, camera, size)?;
+        let placed = PlacedBodies::move_to_camera_frame(&mut scene, motion, camera, size)?;
         let rest = placed.rest_positions(&scene);
         let middle = |row: usize| {
             let first = row - row % N_ROWS;
             let corners = &rest[first..rest.len().min(first + N_CORNERS)];
             corners.iter().sum::<DVec3>() / corners.len() as f64
         };
-        let seen: Vec<DVec3> = rest
-            .iter()
-            .zip(&placed.bodies)
-            .enumerate()
-            .map(|(row, (&rest, body))| seen_corner(&placed.motions[body.index()], rest, middle(row)))
-            .collect();
+        // A corner of the box of a spinning body may be too far out to move so; it is then where the
+        // middle of its box is.
+        let seen = |(row, (&rest, body)): (usize, (&DVec3, &BodyId))| {
+            let motion = &placed.motions[body.index()];
+            motion.light(rest).or_else(|_| motion.light(middle(row))).map_or(rest, |(seen, _)| seen)
+        };
+        let seen: Vec<DVec3> = rest.iter().zip(&placed.bodies).enumerate().map(seen).collect();
         // A view without a centre is toward the middle of what is seen.
         for (vertex, seen) in scene.vertices.iter_mut().zip(&seen) {
             vertex.position = placed.eye + *seen;
@@ -149,7 +149,6 @@ impl BodyBoxes {
         let camera = CameraOptions { eye: None, ..camera.clone() };
         let view = View::new(&scene, &camera, size).map_err(MotionError::Camera)?;
         let n_boxes = scene.wires.len();
-        scene.stage.geometry = placed.seen_stage(motion);
         let stage = scene.stage.seen_geometry();
         let camera_speed = stage.map_or(0.0, |stage| stage.camera_velocity.beta().length());
         Ok(SeenBoxes { placed, rest, seen, n_boxes, camera_speed, view })
@@ -172,17 +171,6 @@ fn copy_bodies(scene: &Scene, out: &mut Scene) {
             out.bodies.set_statement(copy, name, statement.clone(), line);
         }
     }
-}
-
-/// Where a corner of a box is seen. A corner of the box of a spinning body may be too far out to
-/// move so; it is then where the middle of its box is.
-fn seen_corner(motion: &RelativeMotion, rest: DVec3, middle: DVec3) -> DVec3 {
-    let Some(line) = motion.world_line() else {
-        return if motion.is_at_rest() { rest } else { motion.seen(RestPosition(rest)).0 };
-    };
-    let eye = Event { t: 0.0, x: DVec3::ZERO };
-    let light = line.light(rest, eye).or_else(|_| line.light(middle, eye));
-    light.map_or(rest, |light| light.event.x)
 }
 
 /// Appends the boxes of the halves of a body, of their halves, and so on, until a box contains at
@@ -334,10 +322,7 @@ impl SeenBoxes {
             let margin = |space: &HalfSpace| MARGIN * space.normal.dot(self.view.forward) * place.length();
             spaces.iter().all(|space| place.dot(space.normal) + space.offset > margin(space))
         };
-        let eye = Event { t: 0.0, x: DVec3::ZERO };
-        let sends_light = |row: usize, at: usize| {
-            self.motion(row).world_line().is_none_or(|line| line.light(self.rest[at], eye).is_ok())
-        };
+        let sends_light = |row: usize, at: usize| self.motion(row).light(self.rest[at]).is_ok();
         // Faster, 1 is the nearest number to a speed, and scenes as seen cannot state it.
         let is_below_1 = |row: &usize| self.motion(*row).velocity().beta().length() < 1.0;
         self.followed()

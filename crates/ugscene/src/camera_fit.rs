@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-use crate::relative_motion::RelativeMotion;
+use crate::RelativeMotion;
 use crate::{BodyId, SeenPosition};
 
 /// Passes over moving bodies, whose shape as seen depends a little on the place of the eye. From

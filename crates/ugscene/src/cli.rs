@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugphysics::Brightness;
 use ugpipe::{Failure, Preset, finite, number, one_of, vector, view_angle};
 
-use crate::{Anchor, CameraOptions, Geometry, MotionOptions};
+use crate::{Anchor, CameraOptions, MotionOptions, ShownEffects};
 
 /// Heading of these options in `--help`.
 const CAMERA: &str = "Camera";
@@ -149,7 +149,7 @@ impl MotionArgs {
             time: self.time,
             anchor: self.anchor.as_deref().map(anchor).transpose()?,
             in_place: self.in_place,
-            geometry: Geometry::default(),
+            geometry: ShownEffects::default(),
         })
     }
 }
@@ -168,8 +168,8 @@ pub struct EffectArgs {
 
 impl EffectArgs {
     /// The effects that are shown.
-    pub fn geometry(self) -> Geometry {
-        Geometry { contraction: !self.no_contraction, flight_time: !self.no_flight_time }
+    pub fn geometry(self) -> ShownEffects {
+        ShownEffects { contraction: !self.no_contraction, flight_time: !self.no_flight_time }
     }
 }
 

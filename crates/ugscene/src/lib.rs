@@ -5,7 +5,8 @@
 //!
 //! - Bodies: which one a vertex is part of, and their rest frames ([`RestFrames`],
 //!   [`separate_bodies`]).
-//! - Positions: rest positions from seen ones ([`Geometry`], [`rest_positions`], equation (P4)).
+//! - Vertices of a scene as seen: rest positions and own times ([`SeenVertices`],
+//!   [`rest_positions`], equations (P4) and (P45)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_mixes`]).
 //! - The faces that are not flat ([`bent_faces`]).
@@ -34,7 +35,6 @@ mod body_boxes;
 mod builder;
 mod camera;
 mod camera_fit;
-mod camera_motion;
 mod camera_options;
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -42,54 +42,40 @@ mod color_mix;
 mod data;
 mod default_camera;
 mod edges;
-mod eye;
 mod flatness;
-mod geometry;
 mod half_space;
 mod measurement;
 mod mixing;
-mod motion;
 mod normals;
 mod note;
-mod position;
-mod relative_motion;
+mod observe;
 mod requirements;
-mod rest_frames;
 mod shared_planes;
 mod split;
 mod times_in_view;
 mod words;
-mod world_lines;
 
 pub use area::{newell_normal, unit_normal};
 pub use body_boxes::{BodyBoxes, SeenBoxes};
 pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
 pub use camera::{CameraPoint, Slab, View, view_distance};
-pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use camera_options::{CameraError, CameraOptions};
 pub use color_mix::{ColorMix, face_vertices, vertex_mixes};
 pub use data::*;
 pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
-pub use eye::{eye, vertex_at_eye};
 pub use flatness::{BENT, BentFace, bent_faces, thickness};
-pub use geometry::{Geometry, SeenVertices, rest_positions};
 pub use half_space::HalfSpace;
 pub use measurement::{Measurement, measure};
 pub use mixing::{mixing_vertices, n_mixing_vertices, repeat_vertices, separate_wires};
-pub use motion::{Anchor, MotionError, MotionOptions, PlacedBodies, common_camera, moving_camera};
 pub use normals::{corner_angle, seen_normal, shading_normal, smooth_normals};
 pub use note::{Note, may_miss_motion};
-pub use position::{RestPosition, SeenPosition};
-pub use relative_motion::RelativeMotion;
+pub use observe::*;
 pub use requirements::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
     require_eye, require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
-pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
 pub use words::shorten;
-use world_lines::world_lines;
-pub use world_lines::{WorldLinePoint, seen_event};

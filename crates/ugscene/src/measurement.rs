@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugphysics::{Velocity, aberrate, doppler_at};
 
-use crate::{Geometry, RestFrames, Scene, SeenVertices, Vertex};
+use crate::{RestFrames, Scene, SeenVertices, ShownEffects, Vertex};
 
 /// Measurements at one vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,8 +31,8 @@ pub struct Measurement {
 /// `eye`: in scene coordinates. `time`: of the picture, on the clock of the camera.
 pub fn measure(scene: &Scene, eye: DVec3, time: f64) -> Vec<Measurement> {
     let frames = RestFrames::new(scene);
-    let has_flight_time = Geometry::of(scene).flight_time;
-    let vertices = SeenVertices::new(scene, eye, &frames);
+    let has_flight_time = ShownEffects::of(scene).flight_time;
+    let vertices = SeenVertices::new(scene, eye, &frames, false);
     let one = |seen: DVec3, v: Velocity| {
         let distance = seen.length();
         Measurement {

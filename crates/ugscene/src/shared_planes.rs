@@ -98,11 +98,7 @@ fn close_numbers(numbers: &[f64]) -> Vec<u32> {
 fn motions(scene: &Scene, frames: &RestFrames) -> Vec<u32> {
     let mut firsts: Vec<BodyId> = Vec::new();
     let first = |body: BodyId| {
-        let is_alike = |other: &BodyId| {
-            frames.velocity(*other) == frames.velocity(body)
-                && frames.world_line(*other) == frames.world_line(body)
-        };
-        let at = firsts.iter().position(is_alike).unwrap_or_else(|| {
+        let at = firsts.iter().position(|&other| frames.move_alike(other, body)).unwrap_or_else(|| {
             firsts.push(body);
             firsts.len() - 1
         });

@@ -195,8 +195,8 @@ fn events(text: &str, (eye, time, velocity): (DVec3, f64, DVec3)) -> Result<Hash
         .scene;
     let options = MotionOptions { time, camera_velocity: Some(velocity), ..MotionOptions::default() };
     let camera = CameraOptions { eye: Some(eye), ..CameraOptions::default() };
-    let placed =
-        PlacedBodies::new(&mut scene, &options, &camera, [4, 3]).map_err(|error| error.to_string())?;
+    let placed = PlacedBodies::move_to_camera_frame(&mut scene, &options, &camera, [4, 3])
+        .map_err(|error| error.to_string())?;
     let in_scene = |event: Event| boost(velocity) * (event + DVec3::ZERO.extend(time)) + eye.extend(0.0);
     let mut events = HashMap::new();
     for ((vertex, rest), body) in scene.vertices.iter().zip(placed.rest_positions(&scene)).zip(&placed.bodies)

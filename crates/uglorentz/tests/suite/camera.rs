@@ -6,7 +6,7 @@ use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugphysics::{Velocity, compose, doppler_at, rest_position, wigner_rotation};
 use ugpipe::Words;
-use ugscene::{Geometry, LightKind, LightMotion, RestFrames, Scene, rest_positions};
+use ugscene::{LightKind, LightMotion, RestFrames, Scene, ShownEffects, rest_positions};
 use ugtesting::Random;
 
 use crate::common::{find, parse, place, seen};
@@ -150,7 +150,7 @@ fn rest_positions_come_back_in_the_axes_of_the_scene() {
     for speed in [0.0, 1e-9, 0.1, 0.6, 0.9, 0.99, 0.999] {
         for (contraction, flight_time) in [(true, true), (true, false), (false, true)] {
             let fleet = Fleet::new(&mut random, 12, speed);
-            let geometry = Geometry { contraction, flight_time };
+            let geometry = ShownEffects { contraction, flight_time };
             let anchor = Some(Anchor::Eye);
             let scene = seen(&fleet.text(), &Config { geometry, anchor, ..fleet.config() });
             let frames = RestFrames::new(&scene);

@@ -7,7 +7,7 @@ use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
 use ugphysics::{Velocity, doppler_at, seen_position};
 use ugpipe::Words;
-use ugscene::{Geometry, Item, RestFrames, Scene, VertexId};
+use ugscene::{Item, RestFrames, Scene, ShownEffects, VertexId};
 use ugtesting::Random;
 
 use crate::common::{edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
@@ -230,7 +230,7 @@ fn only_what_bends_is_cut() {
     check("a small face", small, &fast, false);
     check("a wide face at rest", wide, &Config::default(), false);
     check("a wide face that hardly moves", wide, &moving(DVec3::X * 1e-6), false);
-    let contracted = Geometry { contraction: true, flight_time: false };
+    let contracted = ShownEffects { contraction: true, flight_time: false };
     let far = "v a -1 100 0; v b 1 100 0; v c 1 100 2; v d -1 100 2; f (a b c d);";
     check(
         "without flight time, where D varies little",
@@ -238,7 +238,7 @@ fn only_what_bends_is_cut() {
         &Config { geometry: contracted, ..fast.clone() },
         false,
     );
-    let seen_now = Geometry { contraction: false, flight_time: true };
+    let seen_now = ShownEffects { contraction: false, flight_time: true };
     check("without contraction", wide, &Config { geometry: seen_now, ..fast.clone() }, true);
     check("one piece an edge", wide, &Config { pieces: Pieces::PerEdge(1), ..fast }, false);
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use uglorentz::{Anchor, Config, Pieces};
 use ugphysics::{Velocity, contracted, flight_time, seen_position};
-use ugscene::{Geometry, LightKind, Scene};
+use ugscene::{LightKind, Scene, ShownEffects};
 use ugtesting::Random;
 
 use crate::common::{edges, find, moving, parse, place, rock, run, seen, text, try_run};
@@ -77,7 +77,7 @@ fn a_later_picture_is_that_of_a_scene_further_on() {
     let beta = DVec3::new(0.3, -0.5, 0.6);
     let v = Velocity::from_beta(beta).unwrap();
     for (contraction, flight_time) in [(true, true), (true, false), (false, true), (false, false)] {
-        let geometry = Geometry { contraction, flight_time };
+        let geometry = ShownEffects { contraction, flight_time };
         for time in [-3.0, 0.0, 2.5] {
             let p = DVec3::new(1.0, 2.0, -3.0);
             let found = seen_at(p, &Config { time, geometry, ..moving(beta) });
@@ -107,7 +107,7 @@ fn anchors_are_where_contraction_changes_nothing() {
         (Some(Anchor::Point(own)), own),
     ] {
         // Contraction alone, about the anchor.
-        let only = Geometry { contraction: true, flight_time: false };
+        let only = ShownEffects { contraction: true, flight_time: false };
         let config = Config { anchor, geometry: only, eye: Some(eye), ..moving(beta) };
         let expected = point + contracted(p - point, v);
         assert!((seen_at(p, &config) - expected).length() < 1e-12, "{anchor:?}");
@@ -125,7 +125,7 @@ fn bodies_in_place_are_seen_where_the_scene_has_them() {
     let p = DVec3::new(1.0, 2.0, -3.0);
     for beta in [DVec3::new(0.3, -0.5, 0.6), DVec3::new(0.0, 0.999, 0.0)] {
         for (contraction, flight_time) in [(true, true), (true, false), (false, true), (false, false)] {
-            let geometry = Geometry { contraction, flight_time };
+            let geometry = ShownEffects { contraction, flight_time };
             let config = |anchor| Config { anchor, in_place: true, geometry, eye: Some(eye), ..moving(beta) };
             let found = seen_at(p, &config(Some(Anchor::Point(p))));
             assert!((found - p).length() < 1e-11, "{geometry:?} {found}");

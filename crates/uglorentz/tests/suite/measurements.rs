@@ -136,7 +136,7 @@ fn at_rest_nothing_is_shifted() {
 
 #[test]
 fn without_flight_time_light_leaves_at_the_time_of_the_picture() {
-    let geometry = ugscene::Geometry { contraction: true, flight_time: false };
+    let geometry = ugscene::ShownEffects { contraction: true, flight_time: false };
     let at =
         measured(DVec3::new(1.0, 2.0, 2.0), DVec3::ZERO, Config { geometry, time: 5.0, ..Config::default() });
     near(at("emission_time"), 5.0, 0.0);

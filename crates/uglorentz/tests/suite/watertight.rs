@@ -6,7 +6,7 @@ use std::fmt::Write;
 use glam::DVec3;
 use proptest::prelude::*;
 use uglorentz::{Config, Pieces};
-use ugscene::{Geometry, RestFrames};
+use ugscene::{RestFrames, ShownEffects};
 use ugtesting::Random;
 
 use crate::common::{edges, parse, rock, run};
@@ -155,7 +155,7 @@ fn edges_are_cut_at_vertices_of_other_faces() {
             let body = if case % 2 == 0 { "one" } else { "two" };
             writeln!(text, "f (p{k} q{k} q{} p{}) blue <{body}>;", k + 1, k + 1).unwrap();
         }
-        let found = run(&text, &Config { geometry: Geometry::default(), ..Config::default() }).scene;
+        let found = run(&text, &Config { geometry: ShownEffects::default(), ..Config::default() }).scene;
         let frames = RestFrames::new(&found);
         let rest = ugscene::rest_positions(&found, DVec3::ZERO, &frames);
         let is_on_border = |row: usize| {

@@ -249,8 +249,8 @@ fn closed_bodies_do_not_leak() {
         let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
         let is_inside = |event: Event| {
             // Where no point of a turning body can be, there is none of the ball.
-            let Ok(at) = line.at_event(event) else { return Some(false) };
-            let point = at.point + scenery.view.eye;
+            let Ok((at, _)) = line.at_event(event) else { return Some(false) };
+            let point = at + scenery.view.eye;
             // The faces of the ball are inside the sphere.
             if point.length() < 0.95 { Some(true) } else { (point.length() > 1.0).then_some(false) }
         };

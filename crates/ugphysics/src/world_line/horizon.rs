@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::WorldLineError;
 use super::moving::{Moving, Path, Turn};
-use super::table::{ALL_TIMES, Along};
+use super::table::Along;
 
 /// Samples of a stretch of time in which acceleration and spin, or several spins, act together.
 const N_SAMPLES: u32 = 512;
@@ -18,12 +18,7 @@ impl Moving {
     /// See [`super::WorldLine::check`].
     pub(super) fn check(&self, point: DVec3) -> Result<(), WorldLineError> {
         // Most points of a motion of many pieces are far from any horizon.
-        let greatest = match &self.path {
-            Path::Accelerated(acceleration) => acceleration.greatest(),
-            Path::Orbit(orbit) => orbit.acceleration(0.0).length(),
-            Path::Along(along) => along.path.bounds(ALL_TIMES)[0],
-        };
-        if self.is_safe(point, greatest, |turn| turn.spin.greatest()) {
+        if self.is_safe(point, self.path.greatest_acceleration(), |turn| turn.spin.greatest()) {
             return Ok(());
         }
         let mut changes = self.changes();
@@ -38,10 +33,7 @@ impl Moving {
                 (begin, f64::INFINITY) => begin + 1.0,
                 (begin, end) => begin.midpoint(end),
             };
-            let acceleration = match &self.path {
-                Path::Along(along) => along.path.bounds([stretch.0, stretch.1])[0],
-                _ => self.acceleration(inside).length(),
-            };
+            let [acceleration, _] = self.path.bounds([stretch.0, stretch.1], inside);
             let is_safe = self.is_safe(point, acceleration, |turn| turn.spin.rate(inside).length());
             if is_safe { Ok(()) } else { self.check_stretch(point, stretch, inside) }
         })
@@ -91,7 +83,7 @@ impl Moving {
         (begin, end): (f64, f64),
         inside: f64,
     ) -> Result<(), WorldLineError> {
-        let is_at = |own_time: f64| self.moment(point, own_time).map(drop);
+        let is_at = |own_time: f64| self.point_event(point, own_time).map(drop);
         if let Path::Along(along) = &self.path
             && begin >= 0.0
             && end <= along.path.end()
@@ -132,7 +124,7 @@ impl Moving {
             {
                 continue;
             }
-            self.moment(point, middle)?;
+            self.point_event(point, middle)?;
             n_samples += 1;
             parts.extend([(begin, middle), (middle, end)]);
         }

@@ -53,19 +53,6 @@ impl InertialFrame {
         Event { t: 0.0, x: self.at } + self.shift
     }
 
-    /// The event of a point of the body at an own time.
-    #[must_use]
-    pub fn event(&self, point: DVec3, own_time: f64) -> Event {
-        self.start() + self.axes().apply(Event { t: own_time, x: point - self.at })
-    }
-
-    /// The own time of an event, and the point of the body that is there: the inverse of
-    /// [`InertialFrame::event`].
-    #[must_use]
-    pub fn coordinates(&self, event: Event) -> Event {
-        self.axes().inverse().apply(event - self.start()) + Event { t: 0.0, x: self.at }
-    }
-
     /// A frame that moves in this one, seen from outside: velocities are composed by (P15), and
     /// boosts in different directions turn it.
     ///

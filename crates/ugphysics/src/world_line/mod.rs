@@ -15,18 +15,20 @@ mod seen;
 mod spline;
 mod table;
 
+use std::borrow::Cow;
+
 use glam::{DQuat, DVec3};
 
 pub use inertial::InertialFrame;
 pub use moving::ElementFrame;
 pub use orbit::Orbit;
 pub use pieces::Piece;
-pub use ray::{Passage, RayPoint, RayStretch, WorldTube};
+pub use ray::{RayPoint, RayStretch, SmoothStretch, WorldTube};
 pub use seen::{SeenPoint, SeenTriangle};
 pub use table::SampledPath;
 
 use crate::{Event, Lorentz, Velocity, VelocityError};
-use moving::{Moving, Path, Turn};
+use moving::{Moving, Path, PointEvent, Turn};
 use pieces::{Acceleration, Spin};
 use table::Along;
 
@@ -88,17 +90,6 @@ pub struct SeenLight {
     pub event: Event,
     /// 1/D for an observer at rest.  Eq. (P10)
     pub inverse_doppler: f64,
-}
-
-/// An event on a body, and how the body moves there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BodyEvent {
-    /// The point of the body, in its coordinates.
-    pub point: DVec3,
-    /// The own time τ of A, simultaneous in the frame of A.
-    pub own_time: f64,
-    /// The velocity of the point in the frame of the scene.
-    pub velocity: Velocity,
 }
 
 /// Why a motion is impossible, or no event is found.
@@ -276,10 +267,7 @@ impl WorldLine {
             return Err(WorldLineError::NotFinite);
         }
         let Some(turn) = Turn::new(at, Spin::new(spins)?) else { return Ok(self.clone()) };
-        let mut moving = match &self.0 {
-            Kind::Inertial(frame) => frame.as_moving(),
-            Kind::Moving(moving) => (**moving).clone(),
-        };
+        let mut moving = self.moving().into_owned();
         moving.turns.insert(0, turn);
         Ok(Self(Kind::Moving(Box::new(moving))))
     }
@@ -343,13 +331,11 @@ impl WorldLine {
     #[must_use]
     pub fn anchor_shift(&self, anchor: DVec3) -> Event {
         let none = Event { t: 0.0, x: DVec3::ZERO };
-        let at = match &self.0 {
-            Kind::Inertial(frame) => frame.at,
-            Kind::Moving(moving) => match moving.path {
-                Path::Accelerated(_) => moving.at,
-                Path::Orbit(_) | Path::Along(_) => return none,
-            },
-        };
+        let moving = self.moving();
+        if !matches!(moving.path, Path::Accelerated(_)) {
+            return none;
+        }
+        let at = moving.at;
         let Pose { event, scene_from_axes, .. } = self.pose(0.0);
         let there = Event { t: 0.0, x: anchor };
         there - (event + scene_from_axes.apply(there - Event { t: 0.0, x: at }))
@@ -393,12 +379,9 @@ impl WorldLine {
     #[must_use]
     pub fn frame(&self, point: DVec3, own_time: f64) -> Lorentz {
         let pose = self.pose(own_time);
-        let lean = match &self.0 {
-            Kind::Inertial(_) => DVec3::ZERO,
-            Kind::Moving(moving) => moving.lean(point, own_time),
-        };
-        let lean = Velocity::from_beta(lean).unwrap_or_default();
-        pose.scene_from_axes * Lorentz::boost(lean) * Lorentz::rotation(pose.turn)
+        let in_axes = self.moving().velocity_in_axes(point, own_time);
+        let in_axes = Velocity::from_beta(in_axes).unwrap_or_default();
+        pose.scene_from_axes * Lorentz::boost(in_axes) * Lorentz::rotation(pose.turn)
     }
 
     /// The same motion with coordinates of the body that are relative to `origin`.
@@ -425,6 +408,14 @@ impl WorldLine {
         }
     }
 
+    /// The motion as one that may accelerate or turn.
+    fn moving(&self) -> Cow<'_, Moving> {
+        match &self.0 {
+            Kind::Inertial(frame) => Cow::Owned(frame.as_moving()),
+            Kind::Moving(moving) => Cow::Borrowed(moving),
+        }
+    }
+
     /// The velocity at own time 0.
     #[must_use]
     pub fn initial_velocity(&self) -> Velocity {
@@ -437,10 +428,7 @@ impl WorldLine {
     /// Event and axes of the reference point at an own time.
     #[must_use]
     pub fn pose(&self, own_time: f64) -> Pose {
-        match &self.0 {
-            Kind::Inertial(frame) => frame.pose(own_time),
-            Kind::Moving(moving) => moving.pose(own_time),
-        }
+        self.moving().pose(own_time)
     }
 
     /// The event of a point of the body at an own time of its reference point.  Eq. (P41)
@@ -448,10 +436,7 @@ impl WorldLine {
     /// # Errors
     /// [`WorldLineError::Horizon`] if the point cannot move so.
     pub fn event(&self, point: DVec3, own_time: f64) -> Result<Event, WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(frame) => Ok(frame.event(point, own_time)),
-            Kind::Moving(moving) => Ok(moving.moment(point, own_time)?.event),
-        }
+        Ok(self.moving().point_event(point, own_time)?.event)
     }
 
     /// The event at which a point of the body sends the light that reaches `observer`, and its
@@ -462,14 +447,7 @@ impl WorldLine {
     /// # Errors
     /// [`WorldLineError::Horizon`] if the point cannot move so.
     pub fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(frame) => {
-                let Event { t, x } = frame.coordinates(observer);
-                let own_time = t - (x - point).length();
-                Ok(EmissionEvent { own_time, event: frame.event(point, own_time), velocity: frame.velocity })
-            }
-            Kind::Moving(moving) => moving.emission(point, observer),
-        }
+        self.moving().emission(point, observer)
     }
 
     /// The light that a point of the body sends to `observer`, who is at rest in the scene.  Eq.
@@ -478,7 +456,7 @@ impl WorldLine {
     /// # Errors
     /// As [`WorldLine::emission`].
     pub fn light(&self, point: DVec3, observer: Event) -> Result<SeenLight, WorldLineError> {
-        self.light_from(point, observer, None)
+        self.moving().light(point, observer, None)
     }
 
     /// The same, for light that left near the own time `guess`. The closer the guess, the sooner it
@@ -487,59 +465,42 @@ impl WorldLine {
     /// # Errors
     /// As [`WorldLine::emission`].
     pub fn light_near(&self, point: DVec3, observer: Event, guess: f64) -> Result<SeenLight, WorldLineError> {
-        self.light_from(point, observer, Some(guess))
+        self.moving().light(point, observer, Some(guess))
     }
 
-    fn light_from(
-        &self,
-        point: DVec3,
-        observer: Event,
-        guess: Option<f64>,
-    ) -> Result<SeenLight, WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(_) => {
-                let EmissionEvent { own_time, event, velocity } = self.emission(point, observer)?;
-                let doppler = crate::doppler_at(event.x - observer.x, velocity);
-                Ok(SeenLight { own_time, event, inverse_doppler: 1.0 / doppler })
-            }
-            Kind::Moving(moving) => moving.light(point, observer, guess),
-        }
-    }
-
-    /// The point of the body that an event is at, the inverse of [`WorldLine::event`]: τ is the
-    /// root of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the acceleration.
-    /// Eq. (P45)
+    /// The point of the body that an event is at, the inverse of [`WorldLine::event`], and the own
+    /// time τ of A: the root of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the
+    /// acceleration.  Eq. (P45)
     ///
     /// # Errors
     /// [`WorldLineError::Horizon`] if no point of the body can be there.
-    pub fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(frame) => {
-                let Event { t, x } = frame.coordinates(event);
-                Ok(BodyEvent { point: x, own_time: t, velocity: frame.velocity })
-            }
-            Kind::Moving(moving) => moving.at_event(event),
-        }
+    pub fn at_event(&self, event: Event) -> Result<(DVec3, f64), WorldLineError> {
+        self.moving().at_event(event)
+    }
+
+    /// The velocity of a point of the body at an own time, in the frame of the scene.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn velocity(&self, point: DVec3, own_time: f64) -> Result<Velocity, WorldLineError> {
+        let PointEvent { rate, clock, .. } = self.moving().point_event(point, own_time)?;
+        Ok(Velocity::from_proper(rate.x / clock)?)
     }
 
     /// The own time of A at an event's time in another frame, whose coordinates `frame` gives from
     /// those of the world line: the light of directional lamps is that of this time.  Eq. (P14)
     #[must_use]
     pub fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
-        match &self.0 {
-            Kind::Inertial(inertial) => inertial.as_moving().own_time_when(event, frame),
-            Kind::Moving(moving) => moving.own_time_when(event, frame),
-        }
+        self.moving().own_time_when(event, frame)
     }
 
-    /// Where a point of the body would be in its coordinates at an own time if it only turned: A +
-    /// ξ.
+    /// Where a point of the body would be in its coordinates at an own time if it only turned, A + ξ,
+    /// and the turn.
     #[must_use]
-    pub fn turned_point(&self, point: DVec3, own_time: f64) -> DVec3 {
-        match &self.0 {
-            Kind::Inertial(_) => point,
-            Kind::Moving(moving) => moving.at + moving.offset(point, own_time).xi,
-        }
+    pub fn standing(&self, point: DVec3, own_time: f64) -> (DVec3, DQuat) {
+        let moving = self.moving();
+        let (offset, turn) = moving.offset_and_turn(point, own_time);
+        (moving.at + offset.xi, turn)
     }
 
     /// A vector d in the coordinates of the body such that n·d is, up to a positive factor, the
@@ -548,14 +509,12 @@ impl WorldLine {
     ///
     /// `ray`: a null vector in the frame of the scene.
     #[must_use]
-    pub fn toward(&self, point: DVec3, own_time: f64, ray: Event) -> DVec3 {
-        let pose = self.pose(own_time);
+    pub fn facing_covector(&self, point: DVec3, own_time: f64, ray: Event) -> DVec3 {
+        let moving = self.moving();
+        let (offset, turn) = moving.offset_and_turn(point, own_time);
+        let (pose, acceleration) = moving.carried_with_acceleration(own_time);
         let Event { t, x } = pose.scene_from_axes.inverse().apply(ray);
-        let lean = match &self.0 {
-            Kind::Inertial(_) => DVec3::ZERO,
-            Kind::Moving(moving) => moving.lean(point, own_time),
-        };
-        pose.turn.inverse() * (x - lean * t)
+        turn.inverse() * (x - offset.velocity_in_axes(acceleration) * t)
     }
 
     /// Checks that a point of the body can move so at all times.
@@ -567,10 +526,7 @@ impl WorldLine {
     /// [`WorldLineError::Horizon`] with an own time at which the point would reach the speed of
     /// light.
     pub fn check(&self, point: DVec3) -> Result<(), WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(_) => Ok(()),
-            Kind::Moving(moving) => moving.check(point),
-        }
+        self.moving().check(point)
     }
 
     /// Checks that the place of the body is known at an own time, in spite of rounding.
@@ -578,10 +534,7 @@ impl WorldLine {
     /// # Errors
     /// [`WorldLineError::ManyTurns`] if the body has turned by more than [`WorldLine::MOST_TURN`].
     pub fn check_turn(&self, own_time: f64) -> Result<(), WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(_) => Ok(()),
-            Kind::Moving(moving) => moving.check_turn(own_time),
-        }
+        self.moving().check_turn(own_time)
     }
 
     /// Checks that the place of the body is known when `observer`, an event in the frame of the
@@ -590,10 +543,8 @@ impl WorldLine {
     /// # Errors
     /// See [`WorldLine::check_turn`] and [`WorldLine::emission`].
     pub fn check_turn_seen(&self, observer: Event) -> Result<(), WorldLineError> {
-        match &self.0 {
-            Kind::Inertial(_) => Ok(()),
-            Kind::Moving(moving) => moving.check_turn(moving.emission(moving.at, observer)?.own_time),
-        }
+        let moving = self.moving();
+        moving.check_turn(moving.emission(moving.at, observer)?.own_time)
     }
 
     /// The rest frame of a surface element at a point of the body.
@@ -601,9 +552,6 @@ impl WorldLine {
     /// `point`: in the coordinates of the body.
     #[must_use]
     pub fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
-        match &self.0 {
-            Kind::Inertial(frame) => ElementFrame::inertial(frame.velocity, frame.rotation()),
-            Kind::Moving(moving) => moving.element(point, own_time),
-        }
+        self.moving().element(point, own_time)
     }
 }

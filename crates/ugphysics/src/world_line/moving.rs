@@ -4,8 +4,8 @@ use glam::{DQuat, DVec3};
 
 use super::orbit::Orbit;
 use super::pieces::{Acceleration, Offset, Spin};
-use super::table::Along;
-use super::{BodyEvent, EmissionEvent, Pose, SeenLight, WorldLineError};
+use super::table::{ALL_TIMES, Along};
+use super::{EmissionEvent, Pose, SeenLight, WorldLineError};
 use crate::{Event, Lorentz, Velocity, unit_or_zero};
 
 /// A motion that is not inertial.
@@ -37,26 +37,49 @@ pub(super) enum Path {
     Along(Box<Along>),
 }
 
+impl Path {
+    /// The greatest |a| of all times.
+    pub(super) fn greatest_acceleration(&self) -> f64 {
+        match self {
+            Self::Accelerated(acceleration) => acceleration.greatest(),
+            Self::Orbit(orbit) => orbit.acceleration(0.0).length(),
+            Self::Along(along) => along.path.bounds(ALL_TIMES)[0],
+        }
+    }
+
+    /// |a| and |da/dτ|, or upper bounds of them, between own times at which the acceleration does not
+    /// jump. `inside`: one of these.
+    pub(super) fn bounds(&self, own_times: [f64; 2], inside: f64) -> [f64; 2] {
+        match self {
+            Self::Accelerated(acceleration) => [acceleration.at(inside).length(), 0.0],
+            Self::Orbit(orbit) => {
+                let acceleration = orbit.acceleration(inside).length();
+                [acceleration, orbit.turn_rate() * acceleration]
+            }
+            Self::Along(along) => along.path.bounds(own_times),
+        }
+    }
+}
+
 /// A point of a body at an own time: its event and ∂X/∂τ.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Moment {
+pub(super) struct PointEvent {
     pub event: Event,
     pub rate: Event,
-    /// |∂X/∂τ|: the pace of the point's own clock.
+    /// |∂X/∂τ|: the lapse of the point's own clock.
     pub clock: f64,
 }
 
-/// The pace of the clock of a point, ((1 + a·ξ)² − |dξ/dτ|²)^½.
-fn clock(pace: f64, swing: DVec3) -> f64 {
+/// The lapse of the clock of a point, ((1 + a·ξ)² − |dξ/dτ|²)^½.
+fn clock(lapse: f64, swing: DVec3) -> f64 {
     let swing = swing.length();
-    ((pace - swing) * (pace + swing)).sqrt()
+    ((lapse - swing) * (lapse + swing)).sqrt()
 }
 
 /// 1 + a·ξ, if it is above |dξ/dτ|.
-fn checked_pace(acceleration: DVec3, offset: Offset, own_time: f64) -> Result<f64, WorldLineError> {
-    let pace = 1.0 + acceleration.dot(offset.xi);
-    match pace.partial_cmp(&offset.swing.length()) {
-        Some(core::cmp::Ordering::Greater) => Ok(pace),
+fn check_lapse(lapse: f64, swing: DVec3, own_time: f64) -> Result<f64, WorldLineError> {
+    match lapse.partial_cmp(&swing.length()) {
+        Some(core::cmp::Ordering::Greater) => Ok(lapse),
         Some(_) if own_time.is_finite() => Err(WorldLineError::Horizon { own_time }),
         _ => Err(WorldLineError::NotFinite),
     }
@@ -69,17 +92,17 @@ fn decreasing_root(value: impl Fn(f64) -> (f64, f64)) -> f64 {
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
     let mut own_time = 0.0;
     for _ in 0..MOST_STEPS {
-        let (left, pace) = value(own_time);
+        let (left, lapse) = value(own_time);
         if left > 0.0 {
             low = own_time;
         } else {
             high = own_time;
         }
-        let newton = own_time + left / pace;
+        let newton = own_time + left / lapse;
         if newton == own_time {
             return own_time;
         }
-        let next = if pace > 0.0 && newton > low && newton < high {
+        let next = if lapse > 0.0 && newton > low && newton < high {
             newton
         } else if low.is_finite() && high.is_finite() {
             low.midpoint(high)
@@ -139,8 +162,8 @@ impl Moving {
         self.offset_and_turn(point, own_time).0
     }
 
-    /// The same, and the turn of the body.
-    fn offset_and_turn(&self, point: DVec3, own_time: f64) -> (Offset, DQuat) {
+    /// The offset of a point, and the turn of the body.
+    pub(super) fn offset_and_turn(&self, point: DVec3, own_time: f64) -> (Offset, DQuat) {
         let mut offset = Offset { xi: point, swing: DVec3::ZERO };
         let mut all = DQuat::IDENTITY;
         for Turn { pivot, spin } in &self.turns {
@@ -162,42 +185,47 @@ impl Moving {
     }
 
     /// X(τ) = z(τ) + Σ ξⁱ e_i and ∂X/∂τ = (1 + a·ξ) u + (dξ/dτ)ⁱ e_i.  Eq. (P41)
-    pub(super) fn moment(&self, point: DVec3, own_time: f64) -> Result<Moment, WorldLineError> {
+    pub(super) fn point_event(&self, point: DVec3, own_time: f64) -> Result<PointEvent, WorldLineError> {
         let offset = self.offset(point, own_time);
         let Offset { xi, swing } = offset;
-        let (pace, (event, rate)) = match &self.path {
+        let (lapse, (event, rate)) = match &self.path {
             Path::Accelerated(acceleration) => {
-                let pace = checked_pace(acceleration.at(own_time), offset, own_time)?;
-                (pace, acceleration.moment(offset, own_time))
+                let lapse = check_lapse(1.0 + acceleration.at(own_time).dot(xi), swing, own_time)?;
+                (lapse, acceleration.moment(offset, own_time))
             }
             Path::Orbit(_) | Path::Along(_) => {
                 let (pose, acceleration) = self.carried_with_acceleration(own_time);
-                let pace = checked_pace(acceleration, offset, own_time)?;
                 let Pose { event, scene_from_axes: axes, .. } = pose;
+                let lapse = check_lapse(1.0 + acceleration.dot(xi), swing, own_time)?;
                 let at = event + axes.apply(Event { t: 0.0, x: xi });
-                (pace, (at, axes.apply(Event { t: pace, x: swing })))
+                (lapse, (at, axes.apply(Event { t: lapse, x: swing })))
             }
         };
-        Ok(Moment { event, rate, clock: clock(pace, swing) })
+        Ok(PointEvent { event, rate, clock: clock(lapse, swing) })
     }
 
-    pub(super) fn at_event(&self, event: Event) -> Result<BodyEvent, WorldLineError> {
-        let (own_time, xi) = match &self.path {
-            Path::Accelerated(acceleration) => acceleration.own_time_at(event)?,
+    /// See [`super::WorldLine::at_event`].
+    pub(super) fn at_event(&self, event: Event) -> Result<(DVec3, f64), WorldLineError> {
+        let (own_time, xi, lapse) = match &self.path {
+            Path::Accelerated(acceleration) => {
+                let (own_time, xi) = acceleration.own_time_at(event)?;
+                (own_time, xi, 1.0 + acceleration.at(own_time).dot(xi))
+            }
             Path::Orbit(_) | Path::Along(_) => {
                 let own_time = self.own_time_at(event);
-                let pose = self.carried(own_time);
+                let (pose, acceleration) = self.carried_with_acceleration(own_time);
                 let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);
                 // What rounding left.
-                (own_time + t, xi)
+                (own_time + t, xi, 1.0 + acceleration.dot(xi))
             }
         };
-        let mut point = xi + self.at;
+        let (mut point, mut swing, mut outer) = (xi + self.at, DVec3::ZERO, DQuat::IDENTITY);
         for Turn { pivot, spin } in self.turns.iter().rev() {
-            point = *pivot + spin.turn(own_time).inverse() * (point - *pivot);
+            let (turn, arm) = (spin.turn(own_time), point - *pivot);
+            swing += outer * spin.rate(own_time).cross(arm);
+            (point, outer) = (*pivot + turn.inverse() * arm, outer * turn);
         }
-        let Moment { rate, clock, .. } = self.moment(point, own_time)?;
-        Ok(BodyEvent { point, own_time, velocity: Velocity::from_proper(rate.x / clock)? })
+        check_lapse(lapse, swing, own_time).map(|_| (point, own_time))
     }
 
     /// The root of (X − z(τ))·u(τ), which decreases by 1 + a·ξ.
@@ -213,13 +241,13 @@ impl Moving {
     pub(super) fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
         decreasing_root(|own_time| {
             let Pose { event: at, scene_from_axes, .. } = self.carried(own_time);
-            let pace = frame.apply(scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO })).t;
-            (frame.apply(event - at).t, pace)
+            let lapse = frame.apply(scene_from_axes.apply(Event { t: 1.0, x: DVec3::ZERO })).t;
+            (frame.apply(event - at).t, lapse)
         })
     }
 
     pub(super) fn emission(&self, point: DVec3, observer: Event) -> Result<EmissionEvent, WorldLineError> {
-        let (own_time, Moment { event, rate, clock }) = self.root(point, observer, None)?;
+        let (own_time, PointEvent { event, rate, clock }) = self.root(point, observer, None)?;
         Ok(EmissionEvent { own_time, event, velocity: Velocity::from_proper(rate.x / clock)? })
     }
 
@@ -230,18 +258,18 @@ impl Moving {
         observer: Event,
         guess: Option<f64>,
     ) -> Result<SeenLight, WorldLineError> {
-        let (own_time, Moment { event, rate, clock }) = self.root(point, observer, guess)?;
+        let (own_time, PointEvent { event, rate, clock }) = self.root(point, observer, guess)?;
         let away = unit_or_zero(event.x - observer.x);
         Ok(SeenLight { own_time, event, inverse_doppler: (rate.t + away.dot(rate.x)) / clock })
     }
 
-    /// The own time at which light leaves a point for `observer`, and the moment there.
+    /// The own time at which light leaves a point for `observer`, and the event there.
     pub(super) fn root(
         &self,
         point: DVec3,
         observer: Event,
         guess: Option<f64>,
-    ) -> Result<(f64, Moment), WorldLineError> {
+    ) -> Result<(f64, PointEvent), WorldLineError> {
         if let Path::Accelerated(acceleration) = &self.path
             && acceleration.is_none()
         {
@@ -249,15 +277,15 @@ impl Moving {
         }
         let guess = guess.unwrap_or_else(|| self.guess(observer, point));
         let own_time = self.emission_time(point, observer, guess)?;
-        let mut moment = self.moment(point, own_time)?;
+        let mut at = self.point_event(point, own_time)?;
         // Rounding of the own time leaves a fast point off the light cone, by γ times as much.
-        let way = observer.x - moment.event.x;
-        let rate = moment.rate;
-        let left = (observer.t - moment.event.t - way.length()) / (rate.t - unit_or_zero(way).dot(rate.x));
+        let way = observer.x - at.event.x;
+        let rate = at.rate;
+        let left = (observer.t - at.event.t - way.length()) / (rate.t - unit_or_zero(way).dot(rate.x));
         if left.is_finite() {
-            moment.event = moment.event + Event { t: rate.t * left, x: rate.x * left };
+            at.event = at.event + Event { t: rate.t * left, x: rate.x * left };
         }
-        Ok((own_time, moment))
+        Ok((own_time, at))
     }
 
     /// The root of F(τ) = (t_o − t_X) − |x_o − x_X|, which decreases strictly, by Newton's method
@@ -271,7 +299,7 @@ impl Moving {
         /// Doublings to reach any finite time, and halvings of a bracket down to rounding.
         const MOST_STEPS: usize = 2200;
         let value = |own_time: f64| -> Result<(f64, f64), WorldLineError> {
-            let Moment { event, rate, .. } = self.moment(point, own_time)?;
+            let PointEvent { event, rate, .. } = self.point_event(point, own_time)?;
             let way = observer.x - event.x;
             let toward = unit_or_zero(way);
             Ok((observer.t - event.t - way.length(), toward.dot(rate.x) - rate.t))
@@ -315,7 +343,7 @@ impl Moving {
         point: DVec3,
         observer: Event,
         guess: Option<f64>,
-    ) -> Result<(f64, Moment), WorldLineError> {
+    ) -> Result<(f64, PointEvent), WorldLineError> {
         const MOST_STEPS: usize = 200;
         let Pose { event: start, scene_from_axes: axes, .. } = path.start();
         let Event { t, x } = axes.inverse().apply(observer - start);
@@ -342,14 +370,10 @@ impl Moving {
             }
         }
         let Offset { xi, swing } = self.offset(point, own_time);
-        match swing.length().partial_cmp(&1.0) {
-            Some(core::cmp::Ordering::Less) => {}
-            Some(_) if own_time.is_finite() => return Err(WorldLineError::Horizon { own_time }),
-            _ => return Err(WorldLineError::NotFinite),
-        }
+        check_lapse(1.0, swing, own_time)?;
         let event = start + axes.apply(Event { t: own_time, x: xi });
         let rate = axes.apply(Event { t: 1.0, x: swing });
-        Ok((own_time, Moment { event, rate, clock: clock(1.0, swing) }))
+        Ok((own_time, PointEvent { event, rate, clock: clock(1.0, swing) }))
     }
 
     /// The root for a body that moves on as it does at own time 0.
@@ -361,19 +385,25 @@ impl Moving {
     }
 
     /// w = (dξ/dτ)/(1 + a·ξ): the velocity of a point in the rest frame of A.
-    pub(super) fn lean(&self, point: DVec3, own_time: f64) -> DVec3 {
-        let Offset { xi, swing } = self.offset(point, own_time);
-        swing / (1.0 + self.acceleration(own_time).dot(xi))
+    pub(super) fn velocity_in_axes(&self, point: DVec3, own_time: f64) -> DVec3 {
+        self.offset(point, own_time).velocity_in_axes(self.acceleration(own_time))
     }
 
     pub(super) fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
         let (Pose { scene_from_axes, .. }, acceleration) = self.carried_with_acceleration(own_time);
-        let (Offset { xi, swing }, turn) = self.offset_and_turn(point, own_time);
-        let lean = swing / (1.0 + acceleration.dot(xi));
-        let rate = scene_from_axes.apply(Event { t: 1.0, x: lean });
-        let velocity = Velocity::from_proper(rate.x / ((1.0 - lean.length()) * (1.0 + lean.length())).sqrt());
+        let (offset, turn) = self.offset_and_turn(point, own_time);
+        let velocity_in_axes = offset.velocity_in_axes(acceleration);
+        let rate = scene_from_axes.apply(Event { t: 1.0, x: velocity_in_axes });
+        let velocity = Velocity::from_proper(
+            rate.x / ((1.0 - velocity_in_axes.length()) * (1.0 + velocity_in_axes.length())).sqrt(),
+        );
         let velocity = velocity.unwrap_or_default();
-        ElementFrame { velocity, turn, lean, from_axes: Lorentz::boost(velocity).inverse() * scene_from_axes }
+        ElementFrame {
+            velocity,
+            turn,
+            velocity_in_axes,
+            from_axes: Lorentz::boost(velocity).inverse() * scene_from_axes,
+        }
     }
 }
 
@@ -386,16 +416,12 @@ pub struct ElementFrame {
     /// From the axes of the body to the carried ones.
     turn: DQuat,
     /// w = (dξ/dτ)/(1 + a·ξ), in the carried axes.
-    lean: DVec3,
+    velocity_in_axes: DVec3,
     /// From the carried axes, with time along u.
     from_axes: Lorentz,
 }
 
 impl ElementFrame {
-    pub(super) fn inertial(velocity: Velocity, turn: DQuat) -> Self {
-        Self { velocity, turn, lean: DVec3::ZERO, from_axes: Lorentz::IDENTITY }
-    }
-
     /// The unit normal of the surface in this frame. It differs from that of the body's shape where
     /// the body spins: N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), perpendicular to ∂X/∂τ and
     /// to both tangents of the surface.  Eq. (P43)
@@ -404,9 +430,9 @@ impl ElementFrame {
     #[must_use]
     pub fn normal(&self, normal: DVec3) -> DVec3 {
         let n = self.turn * normal;
-        let lean = n.dot(self.lean);
-        let scale = 1.0 / ((1.0 - lean) * (1.0 + lean)).sqrt();
+        let along = n.dot(self.velocity_in_axes);
+        let scale = 1.0 / ((1.0 - along) * (1.0 + along)).sqrt();
         // Where it rests, the time component is 0.
-        unit_or_zero(self.from_axes.apply(Event { t: lean * scale, x: n * scale }).x)
+        unit_or_zero(self.from_axes.apply(Event { t: along * scale, x: n * scale }).x)
     }
 }

@@ -14,6 +14,13 @@ pub(super) struct Offset {
     pub swing: DVec3,
 }
 
+impl Offset {
+    /// w = (dξ/dτ)/(1 + a·ξ): the velocity of the point in the rest frame of A.
+    pub fn velocity_in_axes(self, acceleration: DVec3) -> DVec3 {
+        self.swing / (1.0 + acceleration.dot(self.xi))
+    }
+}
+
 /// A vector that is constant for a stretch of own time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Piece {
@@ -219,11 +226,11 @@ impl Acceleration {
             let half = libm::sinh(0.5 * a * passed);
             let (sinh, cosh_minus_one) = (libm::sinh(a * passed), 2.0 * half * half);
             let (along, swing_along) = (xi.dot(axis), swing.dot(axis));
-            let (radius, pace) = (1.0 / a + along, 1.0 + a * along);
+            let (radius, lapse) = (1.0 / a + along, 1.0 + a * along);
             let event = Event { t: sinh * radius, x: xi + axis * (cosh_minus_one * radius) };
             let rate = Event {
-                t: (1.0 + cosh_minus_one) * pace + sinh * swing_along,
-                x: swing + axis * (sinh * pace + cosh_minus_one * swing_along),
+                t: (1.0 + cosh_minus_one) * lapse + sinh * swing_along,
+                x: swing + axis * (sinh * lapse + cosh_minus_one * swing_along),
             };
             (event, rate)
         };
@@ -302,9 +309,9 @@ impl Stretch<Pose> {
         }
         let behind = behind.max(rounding);
         let passed = 0.5 * libm::log1p(2.0 * a * t.abs() / behind) / a;
-        let pace = (behind * ahead).sqrt();
-        // (pace − 1)/a without cancellation.
-        let xi = (2.0 * along + a * (along - t) * (along + t)) / (pace + 1.0);
+        let lapse = (behind * ahead).sqrt();
+        // (lapse − 1)/a without cancellation.
+        let xi = (2.0 * along + a * (along - t) * (along + t)) / (lapse + 1.0);
         (self.known_at + passed.copysign(t), x + axis * (xi - along))
     }
 }

@@ -16,7 +16,6 @@ use core::ops::{ControlFlow, Range};
 use glam::{DMat3, DVec3};
 
 use super::moving::{Moving, Path, Turn};
-use super::table::ALL_TIMES;
 use super::{Kind, WorldLine, WorldLineError};
 use crate::{Event, Lorentz};
 
@@ -35,17 +34,17 @@ pub struct WorldTube {
     /// The greatest distance of a point from the centre.
     radius: f64,
     /// A positive lower bound of 1 + a·ξ for all points at all own times.
-    least_pace: f64,
+    least_lapse: f64,
 }
 
 /// A stretch of own time in which a body may be seen from an event, and in which its acceleration
 /// and its spin do not jump: what all rays from the event share.
 #[derive(Clone, Debug)]
-pub struct Passage {
+pub struct SmoothStretch {
     own_times: Range<f64>,
     /// The middle of the own times.
     known_at: f64,
-    path: PassagePath,
+    path: StretchPath,
     /// To the axes in which ξ is computed: turned as the spin has turned at `known_at`.
     back: DMat3,
     /// The point of the body about which it spins, or A.
@@ -61,7 +60,7 @@ pub struct Passage {
 }
 
 #[derive(Clone, Debug)]
-enum PassagePath {
+enum StretchPath {
     /// The origin of the rays relative to the event of A at `known_at`, in the axes there and in
     /// those of ξ; the axes there from the frame of the scene; and the proper acceleration.
     Accelerated { origin: Event, axes: Lorentz, acceleration: DVec3 },
@@ -73,7 +72,7 @@ enum PassagePath {
 /// the body do not jump.
 #[derive(Clone, Copy, Debug)]
 pub struct RayStretch<'a> {
-    passage: &'a Passage,
+    passage: &'a SmoothStretch,
     moving: &'a Moving,
     /// Several spins, applied in place of a single one.
     turns: &'a [Turn],
@@ -151,7 +150,7 @@ impl WorldLine {
         visit: impl FnMut(&RayStretch<'_>, Range<f64>) -> ControlFlow<()>,
     ) -> Result<(), WorldLineError> {
         let Kind::Moving(moving) = &self.0 else { return Ok(()) };
-        let passages = moving.passages(tube, origin, end)?;
+        let passages = moving.smooth_stretches(tube, origin, end)?;
         moving.visit_passages(tube, passages, step, visit);
         Ok(())
     }
@@ -160,21 +159,25 @@ impl WorldLine {
     ///
     /// # Errors
     /// See [`WorldLine::visit_ray`].
-    pub fn passages(&self, tube: &WorldTube, origin: Event) -> Result<Vec<Passage>, WorldLineError> {
+    pub fn smooth_stretches(
+        &self,
+        tube: &WorldTube,
+        origin: Event,
+    ) -> Result<Vec<SmoothStretch>, WorldLineError> {
         let Kind::Moving(moving) = &self.0 else { return Ok(Vec::new()) };
-        Ok(moving.passages(tube, origin, None)?.collect())
+        Ok(moving.smooth_stretches(tube, origin, None)?.collect())
     }
 
     /// An upper bound of the length of the second derivative of all rays in the tube.
     #[must_use]
-    pub fn bend(&self, tube: &WorldTube, passages: &[Passage]) -> f64 {
+    pub fn bend(&self, tube: &WorldTube, passages: &[SmoothStretch]) -> f64 {
         let Kind::Moving(moving) = &self.0 else { return 0.0 };
-        let of_passage = |passage: &Passage| {
-            let Passage { acceleration: a, jerk, known_at, .. } = passage;
-            let pace = 1.0 + a * tube.reach();
+        let of_passage = |passage: &SmoothStretch| {
+            let SmoothStretch { acceleration: a, jerk, known_at, .. } = passage;
+            let lapse = 1.0 + a * tube.reach();
             let rates = moving.turns.iter().map(|turn| turn.spin.rate(*known_at).length());
             rates
-                .fold((pace, pace * a + jerk * tube.reach()), |bounds, rate| {
+                .fold((lapse, lapse * a + jerk * tube.reach()), |bounds, rate| {
                     turn_bounds(bounds, rate, tube.radius)
                 })
                 .1
@@ -187,7 +190,11 @@ impl WorldLine {
     ///
     /// `None` for an inertial motion.
     #[must_use]
-    pub fn stretch<'a>(&'a self, passage: &'a Passage, step: Event) -> Option<(RayStretch<'a>, Range<f64>)> {
+    pub fn stretch<'a>(
+        &'a self,
+        passage: &'a SmoothStretch,
+        step: Event,
+    ) -> Option<(RayStretch<'a>, Range<f64>)> {
         let Kind::Moving(moving) = &self.0 else { return None };
         Some((moving.stretch(passage, step), passage.own_times.clone()))
     }
@@ -196,7 +203,7 @@ impl WorldLine {
     pub fn visit_light(
         &self,
         tube: &WorldTube,
-        passages: &[Passage],
+        passages: &[SmoothStretch],
         step: Event,
         visit: impl FnMut(&RayStretch<'_>, Range<f64>) -> ControlFlow<()>,
     ) {
@@ -206,7 +213,7 @@ impl WorldLine {
     }
 }
 
-impl Passage {
+impl SmoothStretch {
     /// The own times of A.
     pub(super) fn own_times(&self) -> &Range<f64> {
         &self.own_times
@@ -235,8 +242,8 @@ impl WorldTube {
     }
 
     /// A lower bound of 1 + a·ξ.
-    pub(super) fn least_pace(&self) -> f64 {
-        self.least_pace
+    pub(super) fn least_lapse(&self) -> f64 {
+        self.least_lapse
     }
 
     /// The own time at which the centre is seen from an event.
@@ -255,7 +262,7 @@ impl WorldTube {
 
 impl Moving {
     fn tube(&self, points: impl Iterator<Item = DVec3> + Clone) -> WorldTube {
-        /// In place of the pace of points beyond the horizon, which have no motion.
+        /// In place of the lapse of points beyond the horizon, which have no motion.
         const LEAST: f64 = 1e-3;
         let (center, reaches) = match self.turns.last() {
             Some(turn) => (turn.pivot, self.turns.as_slice()),
@@ -273,7 +280,7 @@ impl Moving {
         };
         let radius = points.clone().map(radius).fold(0.0, f64::max) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
         let offset = center - self.at;
-        let pace = |acceleration: DVec3| match &self.path {
+        let lapse = |acceleration: DVec3| match &self.path {
             Path::Accelerated(_) if self.turns.is_empty() => points
                 .clone()
                 .chain([center])
@@ -281,15 +288,14 @@ impl Moving {
                 .fold(1.0, f64::min),
             // Whatever the directions.
             Path::Accelerated(_) => 1.0 + acceleration.dot(offset) - acceleration.length() * radius,
-            Path::Orbit(_) | Path::Along(_) => 1.0 - acceleration.length() * (offset.length() + radius),
+            _ => 1.0 - acceleration.length() * (offset.length() + radius),
         };
-        let least_pace = match &self.path {
-            Path::Accelerated(path) => path.values().map(pace).fold(1.0, f64::min),
-            Path::Orbit(orbit) => pace(orbit.acceleration(0.0)),
-            Path::Along(along) => pace(along.path.bounds(ALL_TIMES)[0] * DVec3::X),
+        let least_lapse = match &self.path {
+            Path::Accelerated(path) => path.values().map(lapse).fold(1.0, f64::min),
+            path => lapse(path.greatest_acceleration() * DVec3::X),
         };
         let carried = Moving { turns: Vec::new(), ..self.clone() };
-        WorldTube { carried, offset, radius, least_pace: least_pace.max(LEAST) }
+        WorldTube { carried, offset, radius, least_lapse: least_lapse.max(LEAST) }
     }
 
     /// The last own time before this one at which acceleration or spin jumps.
@@ -306,13 +312,13 @@ impl Moving {
     }
 
     /// The stretches of own time in which a ray may meet the body, the latest first.
-    fn passages(
+    fn smooth_stretches(
         &self,
         tube: &WorldTube,
         origin: Event,
         end: Option<Event>,
-    ) -> Result<impl Iterator<Item = Passage>, WorldLineError> {
-        let margin = tube.radius / tube.least_pace;
+    ) -> Result<impl Iterator<Item = SmoothStretch>, WorldLineError> {
+        let margin = tube.radius / tube.least_lapse;
         let latest = tube.seen_at(origin)?;
         let earliest = match end {
             Some(end) => tube.seen_at(end)?,
@@ -336,7 +342,7 @@ impl Moving {
     fn visit_passages(
         &self,
         tube: &WorldTube,
-        passages: impl Iterator<Item = impl Borrow<Passage>>,
+        passages: impl Iterator<Item = impl Borrow<SmoothStretch>>,
         step: Event,
         mut visit: impl FnMut(&RayStretch<'_>, Range<f64>) -> ControlFlow<()>,
     ) {
@@ -351,7 +357,7 @@ impl Moving {
     }
 
     /// Between own times, both finite.
-    fn passage(&self, own_times: Range<f64>, origin: Event) -> Passage {
+    fn passage(&self, own_times: Range<f64>, origin: Event) -> SmoothStretch {
         let known_at = own_times.start.midpoint(own_times.end);
         let (pivot, spin, back) = match self.turns.as_slice() {
             [Turn { pivot, spin }] => {
@@ -359,28 +365,21 @@ impl Moving {
             }
             _ => (self.at, DVec3::ZERO, DMat3::IDENTITY),
         };
-        let (path, acceleration, jerk) = match &self.path {
+        let [acceleration, jerk] = self.path.bounds([own_times.start, own_times.end], known_at);
+        let path = match &self.path {
             Path::Accelerated(path) => {
                 let pose = path.pose(known_at);
                 let axes = pose.scene_from_axes.inverse();
                 let acceleration = path.at(known_at);
                 let Event { t, x } = axes.apply(origin - pose.event);
                 let origin = Event { t, x: back * x };
-                let path = PassagePath::Accelerated { origin, axes, acceleration: back * acceleration };
-                (path, acceleration.length(), 0.0)
+                StretchPath::Accelerated { origin, axes, acceleration: back * acceleration }
             }
-            Path::Orbit(orbit) => {
-                let acceleration = orbit.acceleration(known_at).length();
-                (PassagePath::Any { origin }, acceleration, orbit.turn_rate() * acceleration)
-            }
-            Path::Along(along) => {
-                let [acceleration, jerk] = along.path.bounds([own_times.start, own_times.end]);
-                (PassagePath::Any { origin }, acceleration, jerk)
-            }
+            _ => StretchPath::Any { origin },
         };
         let spin = back * spin;
         let rate = spin.length();
-        Passage {
+        SmoothStretch {
             own_times,
             known_at,
             path,
@@ -395,13 +394,13 @@ impl Moving {
     }
 
     /// A ray during a passage.
-    fn stretch<'a>(&'a self, passage: &'a Passage, step: Event) -> RayStretch<'a> {
+    fn stretch<'a>(&'a self, passage: &'a SmoothStretch, step: Event) -> RayStretch<'a> {
         let step = match &passage.path {
-            PassagePath::Accelerated { axes, .. } => {
+            StretchPath::Accelerated { axes, .. } => {
                 let Event { t, x } = axes.apply(step);
                 Event { t, x: passage.back * x }
             }
-            PassagePath::Any { .. } => step,
+            StretchPath::Any { .. } => step,
         };
         let turns = if self.turns.len() > 1 { self.turns.as_slice() } else { &[] };
         RayStretch { passage, moving: self, turns, step }
@@ -468,13 +467,13 @@ impl RayStretch<'_> {
 
     /// In the axes of ξ.
     fn carried(&self, own_time: f64) -> Carried {
-        let Passage { known_at, back, .. } = *self.passage;
+        let SmoothStretch { known_at, back, .. } = *self.passage;
         match &self.passage.path {
-            PassagePath::Accelerated { origin, acceleration, .. } => {
+            StretchPath::Accelerated { origin, acceleration, .. } => {
                 let passed = own_time - known_at;
                 accelerated(*origin, self.step, *acceleration, self.passage.acceleration, passed)
             }
-            PassagePath::Any { origin } => {
+            StretchPath::Any { origin } => {
                 let carried = self.moving.crossing(*origin, self.step, own_time);
                 let [xi, velocity] = [carried.xi, carried.velocity].map(|v| back * v);
                 Carried { xi, velocity, ..carried }
@@ -518,12 +517,12 @@ impl RayStretch<'_> {
         }
         let moved = (1.0 + a * xi) * time * (1.0 + growth);
         let (arm, xi) = (arm + moved, xi + moved);
-        let pace = 1.0 + a * xi;
-        let carried = pace * a + self.passage.jerk * xi;
+        let lapse = 1.0 + a * xi;
+        let carried = lapse * a + self.passage.jerk * xi;
         if self.turns.is_empty() {
-            return turn_bounds((pace, carried), self.passage.rate, arm).1;
+            return turn_bounds((lapse, carried), self.passage.rate, arm).1;
         }
-        let (mut bounds, mut arm, mut from) = ((pace, carried), xi, self.moving.at);
+        let (mut bounds, mut arm, mut from) = ((lapse, carried), xi, self.moving.at);
         for Turn { pivot, spin } in self.turns.iter().rev() {
             let rate = spin.rate(self.passage.known_at).length();
             arm += (from - *pivot).length();
@@ -537,7 +536,7 @@ impl RayStretch<'_> {
     fn within(&self, tube: &WorldTube, range: Range<f64>) -> Range<f64> {
         let center = self.passage.back * tube.offset;
         match &self.passage.path {
-            PassagePath::Accelerated { origin, .. } if self.passage.acceleration == 0.0 => {
+            StretchPath::Accelerated { origin, .. } if self.passage.acceleration == 0.0 => {
                 let radius = tube.radius * (1.0 + 1e-6) + 1e-12 * origin.x.length();
                 let Some([first, last]) = straight_within(origin.x - center, self.step, radius) else {
                     return range.end..range.end;

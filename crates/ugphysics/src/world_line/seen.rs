@@ -36,7 +36,7 @@ use core::ops::Range;
 use glam::DVec3;
 
 use super::moving::{Moving, Turn};
-use super::ray::{Passage, WorldTube, turn_bounds};
+use super::ray::{SmoothStretch, WorldTube, turn_bounds};
 use super::{Kind, SeenLight, WorldLine};
 use crate::{Event, unit_or_zero};
 
@@ -68,7 +68,7 @@ struct Bounds {
     /// |ξ|
     offset: f64,
     /// P
-    pace: f64,
+    lapse: f64,
     /// v, b and ω
     speed: f64,
     bend: f64,
@@ -100,7 +100,7 @@ impl WorldLine {
     pub fn seen_triangle(
         &self,
         tube: &WorldTube,
-        passages: &[Passage],
+        passages: &[SmoothStretch],
         corners: &[SeenPoint; 3],
         observer: Event,
         levels: u32,
@@ -126,7 +126,7 @@ struct Sight<'a> {
     moving: &'a Moving,
     tube: &'a WorldTube,
     /// Those of the observer.
-    passages: &'a [Passage],
+    passages: &'a [SmoothStretch],
     observer: Event,
 }
 
@@ -206,7 +206,7 @@ impl Sight<'_> {
         };
         let rough = || {
             let bounds = moving.bounds(*a, edge, passages);
-            let least = (tube.least_pace() - bounds.speed) / MOST_GROWTH;
+            let least = (tube.least_lapse() - bounds.speed) / MOST_GROWTH;
             let slopes = (least > 0.0).then(|| bounds.slopes(least, edge)).flatten()?;
             let Range { start, end } = around(slopes.time * edge + rounding);
             let deviation = 2.0 * slopes.place * edge * (gamma + proper.length());
@@ -220,10 +220,10 @@ impl Sight<'_> {
 
 impl Moving {
     /// Bounds for points no farther than `margin` from one, during passages.
-    fn bounds(&self, point: DVec3, margin: f64, passages: &[Passage]) -> Bounds {
-        let most = |value: &dyn Fn(&Passage) -> f64| passages.iter().map(value).fold(0.0, f64::max);
+    fn bounds(&self, point: DVec3, margin: f64, passages: &[SmoothStretch]) -> Bounds {
+        let most = |value: &dyn Fn(&SmoothStretch) -> f64| passages.iter().map(value).fold(0.0, f64::max);
         let rate = |turn: &Turn| most(&|passage| turn.spin.rate(passage.known_at()).length());
-        let (acceleration, jerk) = (most(&Passage::acceleration), most(&Passage::jerk));
+        let (acceleration, jerk) = (most(&SmoothStretch::acceleration), most(&SmoothStretch::jerk));
         let (mut speed, mut bend, mut spin) = (0.0, 0.0, 0.0);
         let (mut arm, mut from) = (margin, point);
         for turn in &self.turns {
@@ -233,7 +233,7 @@ impl Moving {
             (spin, from) = (spin + rate, turn.pivot);
         }
         let offset = arm + (from - self.at).length();
-        Bounds { acceleration, jerk, offset, pace: 1.0 + acceleration * offset, speed, bend, spin }
+        Bounds { acceleration, jerk, offset, lapse: 1.0 + acceleration * offset, speed, bend, spin }
     }
 }
 
@@ -246,7 +246,7 @@ impl Bounds {
             return None;
         }
         let time = growth / q;
-        let swing = growth * self.speed + (growth - 1.0) * self.pace;
+        let swing = growth * self.speed + (growth - 1.0) * self.lapse;
         Some(Slopes { growth, time, place: growth + swing * time, swing })
     }
 
@@ -257,7 +257,7 @@ impl Bounds {
 
     /// |∂²X/∂τ²|
     fn second(&self, slopes: Slopes) -> f64 {
-        let Self { acceleration, jerk, offset, pace, speed, bend, .. } = self;
-        slopes.growth * (jerk * offset + acceleration * (2.0 * speed + pace) + bend)
+        let Self { acceleration, jerk, offset, lapse, speed, bend, .. } = self;
+        slopes.growth * (jerk * offset + acceleration * (2.0 * speed + lapse) + bend)
     }
 }

@@ -57,19 +57,19 @@ impl Instant {
     }
 
     /// dτ/dt = 1/γ
-    pub(super) fn pace(&self) -> f64 {
+    pub(super) fn lapse(&self) -> f64 {
         self.slowness().sqrt()
     }
 
     /// γ²/(γ + 1) dv/dt × v: the angular velocity of carried axes against those of a single boost.
     pub(super) fn thomas(&self) -> DVec3 {
-        let gamma = 1.0 / self.pace();
+        let gamma = 1.0 / self.lapse();
         gamma * gamma / (gamma + 1.0) * self.second.cross(self.velocity)
     }
 
     /// γ²(dv/dt + γ²/(γ + 1) (v·dv/dt) v), in the axes of a single boost.
     pub(super) fn proper_acceleration(&self) -> DVec3 {
-        let gamma = 1.0 / self.pace();
+        let gamma = 1.0 / self.lapse();
         let squared = gamma * gamma;
         let along = squared / (gamma + 1.0) * self.velocity.dot(self.second);
         squared * (self.second + along * self.velocity)

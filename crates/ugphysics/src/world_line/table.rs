@@ -71,7 +71,7 @@ fn step(row: &Row, from: f64, to: f64) -> Step {
     let length = to - from;
     let reach = 15.0_f64.sqrt() / 10.0;
     let [first, middle, last] = [0.5 - reach, 0.5, 0.5 + reach].map(|part| row.at(from + part * length));
-    let own_time = length / 18.0 * (5.0 * (first.pace() + last.pace()) + 8.0 * middle.pace());
+    let own_time = length / 18.0 * (5.0 * (first.lapse() + last.lapse()) + 8.0 * middle.lapse());
     let [first, middle, last] = [first, middle, last].map(|instant| instant.thomas());
     let a = length * middle;
     let b = length * 15.0_f64.sqrt() / 3.0 * (last - first);
@@ -241,7 +241,7 @@ impl SampledPath {
         let node = nodes.partition_point(|node| node.own_time <= own_time);
         let straight = |row: &Row, late: f64, turn: DQuat| {
             let instant = Instant { second: DVec3::ZERO, ..row.at(0.0) };
-            let passed = late / instant.pace();
+            let passed = late / instant.lapse();
             let event = Event { t: row.event.t + passed, x: row.event.x + passed * instant.velocity };
             (event, instant, turn)
         };
@@ -283,7 +283,7 @@ fn time_after(row: &Row, [begin, end]: [f64; 2], part: f64, late: f64) -> f64 {
         } else {
             high = now;
         }
-        let newton = now + missing / row.at(now).pace();
+        let newton = now + missing / row.at(now).lapse();
         let next = if newton >= low && newton <= high { newton } else { low.midpoint(high) };
         let moved = (next - now).abs();
         now = next;

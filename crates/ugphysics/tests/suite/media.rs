@@ -69,7 +69,7 @@ fn light_from_both_sides_adds_up() {
         for toward in [DVec3::Z, DVec3::new(0.3, 0.0, 1.0), DVec3::new(-0.5, 0.4, 1.0)] {
             let light = light(1.5, toward);
             // The same two waves, as seen from the other side: light that comes in from the water.
-            let through = water.wave_beside(light, DVec3::Z).unwrap();
+            let through = water.wave_across(light, DVec3::Z).unwrap();
             let front = reflectance(glass, water, light, DVec3::Z);
             // Reversed in time, light and media move the other way.
             let reversed = |wave: WaveVector| WaveVector { k: -wave.k, ..wave };
@@ -101,13 +101,13 @@ fn media_at_rest_refract_and_reflect_by_snells_law() {
             let wave = WaveVector { frequency: 1.0, k: before * direction };
             let medium = |index| Medium { index, velocity: Velocity::ZERO };
             let sin_behind = sin * before / behind;
-            let found = medium(behind).wave_beside(wave, DVec3::X).map(|wave| wave.k.normalize());
+            let found = medium(behind).wave_across(wave, DVec3::X).map(|wave| wave.k.normalize());
             assert_eq!(found.is_some(), sin_behind <= 1.0, "{before} {behind} {degrees}");
             if let Some(found) = found {
                 let expected = DVec3::new((1.0 - sin_behind * sin_behind).sqrt(), sin_behind, 0.0);
                 assert!((found - expected).length() < 1e-14);
             }
-            let back = medium(before).wave_beside(wave, DVec3::NEG_X).unwrap();
+            let back = medium(before).wave_across(wave, DVec3::NEG_X).unwrap();
             assert!((back.k - before * DVec3::new(-cos, sin, 0.0)).length() < 1e-14);
         }
     }
@@ -121,7 +121,7 @@ fn moving_media_keep_frequency_and_tangential_wave_vector() {
     for v in [beta(0.0, 0.4, 0.0), beta(0.2, -0.3, 0.1), beta(-0.6, 0.0, 0.5)] {
         let water = Medium { index: 1.33, velocity: v };
         let glass = WaveVector { frequency: 1.0, k: 1.5 * DVec3::new(0.8, 0.36, 0.48) };
-        let inside = water.wave_beside(glass, DVec3::X).unwrap();
+        let inside = water.wave_across(glass, DVec3::X).unwrap();
         assert_eq!(inside.frequency, 1.0);
         assert!((inside.k - glass.k).reject_from(DVec3::X).length() < 1e-15);
         let own = inside.in_frame(v);
@@ -165,7 +165,7 @@ fn vacuum_has_no_beta() {
     let moving = Medium { index: 1.0, velocity: beta(0.9, 0.1, 0.0) };
     for vacuum in [Medium::VACUUM, moving] {
         assert_eq!(vacuum.step(wave), Event { t: 1.0, x: wave.k });
-        let beside = vacuum.wave_beside(wave, DVec3::X).unwrap();
+        let beside = vacuum.wave_across(wave, DVec3::X).unwrap();
         assert!(beside.frequency == 1.0 && (beside.k - wave.k).length() < 1e-15);
     }
 }

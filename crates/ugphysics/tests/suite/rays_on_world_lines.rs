@@ -131,7 +131,7 @@ fn light_of_triangles_is_within_its_bounds() {
         let middle = at + random.in_ball(0.7);
         let observer = Event { t: random.between(-9.0, 9.0), x: random.in_ball(9.0) };
         let tube = world_line.tube([at - DVec3::splat(0.5), at + DVec3::splat(0.5)].into_iter()).unwrap();
-        let passages = world_line.passages(&tube, observer).unwrap();
+        let passages = world_line.smooth_stretches(&tube, observer).unwrap();
         for size in [1e-4, 1e-3, 1e-2, 0.05, 0.2] {
             let corners = [(); 3].map(|()| middle + random.in_ball(size));
             let seen = corners.map(|point| (point, world_line.light(point, observer).unwrap()));

@@ -68,7 +68,8 @@ fn a_straight_table_is_inertial() {
         let [found, expected] = [&line, &inertial].map(|line| line.event(point, own_time).unwrap());
         let error = found - expected - shift;
         assert!(error.t.abs() < 1e-13 && error.x.length() < 1e-13, "{own_time}: {error:?}");
-        assert!(line.at_event(found).unwrap().velocity.beta().abs_diff_eq(velocity, 1e-13));
+        let (point, own_time) = line.at_event(found).unwrap();
+        assert!(line.velocity(point, own_time).unwrap().beta().abs_diff_eq(velocity, 1e-13));
     }
 }
 
@@ -82,7 +83,7 @@ fn axes_on_a_sampled_circle_turn_back() {
     let line = WorldLine::along(3.0 * DVec3::X, table(rows), &[]).unwrap();
     let round = std::f64::consts::TAU / (0.3 * gamma);
     let start = exact.event(3.0 * DVec3::X, 0.0).unwrap();
-    let begin = line.at_event(start).unwrap().own_time;
+    let begin = line.at_event(start).unwrap().1;
     let [first, last] = [begin, begin + round].map(|own_time| line.pose(own_time));
     assert!((last.event.x - first.event.x).length() < 1e-9 && (first.event - start).x.length() < 1e-9);
     let x = (first.scene_from_axes.inverse() * last.scene_from_axes).apply(Event { t: 0.0, x: DVec3::X }).x;

@@ -20,7 +20,7 @@ fn wave(direction: DVec3) -> WaveVector {
 fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> WaveVector {
     let there = light.in_frame(v);
     let normal = rest_normal * -there.k.dot(rest_normal).signum();
-    Medium::VACUUM.wave_beside(there, normal).expect("a mirror reflects").in_frame(-v)
+    Medium::VACUUM.wave_across(there, normal).expect("a mirror reflects").in_frame(-v)
 }
 
 #[test]

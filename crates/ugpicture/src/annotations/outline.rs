@@ -11,11 +11,7 @@ use std::collections::HashMap;
 
 use glam::{DQuat, DVec3};
 use ugimage::label::Drawing;
-use ugphysics::Event;
-use ugscene::{
-    BodyId, Geometry, RestPosition, Scene, VertexId, View, face_edges, rest_positions, unit_normal,
-    vertex_bodies,
-};
+use ugscene::{BodyId, Scene, VertexId, View, face_edges, rest_positions, unit_normal, vertex_bodies};
 
 use super::seen::SeenScene;
 use super::style::Style;
@@ -42,7 +38,7 @@ pub fn draw<E: From<Error>>(
     style: &Style,
     drawing: &mut Drawing,
 ) -> Result<Option<Note>, E> {
-    if !seen.scene.faces.iter().any(|face| seen.is_moving(face.body)) {
+    if !seen.scene.faces.iter().any(|face| seen.frames.is_moving(face.body)) {
         return Ok(Some(Note::NoOutline));
     }
     let places = ideal_places(seen);
@@ -60,7 +56,6 @@ pub fn draw<E: From<Error>>(
 fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
     let SeenScene { scene, view, frames, .. } = seen;
     let at_rest = rest_positions(scene, view.eye, frames);
-    let geometry = Geometry::of(scene);
     let bodies = vertex_bodies(scene);
     let mut bounds: Vec<Option<[DVec3; 2]>> = vec![None; scene.bodies.len()];
     for (&place, body) in at_rest.iter().zip(&bodies) {
@@ -69,15 +64,11 @@ fn ideal_places<E: From<Error>>(seen: &SeenScene<'_, E>) -> Vec<DVec3> {
     }
     // The centre of a moving body at rest, where it is seen, and the turn of the body then.
     let standing = |body: BodyId| {
-        let [low, high] = bounds[body.index()].filter(|_| seen.is_moving(body))?;
+        let [low, high] = bounds[body.index()].filter(|_| seen.frames.is_moving(body))?;
         let center = 0.5 * low + 0.5 * high;
-        let Some(line) = frames.world_line(body) else {
-            let rest = RestPosition(frames.of(body).scene_from_boosted().inverse() * center);
-            return Some((center, geometry.seen(rest, frames.velocity(body)).0, DQuat::IDENTITY));
-        };
-        let emission = line.emission(center, Event { t: 0.0, x: DVec3::ZERO }).ok();
-        let seen = emission.map(|seen| (seen.event.x, line.pose(seen.own_time).turn));
-        let (place, turn) = seen.unwrap_or((center, DQuat::IDENTITY));
+        let motion = frames.motion(body);
+        let (place, own_time) = motion.light(motion.turned(center)).unwrap_or((center, 0.0));
+        let turn = motion.world_line().map_or(DQuat::IDENTITY, |line| line.standing(center, own_time).1);
         Some((center, place, turn))
     };
     let standing: Vec<_> = scene.bodies.ids().map(standing).collect();
@@ -94,7 +85,7 @@ fn ideal_scene(scene: &Scene, eye: DVec3, places: &[DVec3]) -> Scene {
     for (vertex, place) in ideal.vertices.iter_mut().zip(places) {
         vertex.position = eye + *place;
     }
-    ideal.rest.clear();
+    (ideal.rest, ideal.own_times) = (Vec::new(), Vec::new());
     let body = ideal.bodies.unstated();
     ideal.faces.iter_mut().for_each(|face| face.body = body);
     ideal
@@ -131,7 +122,7 @@ struct Edge {
 /// Edges of moving bodies, in the order of the scene. `places`: of the vertices at rest.
 fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<Edge> {
     let scene = seen.scene;
-    let moving = scene.faces.iter().filter(|face| seen.is_moving(face.body));
+    let moving = scene.faces.iter().filter(|face| seen.frames.is_moving(face.body));
     let corners = moving.flat_map(|face| scene.contours.corners(face.contours.clone()));
     let nearest = corners.map(|corner| places[corner.index()].length()).fold(f64::INFINITY, f64::min);
     let [left, right] = [[0.0, 0.0], [1.0, 0.0]].map(|place| seen.view.point(place, nearest));
@@ -140,7 +131,7 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<Edge>
     let mut edges: Vec<Edge> = Vec::new();
     // Only looked up, so its order does not matter.
     let mut known = HashMap::new();
-    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| seen.is_moving(face.body)) {
+    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| seen.frames.is_moving(face.body)) {
         for [a, b] in face_edges(scene, face) {
             let (from, to) = (spot(a), spot(b));
             if from == to {

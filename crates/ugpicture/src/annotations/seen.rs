@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugimage::figure::Point;
 use ugphysics::Velocity;
-use ugscene::{BodyId, CameraOptions, RestFrames, Scene, Vertex, View, Wire};
+use ugscene::{CameraOptions, RestFrames, Scene, Vertex, View, Wire};
 
 use super::VisibleWires;
 use crate::error::Error;
@@ -37,11 +37,6 @@ impl<'a, E: From<Error>> SeenScene<'a, E> {
         let view = View::new(scene, &camera, options.size).map_err(Error::from)?;
         let size = options.size.map(f64::from);
         Ok(Self { scene, view, frames: RestFrames::new(scene), size, camera, wires })
-    }
-
-    /// True if a body moves relative to the camera.
-    pub fn is_moving(&self, body: BodyId) -> bool {
-        self.frames.world_line(body).is_some() || !self.frames.velocity(body).is_zero()
     }
 
     /// The parts in the picture of lines at rest that the faces of a scene, seen by this camera, do

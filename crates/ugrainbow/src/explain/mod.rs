@@ -13,7 +13,7 @@ use ugpicture::explain::{
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
-use ugscene::{ColorScale, ColorValue, Geometry, RestPosition, SeenPosition, VertexId};
+use ugscene::{ColorScale, ColorValue, RestPosition, SeenPosition, ShownEffects, VertexId};
 
 use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
@@ -182,9 +182,9 @@ impl Teller<'_> {
         let emissions = Emissions::new(painter.scene, painter.view, painter.appearance.surface.frames());
         let emission = emissions.at(sample.place, seen);
         let (place, velocity) = (emission.place, emission.velocity);
-        let geometry = Geometry::of(self.setup.scene());
+        let geometry = ShownEffects::of(self.setup.scene());
         let RestPosition(rest) = geometry.rest(SeenPosition(place), velocity);
-        let rest_time = (geometry == Geometry::default()).then(|| -rest.length());
+        let rest_time = (geometry == ShownEffects::default()).then(|| -rest.length());
         let angle = |line: DVec3| {
             (!velocity.is_zero()).then(|| line.angle_between(velocity.direction()).to_degrees())
         };

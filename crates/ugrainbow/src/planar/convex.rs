@@ -116,7 +116,7 @@ impl Convex {
     }
 
     /// Its difference with another in the picture, in convex parts.
-    pub fn beside(&self, other: &Self) -> Vec<Self> {
+    pub fn difference(&self, other: &Self) -> Vec<Self> {
         if self.is_apart(other) {
             return vec![self.clone()];
         }

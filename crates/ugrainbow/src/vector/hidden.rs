@@ -34,5 +34,5 @@ fn is_hidden(patch: &Patch, patches: &[Patch], index: &BoxIndex, work: &Work) ->
 /// The part of `own` that is not occluded by `other`; all of it if that is not nearer everywhere.
 fn shown(own: Convex, other: &Convex) -> Vec<Convex> {
     let relation = other.relation(&own);
-    if relation.is_before && !relation.is_behind { own.beside(other) } else { vec![own] }
+    if relation.is_before && !relation.is_behind { own.difference(other) } else { vec![own] }
 }

@@ -131,7 +131,7 @@ impl PaintedAreas {
             .map(|&number| &self.all[number].parts[..]);
         is_covered(parts, covers, |own, part| {
             self.work.count_pair(&own, part);
-            own.beside(part)
+            own.difference(part)
         })
     }
 }

@@ -86,6 +86,11 @@ impl Bodies {
         self.motions[self[id].motion.0 as usize].statement.as_ref()
     }
 
+    /// A body, the one that it is part of, the one that this is part of, and so on.
+    pub fn carriers(&self, id: BodyId) -> impl Iterator<Item = BodyId> + '_ {
+        std::iter::successors(Some(id), |&body| self.statement(body).and_then(StatedMotion::body))
+    }
+
     /// Gives a body a name and a motion with a statement, whose world line is `line`.
     pub fn set_statement(&mut self, id: BodyId, name: NameId, statement: StatedMotion, line: WorldLine) {
         let body = &mut self.rows[id.index()];

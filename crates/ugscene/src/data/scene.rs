@@ -52,6 +52,9 @@ pub struct Scene {
     /// of its body and the axes of the scene. Empty if rest positions follow from those seen by
     /// (P4), as they do in a scene from text.
     pub rest: Vec<DVec3>,
+    /// For each vertex of a scene as seen with known rest positions, the own time of its body at
+    /// emission. Empty if no body is on a world line.
+    pub own_times: Vec<f64>,
     /// Contours of faces and wires.
     pub contours: Contours,
     /// `f`.
@@ -373,9 +376,8 @@ impl Scene {
 
     /// Adds a copy of a vertex, with all that is known of it, under another name.
     pub fn copy_vertex(&mut self, original: VertexId, name: NameId) -> VertexId {
-        if let Some(&rest) = self.rest.get(original.index()) {
-            self.rest.push(rest);
-        }
+        self.rest.extend(self.rest.get(original.index()).copied());
+        self.own_times.extend(self.own_times.get(original.index()).copied());
         self.add_vertex(Vertex { name, ..self.vertices[original.index()] })
     }
 

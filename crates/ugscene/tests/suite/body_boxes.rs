@@ -123,7 +123,7 @@ fn nothing_is_seen_of_what_is_out_of_view() {
         }
         n_out += 1;
         let mut moved = scene.clone();
-        let placed = PlacedBodies::new(&mut moved, &motion, &camera, SIZE).unwrap();
+        let placed = PlacedBodies::move_to_camera_frame(&mut moved, &motion, &camera, SIZE).unwrap();
         let rest = placed.rest_positions(&moved);
         let view = View::new(&moved, &CameraOptions { eye: None, ..camera }, SIZE).unwrap();
         for face in &moved.faces {
@@ -166,12 +166,11 @@ fn motion_in_view_is_not_noted() {
             ..CameraOptions::default()
         };
         let mut seen = scene.clone();
-        let placed = PlacedBodies::new(&mut seen, &motion, &camera, SIZE).unwrap();
+        let placed = PlacedBodies::move_to_camera_frame(&mut seen, &motion, &camera, SIZE).unwrap();
         let rest = placed.rest_positions(&seen).into_iter().zip(&placed.bodies);
         for (vertex, (rest, body)) in seen.vertices.iter_mut().zip(rest) {
             vertex.position = eye + placed.motions[body.index()].seen(RestPosition(rest)).0;
         }
-        seen.stage.geometry = placed.seen_stage(&motion);
         let note = BodyBoxes::new(&scene).note(&seen, &motion, &camera, SIZE);
         let may_miss_motion = ugscene::may_miss_motion(&seen, &camera, SIZE);
         assert!(may_miss_motion || note.is_none(), "{note:?}");

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ugpipe::Words;
 use ugscene::{
-    CameraOptions, CameraPoint, DefaultCamera, Geometry, MotionOptions, PlacedBodies, RelativeMotion,
-    RestPosition, Scene, View,
+    CameraOptions, CameraPoint, DefaultCamera, MotionOptions, PlacedBodies, RelativeMotion, RestPosition,
+    Scene, ShownEffects, View,
 };
 
 use super::parse;
@@ -12,7 +12,7 @@ use super::parse;
 fn camera(text: &str, options: &CameraOptions, velocities: &[DVec3]) -> Option<DefaultCamera> {
     let scene = parse(text);
     let motion = |beta: &DVec3| {
-        RelativeMotion::new(ugphysics::Velocity::from_beta(*beta).unwrap(), Geometry::default())
+        RelativeMotion::new(ugphysics::Velocity::from_beta(*beta).unwrap(), ShownEffects::default())
     };
     DefaultCamera::new(&scene, options, [4, 3], |_| velocities.iter().map(motion).collect()).unwrap()
 }
@@ -125,7 +125,8 @@ fn a_body_in_motion_is_fitted_as_it_is_seen() {
                     ..MotionOptions::default()
                 };
                 let camera = CameraOptions::default();
-                let placed = PlacedBodies::new(&mut scene, &options, &camera, [400, 300]).unwrap();
+                let placed =
+                    PlacedBodies::move_to_camera_frame(&mut scene, &options, &camera, [400, 300]).unwrap();
                 let view = View::new(&scene, &camera, [400, 300]).unwrap();
                 let bodies = placed.bodies.iter().map(|body| &placed.motions[body.index()]);
                 let rest = placed.rest_positions(&scene);

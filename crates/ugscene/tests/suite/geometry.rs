@@ -3,7 +3,7 @@
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Lorentz, Velocity, WorldLine};
 use ugscene::{
-    Geometry, GeometryStage, RestFrames, RestPosition, SeenGeometry, SeenPosition, rest_positions,
+    GeometryStage, RestFrames, RestPosition, SeenGeometry, SeenPosition, ShownEffects, rest_positions,
 };
 
 use super::parse;
@@ -26,11 +26,11 @@ fn seen_normals_are_at_right_angles_to_seen_tangents() {
     }
 }
 
-const ALL: [Geometry; 4] = [
-    Geometry { contraction: true, flight_time: true },
-    Geometry { contraction: true, flight_time: false },
-    Geometry { contraction: false, flight_time: true },
-    Geometry { contraction: false, flight_time: false },
+const ALL: [ShownEffects; 4] = [
+    ShownEffects { contraction: true, flight_time: true },
+    ShownEffects { contraction: true, flight_time: false },
+    ShownEffects { contraction: false, flight_time: true },
+    ShownEffects { contraction: false, flight_time: false },
 ];
 
 #[test]

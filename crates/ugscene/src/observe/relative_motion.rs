@@ -3,26 +3,29 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{RestFrame, Velocity, WorldLine, contracted, elongated};
+use ugphysics::{Event, RestFrame, Velocity, WorldLine, WorldLineError, contracted, elongated};
 
-use crate::{Geometry, HalfSpace, RestPosition, SeenPosition};
+use crate::{HalfSpace, RestPosition, SeenPosition, ShownEffects};
 
 /// Relative rounding error of the bound of (P27), which is computed with about ten operations.
 const ROUNDING: f64 = 1e-12;
+
+/// The event of the eye.
+const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
 
 /// How one body moves relative to the camera, and which effects are shown.
 #[derive(Clone, Debug)]
 pub struct RelativeMotion {
     frame: RestFrame,
     in_scene: Velocity,
-    geometry: Geometry,
+    geometry: ShownEffects,
     line: Option<Arc<WorldLine>>,
 }
 
 impl RelativeMotion {
     /// The motion of a body with `velocity` in the frame of the camera, which is the frame of the
     /// scene.
-    pub fn new(velocity: Velocity, geometry: Geometry) -> RelativeMotion {
+    pub fn new(velocity: Velocity, geometry: ShownEffects) -> RelativeMotion {
         RelativeMotion { frame: RestFrame::new(velocity), in_scene: velocity, geometry, line: None }
     }
 
@@ -32,26 +35,38 @@ impl RelativeMotion {
         velocity: Velocity,
         in_scene: Velocity,
         camera: Velocity,
-        geometry: Geometry,
+        geometry: ShownEffects,
     ) -> RelativeMotion {
-        RelativeMotion { frame: crate::rest_frames::frame(velocity, camera), in_scene, geometry, line: None }
+        RelativeMotion { frame: super::rest_frames::frame(velocity, camera), in_scene, geometry, line: None }
     }
 
     /// The motion of a body on a world line, in the frame of the camera with the event of the eye
     /// as its origin.
     pub(crate) fn on_world_line(line: WorldLine) -> RelativeMotion {
-        let motion = Self::new(line.initial_velocity(), Geometry::default());
-        RelativeMotion { line: Some(Arc::new(line)), ..motion }
+        Self::new(line.initial_velocity(), ShownEffects::default()).with_line(Some(line))
+    }
+
+    /// The same on a world line.
+    pub(crate) fn with_line(self, line: Option<WorldLine>) -> RelativeMotion {
+        RelativeMotion { line: line.map(Arc::new), ..self }
+    }
+
+    /// The rest frame of the body.
+    #[inline]
+    pub fn rest_frame(&self) -> &RestFrame {
+        &self.frame
     }
 
     /// The world line of a body that is not inertial, in the frame of the camera with the event of
     /// the eye as its origin. Coordinates of the body are relative to the eye. The velocity and the
     /// rest frame below are those at its own time 0.
+    #[inline]
     pub fn world_line(&self) -> Option<&Arc<WorldLine>> {
         self.line.as_ref()
     }
 
     /// In the frame of the camera.
+    #[inline]
     pub fn velocity(&self) -> Velocity {
         self.frame.velocity()
     }
@@ -64,20 +79,22 @@ impl RelativeMotion {
     /// Rest coordinates, or a direction, in the axes of the rest positions of (P3); `p` is in the
     /// axes of the scene.  Eq. (P25)
     pub fn turned(&self, p: DVec3) -> DVec3 {
-        self.frame.boosted_from_scene() * p
+        if self.frame.is_turned() { self.frame.boosted_from_scene() * p } else { p }
     }
 
     /// The inverse of [`RelativeMotion::turned`].
     pub fn turned_back(&self, p: DVec3) -> DVec3 {
-        self.frame.scene_from_boosted() * p
+        if self.frame.is_turned() { self.frame.scene_from_boosted() * p } else { p }
     }
 
     /// True if the body rests in the frame of the camera.
+    #[inline]
     pub fn is_at_rest(&self) -> bool {
         self.line.is_none() && self.frame.is_at_rest()
     }
 
     /// True if the time of flight of light is included, so that straight edges are seen as curves.
+    #[inline]
     pub fn has_flight_time(&self) -> bool {
         self.geometry.flight_time
     }
@@ -92,28 +109,45 @@ impl RelativeMotion {
         self.geometry.seen(rest, self.velocity())
     }
 
+    /// Where a point is seen, and the own time at which its light left: on a world line that of the
+    /// body, else the time of the rest frame after the event of the eye.
+    ///
+    /// # Errors
+    /// [`WorldLineError::Horizon`] if the point cannot move so.
+    pub fn light(&self, rest: DVec3) -> Result<(DVec3, f64), WorldLineError> {
+        match &self.line {
+            None if self.is_at_rest() => Ok((rest, -rest.length())),
+            None => Ok((self.seen(RestPosition(rest)).0, -self.boosted_rest(rest).length())),
+            Some(line) => line.light(rest, EYE).map(|light| (light.event.x, light.own_time)),
+        }
+    }
+
     /// The rest position of what is seen at `seen`.
     pub fn rest(&self, seen: SeenPosition) -> RestPosition {
         self.geometry.rest(seen, self.velocity())
     }
 
     /// û.
+    #[inline]
     pub fn direction(&self) -> DVec3 {
         self.velocity().direction()
     }
 
     /// γ.
+    #[inline]
     pub fn gamma(&self) -> f64 {
         self.velocity().gamma()
     }
 
     /// γβ.
+    #[inline]
     pub fn proper_speed(&self) -> f64 {
         self.velocity().proper_speed()
     }
 
     /// The vector in rest coordinates that (P3) maps to where `rest` is seen. Without contraction
     /// it is `rest` elongated along the motion by γ, which cancels the contraction in (P3).
+    #[inline]
     pub fn boosted_rest(&self, rest: DVec3) -> DVec3 {
         if self.geometry.contraction { rest } else { elongated(rest, self.velocity()) }
     }

@@ -10,24 +10,24 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Lorentz};
 
-use super::observer::Observer;
-use super::{MotionError, MotionOptions};
+use super::MotionError;
+use super::placement::Placement;
 use crate::{BodyId, Color, ColorId, ColorTable, RelativeMotion, Scene, UniqueNames};
 
 /// Makes the tables of colours on inertial bodies count from the event of the eye. `motions`: of
-/// each body. `frames`: see [`super::placement::frames`].
+/// each body. `frames`: see [`Placement::frames`].
 ///
 /// # Errors
 /// [`MotionError::PartialTimes`].
 pub(super) fn count_from_eye(
     scene: &mut Scene,
     (motions, frames): (&[RelativeMotion], &[InertialFrame]),
-    (eye, observer): (DVec3, &Observer),
-    options: &MotionOptions,
+    placement: &Placement<'_>,
 ) -> Result<(), MotionError> {
     if scene.color_tables.is_empty() {
         return Ok(());
     }
+    let options = placement.options;
     if !(options.geometry.contraction && options.geometry.flight_time) {
         return Err(MotionError::PartialTimes);
     }
@@ -39,8 +39,7 @@ pub(super) fn count_from_eye(
         // shows 0 at time 0 of the scene at the origin.
         let origin = Event { t: 0.0, x: DVec3::ZERO };
         let zero = if options.in_place { origin } else { frame.start() };
-        let event = observer.event(options.time) + Event { t: 0.0, x: eye } - zero;
-        Lorentz::boost(motion.in_scene()).inverse().apply(event).t
+        Lorentz::boost(motion.in_scene()).inverse().apply(placement.eye_event() - zero).t
     };
     let times: Vec<f64> = motions.iter().zip(frames).map(time).collect();
     let mut recount = Recount { times, known: FxHashMap::default(), names: None };

@@ -1,10 +1,18 @@
-//! Motions of bodies, camera and lights relative to each other, and where the bodies are in their
-//! rest frames: what a filter for seen positions and a ray tracer have in common.
+//! Where bodies are for one observer: their motions relative to the camera, their rest frames, and
+//! for the vertices of a scene as seen the columns of rest positions and own times.
 
 mod camera_frame;
+mod camera_motion;
 mod clocks;
+mod eye;
 mod observer;
 mod placement;
+mod position;
+mod relative_motion;
+mod rest_frames;
+mod seen_event;
+mod seen_vertices;
+mod shown_effects;
 mod world_lines;
 
 use std::fmt;
@@ -13,12 +21,22 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
+pub use camera_motion::{axes_from_scene, camera_velocity};
+pub use eye::{eye, vertex_at_eye};
+pub use position::{RestPosition, SeenPosition};
+pub use relative_motion::RelativeMotion;
+pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
+pub use seen_event::seen_event;
+pub use seen_vertices::{SeenVertices, rest_positions};
+pub use shown_effects::ShownEffects;
+
 use observer::Observer;
+use placement::Placement;
 
 use crate::camera_options::half_side;
 use crate::{
-    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, Geometry, GeometryStage, Projection,
-    RelativeMotion, RestFrames, Scene, SeenGeometry, StageError,
+    BodyId, Camera, CameraError, CameraOptions, DefaultCamera, GeometryStage, Projection, Scene,
+    SeenGeometry, StageError,
 };
 
 /// How bodies, camera and lights move, and when the picture is taken.
@@ -37,7 +55,7 @@ pub struct MotionOptions {
     /// Place each body so that its anchor is seen, at time 0, where the scene has it (`-in`).
     pub in_place: bool,
     /// Which effects to show (`-nc`, `--no-flight-time`).
-    pub geometry: Geometry,
+    pub geometry: ShownEffects,
 }
 
 /// The fixed point of the contraction of a body.
@@ -87,6 +105,19 @@ pub enum MotionError {
     PartialTimes,
 }
 
+/// A point of a body as it is seen. Both positions are relative to the eye.
+#[derive(Clone, Copy, Debug)]
+pub struct ShownPoint {
+    /// The body.
+    pub body: BodyId,
+    /// Rest coordinates, in the axes of [`RelativeMotion::turned`].
+    pub rest: DVec3,
+    /// Where it is seen.
+    pub seen: DVec3,
+    /// The own time of the body at emission, of one on a world line.
+    pub own_time: f64,
+}
+
 impl fmt::Display for MotionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -127,23 +158,21 @@ pub struct PlacedBodies {
     /// For each body, what has to be added to its rest coordinates, in the axes of
     /// [`RelativeMotion::turned`].
     pub shifts: Vec<DVec3>,
-    /// True if a body, a light or the camera moves or has moved, or a colour changes with own time.
-    pub has_motion: bool,
-    /// The velocity of the camera in the frame of the scene.
-    camera: Velocity,
 }
 
 impl PlacedBodies {
     /// Places the bodies of a scene at rest. In the scene, velocities become those in the frame of
     /// the camera, each body gets its own vertices, lights that move with a body are shifted with
-    /// it, and the camera receives the eye and `camera`; vertices keep their positions.
+    /// it, and the camera receives the eye and `camera`; vertices keep their positions, until
+    /// [`PlacedBodies::show`] moves them. If anything moves or has moved, or a colour changes with own
+    /// time, the stage becomes that of a scene as seen.
     ///
     /// `camera`: options of the camera. `size`: pixels of the picture across and down, of which the
     /// aspect ratio decides how far a camera must stand back.
     ///
     /// # Errors
     /// See [`MotionError`].
-    pub fn new(
+    pub fn move_to_camera_frame(
         scene: &mut Scene,
         options: &MotionOptions,
         camera: &CameraOptions,
@@ -159,8 +188,8 @@ impl PlacedBodies {
         if !of_camera.is_zero() {
             camera_frame::state_motions(scene, velocity);
         }
-        crate::separate_bodies(scene);
-        let bodies = crate::vertex_bodies(scene);
+        separate_bodies(scene);
+        let bodies = vertex_bodies(scene);
         placement::turn_bodies(scene, &bodies);
         let mut motions = motions(scene, velocity, of_camera, options.geometry)?;
         // Bodies on world lines are fitted at rest.
@@ -170,26 +199,31 @@ impl PlacedBodies {
         };
         let default_camera = DefaultCamera::new(scene, camera, size, fitted);
         let default_camera = default_camera.map_err(MotionError::Camera)?;
-        let eye = default_camera.map_or_else(|| crate::eye(scene, camera.eye), |camera| camera.eye);
-        let roots = world_lines::roots(scene);
+        let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
+        let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
-        let frames = placement::frames(scene, (&bodies, &roots), (eye, overridden), options);
+        let frames = placement.frames(scene);
         camera_frame::state_relative_motions(scene, &motions, of_camera)?;
-        world_lines::place(scene, (&bodies, &roots), &mut motions, (eye, &observer), options)?;
+        world_lines::place(scene, &mut motions, &placement)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
             || observer.has_left()
             || crate::has_moving_bodies(scene)
             || crate::has_moving_lights(scene)
             || !scene.color_tables.is_empty();
-        let shifts = placement::shifts(&motions, &frames, (eye, &observer), options);
+        let shifts = placement.shifts(&motions, &frames);
         placement::shift_lights(scene, &motions, &shifts);
-        clocks::count_from_eye(scene, (&motions, &frames), (eye, &observer), options)?;
+        clocks::count_from_eye(scene, (&motions, &frames), &placement)?;
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
         set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;
         turn_camera(scene, eye, &observer);
-        Ok(Self { eye, default_camera, motions, bodies, shifts, has_motion, camera: of_camera })
+        let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } = *options;
+        if has_motion || options.geometry != ShownEffects::default() {
+            let seen = SeenGeometry { eye, time, camera_velocity: of_camera, contraction, flight_time };
+            scene.stage.geometry = GeometryStage::AsSeen(seen);
+        }
+        Ok(Self { eye, default_camera, motions, bodies, shifts })
     }
 
     /// The rest position p' of each vertex, relative to the eye, in the axes of
@@ -203,15 +237,31 @@ impl PlacedBodies {
             .collect()
     }
 
-    /// The stage of the scene when its vertices are where they are seen.
-    pub fn seen_stage(&self, options: &MotionOptions) -> GeometryStage {
-        GeometryStage::AsSeen(SeenGeometry {
-            eye: self.eye,
-            time: options.time,
-            camera_velocity: self.camera,
-            contraction: options.geometry.contraction,
-            flight_time: options.geometry.flight_time,
-        })
+    /// Puts vertices where they are seen, and fills the columns of rest positions and own times if
+    /// the stage of the scene says that it is as seen. Vertices before `n_placed` have their place:
+    /// on a body at rest that was not shifted it stays the same to the bit.
+    ///
+    /// `points`: of each vertex. Returns the first row whose position is not finite.
+    pub fn show(&self, scene: &mut Scene, points: &[ShownPoint], n_placed: usize) -> Option<usize> {
+        let motion = |point: &ShownPoint| &self.motions[point.body.index()];
+        if scene.stage.seen_geometry().is_some() {
+            scene.rest = points.iter().map(|point| motion(point).turned_back(point.rest)).collect();
+        }
+        if scene.bodies.has_world_lines() {
+            let own_time = |point: &ShownPoint| motion(point).world_line().map(|_| point.own_time);
+            scene.own_times = points.iter().map(|point| own_time(point).unwrap_or(f64::NAN)).collect();
+        }
+        let mut first = None;
+        for (row, (vertex, point)) in scene.vertices.iter_mut().zip(points).enumerate() {
+            let stays = motion(point).is_at_rest() && self.shifts[point.body.index()] == DVec3::ZERO;
+            if row >= n_placed || !stays {
+                vertex.position = point.seen + self.eye;
+            }
+            if !vertex.position.is_finite() {
+                first = first.or(Some(row));
+            }
+        }
+        first
     }
 }
 
@@ -220,7 +270,7 @@ fn motions(
     scene: &Scene,
     default: Velocity,
     camera: Velocity,
-    geometry: Geometry,
+    geometry: ShownEffects,
 ) -> Result<Vec<RelativeMotion>, MotionError> {
     let motion = |body: BodyId| {
         if scene.bodies.is_on_world_line(body) {
@@ -237,7 +287,11 @@ fn motions(
 ///
 /// # Errors
 /// Their relative velocity rounds to that of light.
-fn seen_by(camera: Velocity, in_scene: Velocity, geometry: Geometry) -> Result<RelativeMotion, MotionError> {
+fn seen_by(
+    camera: Velocity,
+    in_scene: Velocity,
+    geometry: ShownEffects,
+) -> Result<RelativeMotion, MotionError> {
     let velocity = camera_frame::in_camera_frame(in_scene, camera)?;
     Ok(RelativeMotion::composed(velocity, in_scene, camera, geometry))
 }
@@ -280,7 +334,7 @@ pub fn moving_camera(
     let (cameras, bodies) = (scene.cameras.clone(), scene.bodies.clone());
     let mut scene = Scene { cameras, bodies, ..Scene::default() };
     let observer = Observer::take(&mut scene, options, camera.eye)?;
-    let eye = crate::eye(&scene, camera.eye);
+    let eye = eye(&scene, camera.eye);
     camera.check_up().map_err(MotionError::Camera)?;
     set_camera(&mut scene, eye, Some(middle), camera).map_err(MotionError::Camera)?;
     turn_camera(&mut scene, eye, &observer);

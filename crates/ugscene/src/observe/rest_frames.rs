@@ -3,19 +3,20 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use ugphysics::{BodyEvent, Lorentz, RestFrame, Velocity, WorldLine};
+use ugphysics::{Event, Lorentz, RestFrame, Velocity, WorldLine};
 
-use crate::{BodyId, FaceOrWire, Scene, axes_from_scene, camera_velocity, split_vertices, world_lines};
+use super::seen_event::world_line;
+use crate::{
+    BodyId, FaceOrWire, RelativeMotion, Scene, ShownEffects, axes_from_scene, camera_velocity, split_vertices,
+};
 
-/// The rest frame of each body, relative to the frame of the camera.
+/// The motion of each body of a scene as seen, and its rest frame, relative to the camera.
 #[derive(Clone, Debug)]
 pub struct RestFrames {
     /// In the order of [`Scene::bodies`].
-    frames: Vec<RestFrame>,
+    motions: Vec<RelativeMotion>,
     /// For each body, see [`RestFrames::lamp_shift`].
     lamp_shifts: Vec<DVec3>,
-    /// For each body, see [`RestFrames::world_line`]; empty if all are `None`.
-    world_lines: Vec<Option<Arc<WorldLine>>>,
     /// The velocity of the camera in the frame of the scene.
     camera: Velocity,
 }
@@ -28,12 +29,22 @@ impl RestFrames {
 
     /// Like [`RestFrames::new`], with `velocity` for bodies whose motion is not stated.
     pub fn with_default(scene: &Scene, velocity: Velocity) -> Self {
-        let camera = camera_velocity(scene);
-        let frame = |body| frame(scene.bodies.stated_velocity(body).unwrap_or(velocity), camera);
-        let frames: Vec<RestFrame> = scene.bodies.ids().map(frame).collect();
+        let (camera, geometry) = (camera_velocity(scene), ShownEffects::of(scene));
+        let motion = |body| {
+            let velocity = scene.bodies.stated_velocity(body).unwrap_or(velocity);
+            let motion = RelativeMotion::composed(velocity, velocity, camera, geometry);
+            motion.with_line(world_line(scene, body))
+        };
+        let motions = scene.bodies.ids().map(motion).collect();
         let shift = |body| scene.bodies.motion(body).inertial_frame().map(|frame| frame.shift.x);
         let lamp_shifts = scene.bodies.ids().map(|body| shift(body).unwrap_or_default()).collect();
-        Self { frames, lamp_shifts, world_lines: world_lines(scene), camera }
+        Self { motions, lamp_shifts, camera }
+    }
+
+    /// The motion of a body relative to the camera.
+    #[inline]
+    pub fn motion(&self, body: BodyId) -> &RelativeMotion {
+        &self.motions[body.index()]
     }
 
     /// The world line of a body that is not inertial in a scene as seen, in the frame of the
@@ -41,7 +52,7 @@ impl RestFrames {
     /// eye. The rest frame and velocity of such a body are those at its own time 0.
     #[inline]
     pub fn world_line(&self, body: BodyId) -> Option<&Arc<WorldLine>> {
-        self.world_lines.get(body.index())?.as_ref()
+        self.motion(body).world_line()
     }
 
     /// Coordinates in the frame of the scene from those in the frame of the camera, with the event of
@@ -52,24 +63,46 @@ impl RestFrames {
 
     /// True if a body has a world line.
     pub fn have_world_lines(&self) -> bool {
-        !self.world_lines.is_empty()
+        self.motions.iter().any(|motion| motion.world_line().is_some())
     }
 
-    /// Own time and velocity, in the frame of the camera, of the point of a body on a world line
-    /// that is seen at `seen` relative to the eye. `None` for an inertial body, and where no point
-    /// of the body can be seen.
-    pub fn body_event(&self, body: BodyId, seen: DVec3) -> Option<BodyEvent> {
-        self.world_line(body)?.at_event(crate::seen_event(seen)).ok()
+    /// The velocity, in the frame of the camera, of what of a body is at an event relative to that of
+    /// the eye; and the own time of a body on a world line, unless no point of it can be there.
+    pub fn at_event(&self, body: BodyId, event: Event) -> (Velocity, Option<f64>) {
+        let of_line = || {
+            let line = self.world_line(body)?;
+            let (point, own_time) = line.at_event(event).ok()?;
+            Some((line.velocity(point, own_time).ok()?, Some(own_time)))
+        };
+        of_line().unwrap_or((self.velocity(body), None))
+    }
+
+    /// The point of a body at an event relative to that of the eye; `None` if none can be there.
+    pub fn point_at(&self, body: BodyId, event: Event) -> Option<DVec3> {
+        match self.world_line(body) {
+            Some(line) => line.at_event(event).ok().map(|(point, _)| point),
+            None => Some(self.of(body).rest_from_camera(event).x),
+        }
+    }
+
+    /// True if a body, or a part of it, moves relative to the camera.
+    pub fn is_moving(&self, body: BodyId) -> bool {
+        !self.motion(body).is_at_rest()
+    }
+
+    /// True if two bodies have the same motion.
+    pub fn move_alike(&self, a: BodyId, b: BodyId) -> bool {
+        self.velocity(a) == self.velocity(b) && self.world_line(a) == self.world_line(b)
     }
 
     /// The rest frame of a body.
     pub fn of(&self, body: BodyId) -> &RestFrame {
-        &self.frames[body.index()]
+        self.motion(body).rest_frame()
     }
 
     /// The velocity of a body in the frame of the camera.
     pub fn velocity(&self, body: BodyId) -> Velocity {
-        self.of(body).velocity()
+        self.motion(body).velocity()
     }
 
     /// The displacement of lamps that rest with whatever they light, when they light
@@ -81,12 +114,12 @@ impl RestFrames {
 
     /// The greatest rapidity of a body.
     pub fn greatest_rapidity(&self) -> f64 {
-        self.frames.iter().map(|frame| frame.velocity().rapidity()).fold(0.0, f64::max)
+        self.motions.iter().map(|motion| motion.velocity().rapidity()).fold(0.0, f64::max)
     }
 
     /// True if nothing moves.
     pub fn are_at_rest(&self) -> bool {
-        !self.have_world_lines() && self.frames.iter().all(RestFrame::is_at_rest)
+        self.motions.iter().all(RelativeMotion::is_at_rest)
     }
 }
 

@@ -10,72 +10,85 @@ use super::observer::Observer;
 use super::{Anchor, MotionOptions, RelativeMotion};
 use crate::{BodyId, LightKind, Scene, SeenPosition, StatedMotion};
 
-/// The rest frame in the scene of each inertial body, with the fixed point of the contraction as A:
-/// the option, else the reference point of the body; for `overridden`, which the option `-vel`
-/// moves, the eye. Those of bodies on world lines have no meaning.
-///
-/// `bodies`: of each vertex. `roots`: from [`super::world_lines::roots`].
-pub(super) fn frames(
-    scene: &Scene,
-    (bodies, roots): (&[BodyId], &[BodyId]),
-    (eye, overridden): (DVec3, Option<BodyId>),
-    options: &MotionOptions,
-) -> Vec<InertialFrame> {
-    let centers = wanted_centers(scene, (bodies, roots), options);
-    let frame = |body: BodyId| {
-        let own = *scene.bodies.motion(body).inertial_frame().unwrap_or(&InertialFrame::REST);
-        let about = |at: DVec3| InertialFrame { at, shift: StatedMotion::NO_SHIFT, ..own };
-        match options.anchor_point(eye, centers[body.index()]) {
-            Some(point) => about(point),
-            None if overridden == Some(body) => about(eye),
-            None => own,
-        }
-    };
-    scene.bodies.ids().map(frame).collect()
+/// Where bodies are placed: for which observer, and which of them belong together.
+pub(super) struct Placement<'o> {
+    pub options: &'o MotionOptions,
+    pub observer: Observer,
+    /// The eye, in scene coordinates.
+    pub eye: DVec3,
+    /// The body that the option `-vel` moves.
+    overridden: Option<BodyId>,
+    /// For each body, the centre of that whose place it keeps, if it is asked for; else 0.
+    centers: Vec<DVec3>,
 }
 
-/// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
-///
-/// `motions`: of each body. `frames`: from [`frames`].
-pub(super) fn shifts(
-    motions: &[RelativeMotion],
-    frames: &[InertialFrame],
-    (eye, observer): (DVec3, &Observer),
-    options: &MotionOptions,
-) -> Vec<DVec3> {
-    let shift = |(motion, frame): (&RelativeMotion, &InertialFrame)| {
-        if motion.world_line().is_some() {
-            return DVec3::ZERO;
-        }
-        anchor_shift(motion, frame.at - eye, options.in_place)
-            + own_shift(motion, frame.shift)
-            + eye_shift(motion, observer, options.time)
-    };
-    let mut shifts: Vec<DVec3> = motions.iter().zip(frames).map(shift).collect();
-    // Unused vertices are part of the first body. They get the offset of a body of the same motion.
-    let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
-    if let Some(row) = same_motion {
-        shifts[0] = shifts[row];
+impl<'o> Placement<'o> {
+    /// `bodies`: of each vertex.
+    pub(super) fn new(
+        scene: &Scene,
+        bodies: &[BodyId],
+        options: &'o MotionOptions,
+        (eye, observer): (DVec3, Observer),
+        overridden: Option<BodyId>,
+    ) -> Self {
+        let is_asked = match options.anchor {
+            Some(anchor) => anchor == Anchor::Center,
+            None => options.in_place,
+        };
+        // This reads every vertex.
+        let own = if is_asked { centers(scene, bodies) } else { vec![DVec3::ZERO; scene.bodies.len()] };
+        // A part keeps the place of the body that carries all others that it is part of.
+        let root = |body: BodyId| scene.bodies.carriers(body).last().unwrap_or(body);
+        let centers = scene.bodies.ids().map(|body| own[root(body).index()]).collect();
+        Self { options, observer, eye, overridden, centers }
     }
-    shifts
-}
 
-/// For each body, the centre of that whose place it keeps, if it is asked for; else 0.
-pub(super) fn wanted_centers(
-    scene: &Scene,
-    (bodies, roots): (&[BodyId], &[BodyId]),
-    options: &MotionOptions,
-) -> Vec<DVec3> {
-    let is_asked = match options.anchor {
-        Some(anchor) => anchor == Anchor::Center,
-        None => options.in_place,
-    };
-    if !is_asked {
-        return vec![DVec3::ZERO; roots.len()];
+    /// The event of the eye when the picture is taken, in the frame of the scene.
+    pub(super) fn eye_event(&self) -> Event {
+        self.observer.event(self.options.time) + Event { t: 0.0, x: self.eye }
     }
-    // This reads every vertex.
-    let centers = centers(scene, bodies);
-    roots.iter().map(|root| centers[root.index()]).collect()
+
+    /// The fixed point of the contraction of a body that the options state.
+    pub(super) fn anchor_point(&self, body: BodyId) -> Option<DVec3> {
+        self.options.anchor_point(self.eye, self.centers[body.index()])
+    }
+
+    /// The rest frame in the scene of each inertial body, with the fixed point of the contraction as
+    /// A: the option, else the reference point of the body; for the one that the option `-vel` moves,
+    /// the eye. Those of bodies on world lines have no meaning.
+    pub(super) fn frames(&self, scene: &Scene) -> Vec<InertialFrame> {
+        let frame = |body: BodyId| {
+            let own = *scene.bodies.motion(body).inertial_frame().unwrap_or(&InertialFrame::REST);
+            let about = |at: DVec3| InertialFrame { at, shift: StatedMotion::NO_SHIFT, ..own };
+            match self.anchor_point(body) {
+                Some(point) => about(point),
+                None if self.overridden == Some(body) => about(self.eye),
+                None => own,
+            }
+        };
+        scene.bodies.ids().map(frame).collect()
+    }
+
+    /// The offset of the rest coordinates of each body, in the axes of [`RelativeMotion::turned`].
+    ///
+    /// `motions`: of each body. `frames`: from [`Placement::frames`].
+    pub(super) fn shifts(&self, motions: &[RelativeMotion], frames: &[InertialFrame]) -> Vec<DVec3> {
+        let shift = |(motion, frame): (&RelativeMotion, &InertialFrame)| {
+            if motion.world_line().is_some() {
+                return DVec3::ZERO;
+            }
+            anchor_shift(motion, frame.at - self.eye, self.options.in_place)
+                + own_shift(motion, frame.shift)
+                + eye_shift(motion, &self.observer, self.options.time)
+        };
+        let mut shifts: Vec<DVec3> = motions.iter().zip(frames).map(shift).collect();
+        // Unused vertices are part of the first body. They get the offset of a body of the same motion.
+        let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
+        if let Some(row) = same_motion {
+            shifts[0] = shifts[row];
+        }
+        shifts
+    }
 }
 
 impl MotionOptions {

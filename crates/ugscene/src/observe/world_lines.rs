@@ -4,33 +4,29 @@
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
-use super::observer::Observer;
-use super::placement::wanted_centers;
-use super::{MotionError, MotionOptions};
-use crate::world_lines::eye_event;
+use super::MotionError;
+use super::placement::Placement;
+use super::seen_event::eye_event;
 use crate::{BodyId, Carrier, RelativeMotion, Scene, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
 ///
-/// A body that is part of another one stays in its place on it. `bodies`: of each vertex.
-/// `carriers`: from [`roots`].
+/// A body that is part of another one stays in its place on it.
 pub(super) fn place(
     scene: &mut Scene,
-    (bodies, carriers): (&[BodyId], &[BodyId]),
     motions: &mut [RelativeMotion],
-    (eye, observer): (DVec3, &Observer),
-    options: &MotionOptions,
+    placement: &Placement<'_>,
 ) -> Result<(), MotionError> {
     if !scene.bodies.has_world_lines() {
         return Ok(());
     }
+    let &Placement { options, observer, eye, .. } = placement;
     if !(options.geometry.contraction && options.geometry.flight_time) {
         return Err(MotionError::PartialGeometry);
     }
-    let centers = wanted_centers(scene, (bodies, carriers), options);
     // Programs downstream know eye, time and velocity of the camera.
     let stated_eye = eye_event(eye, options.time, observer.velocity);
-    let eye_shift = stated_eye - (observer.event(options.time) + Event { t: 0.0, x: eye });
+    let eye_shift = stated_eye - placement.eye_event();
     let frame = Lorentz::boost(observer.velocity).inverse();
     let roots: Vec<BodyId> = scene.bodies.stated_by_name().filter(|&body| is_root(scene, body)).collect();
     for body in roots {
@@ -41,7 +37,7 @@ pub(super) fn place(
             _ => None,
         };
         let placed = of_carrier.as_ref().unwrap_or(line);
-        let shift = match options.anchor_point(eye, centers[body.index()]) {
+        let shift = match placement.anchor_point(body) {
             None => StatedMotion::NO_SHIFT,
             Some(anchor) if options.in_place && !line.passes_events() => {
                 in_place_shift(placed, anchor, (eye, observer.velocity))
@@ -57,9 +53,9 @@ pub(super) fn place(
     }
     // Carriers first, whatever the order of the text.
     let mut parts: Vec<(usize, BodyId)> =
-        scene.bodies.stated_by_name().map(|body| (depth(scene, body), body)).collect();
+        scene.bodies.stated_by_name().map(|body| (scene.bodies.carriers(body).count(), body)).collect();
     parts.sort_unstable();
-    for (_, body) in parts.into_iter().filter(|&(depth, _)| depth > 0) {
+    for (_, body) in parts.into_iter().filter(|&(n_carriers, _)| n_carriers > 1) {
         if let Some(motion) = scene.bodies.statement(body).cloned()
             && let Some(carrier) = motion.body()
         {
@@ -74,13 +70,6 @@ pub(super) fn place(
         motions[body.index()] = RelativeMotion::on_world_line(line);
     }
     Ok(())
-}
-
-/// For each body, the one that carries all others that it is part of; itself if it is part of none.
-pub(super) fn roots(scene: &Scene) -> Vec<BodyId> {
-    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::body);
-    let root = |body: BodyId| std::iter::successors(Some(body), carrier).last().unwrap_or(body);
-    scene.bodies.ids().map(root).collect()
 }
 
 /// States for what rides on inertial bodies their frames in the scene instead. Inertial bodies of a
@@ -102,13 +91,7 @@ pub(super) fn release_parts_of_inertial_bodies(scene: &mut Scene) -> Result<(), 
 
 /// True if a body is on a world line, and not part of another one.
 fn is_root(scene: &Scene, body: BodyId) -> bool {
-    scene.bodies.is_on_world_line(body) && depth(scene, body) == 0
-}
-
-/// The number of bodies that it is part of, one in the other.
-fn depth(scene: &Scene, body: BodyId) -> usize {
-    let carrier = |&body: &BodyId| scene.bodies.statement(body).and_then(StatedMotion::body);
-    std::iter::successors(Some(body), carrier).count() - 1
+    scene.bodies.is_on_world_line(body) && scene.bodies.carriers(body).count() == 1
 }
 
 fn restate(
@@ -136,7 +119,7 @@ fn in_place_shift(
     anchor: DVec3,
     (eye, camera): (DVec3, Velocity),
 ) -> Result<Event, ugphysics::WorldLineError> {
-    let seen = crate::world_lines::seen_event(anchor - eye);
+    let seen = crate::seen_event(anchor - eye);
     let event = Lorentz::boost(camera).apply(seen) + Event { t: 0.0, x: eye };
     line.displacement_to(anchor, event)
 }
