@@ -108,7 +108,7 @@ impl Crossing {
     pub fn new(world: &World, faces: Faces<'_>, ray: &Ray, found: &Intersection) -> Option<Self> {
         let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
         let step = ray.in_part(found.part, &world.parts[found.part].frame).1;
-        Some(Self { solid, is_exit: faces.outside(found.triangle.face).dot(step) > 0.0, s: found.s })
+        Some(Self { solid, is_exit: world.outside[found.triangle.face as usize].dot(step) > 0.0, s: found.s })
     }
 
     /// The media of the ray behind it; `None` if it leaves a solid that it is not in.

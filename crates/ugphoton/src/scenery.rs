@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use uglight::{Appearance, ColorShift, Common, Interpolation, Lamp, Lamps};
 use ugphysics::{Event, Medium, RestFrame, WorldLine};
 use ugpicture::PictureOptions;
+use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugscene::{BodyId, Face, Geometry, HueScale, RestFrames, Scene, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
@@ -228,15 +229,34 @@ impl<'a> Scenery<'a> {
         Medium { index: self.properties(solid.surface).refraction, velocity }
     }
 
+    /// The outlines of faces as they are seen, if rays from the eye find faces faster by them than
+    /// by the hierarchy. `tiles`: the parts in which the picture is drawn.
+    pub fn outlines(&self, tiles: Tiles) -> Option<Outlines> {
+        /// Samples for each face from which outlines are faster. With the teapot and the street they
+        /// execute 22 % more instructions at 14, and 10 % less at 57.
+        const LEAST: u64 = 32;
+        let n_samples = u64::from(tiles.size[0]) * u64::from(tiles.size[1]);
+        let are_faster = n_samples >= LEAST * self.scene.faces.len() as u64;
+        if !(are_faster && self.is_seen_from_origin() && self.film.is_pinhole()) {
+            return None;
+        }
+        Some(self.world.outlines(self.faces(), self.appearance.surface.frames(), &self.view, tiles))
+    }
+
     /// The face that each of neighbouring rays from the eye meets first, for parameters in a range.
+    /// `seen`: what outlines find at samples, if they are used; `places`: the samples of the rays.
     pub fn first(
         &self,
-        rays: &[Ray],
+        (rays, places): (&[Ray], &[[u32; 2]]),
         range: Range<f64>,
+        seen: Option<&NearestFaces<'_>>,
         memory: &mut PacketMemory,
         first: &mut Vec<Option<Intersection>>,
     ) {
         first.clear();
+        if let Some(seen) = seen {
+            return self.world.first_behind(self.faces(), rays, range, |row| seen.at(places[row]), first);
+        }
         if !self.is_seen_from_origin() {
             first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));
             return;

@@ -61,7 +61,7 @@ impl SurfacePoint {
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let wave = part.frame.wave_to_rest(ray.wave);
-        let outside = scenery.faces().outside(found.triangle.face);
+        let outside = scenery.world.outside[found.triangle.face as usize];
         let step = ray.in_part(found.part, &part.frame).1;
         let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
@@ -98,8 +98,7 @@ impl SurfacePoint {
         let own_time = found.own_time;
         let element = line.element(place, own_time);
         let frame = RestFrame::new(element.velocity);
-        let faces = scenery.faces();
-        let outside = faces.outside(found.triangle.face);
+        let outside = scenery.world.outside[found.triangle.face as usize];
         let step = frame.rest_from_camera(ray.step).x;
         let outside_in_frame = element.normal(outside);
         let is_outside = outside_in_frame.dot(step) <= 0.0;

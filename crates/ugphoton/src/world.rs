@@ -7,7 +7,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
 use ugphysics::{RestFrame, WorldLine};
-use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, unit_normal};
+use ugpicture::outlines::{Outlines, RestFaces, Tiles};
+use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, View, unit_normal};
 
 use crate::corridor::Corridor;
 use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
@@ -31,6 +32,10 @@ pub struct World {
     n_inertial: usize,
     /// The plane of each face, see [`ugscene::shared_planes`].
     planes: Vec<u32>,
+    /// The unit normal of each face on its outside, see [`Faces::outside`].
+    pub outside: Vec<DVec3>,
+    /// For each face, its part and the row of its first triangle there.
+    triangles_of: Vec<[u32; 2]>,
     /// These parts by their moving boxes; `None` if they are few. Hits do not depend on it.
     pub boxes: Option<MovingBoxes>,
 }
@@ -152,7 +157,15 @@ impl World {
         let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
         let boxes = (n_inertial > FEW_PARTS).then(boxes);
         parts.extend(on_world_lines);
-        Self { parts, n_inertial, planes: ugscene::shared_planes(scene, faces.rest, frames), boxes }
+        let mut triangles_of = vec![[0; 2]; scene.faces.len()];
+        for (part, Part { triangles, .. }) in parts.iter().enumerate() {
+            for (row, triangle) in triangles.iter().enumerate().rev() {
+                triangles_of[triangle.face as usize] = [part as u32, row as u32];
+            }
+        }
+        let planes = ugscene::shared_planes(scene, faces.rest, frames);
+        let outside = (0..scene.faces.len() as u32).into_par_iter().map(|face| faces.outside(face)).collect();
+        Self { parts, n_inertial, planes, outside, triangles_of, boxes }
     }
 
     /// All triangles, with the rows of their parts.
@@ -184,10 +197,7 @@ impl World {
                 -ray.step.t * best.map_or(range.end, |best| best.s)
             }),
         }
-        for row in self.n_inertial..self.parts.len() {
-            let end = best.map_or(range.end, |best| best.s);
-            best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
-        }
+        best = self.before(faces, ray, range, best);
         best.map(|best| self.first_in_plane(faces, ray, best))
     }
 
@@ -233,6 +243,98 @@ impl World {
         }
     }
 
+    /// The inertial faces as they are seen through a pinhole. `view`: has samples as its picture
+    /// coordinates.
+    pub fn outlines(&self, faces: Faces<'_>, frames: &RestFrames, view: &View, tiles: Tiles) -> Outlines {
+        let Faces { scene, rest } = faces;
+        let of = RestFaces { scene, rest, frames, planes: &self.planes };
+        Outlines::new(of, view, tiles, |face| frames.world_line(face.body).is_none())
+    }
+
+    /// True if no body is on a world line.
+    pub fn is_inertial(&self) -> bool {
+        self.n_inertial == self.parts.len()
+    }
+
+    /// What each of several rays from the eye meets first, for parameters in a range. `seen`: the
+    /// inertial face that a ray with a row meets first.
+    pub fn first_behind(
+        &self,
+        faces: Faces<'_>,
+        rays: &[Ray],
+        range: Range<f64>,
+        seen: impl Fn(usize) -> Option<u32>,
+        first: &mut Vec<Option<Intersection>>,
+    ) {
+        let mut last = None;
+        for (row, ray) in rays.iter().enumerate() {
+            let on_face = seen(row).and_then(|face| self.on_face(faces, ray, face, last));
+            last = on_face.or(last);
+            first.push(self.before(faces, ray, range.clone(), on_face));
+        }
+    }
+
+    /// Where a ray from the eye meets the plane of a face that it runs through. `last`: a hit nearby.
+    fn on_face(
+        &self,
+        faces: Faces<'_>,
+        ray: &Ray,
+        face: u32,
+        last: Option<Intersection>,
+    ) -> Option<Intersection> {
+        let [part, first] = self.triangles_of[face as usize];
+        let Part { frame, triangles, .. } = &self.parts[part as usize];
+        let step = frame.light_to_rest(ray.step.x);
+        let (mut best, mut most) = (None, f64::NEG_INFINITY);
+        let last = last.filter(|last| last.triangle.face == face).map(|last| last.row);
+        let all = (first..).take_while(|&row| triangles.get(row as usize).is_some_and(|it| it.face == face));
+        for row in last.into_iter().chain(all) {
+            let triangle = triangles[row as usize];
+            let [a, b, c] = triangle.corners.map(|corner| faces.rest[corner.index()]);
+            // The weights of corners are proportional to the products of the ray with the planes
+            // through the eye and the opposite sides.
+            let products = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from).dot(step));
+            let part_of = 1.0 / (products[0] + products[1] + products[2]);
+            let weights = products.map(|product| product * part_of);
+            let least = weights[0].min(weights[1]).min(weights[2]);
+            if least > most {
+                let normal = (b - a).cross(c - a);
+                (best, most) = (Some((row, triangle, weights, a.dot(normal) / step.dot(normal))), least);
+            }
+            if least >= 0.0 {
+                break;
+            }
+        }
+        let (row, triangle, weights, s) = best?;
+        // Rounding may place the ray outside all triangles.
+        let weights = weights.map(|weight| weight.max(0.0));
+        let [_, second, third] = weights.map(|weight| weight / weights.iter().sum::<f64>());
+        let part = part as usize;
+        s.is_finite().then_some(Intersection {
+            part,
+            s,
+            own_time: 0.0,
+            triangle,
+            row,
+            weights: [second, third],
+        })
+    }
+
+    /// The nearer of a hit and those on bodies on world lines.
+    fn before(
+        &self,
+        faces: Faces<'_>,
+        ray: &Ray,
+        range: Range<f64>,
+        mut best: Option<Intersection>,
+    ) -> Option<Intersection> {
+        for row in self.n_inertial..self.parts.len() {
+            let end = best.map_or(range.end, |best| best.s);
+            best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
+        }
+        best
+    }
+
     /// [`World::closest`] for neighbouring rays from the eye, all at once. `first`: nothing at the
     /// beginning.
     pub fn first(
@@ -259,10 +361,9 @@ impl World {
                 }
             }
         }
-        for row in self.n_inertial..self.parts.len() {
+        if self.n_inertial < self.parts.len() {
             for (ray, best) in rays.iter().zip(&mut *first) {
-                let end = best.map_or(range.end, |best| best.s);
-                *best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(*best);
+                *best = self.before(faces, ray, range.clone(), *best);
             }
         }
         if !self.planes.is_empty() {

@@ -59,6 +59,7 @@ mod line;
 mod metadata;
 mod note;
 mod options;
+pub mod outlines;
 mod output;
 mod picture_file;
 mod rendering;

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use uglight::{Appearance, Swatch};
+use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{Face, VertexId};
 
-use super::frame::{PictureRays, Ray};
 use crate::painter::Painter;
 
 /// The appearance of a face, point by point.
@@ -69,8 +69,8 @@ struct Spot<'a> {
 }
 
 impl Look {
-    /// The appearance of `face`. `contours`: its corners at rest, in the axes of `frame`.
-    pub fn new(painter: &Painter<'_>, frame: &PictureRays, face: &Face, contours: &[Vec<DVec3>]) -> Self {
+    /// The appearance of `face`.
+    pub fn new(painter: &Painter<'_>, frame: &PictureRays, face: &Face) -> Self {
         let appearance = painter.appearance;
         let common = appearance.common_in_motion(painter.scene, face, !frame.velocity.is_zero());
         let normal = painter.seen_normal(face);
@@ -102,7 +102,8 @@ impl Look {
         let has_translucency = corners.iter().any(|corner| corner.color.translucency > 0.0);
         let mesh = || {
             let triangles = painter.triangles(face);
-            let mesh = Mesh::new(&corners, contours, triangles);
+            let place = |&corner: &VertexId| frame.aligned_from_scene(appearance.surface.rest(corner));
+            let mesh = Mesh::new(&corners, vertices.iter().map(place).collect(), triangles);
             Box::new(Mesh { has_colors, has_tints, has_normals, has_translucency, ..mesh })
         };
         let mesh = (has_colors || has_normals).then(mesh);
@@ -128,7 +129,7 @@ impl Look {
         &self,
         painter: &Painter<'_>,
         frame: &PictureRays,
-        ray: &Ray,
+        ray: &RestRay,
         key: f64,
     ) -> (Swatch, DVec3) {
         let appearance = painter.appearance;
@@ -195,8 +196,7 @@ impl Look {
 }
 
 impl Mesh {
-    fn new(corners: &[Corner], contours: &[Vec<DVec3>], triangles: Option<Vec<[u32; 3]>>) -> Self {
-        let places = contours.concat();
+    fn new(corners: &[Corner], places: Vec<DVec3>, triangles: Option<Vec<[u32; 3]>>) -> Self {
         // A self-intersecting face has no triangulation, so it gets a fan.
         let fan = || (2..places.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
         let triangle = |at: [u32; 3]| {

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use uglight::{Appearance, Swatch};
 use ugphysics::doppler_at;
+use ugpicture::outlines::PictureRays;
 use ugscene::BodyId;
 
-use super::frame::{PictureRays, frames};
 use crate::lines::{Joint, Line, LineShape};
 use crate::painter::Painter;
 
@@ -31,7 +31,8 @@ pub struct CurvedLines<'a> {
 impl<'a> CurvedLines<'a> {
     /// The lines of a scene.
     pub fn new(painter: Painter<'a>) -> Self {
-        Self { painter, frames: frames(&painter) }
+        let frames = painter.appearance.surface.frames();
+        Self { painter, frames: PictureRays::all(frames, painter.view, painter.scene) }
     }
 }
 
