@@ -25,7 +25,7 @@ pub struct Common {
 impl Swatch {
     /// The weighted mean of the corners of a triangle, number by number. A number that is the same
     /// at all corners keeps its bits.
-    fn mixed([a, b, c]: [Self; 3], weights: [f64; 3]) -> Self {
+    pub fn mixed([a, b, c]: [Self; 3], weights: [f64; 3]) -> Self {
         let [first, second, third] = weights;
         let number = |of: fn(&Self) -> f64| of(&a) + second * (of(&b) - of(&a)) + third * (of(&c) - of(&a));
         let mean = |a: DVec3, b: DVec3, c: DVec3| first * a + second * b + third * c;

@@ -12,10 +12,10 @@ use ugpipe::Progress;
 use crate::config::Config;
 use crate::lens::frame_around;
 use crate::middles::Middles;
-use crate::path::Ray;
 use crate::scenery::Scenery;
 use crate::tracer::{Arriving, Tracer, Visit};
-use crate::world::{Intersection, PacketMemory};
+use ugpicture::rays::PastRay;
+use ugpicture::rays::{Intersection, PacketMemory};
 
 /// Pixels along a side of a tile, which one task computes.
 const TILE: u32 = 16;
@@ -137,7 +137,7 @@ pub struct ExplainedRay {
     /// Its column and row in the picture.
     pub place: [u32; 2],
     /// Its ray.
-    pub ray: Ray,
+    pub ray: PastRay,
     /// Its light, and the part of the background that is seen.
     pub arriving: Arriving,
     /// From the eye on.
@@ -488,7 +488,7 @@ fn first_samples(n: u32) -> Vec<u32> {
 #[derive(Default)]
 struct Packet {
     places: Vec<[u32; 2]>,
-    rays: Vec<Ray>,
+    rays: Vec<PastRay>,
     first: Vec<Option<Intersection>>,
     memory: PacketMemory,
 }

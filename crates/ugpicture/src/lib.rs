@@ -62,6 +62,7 @@ mod options;
 pub mod outlines;
 mod output;
 mod picture_file;
+pub mod rays;
 mod rendering;
 
 pub use annotations::{Annotated, Layout, Subject, VisibleWires};

@@ -29,45 +29,30 @@ impl Tiles {
     }
 }
 
-/// For each tile the faces that it may show, in drawing order.
+/// For each tile, row after row, the faces that it may show, in drawing order.
 #[derive(Debug)]
 pub struct Bins {
     tiles: Tiles,
-    /// Start of each tile's part of `shapes`, then the end of the last.
-    starts: Vec<u32>,
-    shapes: Vec<u32>,
+    shapes: Vec<Vec<u32>>,
 }
 
 impl Bins {
     /// Sorts shapes by their columns and rows, which are not empty.
-    pub fn new(tiles: Tiles, rects: impl Iterator<Item = [Range<u32>; 2]> + Clone) -> Self {
+    pub fn new(tiles: Tiles, rects: impl Iterator<Item = [Range<u32>; 2]>) -> Self {
         let [across, down] = tiles.count();
-        let covered = |[columns, rows]: [Range<u32>; 2]| {
-            let [columns, rows] = [tiles.of(0, &columns), tiles.of(1, &rows)];
-            rows.flat_map(move |row| columns.clone().map(move |column| row * across + column))
-        };
-        // A counting sort. Counts of tile t are stored at t + 2, so the running sum at t + 1 is the
-        // start of tile t. Filling tile t moves that entry on to the start of tile t + 1.
-        let mut starts = vec![0u32; (across * down) as usize + 2];
-        rects.clone().flat_map(covered).for_each(|tile| starts[tile as usize + 2] += 1);
-        for tile in 1..starts.len() {
-            starts[tile] += starts[tile - 1];
-        }
-        let mut shapes = vec![0; starts[starts.len() - 1] as usize];
-        for (shape, rect) in (0u32..).zip(rects) {
-            for tile in covered(rect) {
-                let next = &mut starts[tile as usize + 1];
-                shapes[*next as usize] = shape;
-                *next += 1;
+        let mut shapes = vec![Vec::new(); across as usize * down as usize];
+        for (shape, [columns, rows]) in (0u32..).zip(rects) {
+            let columns = tiles.of(0, &columns);
+            for row in tiles.of(1, &rows) {
+                columns.clone().for_each(|column| shapes[(row * across + column) as usize].push(shape));
             }
         }
-        Self { tiles, starts, shapes }
+        Self { tiles, shapes }
     }
 
     /// The shapes of a tile, given by its column and row.
     pub fn in_tile(&self, [column, row]: [u32; 2]) -> &[u32] {
-        let tile = (row * self.tiles.count()[0] + column) as usize;
-        &self.shapes[self.starts[tile] as usize..self.starts[tile + 1] as usize]
+        &self.shapes[(row * self.tiles.count()[0] + column) as usize]
     }
 
     /// The shapes that may cover a sample.

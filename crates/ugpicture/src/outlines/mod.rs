@@ -67,8 +67,6 @@ pub struct Outlines {
     /// Least and greatest depth key between the clipping planes.
     limits: [f64; 2],
     pool: Mutex<Vec<Scratch>>,
-    /// The number of faces that are at least partly before the near clipping plane.
-    pub n_in_front: usize,
 }
 
 /// What the samples of a part of the picture show.
@@ -130,14 +128,12 @@ impl Outlines {
     ) -> Self {
         let frames = PictureRays::all(faces.frames, view, faces.scene);
         let all = faces.scene.faces.par_iter().enumerate().filter(|(_, face)| is_drawn(face));
-        let built: Vec<Built> =
-            all.map(|(row, face)| build(faces, view, &frames, tiles.size, row, face)).collect();
-        let n_in_front = built.iter().filter(|built| !matches!(built, Built::Behind)).count();
-        let shapes: Vec<OutlinedFace> = built.into_iter().filter_map(Built::shape).collect();
+        let shapes: Vec<OutlinedFace> =
+            all.filter_map(|(row, face)| build(faces, &frames, tiles.size, row, face)).collect();
         let bins = Bins::new(tiles, shapes.iter().map(|shape| [shape.columns.clone(), shape.rows.clone()]));
         let limits = [(1.0 / view.slab.far).max(f64::MIN_POSITIVE), 1.0 / view.slab.near];
         let film = Film::new(view.rays());
-        Self { frames, shapes, bins, film, size: tiles.size, limits, pool: Mutex::default(), n_in_front }
+        Self { frames, shapes, bins, film, size: tiles.size, limits, pool: Mutex::default() }
     }
 
     /// The faces that may be in the picture.
@@ -315,39 +311,18 @@ fn common(a: &Range<u32>, b: &Range<u32>) -> Range<u32> {
     a.start.max(b.start)..a.end.min(b.end)
 }
 
-/// Result of preparing a face.
-enum Built {
-    /// Not in front of the near clipping plane.
-    Behind,
-    /// Outside the picture, edge-on, or without area.
-    Outside,
-    OutlinedFace(Box<OutlinedFace>),
-}
-
-impl Built {
-    fn shape(self) -> Option<OutlinedFace> {
-        match self {
-            Self::OutlinedFace(shape) => Some(*shape),
-            Self::Behind | Self::Outside => None,
-        }
-    }
-}
-
+/// The outline of a face; `None` if it is outside the picture, edge-on, or without area.
 fn build(
     faces: RestFaces<'_>,
-    view: &View,
     frames: &[PictureRays],
     size: [u32; 2],
     row: usize,
     face: &Face,
-) -> Built {
+) -> Option<OutlinedFace> {
     let at = face.body.index();
     let frame = &frames[at];
     let contours = frame.contours(faces.scene, faces.rest, face);
-    let mut corners = contours.iter().flatten();
-    let is_behind = corners.all(|&corner| frame.place(frame.seen(corner)).z < view.slab.near);
-    let outside = if is_behind { Built::Behind } else { Built::Outside };
-    let Some(mut outline) = Outline::new(&contours) else { return outside };
+    let mut outline = Outline::new(&contours)?;
     if let Some(&plane) = faces.planes.get(row)
         && plane != 0
         && let first = &faces.scene.faces[plane as usize - 1]
@@ -356,17 +331,15 @@ fn build(
         // The same bits for all faces in one plane: ties in depth go to the first of them.
         outline.set_plane(first.plane());
     }
-    let Some(rect) = footprint(frame, &outline, Rect::new([0, size[0]], [0, size[1]])) else {
-        return outside;
-    };
+    let rect = footprint(frame, &outline, Rect::new([0, size[0]], [0, size[1]]))?;
     // The footprint lies within the picture.
     let [columns, rows] = [0, 1].map(|i| rect.low[i].floor() as u32..rect.high[i].ceil() as u32);
     if columns.is_empty() || rows.is_empty() {
-        return outside;
+        return None;
     }
     // The text of a scene is below 4 GiB, so row numbers fit.
     let item = row as u32;
     let (sides, depth) =
         (outline.edges().iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane()));
-    Built::OutlinedFace(Box::new(OutlinedFace { item, frame: at, columns, rows, outline, sides, depth }))
+    Some(OutlinedFace { item, frame: at, columns, rows, outline, sides, depth })
 }

@@ -2,12 +2,16 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use rayon::prelude::*;
+use uglight::Swatch;
 use ugpicture::outlines::{OutlinedFace, Outlines, PictureRays, RestFaces, RestRay, Run, Tiles};
+use ugpicture::rays::{Intersection, PastRay};
 use ugraster::{Area, FragmentWriter, ShapeTarget, TRANSPARENT_VALUES, Tile};
-use ugscene::Face;
+use ugscene::{Face, VertexId};
 
 use super::look::Look;
+use super::moving::MovingFaces;
 use crate::clip::ClipCounts;
 use crate::packing::Pack;
 use crate::painter::Painter;
@@ -19,6 +23,8 @@ pub struct Faces<'a, const N: usize> {
     outlines: Outlines,
     /// Of each shape of the outlines.
     looks: Vec<Look>,
+    /// Faces of bodies that accelerate or turn.
+    moving: Option<MovingFaces<'a>>,
     /// How many faces are left after clipping.
     pub clip_counts: ClipCounts,
 }
@@ -38,18 +44,26 @@ impl<'a, const N: usize> Faces<'a, N> {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
         let tile = [size[0], painter.grid.bands().sample_rows()];
         let outlines =
-            Outlines::new(faces, painter.view, Tiles { size, start: [0; 2], tile, margin: 0 }, is_drawn);
+            Outlines::new(faces, painter.view, Tiles { size, start: [0; 2], tile, margin: 0 }, |face| {
+                surface.frames().world_line(face.body).is_none() && is_drawn(face)
+            });
         let look = |shape: &OutlinedFace| {
-            Look::new(&painter, outlines.frame(shape), &painter.scene.faces[shape.item as usize])
+            Look::new(&painter, Some(outlines.frame(shape)), &painter.scene.faces[shape.item as usize])
         };
         let looks: Vec<Look> = outlines.shapes().par_iter().map(look).collect();
-        let clip_counts = ClipCounts { in_front: outlines.n_in_front, in_picture: looks.len() };
-        Self { painter, pack, outlines, looks, clip_counts }
+        let drawn = painter.scene.faces.par_iter().filter(|face| is_drawn(face));
+        let in_front = drawn.filter(|face| is_in_front(&painter, face)).count();
+        let moving = MovingFaces::new(painter, planes, is_drawn);
+        let in_picture = looks.len() + moving.as_ref().map_or(0, MovingFaces::n_in_picture);
+        let clip_counts = ClipCounts { in_front, in_picture };
+        Self { painter, pack, outlines, looks, moving, clip_counts }
     }
 
     /// True if a face is nearer than `key` on the ray through a point of the picture, in samples.
     pub fn hides(&self, place: [f64; 2], key: f64) -> bool {
-        self.outlines.hides(place, key)
+        let nearest = |moving: &MovingFaces<'_>| moving.nearest(&moving.ray(place));
+        let is_before = |found: Intersection| 1.0 / found.s > key;
+        self.outlines.hides(place, key) || self.moving.as_ref().and_then(nearest).is_some_and(is_before)
     }
 
     /// Draws the opaque faces of a band into one of its tiles.
@@ -78,6 +92,31 @@ impl<'a, const N: usize> Faces<'a, N> {
                 });
             }
         });
+        self.draw_moving::<SPECTRAL, _>(tile, |moving, ray| moving.nearest(ray));
+    }
+
+    /// Draws faces of bodies that accelerate or turn, where a ray hits them.
+    fn draw_moving<const SPECTRAL: bool, I: IntoIterator<Item = Intersection>>(
+        &self,
+        target: &mut impl ShapeTarget<N>,
+        hits: impl Fn(&MovingFaces<'a>, &PastRay) -> I,
+    ) {
+        let Some(moving) = &self.moving else { return };
+        let [columns, rows] = samples(target.area());
+        for [column, row] in rows.flat_map(|row| columns.clone().map(move |column| [column, row])) {
+            let ray = moving.ray([column, row].map(|at| f64::from(at) + 0.5));
+            for found in hits(moving, &ray) {
+                let key = (1.0 / found.s) as f32;
+                target.draw_each(row, column..column + 1, found.triangle.face, |_, occluder_key| {
+                    (key > occluder_key).then(|| (key, self.packed(moving.shaded::<SPECTRAL>(&ray, &found))))
+                });
+            }
+        }
+    }
+
+    #[inline]
+    fn packed(&self, (color, level): (Swatch, DVec3)) -> [f32; N] {
+        (self.pack)(&color, level).map(|number| number as f32)
     }
 
     /// The values of a face where a ray meets it, in the packed layout.
@@ -90,8 +129,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         ray: &RestRay,
     ) -> [f32; N] {
         let look = &self.looks[number as usize];
-        let (color, level) = look.at::<SPECTRAL>(&self.painter, frame, ray, shape.key(ray.rest));
-        (self.pack)(&color, level).map(|number| number as f32)
+        self.packed(look.at::<SPECTRAL>(&self.painter, frame, ray, shape.key(ray.rest)))
     }
 }
 
@@ -117,7 +155,15 @@ impl Faces<'_, TRANSPARENT_VALUES> {
                 (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(number, shape, frame, &ray)))
             });
         });
+        self.draw_moving::<SPECTRAL, _>(writer, |moving, ray| moving.all(ray));
     }
+}
+
+/// True if a corner is seen before the near clipping plane.
+fn is_in_front(painter: &Painter<'_>, face: &Face) -> bool {
+    let corners = painter.scene.contours.corners(face.contours.clone());
+    let depth = |corner: &VertexId| painter.place(painter.scene.vertices[corner.index()].position).z;
+    corners.iter().any(|corner| depth(corner) >= painter.view.slab.near)
 }
 
 /// Columns and rows of an area.

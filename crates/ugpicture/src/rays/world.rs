@@ -3,18 +3,18 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
+use crate::outlines::{Outlines, RestFaces, Tiles};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
 use ugphysics::{RestFrame, WorldLine};
-use ugpicture::outlines::{Outlines, RestFaces, Tiles};
 use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, View, unit_normal};
 
-use crate::corridor::Corridor;
-use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
-use crate::outline::Outline;
-use crate::path::{Ray, Start};
-use crate::world_line_part::{CurveHit, Next, WorldLineMotion};
+use super::corridor::Corridor;
+use super::moving_boxes::{MovingBox, MovingBoxes, Rays};
+use super::path::{PastRay, Start};
+use super::sphere::Outline;
+use super::world_line_part::{CurveHit, Next, WorldLineMotion};
 
 /// How far a ray leaves a surface before it can meet another one, relative to the largest
 /// coordinate. Rounding errors are below a hundredth of it.
@@ -120,8 +120,14 @@ impl Intersection {
 }
 
 impl World {
-    /// Builds the hierarchies.
-    pub fn new(faces: Faces<'_>, frames: &RestFrames) -> Self {
+    /// Builds the hierarchies of the faces for which `is_traced` returns true. `planes`: the plane of
+    /// each face, see [`ugscene::shared_planes`].
+    pub fn new(
+        faces: Faces<'_>,
+        frames: &RestFrames,
+        planes: Vec<u32>,
+        is_traced: impl Fn(&Face) -> bool,
+    ) -> Self {
         let scene = faces.scene;
         // Many scenes have thousands of bodies, few have that many velocities.
         let mut first_bodies: Vec<BodyId> = Vec::new();
@@ -141,7 +147,7 @@ impl World {
             })
             .collect();
         let mut rows: Vec<Vec<u32>> = vec![Vec::new(); first_bodies.len()];
-        for (row, face) in scene.faces.iter().enumerate() {
+        for (row, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_traced(face)) {
             // Scenes have fewer than 2^32 faces.
             rows[part_of_body[face.body.index()]].push(row as u32);
         }
@@ -163,7 +169,6 @@ impl World {
                 triangles_of[triangle.face as usize] = [part as u32, row as u32];
             }
         }
-        let planes = ugscene::shared_planes(scene, faces.rest, frames);
         let outside = (0..scene.faces.len() as u32).into_par_iter().map(|face| faces.outside(face)).collect();
         Self { parts, n_inertial, planes, outside, triangles_of, boxes }
     }
@@ -177,7 +182,7 @@ impl World {
     /// The latest event of the past at which light that follows the ray left a face, (P22), for
     /// parameters in a range.
     #[inline]
-    pub fn closest(&self, faces: Faces<'_>, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+    pub fn closest(&self, faces: Faces<'_>, ray: &PastRay, range: Range<f64>) -> Option<Intersection> {
         let mut best: Option<Intersection> = None;
         let visit = |row: usize, best: &mut Option<Intersection>| {
             let part = &self.parts[row];
@@ -204,7 +209,7 @@ impl World {
     /// Of the faces that share the plane of `nearest` and that the ray meets there, the first in the
     /// scene.
     #[inline]
-    fn first_in_plane(&self, faces: Faces<'_>, ray: &Ray, nearest: Intersection) -> Intersection {
+    fn first_in_plane(&self, faces: Faces<'_>, ray: &PastRay, nearest: Intersection) -> Intersection {
         let plane = |found: &Intersection| self.planes.get(found.triangle.face as usize).copied();
         if plane(&nearest).is_none_or(|plane| plane == 0) {
             return nearest;
@@ -222,13 +227,19 @@ impl World {
 
     /// The hierarchy of moving boxes, and a ray for it; `None` if all parts have to be tested.
     #[inline]
-    fn boxes_for(&self, ray: &Ray, range: &Range<f64>) -> Option<(&MovingBoxes, Rays)> {
+    fn boxes_for(&self, ray: &PastRay, range: &Range<f64>) -> Option<(&MovingBoxes, Rays)> {
         let boxes = self.boxes.as_ref().filter(|_| range.start >= 0.0)?;
         Some((boxes, Rays::from_step(ray.origin, ray.step)?))
     }
 
     /// The faces at the place of `first`, such as coplanar ones, in the order of the scene.
-    pub fn beside(&self, faces: Faces<'_>, ray: &Ray, first: &Intersection, found: &mut Vec<Intersection>) {
+    pub fn beside(
+        &self,
+        faces: Faces<'_>,
+        ray: &PastRay,
+        first: &Intersection,
+        found: &mut Vec<Intersection>,
+    ) {
         found.clear();
         let range = first.s * (1.0 - SAME_PLACE)..first.s * (1.0 + SAME_PLACE);
         let _ = self.visit(faces, ray, range, |other| {
@@ -261,7 +272,7 @@ impl World {
     pub fn first_behind(
         &self,
         faces: Faces<'_>,
-        rays: &[Ray],
+        rays: &[PastRay],
         range: Range<f64>,
         seen: impl Fn(usize) -> Option<u32>,
         first: &mut Vec<Option<Intersection>>,
@@ -270,7 +281,12 @@ impl World {
         for (row, ray) in rays.iter().enumerate() {
             let on_face = seen(row).and_then(|face| self.on_face(faces, ray, face, last));
             last = on_face.or(last);
-            first.push(self.before(faces, ray, range.clone(), on_face));
+            // Of inertial faces in one plane, outlines find the first.
+            let found = self.before(faces, ray, range.clone(), on_face);
+            first.push(match found {
+                Some(found) if found.part >= self.n_inertial => Some(self.first_in_plane(faces, ray, found)),
+                _ => found,
+            });
         }
     }
 
@@ -278,7 +294,7 @@ impl World {
     fn on_face(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         face: u32,
         last: Option<Intersection>,
     ) -> Option<Intersection> {
@@ -324,7 +340,7 @@ impl World {
     fn before(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         mut best: Option<Intersection>,
     ) -> Option<Intersection> {
@@ -340,7 +356,7 @@ impl World {
     pub fn first(
         &self,
         faces: Faces<'_>,
-        rays: &[Ray],
+        rays: &[PastRay],
         range: Range<f64>,
         memory: &mut PacketMemory,
         first: &mut [Option<Intersection>],
@@ -350,7 +366,7 @@ impl World {
             Some((boxes, bounds)) => boxes.visit_nearest(&bounds, 0.0..f64::INFINITY, |row| {
                 self.first_of_part(faces, row, rays, range.clone(), memory, first);
                 // The latest time at which light left what is seen so far.
-                let time = |(ray, found): (&Ray, &Option<Intersection>)| {
+                let time = |(ray, found): (&PastRay, &Option<Intersection>)| {
                     found.map_or(f64::INFINITY, |found| -ray.step.t * found.s)
                 };
                 rays.iter().zip(&*first).map(time).fold(0.0, f64::max)
@@ -378,14 +394,14 @@ impl World {
         &self,
         faces: Faces<'_>,
         row: usize,
-        rays: &[Ray],
+        rays: &[PastRay],
         range: Range<f64>,
         memory: &mut PacketMemory,
         first: &mut [Option<Intersection>],
     ) {
         let PacketMemory { directions, hits, rows } = memory;
         let part = &self.parts[row];
-        let is_seen = |ray: &Ray| {
+        let is_seen = |ray: &PastRay| {
             self.boxes.is_none() || part.outline.is_some_and(|outline| outline.is_seen(ray.step.x))
         };
         rows.clear();
@@ -428,7 +444,7 @@ impl World {
     pub fn visit(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         visit: impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
@@ -439,7 +455,7 @@ impl World {
     pub fn visit_along(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         corridor: Option<&mut Corridor>,
         mut visit: impl FnMut(Intersection) -> ControlFlow<()>,
@@ -505,7 +521,7 @@ impl Part {
         &self,
         faces: Faces<'_>,
         row: usize,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
     ) -> Option<Intersection> {
         let mut best: Option<Intersection> = None;
@@ -528,7 +544,7 @@ impl Part {
         &self,
         faces: Faces<'_>,
         row: usize,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         visit: &mut impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
@@ -545,7 +561,7 @@ impl Part {
     }
 
     /// The own time in which a ray leaves the surface at its origin.
-    fn clearance_on_line(&self, ray: &Ray) -> f64 {
+    fn clearance_on_line(&self, ray: &PastRay) -> f64 {
         match ray.start {
             Start::Surface { .. } => {
                 let reach = ray.origin.x.length() - ray.origin.t;
