@@ -467,7 +467,7 @@ fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
 /// The light of a picture in the folder.
 fn light(shell: &Shell, name: &str) -> Vec<[f32; 4]> {
     let file = shell.read(name);
-    match ugimage::read_picture(&file, &ugimage::PictureLimits::default()).unwrap().1 {
+    match ugimage::read_picture(&file, &ugimage::PictureLimits::default()).unwrap().pixels {
         ugimage::Pixels::Light(pixels) => pixels,
         ugimage::Pixels::Srgb(_) => panic!("{name} holds no light"),
     }

@@ -278,7 +278,7 @@ fn text_leaves_where_it_is_made_printable() {
     let is_outside = |name: &str, line: &str| {
         let is_rendered = ["Failure::Report(", "context.report("].iter().any(|call| line.contains(call));
         (line.contains("io::stderr") && !EDGE.contains(&name))
-            || (line.contains("Renderer::") && name != "crates/ugparse/src/diagnostics.rs")
+            || (line.contains("Renderer::") && name != "crates/ugparse/src/report.rs")
             || (is_rendered && !name.starts_with("crates/ugpipe/") && !line.contains(".report()"))
             || (line.contains("context.write(") && line.contains(".as_bytes()"))
     };

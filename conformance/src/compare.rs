@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use ugimage::{PictureLimits, Pixels, read_picture};
+use ugimage::{PictureLimits, Pixels, ReadPicture, read_picture};
 use ugphysics::srgb_decode;
 
 /// Formats that are compared.
@@ -122,7 +122,7 @@ impl fmt::Display for Comparison {
 impl Light {
     fn read((name, file): (&str, &[u8])) -> Result<Self, String> {
         refuse_lossy(file, FORMATS).map_err(|problem| format!("{name}: {problem}"))?;
-        let (size, pixels) = read_picture(file, &PictureLimits::default())
+        let ReadPicture { size, pixels, .. } = read_picture(file, &PictureLimits::default())
             .map_err(|error| format!("{name}: the picture cannot be read: {error}; write it as {FORMATS}"))?;
         let pixels: Vec<[f64; 3]> = match pixels {
             Pixels::Srgb(pixels) => {

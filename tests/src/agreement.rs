@@ -78,7 +78,7 @@ pub fn recolored(mut scene: Scene) -> Scene {
         let rgb = color_of(row).map(|level| f64::from(level) / 255.0);
         let name = scene.names.add(&format!("k{row}"));
         scene.colors.push(Color { name, value: ColorValue::Rgb(rgb), translucency: 0.0 });
-        *face = Face { color: Some(ColorId::from_index(row)), illum: None, ..face.clone() };
+        *face = Face { color: Some(ColorId::from_index(row)), shading: None, ..face.clone() };
     }
     scene
 }

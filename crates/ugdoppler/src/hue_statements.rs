@@ -1,7 +1,7 @@
 //! Colour statements with hues as seen: one for each colour at rest and quantized Doppler factor.
 
 use rustc_hash::FxHashMap;
-use uglight::{HueColor, HueShift, RestColor, VertexColor};
+use uglight::{ColorForm, HueColor, HueShift, Mixing, RestColor, VertexColor};
 use ugphysics::{hue_to_wavelength, srgb_decode, srgb_encode};
 use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
@@ -178,7 +178,7 @@ impl<'s> HueStatements<'s> {
         let name = self.scene.names.add(&name);
         let translucency = base.translucency;
         if let (false, VertexColor::Mixed(color)) = (is_changed, base.given)
-            && color.light.is_some()
+            && color.form.mixing() == Mixing::Light
         {
             self.scene.colors.push(Color { name, value: color.value(), translucency });
             return ColorId::from_index(self.scene.colors.len() - 1);
@@ -221,7 +221,7 @@ impl<'s> HueStatements<'s> {
             VertexColor::White => ("white".to_string(), 0.0),
             VertexColor::Mixed(color) => (format!("mixed{}", self.bases.len() + 1), color.translucency),
         };
-        let is_display = given.is_display(self.scene);
+        let is_display = given.mixing(self.scene) == Mixing::Display;
         let color = crate::hue_color(self.scene, self.shift, given);
         let base = Base { given, color, translucency, is_display, name };
         // Scenes have fewer than 2^32 vertices.
@@ -250,9 +250,9 @@ impl<'s> HueStatements<'s> {
         }
         let notes = if self.config.iris { self.scale_values() } else { self.clip_values() };
         for id in self.displays {
-            let hsv = uglight::hsv(self.scene, &self.scene.colors[id.index()]);
-            self.scene.colors[id.index()].value =
-                RestColor { hsv, is_display: true, ..RestColor::WHITE }.value();
+            let color = RestColor::new(self.scene, Some(id));
+            let form = ColorForm::Display(color.linear());
+            self.scene.colors[id.index()].value = RestColor { form, ..color }.value();
         }
         notes
     }

@@ -46,12 +46,13 @@ mod xyz_statements;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::{
-    ColorShift, HueColor, HueShift, RestColor, SpectralColor, SpectralShift, VertexColor, hsv, hsv_and_factor,
+    ColorShift, HueColor, HueShift, Mixing, RestColor, SpectralColor, SpectralShift, VertexColor, hsv,
+    hsv_and_factor,
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, DefaultCamera, Geometry, Provenance, RelativeMotion,
-    RestFrames, Scene, SeenVertices, Shares,
+    Camera, CameraError, CameraOptions, ColorId, ColorMix, DefaultCamera, Geometry, Provenance,
+    RelativeMotion, RestFrames, Scene, SeenVertices,
 };
 
 #[cfg(feature = "cli")]
@@ -63,6 +64,7 @@ pub use notes::Note;
 use hue_statements::{HueStatements, LitColor};
 use irradiance::VertexIrradiance;
 use vertices::doppler_factors;
+use xyz_statements::SpectralVertices;
 
 /// This program, without a command line, for the history of what it makes.
 pub const PROVENANCE: Provenance<'static> =
@@ -86,7 +88,7 @@ pub fn apply_with(
     progress: &dyn Progress,
 ) -> Result<(Scene, Vec<Note>), Error> {
     progress.step("colouring", 0);
-    uglight::settle(&mut scene);
+    uglight::freeze_colors_at_zero(&mut scene);
     // The light of coloured lamps multiplies spectra, which are not in the output.
     let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);
     let config = &Config { light: is_lit, ..config.clone() };
@@ -161,13 +163,15 @@ fn color(
     let factors = doppler_factors(&scene, eye, frames, &seen);
     let vertices = LitVertices { seen, rest, factors };
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
-        let shares = ugscene::vertex_shares(&scene, &vertices.rest).into_iter();
+        let shares = ugscene::vertex_mixes(&scene, &vertices.rest).into_iter();
         let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
         let (light, factors) =
             light_vertices(&mut scene, config, (eye, frames), vertices, &mut shares, progress)?;
+        let lit = light.map_or_else(Vec::new, |light| lit_spectra(&scene, shift, &shares, &factors, &light));
+        let ln_factors = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
         let used = vertices::used(&scene);
-        let lit = light.map(|light| lit_spectra(&scene, shift, &shares, &factors, &light));
-        xyz_statements::write(&mut scene, config, shift, &shares, &factors, &used, lit.as_deref())
+        let vertices = SpectralVertices { shares: &shares, ln_factors, used, lit };
+        xyz_statements::write(&mut scene, config, shift, &vertices)
     } else {
         let shift = config.shift.of_hues();
         let mut colors = uglight::vertex_colors(&scene, &vertices.rest);
@@ -253,7 +257,7 @@ fn lit_colors(
     let all = colors.par_iter().zip(factors).zip(&light.of_vertex).zip(is_mixed);
     all.map(|(((&color, &doppler), parts), is_mixed)| {
         let (base, parts) = (hue_color(scene, shift, color), parts.as_ref()?);
-        let is_display = is_mixed || base.is_faded() && color.is_display(scene);
+        let is_display = is_mixed || base.is_faded() && color.mixing(scene) == Mixing::Display;
         let colors = || (color.at_rest(scene).linear(), base);
         let display = || shift.display_lit(colors(), doppler, parts, &light.lamps).map(HueColor::of_display);
         let display = if is_display { display() } else { None };
@@ -266,14 +270,14 @@ fn lit_colors(
 /// For each vertex whether it has the colour of a display, and a face of it other colours as well.
 fn displays_in_mixtures(scene: &Scene, colors: &[VertexColor]) -> Vec<bool> {
     let mut is_mixed = vec![false; colors.len()];
-    if !scene.colors.iter().any(uglight::is_display) {
+    if !scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Display) {
         return is_mixed;
     }
     for face in &scene.faces {
         let corners = scene.contours.corners(face.contours.clone());
         let of = |corner: &ugscene::VertexId| colors[corner.index()];
         if corners.iter().any(|corner| of(corner) != of(&corners[0])) {
-            let displays = corners.iter().filter(|corner| of(corner).is_display(scene));
+            let displays = corners.iter().filter(|corner| of(corner).mixing(scene) == Mixing::Display);
             displays.for_each(|corner| is_mixed[corner.index()] = true);
         }
     }
@@ -284,7 +288,9 @@ fn displays_in_mixtures(scene: &Scene, colors: &[VertexColor]) -> Vec<bool> {
 /// that, else with a value that contains the factor.
 pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> HueColor {
     match color {
-        VertexColor::Named(id) if color.is_display(scene) => uglight::display_hue(scene, id).into(),
+        VertexColor::Named(id) if color.mixing(scene) == Mixing::Display => {
+            uglight::display_hue(scene, id).into()
+        }
         VertexColor::Named(id) if shift.law.acts_on_light() => {
             let (hsv, factor) = hsv_and_factor(scene, &scene.colors[id.index()]);
             HueColor { factor, ..hsv.into() }
@@ -299,7 +305,7 @@ pub(crate) fn hue_color(scene: &Scene, shift: HueShift, color: VertexColor) -> H
 fn lit_spectra(
     scene: &Scene,
     shift: SpectralShift,
-    shares: &[Shares],
+    shares: &[ColorMix],
     factors: &[f64],
     light: &VertexIrradiance,
 ) -> Vec<Option<[f64; 3]>> {

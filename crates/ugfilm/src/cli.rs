@@ -5,7 +5,8 @@ use std::path::Path;
 
 use clap::{ArgMatches, Parser};
 use ugimage::Format;
-use ugparse::{Foreign, Source, pipe};
+use ugmeshfile::Foreign;
+use ugparse::{Source, pipe};
 use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
@@ -455,7 +456,7 @@ fn refused_sky(source: &Source) -> Option<Failure> {
     if source.name.starts_with('<') {
         return None;
     }
-    let (is, what) = match ugparse::foreign_data(&source.name, &source.text)? {
+    let (is, what) = match ugmeshfile::foreign_data(&source.name, &source.text)? {
         Foreign::Picture => ("a picture", "it as the sky around an observer in motion"),
         Foreign::Table => ("a table", "a list of stars"),
         _ => return None,

@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
 
 use ugimage::Frame;
-use ugpipe::{Failure, Running, shorten};
+use ugpipe::{Failure, Running};
+use ugscene::shorten;
 
 use crate::animation::{AnimatedPng, Gif, Shape, fraction};
 

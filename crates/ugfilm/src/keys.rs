@@ -9,7 +9,8 @@
 
 use std::collections::BTreeMap;
 
-use ugpipe::{finite, shorten};
+use ugpipe::finite;
+use ugscene::shorten;
 
 use crate::script::{Script, quantity};
 use crate::timeline::Timeline;

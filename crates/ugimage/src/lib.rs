@@ -34,6 +34,7 @@
 //! assert!(eps.starts_with(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 2 1\n"));
 //! ```
 
+mod encoding;
 mod eps;
 mod exr;
 pub mod figure;
@@ -42,6 +43,7 @@ mod hdr;
 mod history;
 pub mod label;
 mod metadata;
+mod orientation;
 mod panorama;
 mod pdf;
 mod pfm;
@@ -50,6 +52,7 @@ mod postscript;
 mod ppm;
 mod ps;
 mod read;
+mod read_exr;
 mod read_hdr;
 mod read_light;
 mod read_pfm;
@@ -64,7 +67,7 @@ pub use metadata::Metadata;
 pub use panorama::PanoramaArea;
 pub use png::Compression;
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
-pub use read_light::{Pixels, read_picture};
+pub use read_light::{Pixels, ReadPicture, read_picture};
 pub use ugframe::{
     Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET, Samples,
     Tone, auto_exposure, display_pixel,

@@ -47,6 +47,27 @@ impl PanoramaArea {
     }
 }
 
+/// The part of the whole that a picture of `size` shows by an XMP packet of any program: its left,
+/// right, upper and lower edge, as fractions of the whole. `None` for the whole.
+pub(crate) fn part_of_xmp(text: &str, size: [u32; 2]) -> Option<[f64; 4]> {
+    let number = |name: &str| -> Option<f64> {
+        // An attribute, or an element.
+        let (_, rest) = text.split_once(&format!("GPano:{name}"))?;
+        let rest = rest.trim_start_matches(['=', '"', '\'', '>', ' ']);
+        let end = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        rest[..end].parse().ok()
+    };
+    let [width, height] = [number(FULL[0])?, number(FULL[1])?];
+    let [left, top] = [number(CORNER[0])?, number(CORNER[1])?];
+    let [across, down] = [
+        number("CroppedAreaImageWidthPixels").unwrap_or(size[0].into()),
+        number("CroppedAreaImageHeightPixels").unwrap_or(size[1].into()),
+    ];
+    let part = [left / width, (left + across) / width, top / height, (top + down) / height];
+    let is_part = part.iter().all(|edge| (0.0..=1.0 + 1e-9).contains(edge)) && part != [0.0, 1.0, 0.0, 1.0];
+    is_part.then_some(part)
+}
+
 /// Names of the width and height of the whole panorama.
 const FULL: [&str; 2] = ["FullPanoWidthPixels", "FullPanoHeightPixels"];
 

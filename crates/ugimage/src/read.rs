@@ -7,6 +7,8 @@ use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use png::{ColorType, Decoder, Transformations};
 use ugphysics::srgb_decode;
 
+use crate::encoding::{Encoding, levels};
+use crate::orientation;
 use crate::png::XMP;
 use crate::{Frame, Metadata, PanoramaArea};
 
@@ -110,23 +112,29 @@ pub fn read_png(file: &[u8], limits: &PictureLimits) -> Result<(Frame, Metadata)
     Ok((Frame::new(size, is_opaque, pixels), metadata(file)))
 }
 
-/// The light of a PNG file with 16 bits per channel, not multiplied by alpha. Colours are assumed
-/// to be sRGB.
+/// The light of a PNG file with 16 bits per channel, not multiplied by alpha, with the primaries of
+/// its encoding; without one colours are sRGB.
 ///
 /// # Errors
 /// See [`read_png`].
 pub(crate) fn read_png_light(
     file: &[u8],
     limits: &PictureLimits,
+    encoding: Option<&Encoding>,
 ) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
     let mut decoder = decoder(file)?;
     decoder.set_transformations(Transformations::EXPAND);
-    let curve: Vec<f32> =
-        (0..=u16::MAX).map(|level| srgb_decode(f64::from(level) / 65535.0) as f32).collect();
+    let curves = encoding.map_or_else(
+        || {
+            let curve = levels(srgb_decode);
+            [curve.clone(), curve.clone(), curve]
+        },
+        Encoding::deep_levels,
+    );
     decoded(decoder, file.len(), limits, |n_channels, row, pixels| {
         pixels.extend(row.chunks_exact(2 * n_channels).map(|bytes| {
             let level = |idx: usize| u16::from_be_bytes([bytes[2 * idx], bytes[2 * idx + 1]]);
-            let light = |idx: usize| curve[usize::from(level(idx))];
+            let light = |idx: usize| curves[if n_channels < 3 { 0 } else { idx }][usize::from(level(idx))];
             let alpha = |idx: usize| f32::from(level(idx)) / 65535.0;
             match n_channels {
                 1 => [light(0), light(0), light(0), 1.0],
@@ -274,6 +282,65 @@ pub(crate) fn metadata(file: &[u8]) -> Metadata {
     }
     metadata
 }
+
+/// What a PNG file says about itself: its colours, its orientation, and the text of an XMP packet.
+/// An unusable colour profile becomes a note.
+pub(crate) fn declared(file: &[u8], notes: &mut Vec<String>) -> Declared {
+    let mut chunks = Vec::new();
+    let mut rest = file.get(8..).unwrap_or_default();
+    while let Some((kind, data, after)) = chunk(rest) {
+        rest = after;
+        chunks.push((kind, data));
+    }
+    let find = |name: &[u8; 4]| chunks.iter().find(|(kind, _)| *kind == name).map(|(_, data)| *data);
+    let number = |data: &[u8], idx: usize| {
+        let four = data.get(4 * idx..4 * idx + 4)?.try_into().ok()?;
+        Some(f64::from(u32::from_be_bytes(four)) / 1e5)
+    };
+    let encoding = if let Some((_, packed)) = find(b"iCCP").and_then(until_zero) {
+        packed.get(1..).and_then(unpacked).and_then(|profile| encoding_of_profile(&profile, notes))
+    } else if find(b"sRGB").is_some() {
+        None
+    } else {
+        let gamma = find(b"gAMA").and_then(|data| number(data, 0)).filter(|gamma| *gamma > 0.0);
+        let chromaticities = find(b"cHRM").and_then(|data| {
+            let pair = |idx: usize| Some([number(data, 2 * idx)?, number(data, 2 * idx + 1)?]);
+            Some([pair(1)?, pair(2)?, pair(3)?, pair(0)?])
+        });
+        (gamma.is_some() || chromaticities.is_some())
+            .then(|| {
+                let gamma = gamma.map_or(2.2, |gamma| 1.0 / gamma);
+                Encoding::from_chromaticities(chromaticities.unwrap_or(SRGB_CHROMATICITIES), Some(gamma))
+            })
+            .flatten()
+    };
+    let xmp = chunks.iter().find_map(|(kind, data)| {
+        let (keyword, text) = until_zero(data).filter(|_| matches!(*kind, b"tEXt" | b"zTXt" | b"iTXt"))?;
+        if keyword == XMP.as_bytes() { text_of(kind, text) } else { None }
+    });
+    Declared { encoding, orientation: find(b"eXIf").map_or(1, orientation::of_exif), xmp }
+}
+
+/// What a picture says about itself.
+pub(crate) struct Declared {
+    /// Unless it is sRGB.
+    pub encoding: Option<Encoding>,
+    /// From 1 to 8, as in Exif.
+    pub orientation: u8,
+    pub xmp: Option<String>,
+}
+
+/// The encoding of an ICC profile, or a note that says why it is not used.
+pub(crate) fn encoding_of_profile(profile: &[u8], notes: &mut Vec<String>) -> Option<Encoding> {
+    Encoding::from_icc(profile).unwrap_or_else(|reason| {
+        notes.push(format!("the colour profile of the picture {reason}: its colours count as sRGB"));
+        None
+    })
+}
+
+/// x, y of the red, green and blue primaries of sRGB, and of its white.
+pub(crate) const SRGB_CHROMATICITIES: [[f64; 2]; 4] =
+    [[0.64, 0.33], [0.3, 0.6], [0.15, 0.06], [0.3127, 0.329]];
 
 /// The first chunk: its type, its data and what follows.
 fn chunk(file: &[u8]) -> Option<(&[u8; 4], &[u8], &[u8])> {

@@ -70,6 +70,7 @@ impl<'f> Lines<'f> {
     fn next(&mut self) -> Option<&'f [u8]> {
         let end = self.0.iter().position(|&byte| byte == b'\n')?;
         let line = &self.0[..end];
+        let line = line.strip_suffix(b"\r").unwrap_or(line);
         self.0 = &self.0[end + 1..];
         Some(line)
     }

@@ -1,20 +1,17 @@
 //! Reads pictures of several formats: PNG, JPEG, Radiance HDR, OpenEXR and PFM.
 
-use std::io::Cursor;
-
-use exr::compression::Compression;
-use exr::meta::attribute::ChannelDescription;
-use exr::meta::header::Header;
-use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
+use crate::orientation::{self, upright};
+use crate::panorama::part_of_xmp;
 use crate::read::{
-    MOST_INFLATED, PictureLimits, ReadError, check_packed, is_png_deep, read_png, read_png_light, reserved,
+    self, Declared, PictureLimits, ReadError, check_packed, encoding_of_profile, is_png_deep, read_png,
+    read_png_light, reserved,
 };
-use crate::{read_hdr, read_pfm};
+use crate::{read_exr, read_hdr, read_pfm};
 
 /// The pixels of a picture, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,42 +33,85 @@ impl Pixels {
     }
 }
 
+/// A picture that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReadPicture {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Its pixels.
+    pub pixels: Pixels,
+    /// The part of a whole equirectangular panorama that the file says it shows (GPano): its left,
+    /// right, upper and lower edge, as fractions of the whole.
+    pub part: Option<[f64; 4]>,
+    /// What the file says and is not used, one sentence each.
+    pub notes: Vec<String>,
+}
+
 /// Reads a picture, by the first bytes of its file: PNG, JPEG, Radiance HDR, OpenEXR or PFM.
-/// Returns its size and its pixels. Memory is used only for pixels that the file has.
+/// Memory is used only for pixels that the file has.
 ///
-/// Colours of PNG and JPEG are assumed to be sRGB; PNG files with 16 bits per channel are converted
-/// to light. Those of the others are assumed to be linear light with the primaries of sRGB.
-/// Colour profiles and the orientation that cameras note are not used.
+/// What the file says about itself is applied: the orientation that cameras note, the colours of
+/// ICC profiles with primaries and curves, gamma and chromaticities of PNG, chromaticities and
+/// windows of EXR. Without these, colours of PNG and JPEG are sRGB, and those of the others linear
+/// light with the primaries of sRGB. Colours that are not sRGB, and 16 bits per channel, become
+/// light.
 ///
 /// # Errors
 /// [`ReadError`] if the file is of another kind, is truncated or corrupt, exceeds the limits, or
 /// does not fit in memory.
-pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
-    match file {
-        [0x89, b'P', b'N', b'G', ..] if is_png_deep(file) => {
-            read_png_light(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels)))
-        }
+pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, ReadError> {
+    let mut notes = Vec::new();
+    let light = |(size, pixels)| (size, Pixels::Light(pixels));
+    let mut declared = Declared { encoding: None, orientation: 1, xmp: None };
+    let ([width, height], pixels) = match file {
         [0x89, b'P', b'N', b'G', ..] => {
-            let (frame, _) = read_png(file, limits)?;
-            let size = [frame.width(), frame.height()];
-            Ok((size, Pixels::Srgb(frame.into_pixels())))
+            declared = read::declared(file, &mut notes);
+            if is_png_deep(file) {
+                let (size, pixels) = read_png_light(file, limits, declared.encoding.as_ref())?;
+                (size, Pixels::Light(pixels))
+            } else {
+                let (frame, _) = read_png(file, limits)?;
+                ([frame.width(), frame.height()], Pixels::Srgb(frame.into_pixels()))
+            }
         }
-        [0xff, 0xd8, 0xff, ..] => jpeg(file, limits),
-        [b'#', b'?', ..] => read_hdr::read(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels))),
-        [0x76, 0x2f, 0x31, 0x01, ..] => exr(file, limits),
-        [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => {
-            read_pfm::read(file, limits).map(|(size, pixels)| (size, Pixels::Light(pixels)))
+        [0xff, 0xd8, 0xff, ..] => jpeg(file, limits, &mut declared, &mut notes)?,
+        [b'#', b'?', ..] => read_hdr::read(file, limits).map(light)?,
+        [0x76, 0x2f, 0x31, 0x01, ..] => read_exr::read(file, limits, &mut declared, &mut notes).map(light)?,
+        [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => read_pfm::read(file, limits).map(light)?,
+        _ => return Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM")),
+    };
+    let pixels = match &declared.encoding {
+        None => pixels,
+        Some(encoding) => {
+            limits.check([width as usize, height as usize], size_of::<[f32; 4]>() as u64)?;
+            Pixels::Light(encoding.light(pixels))
         }
-        _ => Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM")),
-    }
+    };
+    let (size, pixels) = match pixels {
+        Pixels::Srgb(pixels) => {
+            let (size, pixels) = upright(declared.orientation, [width, height], pixels);
+            (size, Pixels::Srgb(pixels))
+        }
+        Pixels::Light(pixels) => {
+            let (size, pixels) = upright(declared.orientation, [width, height], pixels);
+            (size, Pixels::Light(pixels))
+        }
+    };
+    let part = declared.xmp.as_deref().and_then(|xmp| part_of_xmp(xmp, size));
+    Ok(ReadPicture { size, pixels, part, notes })
 }
 
-fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
+pub(crate) fn broken(kind: &str, error: &dyn std::fmt::Display) -> ReadError {
     let problem = error.to_string();
     ReadError::new(&format!("not a readable {kind} file: {}", problem.trim_end_matches('.')))
 }
 
-fn jpeg(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
+fn jpeg(
+    file: &[u8],
+    limits: &PictureLimits,
+    declared: &mut Declared,
+    notes: &mut Vec<String>,
+) -> Result<([u32; 2], Pixels), ReadError> {
     /// Bytes of a pixel: red, green, blue and alpha.
     const N_BYTES: usize = 4;
     /// Bytes of its coefficients, which a progressive file needs all at once.
@@ -82,7 +122,7 @@ fn jpeg(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadE
         return Err(broken(&"the file is truncated"));
     };
     let options = DecoderOptions::default()
-        .jpeg_set_out_colorspace(ColorSpace::RGBA)
+        .jpeg_set_out_colorspace(ColorSpace::RGB)
         .set_max_width(usize::from(u16::MAX))
         .set_max_height(usize::from(u16::MAX));
     let mut decoder = JpegDecoder::new_with_options(ZCursor::new(file), options);
@@ -93,13 +133,25 @@ fn jpeg(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadE
     let n_pixels = width * height;
     // Each block of 64 pixels has a bit or more.
     check_packed(n_packed, n_pixels as u64, 8 * 64)?;
-    if decoder.output_buffer_size() != Some(N_BYTES * n_pixels) {
+    if decoder.output_buffer_size() != Some(3 * n_pixels) {
         return Err(broken(&"its colours are not red, green and blue"));
     }
     // Reserved before the decoder allocates as much.
     drop(reserved::<u8>(n_bytes * n_pixels)?);
     let mut pixels = vec![[0; N_BYTES]; n_pixels];
-    decoder.decode_into(pixels.as_flattened_mut()).map_err(|error| broken(&error))?;
+    let bytes = pixels.as_flattened_mut();
+    decoder.decode_into(&mut bytes[..3 * n_pixels]).map_err(|error| broken(&error))?;
+    // The decoder has no alpha for all kinds of colours, so pixels are spread in their place.
+    for idx in (0..n_pixels).rev() {
+        let [red, green, blue] = [bytes[3 * idx], bytes[3 * idx + 1], bytes[3 * idx + 2]];
+        bytes[N_BYTES * idx..N_BYTES * (idx + 1)].copy_from_slice(&[red, green, blue, u8::MAX]);
+    }
+    // Profiles of CMYK are for the inks, which the decoder converts without one.
+    let is_ink = matches!(decoder.input_colorspace(), Some(ColorSpace::CMYK | ColorSpace::YCCK));
+    let profile = decoder.icc_profile().filter(|_| !is_ink);
+    declared.encoding = profile.and_then(|profile| encoding_of_profile(&profile, notes));
+    declared.orientation = decoder.exif().map_or(1, |exif| orientation::of_exif(exif));
+    declared.xmp = decoder.xmp().map(|xmp| String::from_utf8_lossy(xmp).into_owned());
     Ok((size, Pixels::Srgb(pixels)))
 }
 
@@ -133,78 +185,6 @@ fn packed(file: &[u8]) -> Option<Packed> {
     }
 }
 
-fn exr(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Pixels), ReadError> {
-    /// Of headers, as the decoder of pixels checks them.
-    const PEDANTIC: bool = true;
-    let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
-    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), PEDANTIC);
-    let headers = headers.map_err(|error| broken(&error))?;
-    // The first layer with these channels is read, so none may be too large.
-    for header in headers.headers.iter().filter(|header| !header.deep) {
-        check_layer(header, file.len(), limits)?;
-    }
-    let image = exr_reader()
-        .no_deep_data()
-        .largest_resolution_level()
-        .specific_channels()
-        .required("R")
-        .required("G")
-        .required("B")
-        .optional("A", 1.0_f32)
-        .collect_pixels(
-            |resolution, _| PixelVec { resolution, pixels: vec![[0.0_f32; 4]; resolution.area()] },
-            |image, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
-                let idx = position.flat_index_for_size(image.resolution);
-                image.pixels[idx] = [red, green, blue, alpha];
-            },
-        )
-        .first_valid_layer()
-        .all_attributes()
-        .non_parallel()
-        .from_buffered(Cursor::new(file));
-    let image = image.map_err(|error| broken(&error))?;
-    let data = image.layer_data.channel_data.pixels;
-    let size = limits.check([data.resolution.width(), data.resolution.height()], N_BYTES_OF_LIGHT)?;
-    let mut pixels = data.pixels;
-    // Colours of EXR files are multiplied by alpha.
-    for [red, green, blue, alpha] in &mut pixels {
-        if *alpha > 0.0 && *alpha < 1.0 {
-            [*red, *green, *blue] = [*red / *alpha, *green / *alpha, *blue / *alpha];
-        }
-    }
-    Ok((size, Pixels::Light(pixels)))
-}
-
-/// Bytes of a pixel of light.
-const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
-
-/// Refuses a layer that is too large, or for which a file of `n_file` bytes has not enough.
-fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result<(), ReadError> {
-    /// Bytes in the file for each block of pixels: its place, its row, its size.
-    const N_BYTES_OF_BLOCK: u64 = 16;
-    let size = limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
-    let n_pixels = size[0] as usize * size[1] as usize;
-    let n_bytes = |channel: &ChannelDescription| {
-        // A channel may have one sample for several pixels. The decoder refuses one for none.
-        let n_along = |side: u32, sampling: usize| u64::from(side) / (sampling as u64).max(1);
-        let n_samples = n_along(size[0], channel.sampling.x()) * n_along(size[1], channel.sampling.y());
-        channel.sample_type.bytes_per_sample() as u64 * n_samples
-    };
-    let n_stored = header.channels.list.iter().map(n_bytes).fold(0, u64::saturating_add);
-    let ratio = match header.compression {
-        Compression::Uncompressed => 1,
-        // Runs of 128 bytes have two.
-        Compression::RLE => 64,
-        // Some store 3 of 4 bytes first.
-        _ => MOST_INFLATED * 4 / 3,
-    };
-    check_packed(n_file, n_stored, ratio)?;
-    check_packed(n_file, N_BYTES_OF_BLOCK * header.chunk_count as u64, 1)?;
-    // Reserved before the decoder allocates as much; it is used only for pixels that are read.
-    drop(reserved::<[f32; 4]>(n_pixels)?);
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -214,7 +194,7 @@ mod tests {
     const BARS: &[u8] = include_bytes!("../tests/bars.jpg");
 
     fn read(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
-        read_picture(file, &PictureLimits::default())
+        read_picture(file, &PictureLimits::default()).map(|picture| (picture.size, picture.pixels))
     }
 
     #[test]
@@ -316,6 +296,180 @@ mod tests {
         for format in [Format::Exr, Format::Hdr, Format::Png, Format::Png16] {
             let file = format.encode_linear(&frame, &Metadata::default(), Compression::Small);
             assert_eq!(read(&file).unwrap().0, [2048, 1024], "{format:?}");
+        }
+    }
+
+    /// A JPEG file with another segment after its first marker.
+    fn with_segment(marker: u8, data: &[u8]) -> Vec<u8> {
+        let length = u16::try_from(data.len() + 2).unwrap().to_be_bytes();
+        [&BARS[..2], &[0xff, marker], &length, data, &BARS[2..]].concat()
+    }
+
+    fn srgb(file: &[u8]) -> ([u32; 2], Vec<[u8; 4]>) {
+        let (size, pixels) = read(file).unwrap();
+        let Pixels::Srgb(pixels) = pixels else { panic!("8 bits") };
+        (size, pixels)
+    }
+
+    /// The same picture in CMYK, as Adobe inverts it, and in red, green and blue.
+    #[test]
+    fn colours_of_jpeg_are_understood() {
+        let (size, expected) = srgb(BARS);
+        for file in [&include_bytes!("../tests/cmyk.jpg")[..], include_bytes!("../tests/rgb.jpg")] {
+            let (found_size, found) = srgb(file);
+            assert_eq!(found_size, size);
+            let difference =
+                |(a, b): (&[u8; 4], &[u8; 4])| (0..4).map(|i| u32::from(a[i].abs_diff(b[i]))).sum::<u32>();
+            let sum: u32 = found.iter().zip(&expected).map(difference).sum();
+            assert!(sum < 6 * expected.len() as u32, "{sum}");
+        }
+    }
+
+    /// Each orientation moves the upper left corner of what is stored to another place.
+    #[test]
+    fn orientations_of_cameras_are_applied() {
+        let (_, stored) = srgb(BARS);
+        for little in [true, false] {
+            // Where the stored first pixel and the end of the first row are seen.
+            for (orientation, first, end) in [
+                (1, [0, 0], [63, 0]),
+                (2, [63, 0], [0, 0]),
+                (3, [63, 31], [0, 31]),
+                (4, [0, 31], [63, 31]),
+                (5, [0, 0], [0, 63]),
+                (6, [31, 0], [31, 63]),
+                (7, [31, 63], [31, 0]),
+                (8, [0, 63], [0, 0]),
+            ] {
+                let number = |n: u32, n_bytes: usize| {
+                    let bytes = if little { n.to_le_bytes() } else { n.to_be_bytes() };
+                    if little { bytes[..n_bytes].to_vec() } else { bytes[4 - n_bytes..].to_vec() }
+                };
+                let head = if little { b"Exif\0\0II" } else { b"Exif\0\0MM" };
+                let entry =
+                    [number(0x112, 2), number(3, 2), number(1, 4), number(orientation, 2), number(0, 2)]
+                        .concat();
+                let exif =
+                    [head.to_vec(), number(42, 2), number(8, 4), number(1, 2), entry, number(0, 4)].concat();
+                let (size, pixels) = srgb(&with_segment(0xe1, &exif));
+                assert_eq!(size, if orientation < 5 { [64, 32] } else { [32, 64] });
+                let at = |[x, y]: [u32; 2]| pixels[(y * size[0] + x) as usize];
+                assert_eq!((at(first), at(end)), (stored[0], stored[63]), "{orientation}");
+            }
+        }
+    }
+
+    /// An ICC profile with primaries of red, green and blue, and a gamma.
+    fn profile(columns: [[f64; 3]; 3], gamma: f64) -> Vec<u8> {
+        let fixed = |x: f64| ((x * 65536.0).round() as i32).to_be_bytes();
+        let mut data = Vec::new();
+        let mut tags = Vec::new();
+        let start = 132 + 12 * 6;
+        for (name, column) in [b"rXYZ", b"gXYZ", b"bXYZ"].into_iter().zip(columns) {
+            tags.push((name, start + data.len()));
+            data.extend([*b"XYZ ", [0; 4], fixed(column[0]), fixed(column[1]), fixed(column[2])].concat());
+        }
+        for name in [b"rTRC", b"gTRC", b"bTRC"] {
+            tags.push((name, start + data.len()));
+            let parts = [gamma, 1.0, 0.0, 0.0, 0.0].map(fixed);
+            data.extend([*b"para", [0; 4], [0, 3, 0, 0]].concat());
+            data.extend(parts.concat());
+        }
+        let mut file = vec![0; 128];
+        file[16..20].copy_from_slice(b"RGB ");
+        file.extend(6_u32.to_be_bytes());
+        for (name, at) in tags {
+            file.extend([*name, (at as u32).to_be_bytes(), 32_u32.to_be_bytes()].concat());
+        }
+        file.extend(data);
+        file
+    }
+
+    /// Display P3 with a gamma of 2.2: its light in sRGB, by the published matrix.
+    #[test]
+    fn colour_profiles_are_applied() {
+        const P3: [[f64; 3]; 3] =
+            [[0.51512, 0.2412, -0.00105], [0.29198, 0.69225, 0.04189], [0.1571, 0.06657, 0.78407]];
+        const SRGB_FROM_P3: [[f64; 3]; 3] =
+            [[1.2249, -0.2247, 0.0], [-0.0420, 1.0419, 0.0], [-0.0197, -0.0786, 1.0979]];
+        let (_, stored) = srgb(BARS);
+        let segment = [b"ICC_PROFILE\0\x01\x01", &profile(P3, 2.2)[..]].concat();
+        let (_, Pixels::Light(pixels)) = read(&with_segment(0xe2, &segment)).unwrap() else {
+            panic!("light")
+        };
+        for (pixel, level) in pixels.iter().zip(&stored) {
+            let light = [0, 1, 2].map(|idx| (f64::from(level[idx]) / 255.0).powf(2.2));
+            for (found, row) in pixel.iter().zip(SRGB_FROM_P3) {
+                let expected: f64 = row.iter().zip(light).map(|(part, light)| part * light).sum();
+                assert!((f64::from(*found) - expected).abs() < 2e-3, "{pixel:?} {level:?}");
+            }
+        }
+        // One of sRGB changes nothing; one for inks is told.
+        let damaged = [b"ICC_PROFILE\0\x01\x01", &[0; 200][..]].concat();
+        let picture = read_picture(&with_segment(0xe2, &damaged), &PictureLimits::default()).unwrap();
+        assert_eq!(picture.pixels, Pixels::Srgb(stored));
+        assert_eq!(picture.notes.len(), 1);
+    }
+
+    /// A panorama that says which part of the sphere it shows, as attributes and as elements.
+    #[test]
+    fn parts_of_panoramas_are_read() {
+        let numbers =
+            [("FullPanoWidthPixels", 128), ("FullPanoHeightPixels", 64), ("CroppedAreaLeftPixels", 32)];
+        let numbers =
+            [&numbers[..], &[("CroppedAreaTopPixels", 16), ("CroppedAreaImageWidthPixels", 64)]].concat();
+        let attributes: String = numbers.iter().map(|(name, n)| format!(" GPano:{name}=\"{n}\"")).collect();
+        let elements: String =
+            numbers.iter().map(|(name, n)| format!("<GPano:{name}>{n}</GPano:{name}>")).collect();
+        for text in [attributes, elements] {
+            let xmp = [b"http://ns.adobe.com/xap/1.0/\0", text.as_bytes()].concat();
+            let picture = read_picture(&with_segment(0xe1, &xmp), &PictureLimits::default()).unwrap();
+            assert_eq!(picture.part, Some([0.25, 0.75, 0.25, 0.75]), "{text}");
+        }
+    }
+
+    /// Linear light in a PNG file (gamma 1), and levels of a gamma that is that of sRGB.
+    #[test]
+    fn gamma_of_png_is_applied() {
+        let file = |gamma: f32| {
+            let mut file = Vec::new();
+            let mut encoder = png::Encoder::new(&mut file, 2, 1);
+            encoder.set_color(png::ColorType::Rgb);
+            encoder.set_source_gamma(png::ScaledFloat::new(gamma));
+            encoder.write_header().unwrap().write_image_data(&[0, 51, 255, 102, 204, 0]).unwrap();
+            file
+        };
+        let (_, Pixels::Light(pixels)) = read(&file(1.0)).unwrap() else { panic!("light") };
+        for (found, expected) in pixels.iter().zip([[0.0, 0.2, 1.0], [0.4, 0.8, 0.0]]) {
+            assert!((0..3).all(|idx| (found[idx] - expected[idx]).abs() < 1e-4), "{found:?}");
+        }
+        assert!(matches!(read(&file(0.45455)).unwrap().1, Pixels::Srgb(_)));
+    }
+
+    /// A layer beside the middle of its display window, in X, Y and Z.
+    #[test]
+    fn windows_and_chromaticities_of_exr_are_applied() {
+        use exr::prelude::*;
+
+        let white = ugphysics::WHITE_XYZ.map(|part| part as f32);
+        let channels = SpecificChannels::rgb(move |_| (white[0], white[1], white[2]));
+        let attributes = LayerAttributes { layer_position: Vec2(11, 21), ..Default::default() };
+        let layer = Layer::new((2, 1), attributes, Encoding::UNCOMPRESSED, channels);
+        let mut image = Image::from_layer(layer);
+        image.attributes.display_window = IntegerBounds::new((10, 20), (4, 3));
+        image.attributes.chromaticities = Some(attribute::Chromaticities {
+            red: Vec2(1.0, 0.0),
+            green: Vec2(0.0, 1.0),
+            blue: Vec2(0.0, 0.0),
+            white: Vec2(1.0 / 3.0, 1.0 / 3.0),
+        });
+        let mut file = std::io::Cursor::new(Vec::new());
+        image.write().to_buffered(&mut file).unwrap();
+        let (size, Pixels::Light(pixels)) = tests::read(file.get_ref()).unwrap() else { panic!("light") };
+        assert_eq!(size, [4, 3]);
+        for (idx, pixel) in pixels.iter().enumerate() {
+            let expected = if matches!(idx, 5 | 6) { 1.0 } else { 0.0 };
+            assert!((0..3).all(|part| (pixel[part] - expected).abs() < 1e-5), "{idx} {pixel:?}");
         }
     }
 }

@@ -31,6 +31,11 @@ pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec
         if scale < 0.0 { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) }
     };
     let n_bytes_of_row = N_BYTES_OF_SAMPLE * n_channels * width;
+    // A header with CR LF: the line feed is not data.
+    let is_crlf = file[..file.len() - rest.len()].ends_with(b"\r") && rest.starts_with(b"\n");
+    if is_crlf && rest.len() > n_bytes_of_row * height {
+        rest = &rest[1..];
+    }
     let Some(data) = rest.get(..n_bytes_of_row * height) else {
         return Err(broken("the file is truncated, or its header is wrong"));
     };

@@ -2,14 +2,15 @@
 
 use glam::DVec3;
 use ugphysics::spectrum::Spectrum;
-use ugphysics::{Hsv, srgb_decode, wavelength_to_hue};
+use ugphysics::{Hsv, wavelength_to_hue};
 use ugscene::Scene;
 
+use crate::color::shown_light;
 use crate::hue_table::HueTable;
 use crate::spectra::Spectra;
 use crate::{
-    ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette, SpectralFilter,
-    SurfaceAttributes, Swatch,
+    ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette,
+    SpectralFilter, SurfaceAttributes, Swatch,
 };
 
 /// A colour at rest at a point of a surface.
@@ -74,7 +75,10 @@ impl Appearance {
         shift: ColorShift,
         reach: f64,
     ) -> Self {
-        let palette = Palette::new(scene, interpolation, shift.is_spectral());
+        let (hue_shift, hues) = (shift.of_hues(), HueTable::get());
+        // Light straight from a body crosses no filters, whose hues count.
+        let has_hues_of_light = reach != 1.0 || hue_shift != HueShift::NONE;
+        let palette = Palette::new(scene, interpolation, shift.is_spectral(), has_hues_of_light);
         let surface = SurfaceAttributes::new(scene, eye, &palette);
         let spectra = match shift {
             ColorShift::Spectra(shift) => {
@@ -83,7 +87,6 @@ impl Appearance {
             }
             ColorShift::Hues(_) => None,
         };
-        let (hue_shift, hues) = (shift.of_hues(), HueTable::get());
         Self { palette, surface, hue_shift, hues, spectra, ceiling: f64::INFINITY }
     }
 
@@ -106,11 +109,6 @@ impl Appearance {
         self.spectra.is_some() || self.hue_shift == HueShift::NONE
     }
 
-    /// True if a face may be drawn with colours of a display as light.
-    pub fn draws_display(&self) -> bool {
-        self.palette.has_display() && self.surface.has_display()
-    }
-
     /// True if colours are spectra.
     #[inline]
     pub fn is_spectral(&self) -> bool {
@@ -131,7 +129,7 @@ impl Appearance {
     /// The wavelength that a tint stands for, as [`Appearance::seen`] requires it.
     #[inline]
     pub fn wavelength_nm(&self, tint: f64) -> f64 {
-        match self.palette.interpolation() {
+        match self.palette.interpolation {
             Interpolation::Hue => self.hues.wavelength_nm(tint),
             Interpolation::Wavelength => tint,
         }
@@ -140,15 +138,13 @@ impl Appearance {
     /// The apparent colour of `rest` where wavelengths are stretched by `stretch` = 1/D. `rest_nm`:
     /// the wavelength of its tint.  Eq. (P11), (P12), (P18)
     ///
-    /// A colour given as light is returned unchanged. On moving bodies such colours occur only in
-    /// spectral mode; otherwise the renderer replaces them by hues. One of a display is replaced
-    /// here.
+    /// A colour drawn as light is returned unchanged. On moving bodies such colours occur only in
+    /// spectral mode; otherwise the renderer replaces them by hues.
     #[inline]
     pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
-        if stretch == 1.0 || rest.light.is_some() && (!rest.is_display || self.keeps_light()) {
+        if stretch == 1.0 || rest.form != ColorForm::Hue {
             return *rest;
         }
-        let rest = &Swatch { light: None, ..*rest };
         let factor = self.hue_shift.law.factor(1.0 / stretch);
         let seen = if self.hue_shift.law.acts_on_light() {
             Swatch { factor: rest.factor * factor, ..*rest }
@@ -161,7 +157,7 @@ impl Appearance {
         // λ/D, as a product, since this runs for every sample.
         let seen_nm = rest_nm * stretch;
         // The wavelength may be invisible; a hue is clamped to the end of its range.
-        let tint = match self.palette.interpolation() {
+        let tint = match self.palette.interpolation {
             Interpolation::Hue => self.hues.hue(seen_nm),
             Interpolation::Wavelength => seen_nm,
         };
@@ -181,10 +177,13 @@ impl Appearance {
     pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
         let doppler = 1.0 / stretch;
         if self.hue_shift.law.acts_on_light() {
-            return Swatch { light: Some(self.light_of_lamps(rest, doppler, light, lamps)), ..*rest };
+            return Swatch {
+                form: ColorForm::Light(self.light_of_lamps(rest, doppler, light, lamps)),
+                ..*rest
+            };
         }
         let seen = self.hue_shift.seen_lit(self.hue_color(rest), doppler, light, lamps);
-        let tint = match self.palette.interpolation() {
+        let tint = match self.palette.interpolation {
             Interpolation::Hue => seen.hue,
             Interpolation::Wavelength => seen.wavelength_nm,
         };
@@ -207,49 +206,40 @@ impl Appearance {
         }
     }
 
-    /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters.
+    /// [`Appearance::light`] of a hue, or of a colour that is given as light, without filters. Light
+    /// of a display that something shifts is the hue that it stands for.
     fn hue_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
-        if rest.is_display && rest.light.is_some() {
-            return self.display_light(rest, doppler, light);
-        }
+        let shift = self.hue_shift;
         let of_level = |level: f64| {
-            let base = self.hue_shift.brightened(self.hue_color(rest), level);
-            self.hue_shift.seen(base, doppler).light()
+            let base = shift.brightened(self.hue_color(rest), level);
+            shift.seen(base, doppler).light()
         };
-        let seen = match (rest.light, light) {
-            (Some(own), Illumination::Level(level)) => return level * own,
-            (Some(own), Illumination::Lamps(parts, lamps)) => {
+        let display = match (rest.form, light) {
+            (ColorForm::Display(own), Illumination::Level(level)) if !shift.shifts(doppler) => {
+                Some(shift.lit_display(own, DVec3::splat(level)))
+            }
+            (ColorForm::Display(own), Illumination::Lamps(parts, lamps)) => {
+                shift.display_lit((own, self.hue_color(rest)), doppler, parts, lamps)
+            }
+            _ => None,
+        };
+        if let Some(lit) = display {
+            return lit.min(DVec3::splat(self.ceiling));
+        }
+        let seen = match (rest.form, light) {
+            (ColorForm::Light(own), Illumination::Level(level)) => return level * own,
+            (ColorForm::Light(own), Illumination::Lamps(parts, lamps)) => {
                 let received = |part: &Irradiance| part.level * lamps[part.lamp as usize].linear;
                 return own * parts.iter().map(received).sum::<DVec3>();
             }
-            (None, Illumination::Level(level)) => of_level(level),
-            (None, Illumination::Lamps(parts, lamps)) if is_plain(parts) && !lamps.is_colored => {
-                let of_lamp = |part: &Irradiance| self.hue_shift.color_of(&lamps[part.lamp as usize]).x;
+            (_, Illumination::Level(level)) => of_level(level),
+            (_, Illumination::Lamps(parts, lamps)) if is_plain(parts) && !lamps.is_colored => {
+                let of_lamp = |part: &Irradiance| shift.color_of(&lamps[part.lamp as usize]).x;
                 of_level(parts.iter().map(|part| part.level * of_lamp(part)).sum())
             }
-            (None, Illumination::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
+            (_, Illumination::Lamps(parts, lamps)) => self.light_of_lamps(rest, doppler, parts, lamps),
         };
         seen.min(DVec3::splat(self.ceiling))
-    }
-
-    /// [`Appearance::hue_light`] of a colour of a display that is drawn as light. Where something
-    /// shifts it, it is the hue that it stands for.
-    fn display_light(&self, rest: &Swatch, doppler: f64, light: Illumination<'_>) -> DVec3 {
-        let shift = self.hue_shift;
-        let lit = rest.light.and_then(|own| match light {
-            Illumination::Level(_) if shift.shifts(doppler) => None,
-            Illumination::Level(level) => {
-                let is_display = !shift.law.acts_on_light();
-                Swatch { is_display, ..*rest }.lit(DVec3::splat(level))
-            }
-            Illumination::Lamps(parts, lamps) => {
-                shift.display_lit((own, self.hue_color(rest)), doppler, parts, lamps)
-            }
-        });
-        let Some(lit) = lit else {
-            return self.hue_light(&Swatch { light: None, ..*rest }, doppler, light);
-        };
-        lit.min(DVec3::splat(self.ceiling))
     }
 
     /// Linear light of a hue under lamps, which may be coloured, and move. Light adds up, as seen,
@@ -267,7 +257,7 @@ impl Appearance {
             let wavelength_nm = self.hue_shift.wavelength_nm(base.wavelength_nm, filter.doppler);
             let hue = if base.saturation > 0.0 { wavelength_to_hue(wavelength_nm) } else { base.hue };
             let hsv = Hsv { hue, saturation: base.saturation, value: base.value };
-            DVec3::from(hsv.to_rgb().map(srgb_decode))
+            shown_light(hsv)
         };
         filters.iter().map(part).product()
     }

@@ -5,68 +5,131 @@ use ugphysics::spectrum::Spectrum;
 use ugphysics::{Hsv, linear_srgb_to_xyz, srgb_decode, srgb_encode, wavelength_to_hue, xyz_to_linear_srgb};
 use ugscene::{Color, ColorId, ColorValue, Note, Scene, Tint};
 
+/// How colours mix and are lit, by the way they are written. A mixture is like the greatest of its
+/// parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Mixing {
+    /// `c`: by hue, saturation and value. Light multiplies the value.
+    Hue,
+    /// `c_rgb`, red, green and blue of a display: as light. Light multiplies the display-encoded
+    /// channels, as it does the value of a hue.
+    Display,
+    /// `c_xyz`, `c_bb`, `c_spd`: as light. Light multiplies light.
+    Light,
+}
+
+impl Mixing {
+    /// How a colour statement mixes.
+    pub fn of(color: &Color) -> Self {
+        match color.value {
+            ColorValue::Hsv { .. } => Self::Hue,
+            ColorValue::Rgb(_) => Self::Display,
+            _ => Self::Light,
+        }
+    }
+
+    /// Light that mixes so; a hue needs none.
+    pub fn form(self, light: DVec3) -> ColorForm {
+        match self {
+            Self::Hue => ColorForm::Hue,
+            Self::Display => ColorForm::Display(light),
+            Self::Light => ColorForm::Light(light),
+        }
+    }
+}
+
+/// What a colour is drawn as: a hue, or linear red, green and blue with the sRGB primaries, neither
+/// clipped nor gamut-mapped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ColorForm {
+    /// See [`Mixing::Hue`].
+    Hue,
+    /// See [`Mixing::Display`].
+    Display(DVec3),
+    /// See [`Mixing::Light`].
+    Light(DVec3),
+}
+
+impl ColorForm {
+    /// How it mixes.
+    pub fn mixing(self) -> Mixing {
+        match self {
+            Self::Hue => Mixing::Hue,
+            Self::Display(_) => Mixing::Display,
+            Self::Light(_) => Mixing::Light,
+        }
+    }
+
+    /// The light that it is drawn as; `None` for a hue.
+    pub fn light(self) -> Option<DVec3> {
+        match self {
+            Self::Hue => None,
+            Self::Display(light) | Self::Light(light) => Some(light),
+        }
+    }
+
+    /// Its light under levels of red, green and blue; `None` for a hue.
+    pub fn lit(self, level: DVec3) -> Option<DVec3> {
+        match self {
+            Self::Hue => None,
+            Self::Display(light) => Some(lit_display(light, level)),
+            Self::Light(light) => Some(light * level),
+        }
+    }
+}
+
 /// A colour at rest: of a statement, or mixed of several.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestColor {
     /// As [`hsv`].
     pub hsv: Hsv,
-    /// As [`light`], if it is given so.
-    pub light: Option<[f64; 3]>,
-    /// It was written as red, green and blue of a display (`c_rgb`), so mixtures with it are
-    /// mixtures of light.
-    pub is_display: bool,
+    /// As [`color_form`].
+    pub form: ColorForm,
     /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
 
 impl RestColor {
     /// The colour of what has none.
-    pub const WHITE: Self = Self {
-        hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 },
-        light: None,
-        is_display: false,
-        translucency: 0.0,
-    };
+    pub const WHITE: Self =
+        Self { hsv: Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }, form: ColorForm::Hue, translucency: 0.0 };
 
     /// The colour of a statement, or white.
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         color.map_or(Self::WHITE, |id| {
             let color = &scene.colors[id.index()];
-            Self {
-                hsv: hsv(scene, color),
-                light: light(scene, color),
-                is_display: is_display(color),
-                translucency: color.translucency,
-            }
+            Self { hsv: hsv(scene, color), form: color_form(scene, color), translucency: color.translucency }
         })
     }
 
     /// Linear red, green and blue.
     pub fn linear(&self) -> DVec3 {
-        DVec3::from_array(self.light.unwrap_or_else(|| self.hsv.to_rgb().map(srgb_decode)))
+        self.form.light().unwrap_or_else(|| shown_light(self.hsv))
     }
 
     /// A statement of it. A mixture that is brighter than the largest `c_rgb`, because a colour of
     /// it has a factor above 1, is written as light (`c_xyz`).
     pub fn value(&self) -> ColorValue {
         let Hsv { hue, saturation, value } = self.hsv;
-        match self.light {
-            Some(light) => ColorValue::Xyz(linear_srgb_to_xyz(light)),
-            None if self.is_display && value > 1.0 => {
-                ColorValue::Xyz(linear_srgb_to_xyz(self.linear().to_array()))
+        match self.form {
+            ColorForm::Hue => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
+            ColorForm::Display(_) if value <= 1.0 => ColorValue::Rgb(self.hsv.to_rgb()),
+            ColorForm::Display(light) | ColorForm::Light(light) => {
+                ColorValue::Xyz(linear_srgb_to_xyz(light.to_array()))
             }
-            None if self.is_display => ColorValue::Rgb(self.hsv.to_rgb()),
-            None => ColorValue::Hsv { value, tint: Tint::Hue(hue), saturation, factor: 1.0 },
         }
     }
 
     /// Equal for equal colours.
     pub fn key(&self) -> [u64; 5] {
         let Hsv { hue, saturation, value } = self.hsv;
-        // The hue of light is clipped.
-        let [a, b, c] = self.light.unwrap_or([hue, saturation, value]);
-        let kind = f64::from(u8::from(self.light.is_some()) + 2 * u8::from(self.is_display));
-        [kind, a, b, c, self.translucency].map(f64::to_bits)
+        let [a, b, c] = match self.form {
+            // Its hue is clipped.
+            ColorForm::Light(light) => light.to_array(),
+            _ => [hue, saturation, value],
+        };
+        let [a, b, c, translucency] = [a, b, c, self.translucency].map(f64::to_bits);
+        [self.form.mixing() as u64, a, b, c, translucency]
     }
 }
 
@@ -118,28 +181,25 @@ fn hue(tint: Tint) -> f64 {
     }
 }
 
-/// True for a colour that is given as light: X, Y, Z, a black body or a spectrum; false for hues
-/// and for red, green and blue of a screen.
-pub fn is_light(color: &Color) -> bool {
-    !matches!(color.value, ColorValue::Hsv { .. } | ColorValue::Rgb(_))
-}
-
 /// Linear red, green and blue as the hue, saturation and value that a display shows: channels below
 /// 0 are clipped, those above 1 are kept.
-pub(crate) fn encoded_hsv(linear: [f64; 3]) -> Hsv {
-    Hsv::from_rgb(linear.map(|channel| srgb_encode(channel.max(0.0))))
+pub(crate) fn encoded_hsv(linear: DVec3) -> Hsv {
+    Hsv::from_rgb(linear.to_array().map(|channel| srgb_encode(channel.max(0.0))))
+}
+
+/// Linear red, green and blue that a display shows of a colour.
+pub(crate) fn shown_light(color: Hsv) -> DVec3 {
+    DVec3::from_array(color.to_rgb().map(srgb_decode))
 }
 
 /// Linear light of a surface whose colour is that of a display, under levels of red, green and
 /// blue: they multiply display-encoded channels, as they do of hues.
 pub(crate) fn lit_display(linear: DVec3, level: DVec3) -> DVec3 {
+    if level == DVec3::ONE {
+        return linear;
+    }
     let lit = |channel: f64, level: f64| srgb_decode(srgb_encode(channel) * level);
     DVec3::new(lit(linear.x, level.x), lit(linear.y, level.y), lit(linear.z, level.z))
-}
-
-/// True for red, green and blue of a display (`c_rgb`), of which meshes consist as well.
-pub fn is_display(color: &Color) -> bool {
-    matches!(color.value, ColorValue::Rgb(_))
 }
 
 /// The hue of red, green and blue of a display. That of a mixture of other colours (`c_mix`) is the
@@ -153,15 +213,15 @@ pub fn display_hue(scene: &Scene, id: ColorId) -> Hsv {
     }
 }
 
-/// A colour statement at rest as linear red, green and blue with the sRGB primaries, without
-/// clipping: channels may be above 1 and below 0.  Eq. (P19)
-///
-/// `None` for colours that are not given as light, see [`is_light`].
-pub fn light(scene: &Scene, color: &Color) -> Option<[f64; 3]> {
+/// What a colour statement is drawn as at rest: unless it is a hue, linear red, green and blue without
+/// clipping, so channels may be above 1 and below 0.  Eq. (P19)
+pub fn color_form(scene: &Scene, color: &Color) -> ColorForm {
+    let light = |xyz| ColorForm::Light(DVec3::from_array(xyz_to_linear_srgb(xyz)));
     match color.value {
-        ColorValue::Xyz(xyz) => Some(xyz_to_linear_srgb(ugphysics::limited(xyz, ugphysics::MOST_LIGHT))),
-        _ if is_light(color) => Some(xyz_to_linear_srgb(spectrum(scene, color).0.seen(1.0))),
-        _ => None,
+        ColorValue::Hsv { .. } => ColorForm::Hue,
+        ColorValue::Rgb(rgb) => ColorForm::Display(DVec3::from_array(rgb.map(srgb_decode))),
+        ColorValue::Xyz(xyz) => light(ugphysics::limited(xyz, ugphysics::MOST_LIGHT)),
+        _ => light(spectrum(scene, color).0.seen(1.0)),
     }
 }
 
@@ -171,7 +231,7 @@ fn shown(xyz: [f64; 3]) -> Hsv {
     const BRIGHTEST: f64 = 1e300;
     let largest = xyz.iter().fold(BRIGHTEST, |largest, part| largest.max(part.abs()));
     let xyz = xyz.map(|part| part * (BRIGHTEST / largest));
-    encoded_hsv(xyz_to_linear_srgb(xyz))
+    encoded_hsv(DVec3::from_array(xyz_to_linear_srgb(xyz)))
 }
 
 /// The spectrum of a colour statement: for `c`, `c_rgb` and `c_xyz` that of a surface of

@@ -2,49 +2,27 @@
 
 use std::borrow::Borrow;
 
-use glam::DVec3;
+use rayon::prelude::*;
 use ugscene::{Face, Scene, VertexId};
 
-use crate::{Appearance, SurfaceColor, Swatch};
+use crate::{Appearance, ColorForm, Mixing, SurfaceColor, Swatch};
 
-/// The common attributes of the corners of a face.
+/// What the corners of a face have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Common {
+pub struct FaceColors {
     /// The tint of grey corners for interpolation: the mean of the coloured corners, so that the
     /// colours between grey and blue do not pass through the rainbow.
     grey_tint: f64,
     /// Translucency of the face's own colour, if it has one.
     translucency: Option<f64>,
-    /// A corner's colour is given as light, so light is interpolated instead of hue.
-    pub is_light: bool,
-    /// A corner's colour is one of a display, and the colours of the corners differ, so light is
-    /// interpolated; but it is lit like a hue. A single colour is drawn so where its hue fades.
-    pub is_display: bool,
-}
-
-impl Swatch {
-    /// The weighted mean of the corners of a triangle, number by number. A number that is the same
-    /// at all corners keeps its bits.
-    pub fn mixed([a, b, c]: [Self; 3], weights: [f64; 3]) -> Self {
-        let [first, second, third] = weights;
-        let number = |of: fn(&Self) -> f64| of(&a) + second * (of(&b) - of(&a)) + third * (of(&c) - of(&a));
-        let mean = |a: DVec3, b: DVec3, c: DVec3| first * a + second * b + third * c;
-        Self {
-            tint: number(|swatch| swatch.tint),
-            saturation: number(|swatch| swatch.saturation),
-            value: number(|swatch| swatch.value),
-            factor: number(|swatch| swatch.factor),
-            light: a.light.zip(b.light).zip(c.light).map(|((a, b), c)| mean(a, b, c)),
-            is_display: a.is_display,
-            translucency: number(|swatch| swatch.translucency),
-        }
-    }
+    /// What its colours are drawn as.
+    pub mixing: Mixing,
 }
 
 impl Appearance {
-    /// The common attributes of the corners of a face.
+    /// What the corners of a face have in common.
     #[inline]
-    pub fn common(&self, scene: &Scene, face: &Face) -> Common {
+    pub fn face_colors(&self, scene: &Scene, face: &Face) -> FaceColors {
         let corners = scene.contours.corners(face.contours.clone());
         let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
         let mean_tint = || {
@@ -55,54 +33,62 @@ impl Appearance {
         };
         let grey_tint = if swatches().any(Swatch::is_grey) { mean_tint() } else { 0.0 };
         let translucency = face.color.map(|color| self.palette.get(color).translucency);
-        let is_light =
-            self.palette.has_light() && swatches().any(|swatch| swatch.light.is_some() && !swatch.is_display);
-        let is_display = !is_light && self.palette.has_display() && self.mixes_light(swatches());
-        Common { grey_tint, translucency, is_light, is_display }
+        FaceColors { grey_tint, translucency, mixing: self.mixing(swatches()) }
     }
 
-    /// True if corners with these colours are interpolated in linear light, because one of them was
-    /// written as red, green and blue (`c_rgb`) and they differ.
+    /// What colours are drawn as that meet in a face or wire. Light of a display is drawn as such only
+    /// between different colours, or where its hue would fade.
     #[inline]
-    pub fn mixes_light<S: Borrow<Swatch>>(&self, swatches: impl Iterator<Item = S> + Clone) -> bool {
-        let mut displays = swatches.clone().filter(|swatch| swatch.borrow().is_display);
-        let Some(display) = displays.clone().next() else { return false };
-        swatches.clone().any(|swatch| swatch.borrow() != display.borrow())
-            || displays.any(|swatch| self.palette.is_faded(swatch.borrow()))
+    pub fn mixing<S: Borrow<Swatch>>(&self, swatches: impl Iterator<Item = S> + Clone) -> Mixing {
+        if !self.palette.has_light && !self.palette.has_display {
+            return Mixing::Hue;
+        }
+        let most = swatches.clone().max_by_key(|swatch| swatch.borrow().form.mixing());
+        let Some(most) = most.as_ref().map(Borrow::borrow) else { return Mixing::Hue };
+        match most.form {
+            ColorForm::Display(_) => {
+                let mut all = swatches.clone();
+                let is_mixed = all.any(|swatch| swatch.borrow() != most) || self.palette.is_faded(most);
+                if is_mixed { Mixing::Display } else { Mixing::Hue }
+            }
+            form => form.mixing(),
+        }
     }
 
-    /// As [`Appearance::common`], of a face that moves or not. Colours given as light have no hue
+    /// As [`Appearance::face_colors`], of a face that moves or not. Colours given as light have no hue
     /// to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode. So
     /// are colours of a display, and their hues are mixed.
-    pub fn common_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> Common {
-        let common = self.common(scene, face);
+    pub fn face_colors_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> FaceColors {
+        let colors = self.face_colors(scene, face);
         let keeps_light = self.keeps_light() || !is_moving;
-        let (is_light, is_display) = (common.is_light && keeps_light, common.is_display && keeps_light);
-        Common { is_light, is_display, ..common }
+        FaceColors { mixing: if keeps_light { colors.mixing } else { Mixing::Hue }, ..colors }
+    }
+
+    /// Whether faces are drawn as hues, and whether faces are drawn as light.
+    pub fn draws_light(&self, scene: &Scene) -> [bool; 2] {
+        if !(self.palette.has_light || self.palette.has_display && self.surface.has_display()) {
+            return [!scene.faces.is_empty(), false];
+        }
+        let is_light = |face: &&Face| {
+            let is_moving = !self.surface.velocity(face.body).is_zero();
+            self.face_colors_in_motion(scene, face, is_moving).mixing != Mixing::Hue
+        };
+        let n_light = scene.faces.par_iter().filter(is_light).count();
+        [n_light < scene.faces.len(), n_light > 0]
     }
 
     /// The colour of a corner of a face.
     #[inline]
-    pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
-        let own = *self.surface.swatch(vertex);
-        let swatch = Swatch { translucency: common.translucency.unwrap_or(own.translucency), ..own };
-        if common.is_light {
-            Swatch { is_display: false, ..self.palette.as_light(swatch) }
-        } else if common.is_display {
-            // The hue is that of light from where something shifts it.
-            let tint = if swatch.is_grey() { common.grey_tint } else { swatch.tint };
-            Swatch { tint, is_display: true, ..self.palette.as_light(swatch) }
-        } else if swatch.is_grey() {
-            Swatch { tint: common.grey_tint, light: None, ..swatch }
-        } else {
-            Swatch { light: None, ..swatch }
-        }
+    pub fn swatch(&self, vertex: VertexId, colors: &FaceColors) -> Swatch {
+        let own = self.palette.drawn_as(colors.mixing, *self.surface.swatch(vertex));
+        let tint = if own.is_grey() { colors.grey_tint } else { own.tint };
+        Swatch { tint, translucency: colors.translucency.unwrap_or(own.translucency), ..own }
     }
 
     /// The colour at rest at a point of a triangle of a face. `weights`: of the corners.
-    pub fn color_at(&self, common: &Common, corners: [VertexId; 3], weights: [f64; 3]) -> SurfaceColor {
+    pub fn color_at(&self, colors: &FaceColors, corners: [VertexId; 3], weights: [f64; 3]) -> SurfaceColor {
         let rows = corners.map(|corner| self.surface.row(corner));
-        let swatch = |corner| self.swatch(corner, common);
+        let swatch = |corner| self.swatch(corner, colors);
         let first = swatch(corners[0]);
         let even = SurfaceColor::even(first, rows[0]);
         if rows == [rows[0]; 3] {
@@ -113,14 +99,14 @@ impl Appearance {
             return even;
         }
         let rows = std::array::from_fn(|at| (rows[at], weights[at]));
-        SurfaceColor { swatch: Swatch::mixed(swatches, weights), rows }
+        SurfaceColor { swatch: Swatch::mean(&swatches, weights), rows }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its
     /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
     pub fn is_translucent(&self, scene: &Scene, face: &Face) -> bool {
-        if !self.palette.has_translucency() {
+        if !self.palette.has_translucency {
             return false;
         }
         match face.color {

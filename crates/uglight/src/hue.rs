@@ -127,16 +127,21 @@ impl HueShift {
     ) -> Option<DVec3> {
         let is_shifted = |part: &&Irradiance| self.shifts(part.doppler);
         let n_shifted = light.iter().filter(is_shifted).count();
-        let is_linear = self.law.acts_on_light();
-        let is_hue = n_shifted > 0 && (!is_linear || n_shifted == light.len());
+        let is_hue = n_shifted > 0 && (!self.law.acts_on_light() || n_shifted == light.len());
         if self.shifts(doppler) || is_hue {
             return None;
         }
         let own = light.iter().filter(|part| !is_shifted(part));
         let level = own.map(|part| part.level * self.color_of(&lamps[part.lamp as usize])).sum();
-        let lit = if is_linear { linear * level } else { lit_display(linear, level) };
+        let lit = self.lit_display(linear, level);
         let seen = |part: &Irradiance| self.seen_lit(base, doppler, &[*part], lamps).light();
         Some(lit + light.iter().filter(is_shifted).map(seen).sum::<DVec3>())
+    }
+
+    /// Linear light of a display under levels of red, green and blue, which multiply linear light under
+    /// a law that names a quantity, else display-encoded channels.
+    pub(crate) fn lit_display(self, linear: DVec3, level: DVec3) -> DVec3 {
+        if self.law.acts_on_light() { linear * level } else { lit_display(linear, level) }
     }
 
     /// True if the Doppler factor changes colours. One that is a product along a path, through glass
@@ -180,7 +185,7 @@ impl HueColor {
     /// below 0 are clipped, those above 1 are kept.
     #[must_use]
     pub fn of_display(linear: DVec3) -> Self {
-        encoded_hsv(linear.to_array()).into()
+        encoded_hsv(linear).into()
     }
 
     const BLACK: Self = Self { hue: 0.0, wavelength_nm: 0.0, saturation: 0.0, value: 0.0, factor: 1.0 };

@@ -5,10 +5,11 @@ use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 use ugphysics::spectrum::{LightSpectrum, Spectrum};
-use ugphysics::{length, srgb_decode, unit_or_zero};
+use ugphysics::{length, unit_or_zero};
 use ugscene::{ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
 
-use crate::{hsv, light, spectrum};
+use crate::color::shown_light;
+use crate::{ColorForm, color_form, hsv, spectrum};
 
 /// The intensity of the ambient light in a scene without lights.
 pub const DEFAULT_AMBIENT: f64 = 0.3;
@@ -26,7 +27,7 @@ pub struct Lamp {
     /// Display-encoded red, green and blue, times the intensity. In this form light of several
     /// lamps is added, and multiplies the display-encoded colour of a surface, as in 1988.
     pub color: DVec3,
-    /// Linear red, green and blue, times the intensity: it multiplies colours given as [`light`].
+    /// Linear red, green and blue, times the intensity: it multiplies colours given as light.
     pub linear: DVec3,
     /// True if the light is neither white nor grey.
     pub is_colored: bool,
@@ -214,10 +215,13 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3, is_spectral: bool) -> Lamp
     let color = &scene.colors[id.index()];
     let shown = hsv(scene, color);
     let encoded = shown.to_rgb();
-    let linear = light(scene, color).unwrap_or_else(|| encoded.map(srgb_decode));
+    let linear = match color_form(scene, color) {
+        ColorForm::Light(light) => light,
+        _ => shown_light(shown),
+    };
     Lamp {
         color: DVec3::from_array(encoded) * statement.intensity,
-        linear: DVec3::from_array(linear) * statement.intensity,
+        linear: linear * statement.intensity,
         is_colored: shown.saturation > 0.0,
         own_spectrum: is_spectral.then(|| LightSpectrum::new(&spectrum(scene, color).0)),
         ..white

@@ -4,7 +4,7 @@
 //! that shades corners or samples, a program that refines edges where light changes: each asks
 //! which [`Lamps`] a scene has, how much of their light falls on a surface ([`Lighting`] for lamps
 //! at rest with what they light, [`SurfaceElement`] for lamps that move against it), and which
-//! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`light`],
+//! [`Hsv`], linear light or [`Spectrum`] a colour statement stands for ([`hsv`], [`color_form`],
 //! [`spectrum`]).
 //!
 //! The effect of motion on a colour depends on the model: a [`HueColor`] has one wavelength, which
@@ -56,10 +56,10 @@ mod vertex_color;
 
 pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor};
 pub use color::{
-    RestColor, display_hue, hsv, hsv_and_factor, is_display, is_light, light, mean_hue, spectra_note,
+    ColorForm, Mixing, RestColor, color_form, display_hue, hsv, hsv_and_factor, mean_hue, spectra_note,
     spectrum,
 };
-pub use face_colors::Common;
+pub use face_colors::FaceColors;
 pub use hue::{HueColor, HueShift};
 pub use irradiance::{IncidentLamp, Irradiance, ScatteringTime, SurfaceElement};
 pub use lamp::{
@@ -67,7 +67,7 @@ pub use lamp::{
 };
 pub use light_names::light_names;
 pub use lighting::Lighting;
-pub use own_time::{mean_color, settle};
+pub use own_time::{freeze_colors_at_zero, mean_color};
 pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
 pub use spectral::{SpectralColor, SpectralFilter, SpectralShift};

@@ -23,7 +23,9 @@ pub struct Lighting {
     lamps: Vec<Lamp>,
     /// All lamps, if one is neither white nor grey.
     colored: Option<Lamps>,
-    acts_on_light: bool,
+    /// Levels multiply linear light, of hues as well: the law of the picture names a quantity, see
+    /// [`Brightness::acts_on_light`].
+    pub acts_on_light: bool,
 }
 
 impl Lighting {
@@ -65,13 +67,6 @@ impl Lighting {
         };
         let all = self.colored_lamps().iter().enumerate().map(irradiance);
         all.filter(|part| part.level > 0.0).collect()
-    }
-
-    /// True if levels multiply linear light, of hues as well: the law of the picture names a
-    /// quantity, see [`Brightness::acts_on_light`].
-    #[inline]
-    pub fn acts_on_light(&self) -> bool {
-        self.acts_on_light
     }
 
     /// True if the level depends on the position and normal of a face.

@@ -1,10 +1,11 @@
 //! Colours that change with own time (`c_time`), at one time.
 
 use glam::DVec3;
+use ugphysics::Hsv;
 use ugscene::{ColorId, Mix, Scene};
 
-use crate::color::encoded_hsv;
-use crate::{Appearance, RestColor, SurfaceColor, Swatch};
+use crate::color::{encoded_hsv, shown_light};
+use crate::{Appearance, ColorForm, Mixing, RestColor, SurfaceColor, Swatch};
 
 /// The colour of parts with shares that add up to 1, the second of which may have none: the mean of
 /// their light.
@@ -13,20 +14,20 @@ pub fn mean_color([a, b]: [(RestColor, f64); 2]) -> RestColor {
     if b.1 == 0.0 {
         return a.0;
     }
-    let linear = a.1 * a.0.linear() + b.1 * b.0.linear();
-    let is_light = a.0.light.is_some() || b.0.light.is_some();
-    let light = is_light.then(|| linear.to_array());
-    RestColor {
-        hsv: encoded_hsv(linear.to_array()),
-        light,
-        is_display: false,
-        translucency: a.0.translucency,
-    }
+    let (hsv, form) = mean([a, b].map(|(color, share)| (color.form, color.linear(), share)));
+    RestColor { hsv, form, ..a.0 }
+}
+
+/// The mean of two tones with their light and shares: light if one of them is, else a hue.
+fn mean([a, b]: [(ColorForm, DVec3, f64); 2]) -> (Hsv, ColorForm) {
+    let linear = a.2 * a.1 + b.2 * b.1;
+    let is_light = a.0.mixing().max(b.0.mixing()) == Mixing::Light;
+    (encoded_hsv(linear), if is_light { ColorForm::Light(linear) } else { ColorForm::Hue })
 }
 
 /// Gives all colours that change with own time their colour at own time 0, for programs that show
 /// no times. Lamps keep their tables.
-pub fn settle(scene: &mut Scene) {
+pub fn freeze_colors_at_zero(scene: &mut Scene) {
     for row in 0..scene.color_tables.len() {
         let table = &scene.color_tables[row];
         let (id, parts) = (table.color, table.at(0.0).parts);
@@ -60,24 +61,22 @@ impl Appearance {
         let of = |color: ColorId| {
             let swatch = self.palette.get(color);
             // One colour of a display is drawn as a hue.
-            let light = swatch.light.filter(|_| keeps_light && !swatch.is_display);
-            Swatch { light, ..swatch }
+            let is_light = keeps_light && swatch.form.mixing() == Mixing::Light;
+            Swatch { form: if is_light { swatch.form } else { ColorForm::Hue }, ..swatch }
         };
         let [(a, share), (b, rest)] = parts;
         let rows = [(a.index() as u32, share), (b.index() as u32, rest), (a.index() as u32, 0.0)];
-        let swatch = if rest == 0.0 { of(a) } else { self.mean_swatch([(of(a), share), (of(b), rest)]) };
-        Some(SurfaceColor { swatch, rows })
-    }
-
-    /// As [`mean_color`].
-    fn mean_swatch(&self, [a, b]: [(Swatch, f64); 2]) -> Swatch {
-        let linear = |swatch: Swatch| {
-            let shown = || DVec3::from(self.palette.hsv(&swatch).to_rgb().map(ugphysics::srgb_decode));
-            swatch.light.unwrap_or_else(shown)
+        let part = |(color, share)| {
+            let swatch = of(color);
+            let linear = swatch.form.light().unwrap_or_else(|| shown_light(self.palette.hsv(&swatch)));
+            (swatch.form, linear, share)
         };
-        let mean = a.1 * linear(a.0) + b.1 * linear(b.0);
-        let is_light = a.0.light.is_some() || b.0.light.is_some();
-        let light = is_light.then_some(mean);
-        Swatch { light, translucency: a.0.translucency, ..self.palette.swatch(encoded_hsv(mean.to_array())) }
+        let swatch = if rest == 0.0 {
+            of(a)
+        } else {
+            let (hsv, form) = mean(parts.map(part));
+            Swatch { form, translucency: of(a).translucency, ..self.palette.swatch(hsv) }
+        };
+        Some(SurfaceColor { swatch, rows })
     }
 }

@@ -6,7 +6,8 @@ use ugphysics::{
 };
 use ugscene::{ColorId, ColorValue, Scene, Tint};
 
-use crate::color::lit_display;
+use crate::color::shown_light;
+use crate::{ColorForm, Mixing};
 
 /// The interpolated quantity, besides saturation and value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,70 +32,83 @@ pub struct Swatch {
     /// Factor of the linear light that tint, saturation and value stand for. At rest it is 1; laws
     /// that act on linear light change it instead of the value.
     pub factor: f64,
-    /// The light itself, if the colour is given as such (`c_xyz`, `c_rgb`): linear red, green and
-    /// blue, neither clipped nor gamut-mapped. Tint, saturation and value are then the nearest
-    /// colour that a display has.
-    pub light: Option<DVec3>,
-    /// The light was written as red, green and blue of a display (`c_rgb`). Between corners of
-    /// different colours it is drawn as such, and lit like a hue: see [`Swatch::lit`]. Otherwise it
-    /// is drawn as the hue it stands for.
-    pub is_display: bool,
+    /// What it is drawn as. If it is light, tint, saturation and value are those of the nearest
+    /// colour that a display has. In a [`Palette`], the light of a display is drawn as the hue it
+    /// stands for, unless corners of a face differ.
+    pub form: ColorForm,
     /// 0 opaque … 1 fully transparent.
     pub translucency: f64,
 }
 
 impl Swatch {
     /// The colour of objects without a colour.
-    pub const WHITE: Self = Self {
-        tint: 0.0,
-        saturation: 0.0,
-        value: 1.0,
-        factor: 1.0,
-        light: None,
-        is_display: false,
-        translucency: 0.0,
-    };
+    pub const WHITE: Self =
+        Self { tint: 0.0, saturation: 0.0, value: 1.0, factor: 1.0, form: ColorForm::Hue, translucency: 0.0 };
 
     /// True if it has no tint.
     pub fn is_grey(&self) -> bool {
         self.saturation == 0.0
     }
 
-    /// Its light under levels of red, green and blue, if it is drawn as light. Levels multiply
-    /// display-encoded channels of colours of a display, as they do of hues, and linear light of
-    /// others.
-    pub fn lit(&self, level: DVec3) -> Option<DVec3> {
-        let light = self.light?;
-        if !self.is_display || level == DVec3::ONE {
-            return Some(light * level);
+    /// The weighted mean, number by number; the weights add up to 1. A number that is the same in
+    /// all of them keeps its bits.
+    pub fn mean<const N: usize>(all: &[Self; N], weights: [f64; N]) -> Self {
+        let first = all[0];
+        let others = || all.iter().zip(weights).skip(1);
+        let number = |of: fn(&Self) -> f64| {
+            others().fold(of(&first), |sum, (one, weight)| sum + weight * (of(one) - of(&first)))
+        };
+        let parts = all.iter().zip(weights).map(|(one, weight)| Some(weight * one.form.light()?));
+        Self {
+            tint: number(|swatch| swatch.tint),
+            saturation: number(|swatch| swatch.saturation),
+            value: number(|swatch| swatch.value),
+            factor: number(|swatch| swatch.factor),
+            form: parts
+                .sum::<Option<DVec3>>()
+                .map_or(ColorForm::Hue, |light| first.form.mixing().form(light)),
+            translucency: number(|swatch| swatch.translucency),
         }
-        Some(lit_display(light, level))
     }
 }
 
 /// The colours of a scene, and how they are interpolated.
 #[derive(Clone, Debug)]
 pub struct Palette {
-    swatches: Vec<Swatch>,
-    interpolation: Interpolation,
+    /// All colours in the order of the scene's table.
+    pub swatches: Vec<Swatch>,
+    /// The interpolated quantity.
+    pub interpolation: Interpolation,
     /// Colours are spectra.
     is_spectral: bool,
-    has_light: bool,
-    has_display: bool,
-    has_translucency: bool,
+    /// Light may be drawn as the nearest hue.
+    has_hues_of_light: bool,
+    /// A colour of the scene is drawn as light.
+    pub has_light: bool,
+    /// Colours of a display may be drawn as light.
+    pub has_display: bool,
+    /// A colour of the scene is not opaque.
+    pub has_translucency: bool,
 }
 
 impl Palette {
     /// Converts all colours of a scene.
     ///
-    /// `is_spectral`: colours are spectra, so all of them are drawn as light.
-    pub fn new(scene: &Scene, interpolation: Interpolation, is_spectral: bool) -> Self {
-        let has_light = is_spectral || scene.colors.iter().any(crate::is_light);
+    /// `is_spectral`: colours are spectra, so all of them are drawn as light. `has_hues_of_light`: if
+    /// not, colours given as light have no tint, since finding it takes long.
+    pub fn new(
+        scene: &Scene,
+        interpolation: Interpolation,
+        is_spectral: bool,
+        has_hues_of_light: bool,
+    ) -> Self {
+        let has_light = is_spectral || scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Light);
         let has_translucency = scene.colors.iter().any(|color| color.translucency > 0.0);
         let mut palette = Self {
             swatches: Vec::new(),
             interpolation,
             is_spectral,
+            has_hues_of_light,
             has_light,
             has_display: false,
             has_translucency,
@@ -103,7 +117,9 @@ impl Palette {
         palette.swatches = ids.map(|id| palette.read(scene, id)).collect();
         // One colour is drawn as a hue, unless hues fade there.
         let has_mixtures = palette.swatches.len() > 1;
-        let is_drawn = |swatch: &Swatch| swatch.is_display && (has_mixtures || palette.is_faded(swatch));
+        let is_drawn = |swatch: &Swatch| {
+            swatch.form.mixing() == Mixing::Display && (has_mixtures || palette.is_faded(swatch))
+        };
         palette.has_display = palette.swatches.iter().any(is_drawn);
         palette
     }
@@ -113,29 +129,15 @@ impl Palette {
         self.swatches[color.index()]
     }
 
-    /// All colours in the order of the scene's table.
-    pub fn all(&self) -> &[Swatch] {
-        &self.swatches
-    }
-
-    /// The interpolated quantity.
-    pub fn interpolation(&self) -> Interpolation {
-        self.interpolation
-    }
-
     /// The colour of objects without a colour; given as light if colours are spectra.
     pub fn white(&self) -> Swatch {
-        Swatch { light: self.is_spectral.then_some(DVec3::ONE), ..Swatch::WHITE }
+        Swatch { form: self.marked(ColorForm::Hue), ..Swatch::WHITE }
     }
 
-    /// True if a colour of the scene is drawn as light.
-    pub fn has_light(&self) -> bool {
-        self.has_light
-    }
-
-    /// True if colours of a display may be drawn as light.
-    pub fn has_display(&self) -> bool {
-        self.has_display
+    /// The form in which a colour is drawn. Where colours are spectra all are light, which is
+    /// computed per sample.
+    pub(crate) fn marked(&self, form: ColorForm) -> ColorForm {
+        if self.is_spectral { ColorForm::Light(form.light().unwrap_or(DVec3::ONE)) } else { form }
     }
 
     /// True if a hue is attenuated, because it stands for a wavelength near the ends of the visible
@@ -148,17 +150,12 @@ impl Palette {
         !swatch.is_grey() && !is_full
     }
 
-    /// True if a colour of the scene is not opaque.
-    pub fn has_translucency(&self) -> bool {
-        self.has_translucency
-    }
-
     /// The light of a colour: linear red, green and blue. Its hue is attenuated near the ends of
     /// the visible range.  Eq. (P17)
     pub fn light(&self, swatch: &Swatch) -> DVec3 {
-        swatch.light.unwrap_or_else(|| {
+        swatch.form.light().unwrap_or_else(|| {
             let seen = self.hsv(swatch).attenuated(attenuation(self.wavelength_nm(swatch)));
-            swatch.factor * DVec3::from_array(seen.to_rgb().map(srgb_decode))
+            swatch.factor * shown_light(seen)
         })
     }
 
@@ -188,9 +185,14 @@ impl Palette {
         Swatch { tint, saturation: color.saturation, value: color.value, ..Swatch::WHITE }
     }
 
-    /// The colour converted to light, if it is not given as light.
-    pub fn as_light(&self, swatch: Swatch) -> Swatch {
-        Swatch { light: Some(self.light(&swatch)), ..swatch }
+    /// The colour drawn as `mixing` says.
+    #[inline]
+    pub fn drawn_as(&self, mixing: Mixing, swatch: Swatch) -> Swatch {
+        let form = match mixing {
+            Mixing::Hue => ColorForm::Hue,
+            mixing => mixing.form(self.light(&swatch)),
+        };
+        Swatch { form, ..swatch }
     }
 
     fn read(&self, scene: &Scene, id: ColorId) -> Swatch {
@@ -205,26 +207,17 @@ impl Palette {
             {
                 let [value, factor] =
                     if is_linear { [value, factor] } else { [value_times(value, factor), 1.0] };
-                Swatch { tint, saturation, value, factor, translucency, ..Swatch::WHITE }
+                Swatch { tint, saturation, value, factor, ..Swatch::WHITE }
             }
             ColorValue::Hsv { .. } if is_linear => {
                 let (color, factor) = crate::hsv_and_factor(scene, color);
-                Swatch { factor, translucency, ..self.swatch(color) }
+                Swatch { factor, ..self.swatch(color) }
             }
-            ColorValue::Rgb(rgb) if !self.is_spectral => Swatch {
-                light: Some(DVec3::from_array(rgb.map(srgb_decode))),
-                is_display: true,
-                translucency,
-                ..self.swatch(crate::display_hue(scene, id))
-            },
-            _ => Swatch {
-                light: crate::light(scene, color).map(DVec3::from_array),
-                translucency,
-                ..self.swatch(crate::hsv(scene, color))
-            },
+            ColorValue::Rgb(_) if !self.is_spectral => self.swatch(crate::display_hue(scene, id)),
+            _ if !self.has_hues_of_light && Mixing::of(color) == Mixing::Light => Swatch::WHITE,
+            _ => self.swatch(crate::hsv(scene, color)),
         };
-        // The light of a spectrum is computed per sample; here it only marks the colour as light.
-        Swatch { light: swatch.light.or(self.white().light), ..swatch }
+        Swatch { form: self.marked(crate::color_form(scene, color)), translucency, ..swatch }
     }
 }
 

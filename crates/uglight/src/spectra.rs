@@ -6,7 +6,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
-use ugscene::{ColorId, Scene, Shares};
+use ugscene::{ColorId, ColorMix, Scene};
 
 use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
 
@@ -15,7 +15,7 @@ pub struct Spectra {
     shift: SpectralShift,
     grid: DopplerGrid,
     /// For each row, the colours that are mixed, with their shares.
-    rows: Vec<Shares>,
+    rows: Vec<ColorMix>,
     /// White, followed by the colours of the scene.
     colors: Vec<SpectralColor>,
     /// |ln D| up to which the spectra are tabulated.
@@ -29,7 +29,7 @@ pub struct Spectra {
 impl Spectra {
     /// `rows`: mixtures of colours. `reach`: the |ln D| that are fast to compute; for light
     /// straight from a body, its rapidity.
-    pub fn new(scene: &Scene, shift: SpectralShift, rows: Vec<Shares>, reach: f64) -> Self {
+    pub fn new(scene: &Scene, shift: SpectralShift, rows: Vec<ColorMix>, reach: f64) -> Self {
         let ln_doppler = shift.ln_shift(reach);
         let grid = DopplerGrid::new(-ln_doppler..=ln_doppler);
         let colors = (0..=scene.colors.len())

@@ -6,11 +6,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, aberrate};
 use ugscene::{
-    BodyId, ColorId, ColorValue, RestFrames, Scene, SeenVertices, Shares, VertexId, Wire, WorldLinePoint,
-    vertex_shares,
+    BodyId, ColorId, ColorMix, ColorValue, RestFrames, Scene, SeenVertices, VertexId, Wire, WorldLinePoint,
+    vertex_mixes,
 };
 
-use crate::{ColorShift, HueShift, Palette, RestColor, Swatch, VertexColor, vertex_colors};
+use crate::{ColorShift, HueShift, Mixing, Palette, RestColor, Swatch, VertexColor, vertex_colors};
 
 /// Colours and rest positions of the vertices of a scene.
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ impl SurfaceAttributes {
         let frames = RestFrames::new(scene);
         let seen = SeenVertices::new(scene, eye, &frames);
         let rest = seen.rest_positions(scene, eye, &frames);
-        let mut swatches = palette.all().to_vec();
+        let mut swatches = palette.swatches.to_vec();
         // Scenes have fewer than 2^32 colours.
         let white = swatches.len() as u32;
         swatches.push(palette.white());
@@ -45,12 +45,12 @@ impl SurfaceAttributes {
     }
 
     /// The colours that meet in each row.
-    pub fn mixtures(&self, scene: &Scene) -> Vec<Shares> {
-        let mut mixtures = vec![Shares::One(None); self.swatches.len()];
+    pub fn mixtures(&self, scene: &Scene) -> Vec<ColorMix> {
+        let mut mixtures = vec![ColorMix::One(None); self.swatches.len()];
         for (row, shares) in mixtures[..scene.colors.len()].iter_mut().enumerate() {
-            *shares = Shares::One(Some(ColorId::from_index(row)));
+            *shares = ColorMix::One(Some(ColorId::from_index(row)));
         }
-        for (&row, shares) in self.rows.iter().zip(vertex_shares(scene, &self.rest)) {
+        for (&row, shares) in self.rows.iter().zip(vertex_mixes(scene, &self.rest)) {
             mixtures[row as usize] = shares;
         }
         mixtures.into_iter().map(|shares| shares.of_spectra(scene)).collect()
@@ -72,7 +72,7 @@ impl SurfaceAttributes {
         };
         let mut faces = scene.faces.iter().map(|face| moves(face.body, &face.contours, face.color));
         let mut wires = wires.iter().map(|wire| moves(wire.body, &wire.contours, wire.color));
-        let has_spectra = scene.colors.iter().any(crate::is_light);
+        let has_spectra = scene.colors.iter().any(|color| Mixing::of(color) == Mixing::Light);
         has_spectra && is_hue && (faces.any(|moves| moves) || wires.any(|moves| moves))
     }
 
@@ -84,7 +84,7 @@ impl SurfaceAttributes {
 
     /// True if a vertex has a colour of a display.
     pub fn has_display(&self) -> bool {
-        self.rows.iter().any(|&row| self.swatches[row as usize].is_display)
+        self.rows.iter().any(|&row| self.swatches[row as usize].form.mixing() == Mixing::Display)
     }
 
     /// The row of a colour of the scene, or of white.
@@ -151,11 +151,8 @@ fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut V
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,
         VertexColor::Mixed(color) => {
-            let RestColor { hsv, light, is_display, translucency } = color;
-            let light = light.map(DVec3::from_array).or(palette.white().light);
-            let is_display = is_display && light.is_none();
-            let light = light.or(is_display.then(|| color.linear()));
-            swatches.push(Swatch { light, is_display, translucency, ..palette.swatch(hsv) });
+            let RestColor { hsv, form, translucency } = color;
+            swatches.push(Swatch { form: palette.marked(form), translucency, ..palette.swatch(hsv) });
             // There are no more mixed colours than vertices.
             swatches.len() as u32 - 1
         }

@@ -1,10 +1,10 @@
 //! The colour of a vertex: its own, or the mean of those of its faces (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugscene::{ColorId, Scene, Shares, vertex_shares};
+use ugscene::{ColorId, ColorMix, Scene, vertex_mixes};
 
 use crate::color::encoded_hsv;
-use crate::{RestColor, is_display, is_light};
+use crate::{Mixing, RestColor};
 
 /// The colour of a vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub enum VertexColor {
     /// Neither the vertex nor its faces have a colour: white.
     White,
     /// Its faces have different colours: their mean in linear RGB, weighted by the angle of the
-    /// faces' corners. It is light if one of the colours is, else of a display if one is.
+    /// faces' corners.
     Mixed(RestColor),
 }
 
@@ -28,12 +28,12 @@ impl VertexColor {
         }
     }
 
-    /// True if it was written as red, green and blue of a display (`c_rgb`).
-    pub fn is_display(&self, scene: &Scene) -> bool {
+    /// How it mixes with others.
+    pub fn mixing(&self, scene: &Scene) -> Mixing {
         match self {
-            Self::Named(id) => is_display(&scene.colors[id.index()]),
-            Self::White => false,
-            Self::Mixed(color) => color.is_display,
+            Self::Named(id) => Mixing::of(&scene.colors[id.index()]),
+            Self::White => Mixing::Hue,
+            Self::Mixed(color) => color.form.mixing(),
         }
     }
 }
@@ -43,9 +43,9 @@ impl VertexColor {
 /// `positions`: one for each vertex, in the rest frame of its body, where
 /// angles do not depend on the speed.
 pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
-    let shares = vertex_shares(scene, positions);
+    let shares = vertex_mixes(scene, positions);
     // Decoding is slow, and in most scenes no vertex has several colours.
-    let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, Shares::Mixed(_))) {
+    let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, ColorMix::Mixed(_))) {
         let ids = (0..scene.colors.len()).map(ColorId::from_index);
         ids.map(|color| RestColor::new(scene, Some(color)).linear()).collect()
     } else {
@@ -54,8 +54,8 @@ pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
     shares
         .into_iter()
         .map(|share| match share {
-            Shares::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
-            Shares::Mixed(parts) => mean(scene, &linear, &parts),
+            ColorMix::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
+            ColorMix::Mixed(parts) => mean(scene, &linear, &parts),
         })
         .collect()
 }
@@ -64,20 +64,13 @@ pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
 fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> VertexColor {
     let mut sum = DVec3::ZERO;
     let mut translucency = 0.0;
-    let (mut has_light, mut has_display) = (false, false);
+    let mut mixing = Mixing::Hue;
     for &(color, share) in parts {
-        has_light |= color.is_some_and(|color| is_light(&scene.colors[color.index()]));
-        has_display |= color.is_some_and(|color| is_display(&scene.colors[color.index()]));
+        mixing = mixing.max(color.map_or(Mixing::Hue, |color| Mixing::of(&scene.colors[color.index()])));
         sum += color.map_or(DVec3::ONE, |color| linear[color.index()]) * share;
         translucency += color.map_or(0.0, |color| scene.colors[color.index()].translucency) * share;
     }
-    let linear = sum.to_array();
-    VertexColor::Mixed(RestColor {
-        hsv: encoded_hsv(linear),
-        light: has_light.then_some(linear),
-        is_display: has_display && !has_light,
-        translucency,
-    })
+    VertexColor::Mixed(RestColor { hsv: encoded_hsv(sum), form: mixing.form(sum), translucency })
 }
 
 #[cfg(test)]
@@ -134,11 +127,9 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let VertexColor::Mixed(RestColor { light: Some(light), .. }) = vertex_colors(&scene, &positions)[0]
-        else {
-            panic!("two faces with two colours meet there")
-        };
-        let xyz = ugphysics::linear_srgb_to_xyz(light);
+        let color = vertex_colors(&scene, &positions)[0];
+        assert_eq!(color.mixing(&scene), Mixing::Light);
+        let xyz = ugphysics::linear_srgb_to_xyz(color.at_rest(&scene).linear().to_array());
         // Both corners have 90 degrees.
         assert!((DVec3::from_array(xyz) - DVec3::new(4.5, 4.5, 3.5)).length() < 1e-9, "{xyz:?}");
     }

@@ -1,14 +1,13 @@
 //! Names, colours and normals of new vertices, and smooth normals.
 
 use std::borrow::Borrow;
-use std::cell::OnceCell;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use uglight::{RestColor, VertexColor};
+use uglight::{Mixing, RestColor, VertexColor};
 use ugphysics::{Hsv, srgb_encode, unit_or_zero};
 use ugscene::{
-    Color, ColorId, ColorValue, Mix, Mixtures, Scene, Shares, Tint, Vertex, face_vertices, vertex_shares,
+    Color, ColorId, ColorMix, ColorValue, Mix, MixtureNames, Scene, Tint, Vertex, face_vertices, vertex_mixes,
 };
 
 use crate::refined_mesh::Recipe;
@@ -26,7 +25,7 @@ const PREFIX: &str = "s#";
 pub(crate) fn add_vertices(
     scene: &mut Scene,
     recipes: &[Recipe],
-    mut shades: Option<Vec<(Shade, Shares)>>,
+    mut shades: Option<Vec<(Shade, ColorMix)>>,
     is_apart: bool,
 ) -> Vec<bool> {
     if recipes.is_empty() {
@@ -58,7 +57,7 @@ pub(crate) fn add_vertices(
 /// The shades of the vertices of a scene, and the colours in them, from which those of new vertices
 /// are interpolated; `None` if no new vertex needs that, because vertices and faces have their
 /// colours and meet no others.
-pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shares)>> {
+pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, ColorMix)>> {
     let mut has_color = scene.vertices.iter().map(|vertex| vertex.color.is_some());
     let first = has_color.next()?;
     let is_partial = has_color.any(|has_color| has_color != first);
@@ -69,23 +68,21 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Shar
     let shade = |color: VertexColor| match color {
         VertexColor::Named(id) => Shade::of(scene, Some(id)),
         VertexColor::White => Shade::of(scene, None),
-        VertexColor::Mixed(rest) => Shade::new(None, true, rest),
+        VertexColor::Mixed(rest) => Shade { color: None, is_mixture: true, rest },
     };
     let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
-    let shares = vertex_shares(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
+    let shares = vertex_mixes(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
     Some(shades.zip(shares).collect())
 }
 
 /// The look of a vertex at rest.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Shade {
     /// The statement it is given by, or `Some(None)` for white; `None` if there is no statement.
     color: Option<Option<ColorId>>,
     /// Colours of several faces are mixed in it.
     is_mixture: bool,
     rest: RestColor,
-    /// Its linear light, once it is needed: the transfer function takes long.
-    linear: OnceCell<DVec3>,
 }
 
 impl Shade {
@@ -93,15 +90,7 @@ impl Shade {
         let name = |id: ColorId| scene.names.get(scene.colors[id.index()].name);
         let is_mixture =
             id.zip(scene.stage.mixtures).is_some_and(|(id, mixtures)| mixtures.contains(name(id)));
-        Self::new(Some(id), is_mixture, RestColor::new(scene, id))
-    }
-
-    fn new(color: Option<Option<ColorId>>, is_mixture: bool, rest: RestColor) -> Shade {
-        Shade { color, is_mixture, rest, linear: OnceCell::new() }
-    }
-
-    fn linear(&self) -> DVec3 {
-        *self.linear.get_or_init(|| self.rest.linear())
+        Shade { color: Some(id), is_mixture, rest: RestColor::new(scene, id) }
     }
 }
 
@@ -145,7 +134,7 @@ fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
 struct ColorMixer {
     prefix: String,
     mixed: FxHashMap<Mixture, ColorId>,
-    mixtures: Mixtures,
+    mixtures: MixtureNames,
     stated: FxHashMap<([u64; 5], bool, MixedColors), ColorId>,
     white: Option<ColorId>,
 }
@@ -161,8 +150,8 @@ impl ColorMixer {
         let names = scene.colors.iter().map(|color| scene.names.get(color.name));
         let prefix = free_prefix(PREFIX, names.clone());
         // Then the names of a scene that has mixtures already are continued.
-        let earlier = scene.stage.mixtures.map(Mixtures::prefix);
-        let mixtures = Mixtures::unused(names.chain(earlier.as_deref()));
+        let earlier = scene.stage.mixtures.map(MixtureNames::prefix);
+        let mixtures = MixtureNames::unused(names.chain(earlier.as_deref()));
         let (mixed, stated) = (FxHashMap::default(), FxHashMap::default());
         ColorMixer { prefix, mixed, mixtures, stated, white: None }
     }
@@ -184,7 +173,7 @@ impl ColorMixer {
         let shades: Vec<Shade> = parts.iter().map(|&(color, _)| Shade::of(scene, Some(color))).collect();
         let shade = blend(shades.iter().zip(parts.iter().map(|&(_, weight)| weight)));
         let parts =
-            parts.into_iter().map(|(color, weight)| (Shares::One(Some(color)).of_spectra(scene), weight));
+            parts.into_iter().map(|(color, weight)| (ColorMix::One(Some(color)).of_spectra(scene), weight));
         let shares = sum(parts);
         let color = self.add(scene, &shade, &shares);
         self.mixed.insert(key, color);
@@ -196,11 +185,11 @@ impl ColorMixer {
         &self,
         scene: &Scene,
         recipe: &Recipe,
-        shades: &[(Shade, Shares)],
+        shades: &[(Shade, ColorMix)],
         color: Option<ColorId>,
-    ) -> (Shade, Shares) {
+    ) -> (Shade, ColorMix) {
         if color.is_some() {
-            return (Shade::of(scene, color), Shares::One(color).of_spectra(scene));
+            return (Shade::of(scene, color), ColorMix::One(color).of_spectra(scene));
         }
         let parts = recipe.parents.into_iter().zip(recipe.weights).filter(|&(_, weight)| weight > 0.0);
         let shares = sum(parts.clone().map(|(row, weight)| (&shades[row as usize].1, weight)));
@@ -215,14 +204,14 @@ impl ColorMixer {
             Some((first, _))
                 if first.color.is_some() && parts.clone().all(|part| part.0.color == first.color) =>
             {
-                first.clone()
+                *first
             }
             _ => blend(parts),
         }
     }
 
     /// The statement for a shade; `None` if it is that of a face.
-    fn statement(&mut self, scene: &mut Scene, shade: &Shade, shares: &Shares) -> Option<ColorId> {
+    fn statement(&mut self, scene: &mut Scene, shade: &Shade, shares: &ColorMix) -> Option<ColorId> {
         if shade.color.is_some() {
             return None;
         }
@@ -237,7 +226,7 @@ impl ColorMixer {
     }
 
     /// Adds a statement, and that of what it is mixed of where colours are spectra.
-    fn add(&mut self, scene: &mut Scene, shade: &Shade, shares: &Shares) -> ColorId {
+    fn add(&mut self, scene: &mut Scene, shade: &Shade, shares: &ColorMix) -> ColorId {
         let prefix = if shade.is_mixture {
             scene.stage.mixtures.get_or_insert(self.mixtures);
             self.mixtures.prefix()
@@ -270,7 +259,7 @@ impl ColorMixer {
 }
 
 /// The colours in weighted parts, each once.
-fn sum(weighted: impl Iterator<Item = (impl Borrow<Shares>, f64)>) -> Shares {
+fn sum(weighted: impl Iterator<Item = (impl Borrow<ColorMix>, f64)>) -> ColorMix {
     let mut parts = Vec::new();
     for (shares, weight) in weighted {
         parts.extend(shares.borrow().parts().map(|(color, share)| (color, weight * share)));
@@ -284,31 +273,30 @@ fn sum(weighted: impl Iterator<Item = (impl Borrow<Shares>, f64)>) -> Shares {
         is_same
     });
     match parts[..] {
-        [(color, _)] => Shares::One(color),
-        _ => Shares::Mixed(parts),
+        [(color, _)] => ColorMix::One(color),
+        _ => ColorMix::Mixed(parts),
     }
 }
 
 /// The mean of hues ([`uglight::mean_hue`]). If a part is given as light, or as a colour of a
 /// display (`c_rgb`), light is averaged instead.
 fn blend<'s>(parts: impl Iterator<Item = (&'s Shade, f64)> + Clone) -> Shade {
-    let mut translucency = 0.0;
-    let (mut has_light, mut has_display, mut is_mixture) = (false, false, false);
+    let (mut translucency, mut mixing, mut is_mixture) = (0.0, Mixing::Hue, false);
     for (Shade { rest, is_mixture: is_mixed, .. }, weight) in parts.clone() {
         translucency += weight * rest.translucency;
-        has_light |= rest.light.is_some();
-        has_display |= rest.is_display;
+        mixing = mixing.max(rest.form.mixing());
         is_mixture |= is_mixed;
     }
     // Weights may add up to more than 1 by rounding.
     let translucency = translucency.min(1.0);
-    let mean = || parts.clone().map(|(shade, weight)| weight * shade.linear()).sum::<DVec3>().to_array();
-    let light = has_light.then(mean);
-    let is_display = has_display && !has_light;
-    let hsv = if is_display {
-        Hsv::from_rgb(mean().map(|channel| srgb_encode(channel).min(1.0)))
-    } else {
-        uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight)))
+    let mean = || parts.clone().map(|(shade, weight)| weight * shade.rest.linear()).sum::<DVec3>();
+    let light = if mixing == Mixing::Hue { DVec3::ZERO } else { mean() };
+    let (hsv, light) = match mixing {
+        Mixing::Display => {
+            let light = light.min(DVec3::ONE);
+            (Hsv::from_rgb(light.to_array().map(srgb_encode)), light)
+        }
+        _ => (uglight::mean_hue(parts.map(|(shade, weight)| (shade.rest.hsv, weight))), light),
     };
-    Shade::new(None, is_mixture, RestColor { hsv, light, is_display, translucency })
+    Shade { color: None, is_mixture, rest: RestColor { hsv, form: mixing.form(light), translucency } }
 }

@@ -3,7 +3,8 @@
 use std::fmt;
 
 use thiserror::Error;
-use ugparse::{Diagnostics, Foreign};
+use ugmeshfile::Foreign;
+use ugparse::Diagnostics;
 
 use ugmeshfile::{MeshFormat, Problem};
 
@@ -44,17 +45,7 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::UnknownFormat { name, foreign: Some(foreign) } => {
-                let (what, remedy) = match foreign {
-                    Foreign::Picture => ("a picture", "name a mesh"),
-                    Foreign::Table => ("a table", "name a mesh"),
-                    Foreign::Model => ("a model in a format that is not read", ugpipe::remedies::EXPORT_MESH),
-                    Foreign::Compressed => ("compressed data", "decompress it first"),
-                    Foreign::Utf16 => ("UTF-16 text", "save it as UTF-8 or ASCII"),
-                    Foreign::ByteOrderMark => {
-                        ("text with a byte order mark", "save it as UTF-8 without the mark")
-                    }
-                };
-                write!(f, "`{name}` is not a mesh but {what}; {remedy}")
+                write!(f, "`{name}` is not a mesh but {foreign}; {}", foreign.remedy())
             }
             Self::UnknownFormat { name, foreign: None } => {
                 write!(f, "cannot detect the format of `{name}`")

@@ -147,7 +147,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
         config.format.or_else(|| MeshFormat::detect(&input.name, &input.bytes)).ok_or_else(|| {
             Error::UnknownFormat {
                 name: input.name.clone(),
-                foreign: ugparse::foreign_data(&input.name, &input.bytes),
+                foreign: ugmeshfile::foreign_data(&input.name, &input.bytes),
             }
         })?;
     if format == MeshFormat::Ug && config.target == Target::Ug {
@@ -158,7 +158,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
     // Meshes show no times.
-    uglight::settle(&mut scene);
+    uglight::freeze_colors_at_zero(&mut scene);
     if config.target != Target::Ug && !config.rest_normals {
         as_seen::see_normals(&mut scene);
     }
@@ -208,7 +208,7 @@ fn place_mesh(config: &Config, format: MeshFormat, scene: &mut Scene) -> Result<
     let is_placed = read_up != write_up || config.size != Size::Same || config.is_centered;
     if is_placed {
         ugmeshfile::rotate(scene, |p| ugmeshfile::to_z_up(read_up, p));
-        placement::scale_and_center(scene, config.size, config.is_centered)?;
+        placement::scale_and_center(scene, config.size, config.is_centered, config.target == Target::Ug)?;
         ugmeshfile::rotate(scene, |p| ugmeshfile::from_z_up(write_up, p));
     }
     Ok(is_placed)

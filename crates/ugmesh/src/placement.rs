@@ -17,10 +17,21 @@ pub enum Size {
     Fit(f64),
 }
 
-/// Moves the centre of the mesh's bounding box to the origin if `is_centered`, then scales the mesh
-/// about the origin.
-pub(crate) fn scale_and_center(scene: &mut Scene, size: Size, is_centered: bool) -> Result<(), Error> {
-    let Some((low, high)) = scene.bounds() else { return Ok(()) };
+/// Moves the centre of the bounding box of the faces to the origin if `is_centered`, then scales the
+/// mesh about the origin. Wires count as well if `has_wires`: meshes are written without them.
+pub(crate) fn scale_and_center(
+    scene: &mut Scene,
+    size: Size,
+    is_centered: bool,
+    has_wires: bool,
+) -> Result<(), Error> {
+    let corners = scene.faces.iter().flat_map(|face| scene.contours.corners(face.contours.clone()));
+    let places = corners.map(|corner| scene.vertices[corner.index()].position);
+    let faces = places
+        .map(|place| (place, place))
+        .reduce(|(low, high), (place, _)| (low.min(place), high.max(place)));
+    let all = if has_wires { scene.bounds() } else { None };
+    let Some((low, high)) = all.or(faces) else { return Ok(()) };
     // Halved before adding, since the sum of two large numbers may overflow.
     let middle = if is_centered { 0.5 * low + 0.5 * high } else { DVec3::ZERO };
     let longest = (high - low).max_element();

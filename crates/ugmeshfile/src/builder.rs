@@ -14,6 +14,9 @@ const MAX_VERTICES: usize = 1 << 26;
 /// Largest number of face corners of a mesh.
 const MAX_CORNERS: usize = 1 << 29;
 
+/// Largest number of warnings about a mesh.
+const MAX_WARNINGS: usize = 20;
+
 /// Red, green and blue, display-encoded, and alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rgba(pub [f64; 4]);
@@ -163,7 +166,7 @@ impl Builder {
             name: self.face_name,
             contours,
             color,
-            illum: None,
+            shading: None,
             body: self.scene.bodies.unstated(),
         });
         self.lines.faces.push(self.line);
@@ -207,6 +210,11 @@ impl Builder {
         );
         if self.scene.faces.is_empty() {
             self.warn("the mesh has no faces");
+        }
+        let n_more = self.warnings.len().saturating_sub(MAX_WARNINGS);
+        self.warnings.truncate(MAX_WARNINGS);
+        if n_more > 0 {
+            self.warn(format!("… and {n_more} more"));
         }
         MeshScene { scene: self.scene, lines: self.lines, warnings: self.warnings }
     }

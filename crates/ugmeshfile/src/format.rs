@@ -55,6 +55,7 @@ impl MeshFormat {
     }
 
     fn by_magic(bytes: &[u8]) -> Option<Self> {
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
             Some(Self::Ply)
         } else if bytes.starts_with(b"glTF") {
@@ -92,7 +93,7 @@ impl MeshFormat {
         let first = words.next()?;
         if first.eq_ignore_ascii_case("solid") {
             Some(Self::Stl)
-        } else if is_off_keyword(first) {
+        } else if off_keyword(first).is_some() {
             Some(Self::Off)
         } else if is_obj_line(line) {
             Some(Self::Obj)
@@ -116,14 +117,18 @@ pub(crate) fn is_binary_stl(bytes: &[u8]) -> bool {
     count.is_some_and(|count| bytes.len() as u64 == 84 + 50 * u64::from(count))
 }
 
-/// True for `OFF` with any of its prefixes: texture, colour, normal, 4-D, n-D.
-pub(crate) fn is_off_keyword(word: &str) -> bool {
-    let Some(prefix) = word.strip_suffix("OFF") else { return false };
+/// `OFF` with any of its prefixes (texture, colour, normal, 4-D, n-D), and a number that follows it
+/// without a blank, as in many files of ModelNet.
+pub(crate) fn off_keyword(word: &str) -> Option<(&str, &str)> {
+    let end = word.find("OFF")? + 3;
+    let (keyword, glued) = word.split_at(end);
+    let prefix = &keyword[..end - 3];
     let prefix = prefix.strip_prefix("ST").unwrap_or(prefix);
     let prefix = prefix.strip_prefix('C').unwrap_or(prefix);
     let prefix = prefix.strip_prefix('N').unwrap_or(prefix);
     let prefix = prefix.strip_prefix('4').unwrap_or(prefix);
-    matches!(prefix, "" | "n")
+    (matches!(prefix, "" | "n") && glued.bytes().all(|byte| byte.is_ascii_digit()))
+        .then_some((keyword, glued))
 }
 
 /// True for a line of OBJ. It shares `v` and `f` with UniGrafix, but UniGrafix statements end with

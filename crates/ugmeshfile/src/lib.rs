@@ -26,6 +26,7 @@ mod axes;
 mod builder;
 mod decode;
 mod error;
+mod foreign;
 mod format;
 mod read;
 mod textures;
@@ -37,6 +38,7 @@ use ugscene::Scene;
 
 pub use axes::{Axis, from_z_up, rotate, to_z_up};
 pub use error::Problem;
+pub use foreign::{Foreign, foreign_data};
 pub use format::MeshFormat;
 pub use read::read;
 pub use vtk_polygons::VtkPolygons;

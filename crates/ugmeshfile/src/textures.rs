@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ugimage::{PictureLimits, Pixels, read_picture};
 use ugphysics::{srgb_decode, srgb_encode};
-use ugpipe::shorten;
+use ugscene::shorten;
 
 use crate::builder::{Builder, Rgba};
 
@@ -31,7 +31,7 @@ impl Textures {
 
     /// The limit is that of all textures together.
     fn mean_of_file(&mut self, file: &[u8]) -> Result<[f64; 3], String> {
-        let (_, pixels) = read_picture(file, &self.limits).map_err(|error| error.to_string())?;
+        let pixels = read_picture(file, &self.limits).map_err(|error| error.to_string())?.pixels;
         self.limits.bytes = self.limits.bytes.saturating_sub(pixels.n_bytes());
         Ok(mean(&pixels))
     }
@@ -62,7 +62,9 @@ impl Textures {
 
 /// The display-encoded colour of a material times the mean linear light of its texture.
 pub(crate) fn tinted(Rgba([red, green, blue, alpha]): Rgba, mean: [f64; 3]) -> Rgba {
-    let tint = |part: f64, mean: f64| srgb_encode(srgb_decode(part) * mean);
+    // Exactly 1 for white, where the transfer function has a rounding error.
+    let encode = |linear: f64| if linear == 1.0 { 1.0 } else { srgb_encode(linear) };
+    let tint = |part: f64, mean: f64| encode(srgb_decode(part) * mean);
     Rgba([tint(red, mean[0]), tint(green, mean[1]), tint(blue, mean[2]), alpha])
 }
 

@@ -59,7 +59,7 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
         name: name.map(|name| scope.add_name(name)),
         contours: first as u32..scope.contours.row_count(),
         color: tail.color.map(|color| ColorId::from_index(scope.colors.names.enter(color))),
-        illum: None,
+        shading: None,
         body,
     };
     scope.n_statements += 1;

@@ -31,8 +31,10 @@
 //! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a
 //! scene for other programs.
 //!
-//! The feature `cli` adds the program of the same name, and the module `pipe`, with which all
-//! programs read scenes and the files these include. Libraries leave it out.
+//! The feature `report` adds [`Diagnostics`] as text with the lines they are about, remedies that name
+//! programs and suggestions for misspelt names; `triangles` adds `read`, which cuts bent faces;
+//! `cli` adds both, the program of the same name, and the module `pipe`, with which all programs read
+//! scenes and the files these include. Libraries leave it out.
 
 mod cameras;
 mod chunked_writer;
@@ -44,6 +46,7 @@ mod event_table;
 mod expand;
 mod fast_path;
 mod flatness;
+#[cfg(feature = "cli")]
 mod foreign;
 mod grammar;
 mod include;
@@ -57,8 +60,11 @@ mod origin;
 mod parallel_reader;
 #[cfg(feature = "cli")]
 pub mod pipe;
+#[cfg(feature = "triangles")]
 mod read;
 mod reader;
+#[cfg(feature = "report")]
+mod report;
 mod request;
 mod resolve;
 mod rest_shapes;
@@ -81,10 +87,10 @@ pub use diagnostic::{Diagnostic, MAX_ERRORS, Setting, Severity};
 pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;
 pub use flatness::FLAT;
-pub use foreign::{Foreign, foreign_data};
 pub use include::include;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
+#[cfg(feature = "triangles")]
 pub use read::read;
 pub use request::{Request, RequestError, RequestKind};
 pub use rest_shapes::rest_shapes_warning;
@@ -162,11 +168,11 @@ fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
 /// Returns the findings as errors if there is an error among them.
 fn refuse_errors(source: &Source, findings: &mut Vec<Diagnostic>) -> Result<(), Diagnostics> {
     if findings.iter().any(|finding| finding.severity == Severity::Error) {
-        let findings = match foreign::error(source) {
-            Some(finding) => vec![finding],
-            None => std::mem::take(findings),
-        };
-        return Err(Diagnostics::new(source, findings));
+        #[cfg(feature = "cli")]
+        if let Some(finding) = foreign::error(source) {
+            return Err(Diagnostics::one(source, finding));
+        }
+        return Err(Diagnostics::new(source, std::mem::take(findings)));
     }
     Ok(())
 }

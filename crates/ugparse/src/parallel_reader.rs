@@ -8,7 +8,7 @@
 //! diagnostics.
 
 use rayon::prelude::*;
-use ugscene::{BodyId, ColorId, Contours, Illum, IllumId, LightMotion, NameId, SurfaceId, VertexId};
+use ugscene::{BodyId, ColorId, Contours, LightMotion, NameId, Shading, ShadingId, SurfaceId, VertexId};
 
 use crate::Options;
 use crate::diagnostic::Diagnostic;
@@ -121,7 +121,7 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
                 face.contours.start + offset.first_contour..face.contours.end + offset.first_contour;
             face.color = offset.color(face.color);
             face.body = offset.body(face.body);
-            face.illum = face.illum.map(|illum| IllumId::from_index(offset.first_illum + illum.index()));
+            face.shading = face.shading.map(|row| ShadingId::from_index(offset.first_shading + row.index()));
         },
     );
     file.wires = join_tables(
@@ -240,7 +240,7 @@ impl PrecedingRows {
 struct PartOffsets {
     first_name: usize,
     first_contour: u32,
-    first_illum: usize,
+    first_shading: usize,
     first_sample: usize,
     colors: Vec<ColorId>,
     bodies: Vec<BodyId>,
@@ -260,11 +260,11 @@ impl PartOffsets {
         let offset = Self {
             first_name: file.names.len(),
             first_contour: before.contours,
-            first_illum: file.illums.len(),
+            first_shading: file.shadings.len(),
             first_sample: file.samples.len(),
             is_same: before.contours == 0
                 && file.samples.is_empty()
-                && (file.illums.is_empty() || part.illums.is_empty())
+                && (file.shadings.is_empty() || part.shadings.is_empty())
                 && (file.names.len() == 0 || part.names.len() == 0)
                 && colors.iter().enumerate().all(|(row, color)| color.index() == row)
                 && bodies.iter().enumerate().all(|(row, body)| body.index() == row),
@@ -277,8 +277,8 @@ impl PartOffsets {
             first_wire: before.wires + default.first_wire,
         }));
         file.names.append(std::mem::take(&mut part.names));
-        file.illums.extend(part.illums.drain(..).map(|illum| match illum {
-            Illum::Surface(name) => Illum::Surface(SurfaceId::from_index(surfaces[name.index()])),
+        file.shadings.extend(part.shadings.drain(..).map(|shading| match shading {
+            Shading::Surface(name) => Shading::Surface(SurfaceId::from_index(surfaces[name.index()])),
             level => level,
         }));
         file.samples.append(&mut part.samples);

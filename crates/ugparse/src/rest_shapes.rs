@@ -1,6 +1,5 @@
 //! Warns of bodies that move and are drawn with their shapes at rest.
 
-use ugpipe::remedies;
 use ugscene::require_seen_geometry;
 
 use crate::{Diagnostic, Parsed};
@@ -15,5 +14,8 @@ pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
     let span = moving.and_then(|row| origins.faces.get(row).copied());
     let message = "bodies in this scene move, and are drawn with their shapes at rest";
     let finding = Diagnostic::warning(span.unwrap_or_default(), message);
-    Some(finding.label("moves").help(remedies::DRAW_AS_SEEN))
+    let finding = finding.label("moves");
+    #[cfg(feature = "report")]
+    let finding = finding.help(ugpipe::remedies::DRAW_AS_SEEN);
+    Some(finding)
 }

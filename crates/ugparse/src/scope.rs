@@ -10,8 +10,9 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
-    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Illum, IllumId, Light,
-    LightKind, LightMotion, Mix, NameId, Names, SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, LightKind,
+    LightMotion, Mix, NameId, Names, Shading, ShadingId, SurfaceId, SurfaceProperties, Tint, Vertex,
+    VertexId, Wire,
 };
 
 use crate::named::Named;
@@ -19,9 +20,9 @@ use crate::numbered::{Name, NumberedNames};
 use crate::rows::Rows;
 use crate::source::Span;
 use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, MotionReference, MotionStatement, References, Statement, SurfaceStatement, TableStatement,
-    VertexStatement,
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
+    MotionReference, MotionStatement, References, ShadingStatement, Statement, SurfaceStatement,
+    TableStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -58,7 +59,7 @@ pub(crate) struct Scope<'t> {
     /// The corners are already rows of vertices.
     pub is_linked: bool,
     pub faces: Rows<Face>,
-    pub illums: Vec<Illum>,
+    pub shadings: Vec<Shading>,
     pub wires: Rows<Wire>,
     pub lights: Rows<Light>,
     pub cameras: Rows<Camera>,
@@ -219,28 +220,28 @@ impl<'t> Scope<'t> {
             name: self.name(text, face.name),
             contours,
             color: self.color(text, face.color),
-            illum: face.illum.map(|illum| self.add_illum(text, illum)),
+            shading: face.shading.map(|shading| self.add_shading(text, shading)),
             body: self.bodies.of_stated(text, face.motion),
         };
         self.faces.push(face, span);
     }
 
-    fn add_illum(&mut self, text: &'t [u8], illum: IllumStatement) -> IllumId {
-        let illum = match illum {
-            IllumStatement::Level(level) => Illum::Level(level),
-            IllumStatement::Surface(name) => {
-                Illum::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
+    fn add_shading(&mut self, text: &'t [u8], shading: ShadingStatement) -> ShadingId {
+        let shading = match shading {
+            ShadingStatement::Level(level) => Shading::Level(level),
+            ShadingStatement::Surface(name) => {
+                Shading::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
             }
         };
         // Consecutive faces often share one. -0 and 0 are equal, but written differently.
-        let is_same = match (self.illums.last(), illum) {
-            (Some(Illum::Level(last)), Illum::Level(level)) => last.to_bits() == level.to_bits(),
-            (last, illum) => last == Some(&illum),
+        let is_same = match (self.shadings.last(), shading) {
+            (Some(Shading::Level(last)), Shading::Level(level)) => last.to_bits() == level.to_bits(),
+            (last, shading) => last == Some(&shading),
         };
         if !is_same {
-            self.illums.push(illum);
+            self.shadings.push(shading);
         }
-        IllumId::from_index(self.illums.len() - 1)
+        ShadingId::from_index(self.shadings.len() - 1)
     }
 
     fn add_wire(&mut self, text: &'t [u8], span: Span, wire: &FaceStatement, references: &References) {

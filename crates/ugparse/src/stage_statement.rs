@@ -7,7 +7,9 @@
 
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity};
-use ugscene::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
+use ugscene::{
+    ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,
+};
 
 use crate::diagnostic::Diagnostic;
 use crate::number_text::push_number;
@@ -332,10 +334,10 @@ impl<'t> Words<'t> {
         })
     }
 
-    fn mixtures(&mut self) -> Result<Mixtures, Diagnostic> {
+    fn mixtures(&mut self) -> Result<MixtureNames, Diagnostic> {
         let example = "mix#";
         let Some(word) = self.next() else { return Err(self.missing("the prefix of mixtures", example)) };
-        Mixtures::from_prefix(word.as_str()).ok_or_else(|| unknown(word, &[example]))
+        MixtureNames::from_prefix(word.as_str()).ok_or_else(|| unknown(word, &[example]))
     }
 
     /// The error for a missing word at the current position.

@@ -116,18 +116,18 @@ pub(crate) struct VertexStatement {
     pub normal: Option<DVec3>,
 }
 
-/// A face, or a wire (which has no `illum`); its contours are in [`References`].
+/// A face, or a wire (which has no shading); its contours are in [`References`].
 #[derive(Debug)]
 pub(crate) struct FaceStatement {
     pub name: Option<Span>,
     pub color: Option<Span>,
-    pub illum: Option<IllumStatement>,
+    pub shading: Option<ShadingStatement>,
     pub motion: Option<MotionReference>,
 }
 
 /// The light level or surface of a face.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum IllumStatement {
+pub(crate) enum ShadingStatement {
     Level(f64),
     Surface(Span),
 }

@@ -124,12 +124,18 @@ pub(crate) fn is_blank(byte: u8) -> bool {
     is(byte, BLANK)
 }
 
+/// The mark that editors put before UTF-8 text.
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
 /// Skips white space and comments.
 pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
     loop {
         match input.first() {
             Some(&byte) if is_blank(byte) => input = &input[1..],
             Some(b'{') => input = comment(input)?.0,
+            Some(0xef) if input.starts_with(BYTE_ORDER_MARK) => input = &input[BYTE_ORDER_MARK.len()..],
+            // Control-Z ends texts of CP/M and DOS.
+            Some(0x1a) if input[1..].trim_ascii_start().is_empty() => return Ok((&input[input.len()..], ())),
             _ => return Ok((input, ())),
         }
     }

@@ -6,8 +6,8 @@ use std::io::{self, Write};
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
-    BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Illum, Item, Light,
-    LightKind, MotionPath, NameId, Projection, Scene, StatedMotion, SurfaceProperties,
+    BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Item, Light,
+    LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -89,7 +89,7 @@ impl<'s> Tables<'s, '_> {
             face.name.into_iter().for_each(|name| w.name(name));
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);
-            face.illum.into_iter().for_each(|illum| w.illum(scene.illums[illum.index()]));
+            face.shading.into_iter().for_each(|shading| w.shading(scene.shadings[shading.index()]));
             w.body(face.body);
             w.text(";");
         })?;
@@ -433,10 +433,10 @@ impl<'s> Writer<'s> {
         self.text(";");
     }
 
-    fn illum(&mut self, illum: Illum) {
-        match illum {
-            Illum::Level(level) => self.number(level),
-            Illum::Surface(surface) => self.name(self.scene.surfaces[surface.index()].name),
+    fn shading(&mut self, shading: Shading) {
+        match shading {
+            Shading::Level(level) => self.number(level),
+            Shading::Surface(surface) => self.name(self.scene.surfaces[surface.index()].name),
         }
     }
 

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use ugphysics::Event;
-use ugscene::{Illum, Scene};
+use ugscene::{Scene, Shading};
 
 use crate::media::{Media, Solid};
 use ugpicture::rays::PastRay;
@@ -132,7 +132,7 @@ fn crossings(world: &World, faces: Faces<'_>, event: Event, direction: DVec3) ->
 
 /// The transparent solid that a face of a part belongs to.
 pub fn transparent_solid(scene: &Scene, part: usize, face: u32) -> Option<Solid> {
-    let Illum::Surface(surface) = scene.illums[scene.faces[face as usize].illum?.index()] else {
+    let Shading::Surface(surface) = scene.shadings[scene.faces[face as usize].shading?.index()] else {
         return None;
     };
     (scene.surfaces[surface.index()].transmitted > 0.0).then_some(Solid { part, surface })

@@ -24,7 +24,7 @@
 //! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
-//! middles  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
+//! pixel_centers  pixels  notes  render  explain   from samples to a picture, with messages; one pixel
 //! cli                                       the command line
 //! ```
 //!
@@ -56,9 +56,9 @@ mod error;
 pub mod explain;
 mod immersion;
 mod media;
-mod middles;
 mod notes;
 mod open_solids;
+mod pixel_centers;
 mod pixels;
 mod render;
 mod sampling;

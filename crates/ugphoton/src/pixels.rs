@@ -11,7 +11,7 @@ use ugpipe::Progress;
 
 use crate::config::Config;
 use crate::lens::frame_around;
-use crate::middles::Middles;
+use crate::pixel_centers::PixelCenters;
 use crate::scenery::Scenery;
 use crate::tracer::{Arriving, Tracer, Visit};
 use ugpicture::rays::PastRay;
@@ -96,7 +96,7 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
     let mut frame = LinearFrame::new([width, height], painting.backdrop.is_opaque(), pixels);
     let PictureOptions { channels, samples, .. } = &config.picture;
     if !channels.is_empty() {
-        let seen = Middles::new(scenery, [left, top, width, height], *samples);
+        let seen = PixelCenters::new(scenery, [left, top, width, height], *samples);
         for &channel in channels {
             let planes = channel_planes(channel, seen.len(), &|idx| seen.item(idx));
             planes.into_iter().for_each(|plane| frame.push_plane(plane));

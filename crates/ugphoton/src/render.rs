@@ -14,7 +14,7 @@ use crate::error::Error;
 use crate::lens::Lens;
 use crate::notes::notes;
 use crate::scenery::Scenery;
-use crate::{middles, pixels, wires};
+use crate::{pixel_centers, pixels, wires};
 
 /// The event of the eye.
 const ORIGIN: Event = Event { t: 0.0, x: glam::DVec3::ZERO };
@@ -158,7 +158,7 @@ impl PreparedScene {
     ) -> Result<Rendering, Error> {
         let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
-        let items = || Ok(middles::seen_items(scenery, picture.size, picture.samples));
+        let items = || Ok(pixel_centers::seen_items(scenery, picture.size, picture.samples));
         let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
         let subject = Subject::Surfaces {
             view: &scenery.view,
@@ -167,7 +167,7 @@ impl PreparedScene {
             wires: if config.lens == Lens::Pinhole { Some(&wires) } else { None },
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let content = DrawnContent::Light { frame, is_clipped: !scenery.is_uncut };
+        let content = DrawnContent::Light { frame, is_clipped: !scenery.keeps_highlights };
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, Common, Interpolation, Lamp, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, Lamps};
 use ugphysics::{Event, Medium, RestFrame, WorldLine};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
@@ -52,7 +52,7 @@ pub struct Scenery<'a> {
     /// The colours of the scene, and how motion changes them.
     pub appearance: Appearance,
     /// What the colours of the corners of each face have in common.
-    pub face_colors: Vec<Common>,
+    pub face_colors: Vec<FaceColors>,
     /// Which secondary rays are traced.
     pub rays: RayOptions,
     /// The lights, or the default ones.
@@ -65,7 +65,7 @@ pub struct Scenery<'a> {
     pub has_absorption: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
-    pub is_uncut: bool,
+    pub keeps_highlights: bool,
 }
 
 /// A body on a world line with a surface that transmits light. A medium in which light has one
@@ -129,8 +129,8 @@ impl<'a> Scenery<'a> {
         }
         let is_moving =
             |body| surface.frames().world_line(body).is_some() || !surface.velocity(body).is_zero();
-        let common = |face: &Face| appearance.common_in_motion(&scene, face, is_moving(face.body));
-        let face_colors = scene.faces.par_iter().map(common).collect();
+        let colors = |face: &Face| appearance.face_colors_in_motion(&scene, face, is_moving(face.body));
+        let face_colors = scene.faces.par_iter().map(colors).collect();
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
@@ -143,8 +143,8 @@ impl<'a> Scenery<'a> {
             })
         };
         let lamp_motions = lamps.iter().map(lamp_motion).collect();
-        let is_uncut = appearance.palette.has_light() || config.picture.keeps_light();
-        let appearance = if is_uncut { appearance } else { appearance.clipped() };
+        let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
+        let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
         Ok(Self {
@@ -161,7 +161,7 @@ impl<'a> Scenery<'a> {
             lamps,
             lamp_motions,
             shift,
-            is_uncut,
+            keeps_highlights,
         })
     }
 

@@ -158,9 +158,9 @@ impl SurfacePoint {
 
     /// The surface of the face, if it has one.
     pub fn surface(&self, scenery: &Scenery<'_>) -> Option<SurfaceId> {
-        match scenery.scene.illums[scenery.scene.faces[self.face as usize].illum?.index()] {
-            ugscene::Illum::Surface(surface) => Some(surface),
-            ugscene::Illum::Level(_) => None,
+        match scenery.scene.shadings[scenery.scene.faces[self.face as usize].shading?.index()] {
+            ugscene::Shading::Surface(surface) => Some(surface),
+            ugscene::Shading::Level(_) => None,
         }
     }
 }
@@ -181,8 +181,8 @@ fn color(
     {
         return now;
     }
-    let common = &scenery.face_colors[found.triangle.face as usize];
-    appearance.color_at(common, found.triangle.corners, found.weights())
+    let colors = &scenery.face_colors[found.triangle.face as usize];
+    appearance.color_at(colors, found.triangle.corners, found.weights())
 }
 
 fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use serde::Serialize;
-use uglight::ColorFilter;
+use uglight::{ColorFilter, ColorForm};
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
 use crate::media::{Media, Solid};
@@ -250,7 +250,7 @@ impl<'a> Tracer<'a> {
             && is_followed(transmitted)
         {
             let swatch = &point.color.swatch;
-            let is_white = swatch.is_grey() && swatch.value == 1.0 && swatch.light.is_none();
+            let is_white = swatch.is_grey() && swatch.value == 1.0 && swatch.form == ColorForm::Hue;
             if !is_white {
                 self.filters.push(ColorFilter { color: point.color, doppler: point.doppler() });
             }

@@ -1,6 +1,6 @@
 //! Which direction is seen at a place of the picture.
 
-mod cap;
+mod pixels_near;
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use ugscene::View;
 
 use crate::options::PictureOptions;
 
-pub use cap::{Facet, Window};
+pub use pixels_near::{Facet, Window};
 
 /// Which direction is seen at a place of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -163,6 +163,6 @@ pub use provenance::{sha256, shell_os_word, shell_word};
 pub use run::{main, parse_words};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
-pub use text::{is_printable, message, printable, shorten};
+pub use text::{is_printable, message, printable};
 #[cfg(feature = "cli")]
 pub use values::{finite, number, one_of, vector, view_angle, whole};

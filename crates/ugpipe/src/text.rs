@@ -45,15 +45,6 @@ fn cut_word(word: &str) -> String {
     format!("{start}…{end}")
 }
 
-/// A word for a message: its first 40 characters, and `…` if there are more.
-pub fn shorten(word: &str) -> String {
-    const MAX: usize = 40;
-    match word.char_indices().nth(MAX) {
-        Some((end, _)) => format!("{}…", &word[..end]),
-        None => word.to_owned(),
-    }
-}
-
 /// Like [`printable`], and keeps line ends: a text of several lines.
 #[cfg(feature = "cli")]
 pub(crate) fn printable_lines(text: &str) -> String {
@@ -131,12 +122,6 @@ mod tests {
         check("\x1b[2J\x1b[", "\u{fffd}[2J\u{fffd}[");
         check("\x1b]0;title\x07\x1b[1\nm", "\u{fffd}]0;title\u{fffd}\u{fffd}[1\nm");
         check("\u{9b}1m\r", "\u{fffd}1m\u{fffd}");
-    }
-
-    #[test]
-    fn long_words_are_cut_between_characters() {
-        assert_eq!(shorten(&"γ".repeat(40)), "γ".repeat(40));
-        assert_eq!(shorten(&"γ".repeat(41)), "γ".repeat(40) + "…");
     }
 
     #[test]

@@ -4,10 +4,10 @@ use ugpicture::{Emissions, SeenItem};
 use ugraster::Center;
 use ugscene::{CameraOptions, Scene};
 
+use crate::center_surface::of_surface;
 use crate::config::Config;
 use crate::error::Error;
-use crate::front::of_surface;
-use crate::render_layers::RenderLayers;
+use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
 /// The nearest opaque surface at the middle of each pixel.
@@ -17,9 +17,9 @@ use crate::setup::Setup;
 pub fn seen_items(scene: &Scene, config: &Config) -> Result<Vec<Option<SeenItem>>, Error> {
     let config = plain(config);
     let setup = Setup::new(scene, &config)?;
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let layers = RenderLayers::new(&setup, &config);
     let surface = |center: &Center<'_>| center.opaque.map(of_surface);
-    let seen = layers.paint_centers(&setup.grid, &setup.shader, surface);
+    let seen = with_rasterizer!(layers, |rasterizer| rasterizer.paint_centers(surface, &layers.progress()));
     let emissions = Emissions::new(setup.scene(), &setup.view, setup.appearance.surface.frames());
     Ok((0..seen.len()).map(|idx| emissions.at_pixel([setup.grid.width, 1], &seen, idx)).collect())
 }
@@ -37,7 +37,7 @@ pub fn visible_wires(
     let mut config = plain(config);
     config.picture.camera = camera.clone();
     let setup = Setup::new(scene, &config)?;
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let layers = RenderLayers::new(&setup, &config);
     Ok(layers.strokes().iter().map(|stroke| stroke.ends.map(|end| [end.x, end.y])).collect())
 }
 

@@ -5,7 +5,7 @@ use ugscene::Scene;
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::render_layers::RenderLayers;
+use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
 /// Prepares a scene. Without a range, depth cueing runs from the nearest to the farthest depth
@@ -25,12 +25,13 @@ pub fn prepare<'a>(scene: &'a Scene, config: &Config) -> Result<Setup<'a>, Error
 /// The least and greatest visible depth, rounded to four digits so that a note can state them
 /// exactly.
 fn visible_depths(setup: &Setup<'_>, config: &Config) -> Option<[f64; 2]> {
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
-    let keys = layers.paint_centers(&setup.grid, &setup.shader, |center: &Center<'_>| {
+    let layers = RenderLayers::new(setup, config);
+    let ends = |center: &Center<'_>| {
         let opaque = center.opaque.iter().map(|hit| hit.key);
         let keys = opaque.chain(center.fragments.iter().map(|fragment| fragment.key));
         keys.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], key| [low.min(key), high.max(key)])
-    });
+    };
+    let keys = with_rasterizer!(layers, |rasterizer| rasterizer.paint_centers(ends, &layers.progress()));
     let join = |[a, b]: [f32; 2], [c, d]: [f32; 2]| [a.min(c), b.max(d)];
     let [farthest, nearest] = keys.into_iter().reduce(join)?;
     let depth = |key: f32| {

@@ -3,7 +3,7 @@
 use fearless_simd::Level;
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Common, Swatch};
+use uglight::{FaceColors, Mixing, Swatch};
 use ugraster::{
     BLOCK, Bounds, Corner, CornerTable, PolygonLayer, PolygonList, ScreenPoint, ShapeRef, TriangleBlock,
 };
@@ -49,7 +49,7 @@ impl<const N: usize> CornerTable<N> for Corners<'_, N> {
 
     fn values(&self, item: u32, corners: [u32; 3]) -> [[f64; N]; 3] {
         let face = &self.painter.scene.faces[item as usize];
-        if let (Some(level), None) = (self.even_level, face.illum) {
+        if let (Some(level), None) = (self.even_level, face.shading) {
             let [a, b, c] = corners.map(|corner| self.painter.appearance.surface.swatch(VertexId(corner)));
             if !(a.is_grey() | b.is_grey() | c.is_grey()) {
                 return [(self.pack)(a, level), (self.pack)(b, level), (self.pack)(c, level)];
@@ -70,12 +70,13 @@ struct FaceLook<'a> {
     painter: &'a Painter<'a>,
     face: &'a Face,
     normal: DVec3,
-    common: Common,
+    colors: FaceColors,
 }
 
 impl<'a> FaceLook<'a> {
     fn new(painter: &'a Painter<'a>, face: &'a Face) -> Self {
-        Self { painter, face, normal: painter.seen_normal(face), common: painter.common(face) }
+        let colors = painter.appearance.face_colors(painter.scene, face);
+        Self { painter, face, normal: painter.seen_normal(face), colors }
     }
 
     fn numbers<const N: usize>(&self, vertex: VertexId, pack: Pack<N>) -> [f64; N] {
@@ -83,11 +84,11 @@ impl<'a> FaceLook<'a> {
     }
 
     fn swatch(&self, vertex: VertexId) -> Swatch {
-        self.painter.swatch(vertex, &self.common)
+        self.painter.swatch(vertex, &self.colors)
     }
 
     fn level(&self, vertex: VertexId) -> DVec3 {
-        self.painter.level(self.face, vertex, self.normal, self.common.is_light)
+        self.painter.level(self.face, vertex, self.normal, self.colors.mixing == Mixing::Light)
     }
 }
 

@@ -54,7 +54,7 @@
 //! shade  packing                                      colours of samples
 //! planar  clip  painter                               geometry in the picture plane
 //! drawlist  lines  exact                              polygons, lines, faces hit by rays
-//! render_layers  setup  depth_cue  front  drawn_scene the whole scene for one camera
+//! render_layers  setup  depth_cue  center_surface  drawn_scene the whole scene for one camera
 //! pixels  annotate  notes                             from samples to an image, with messages
 //! vector  render  explain                             vector graphics, pictures, one pixel
 //! cli                                                 the command line
@@ -81,6 +81,7 @@
 //! ```
 
 mod annotate;
+mod center_surface;
 #[cfg(feature = "cli")]
 mod cli;
 mod clip;
@@ -91,7 +92,6 @@ mod drawn_scene;
 mod error;
 mod exact;
 pub mod explain;
-mod front;
 mod lines;
 mod notes;
 mod packing;

@@ -1,11 +1,12 @@
 //! Colour and light of the corners of faces and wires.
 
 use glam::DVec3;
-use uglight::{Appearance, Common, Lighting, Swatch};
+use uglight::{Appearance, ColorForm, FaceColors, Lighting, Mixing, Swatch};
 use ugraster::{Corner, SampleGrid, ScreenPoint};
-use ugscene::{CameraPoint, Face, Scene, Slab, VertexId, View, Wire, unit_normal};
+use ugscene::{CameraPoint, ColorId, Face, Scene, Slab, VertexId, View, Wire, unit_normal};
 
 use crate::clip::Vertex;
+use crate::packing::Layout;
 
 /// Everything from which faces and wires are drawn.
 #[derive(Clone, Copy)]
@@ -20,6 +21,8 @@ pub struct Painter<'a> {
     pub appearance: &'a Appearance,
     /// Its lights.
     pub lighting: &'a Lighting,
+    /// What faces are drawn as.
+    pub layout: Layout,
     /// Cull back-facing faces.
     pub is_culled: bool,
 }
@@ -51,23 +54,22 @@ impl Painter<'_> {
         unit_normal(seen).dot(forward.unwrap_or_default()) > 0.0
     }
 
-    /// The common attributes of the corners of a face.
-    #[inline]
-    pub fn common(&self, face: &Face) -> Common {
-        self.appearance.common(self.scene, face)
-    }
-
     /// The colour of a corner of a face.
     #[inline]
-    pub fn swatch(&self, vertex: VertexId, common: &Common) -> Swatch {
-        self.lit_as_written(self.appearance.swatch(vertex, common))
+    pub fn swatch(&self, vertex: VertexId, colors: &FaceColors) -> Swatch {
+        self.lit_as_written(self.appearance.swatch(vertex, colors))
     }
 
     /// A colour of a display that is drawn as light, lit like hues: in linear light if the law of
     /// the picture names a quantity.
     #[inline]
     pub fn lit_as_written(&self, swatch: Swatch) -> Swatch {
-        Swatch { is_display: swatch.is_display && !self.lighting.acts_on_light(), ..swatch }
+        match swatch.form {
+            ColorForm::Display(light) if self.lighting.acts_on_light => {
+                Swatch { form: ColorForm::Light(light), ..swatch }
+            }
+            _ => swatch,
+        }
     }
 
     /// True if a face is translucent. Its own colour takes precedence over the colours of its
@@ -77,35 +79,20 @@ impl Painter<'_> {
         self.appearance.is_translucent(self.scene, face)
     }
 
-    /// The colour of a wire at ends without a colour of their own.
-    pub fn wire_swatch(&self, wire: &Wire) -> Swatch {
-        wire.color.map_or(self.appearance.palette.white(), |color| self.appearance.palette.get(color))
-    }
-
-    /// The colour of an end of a wire of colour `color`.
-    pub fn wire_end(&self, vertex: VertexId, color: &Swatch) -> Swatch {
-        self.scene.vertices[vertex.index()].color.map_or(*color, |own| self.appearance.palette.get(own))
+    /// The colours of the ends of a wire. `keeps_light`: see [`crate::lines::LineShape::keeps_light`].
+    pub fn wire_swatch(&self, wire: &Wire, keeps_light: bool) -> impl Fn(VertexId) -> Swatch {
+        let palette = &self.appearance.palette;
+        let own = |color: Option<ColorId>| color.map_or(palette.white(), |color| palette.get(color));
+        let end = move |vertex: VertexId| own(self.scene.vertices[vertex.index()].color.or(wire.color));
+        let corners = self.scene.contours.corners(wire.contours.clone());
+        let mixing = self.appearance.mixing(corners.iter().map(|&vertex| end(vertex)));
+        let mixing = if keeps_light { mixing } else { Mixing::Hue };
+        move |vertex| Swatch { translucency: 0.0, ..palette.drawn_as(mixing, end(vertex)) }
     }
 
     /// The row of the spectrum of an end of a wire.
     pub fn wire_end_row(&self, vertex: VertexId, wire: &Wire) -> u32 {
         self.appearance.surface.row_of(self.scene.vertices[vertex.index()].color.or(wire.color))
-    }
-
-    /// True if a colour of the wire is given as light.
-    pub fn is_light_wire(&self, wire: &Wire, color: &Swatch) -> bool {
-        self.appearance.palette.has_light()
-            && self.wire_ends(wire, color).any(|end| end.light.is_some() && !end.is_display)
-    }
-
-    /// True if the colours of a wire differ and one is of a display, so that they mix as light.
-    pub fn is_display_wire(&self, wire: &Wire, color: &Swatch) -> bool {
-        self.appearance.palette.has_display() && self.appearance.mixes_light(self.wire_ends(wire, color))
-    }
-
-    fn wire_ends<'s>(&'s self, wire: &Wire, color: &'s Swatch) -> impl Iterator<Item = Swatch> + Clone + 's {
-        let corners = self.scene.contours.corners(wire.contours.clone());
-        corners.iter().map(|&vertex| self.wire_end(vertex, color))
     }
 
     /// The triangles of a face, as numbers of its corners; `None` if it intersects itself.
@@ -188,11 +175,9 @@ impl Painter<'_> {
     /// The light level of all faces without one of their own, if it is the same for all of them and
     /// all colours are opaque hues.
     pub fn even_level(&self) -> Option<DVec3> {
-        let is_even = !self.lighting.needs_geometry();
-        let palette = &self.appearance.palette;
-        let is_plain =
-            !palette.has_light() && !palette.has_translucency() && !self.appearance.draws_display();
-        (is_even && is_plain).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
+        let is_even = !self.lighting.needs_geometry() && self.layout == Layout::Hues;
+        let is_opaque = !self.appearance.palette.has_translucency;
+        (is_even && is_opaque).then(|| self.lighting.level(DVec3::ZERO, DVec3::ZERO, DVec3::ZERO, false))
     }
 
     /// The normal at a corner of a face, on its visible side.

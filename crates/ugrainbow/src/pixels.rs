@@ -5,30 +5,30 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
 use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
-use ugraster::{Center, Encoding, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
+use ugraster::{Center, Encoding, Keep, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 
+use crate::center_surface::center_surface;
 use crate::config::Config;
-use crate::front::front;
-use crate::render_layers::RenderLayers;
+use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
 /// Draws the scene as light, or directly as 8-bit levels if no exposure, tone curve or channel is
 /// requested.
 pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (DrawnContent, SampleStats) {
     let is_deep = config.picture.output.format().is_deep();
-    if !is_deep && !setup.is_uncut {
+    if !is_deep && !setup.keeps_highlights {
         let (frame, stats) = display(setup, layers, config);
         return (DrawnContent::Display(frame), stats);
     }
     let (frame, stats) = light(setup, layers, config);
-    (DrawnContent::Light { frame, is_clipped: !setup.is_uncut }, stats)
+    (DrawnContent::Light { frame, is_clipped: !setup.keeps_highlights }, stats)
 }
 
 /// The whole picture as 8-bit levels.
 fn display(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (Frame, SampleStats) {
     let grid = &setup.grid;
     let finish = Display::new(&config.picture);
-    let (pixels, stats) = layers.paint(grid, config.picture.filter, &setup.shader, &finish);
+    let (pixels, stats) = layers.paint(config.picture.filter, &finish);
     (Frame::new([grid.width, grid.height], finish.backdrop.is_opaque(), pixels), stats)
 }
 
@@ -144,17 +144,20 @@ pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (
     let backdrop = backdrop(&config.picture);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], backdrop.is_opaque(), pixels);
     if channels.is_empty() || *filter != Filter::Box {
-        let (pixels, stats) = layers.paint(grid, *filter, &setup.shader, &Light(&backdrop));
+        let (pixels, stats) = layers.paint(*filter, &Light(&backdrop));
         let mut frame = frame(pixels);
         if !channels.is_empty() {
             // Channels show the middle of a pixel and are not filtered.
-            let front = |center: &Center<'_>| front(&setup.view, center);
-            push_channels(&mut frame, setup, config, &layers.paint_centers(grid, &setup.shader, front));
+            let seen = |center: &Center<'_>| center_surface(&setup.view, center);
+            let seen = with_rasterizer!(layers, |all| all.paint_centers(seen, &layers.progress()));
+            push_channels(&mut frame, setup, config, &seen);
         }
         return (frame, stats);
     }
-    let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), front(&setup.view, &all.center));
-    let (pixels, stats) = layers.paint_with_centers(grid, &setup.shader, &both);
+    let both = |all: &PixelSamples<'_>| (mean(&backdrop, all), center_surface(&setup.view, &all.center));
+    let (pixels, stats) = with_rasterizer!(layers, |rasterizer| {
+        rasterizer.paint(layers.shader, Keep::Centers, &both, &layers.progress())
+    });
     let (pixels, seen): (Vec<[f32; 4]>, Vec<Option<SurfaceSample>>) = pixels.into_iter().unzip();
     let mut frame = frame(pixels);
     push_channels(&mut frame, setup, config, &seen);

@@ -45,7 +45,7 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     config.picture.keep_light();
     config.picture.check()?;
     let setup = prepare(scene, &config)?;
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let layers = RenderLayers::new(&setup, &config);
     Ok(pixels::light(&setup, &layers, &config).0)
 }
 
@@ -121,7 +121,7 @@ fn draw_pixels<'a>(
     progress: &dyn Progress,
 ) -> Result<DrawnScene<'a>, Error> {
     let setup = prepare(scene, config)?;
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode()).telling(progress);
+    let layers = RenderLayers::new(&setup, config).with_progress(progress);
     let (content, stats) = pixels::draw(&setup, &layers, config);
     let clip_counts = layers.clip_counts();
     drop(layers);

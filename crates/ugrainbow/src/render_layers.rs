@@ -6,27 +6,26 @@ use std::sync::Arc;
 use ugpicture::{DepthPoint, Filter};
 use ugpipe::Progress;
 use ugraster::{
-    Center, Corner, FragmentTarget, FragmentWriter, NoTriangles, OpaqueLayer, PixelSamples, PolygonLayer,
-    PolygonList, ProbedSample, Rasterizer, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample,
-    TRANSPARENT_VALUES, Tile, TransparentLayer,
+    BandProgress, Corner, FragmentTarget, FragmentWriter, Keep, NoTriangles, OpaqueLayer, PolygonLayer,
+    PolygonList, Resolve, SampleGrid, SampleStats, Scanner, ShadedSample, TRANSPARENT_VALUES, Tile,
+    TransparentLayer,
 };
 use ugscene::Face;
 
 use crate::clip::ClipCounts;
-use crate::config::DrawMode;
+use crate::config::{Config, DrawMode};
 use crate::drawlist::DrawList;
 use crate::exact::{CurvedLines, Faces};
 use crate::lines::{LineShape, Occluders, StraightLines, Stroke, Visibility, lines, pieces, strips, strokes};
-use crate::packing::{
-    Pack, PackedLayout, pack_colored, pack_mixed, pack_mixed_colored, pack_plain, pack_transparent,
-};
+use crate::packing::{Layout, Pack, pack_hue, pack_light, pack_transparent, pack_white};
 use crate::painter::Painter;
+use crate::setup::Setup;
 use crate::shade::Shader;
 
 /// Reports the painted fraction of a picture as progress of a step.
 struct Drawing<'a>(&'a dyn Progress);
 
-impl ugraster::BandProgress for Drawing<'_> {
+impl BandProgress for Drawing<'_> {
     fn begin(&self, parts: u64) {
         self.0.step("drawing", parts);
     }
@@ -42,33 +41,27 @@ impl ugraster::BandProgress for Drawing<'_> {
 
 /// All faces and lines of a scene.
 pub struct RenderLayers<'a> {
-    solid: Solid<'a>,
+    pub grid: &'a SampleGrid,
+    pub shader: &'a Shader,
+    pub solid: Solid<'a>,
     clear: ClearLayers<'a>,
     has_faces: bool,
     clip_counts: ClipCounts,
     progress: &'a dyn Progress,
 }
 
-/// Opaque faces, in one of the layouts of [`crate::packing`].
-enum Solid<'a> {
-    /// Hues under white light.
-    Plain(Layers<'a, 3>),
-    /// Hues under coloured lights.
-    Colored(Layers<'a, 6>),
-    /// Hues, and colours given as light, under white light.
-    Mixed(Layers<'a, 4>),
-    /// As [`Solid::Mixed`], under coloured lights.
-    MixedColored(Layers<'a, 7>),
+/// Opaque faces, with the number of values that [`Layout`] says.
+pub enum Solid<'a> {
+    Few(Layers<'a, 3>),
+    Many(Layers<'a, TRANSPARENT_VALUES>),
 }
 
 /// Expands to the same expression for every layout.
 macro_rules! with_layers {
     ($solid:expr, |$layers:ident| $body:expr) => {
         match $solid {
-            Solid::Plain($layers) => $body,
-            Solid::Colored($layers) => $body,
-            Solid::Mixed($layers) => $body,
-            Solid::MixedColored($layers) => $body,
+            Solid::Few($layers) => $body,
+            Solid::Many($layers) => $body,
         }
     };
 }
@@ -76,18 +69,24 @@ macro_rules! with_layers {
 /// Expands to an expression with the rasterizer of all layers, whose number of values depends on
 /// their layout.
 macro_rules! with_rasterizer {
-    ($all:expr, $grid:expr, $shader:expr, |$rasterizer:ident| $body:expr) => {{
-        let lit = $all.lit($shader);
-        let transparent = lit.as_ref().map(|lit| lit as &dyn TransparentLayer);
-        with_layers!(&$all.solid, |layers| {
-            let $rasterizer = Rasterizer { grid: $grid, opaque: layers, transparent };
-            $body
-        })
+    ($all:expr, |$rasterizer:ident| $body:expr) => {{
+        let (grid, transparent) = ($all.grid, $all.transparent());
+        match &$all.solid {
+            $crate::render_layers::Solid::Few(opaque) => {
+                let $rasterizer = ugraster::Rasterizer { grid, opaque, transparent };
+                $body
+            }
+            $crate::render_layers::Solid::Many(opaque) => {
+                let $rasterizer = ugraster::Rasterizer { grid, opaque, transparent };
+                $body
+            }
+        }
     }};
 }
+pub(crate) use with_rasterizer;
 
 /// Faces.
-struct Layers<'a, const N: usize> {
+pub struct Layers<'a, const N: usize> {
     surfaces: Surfaces<'a, N>,
     /// False if they only occlude.
     is_drawn: bool,
@@ -115,10 +114,6 @@ impl<'a, const N: usize> Layers<'a, N> {
             Some(_) => Surfaces::Rays(Box::new(Faces::new(painter, planes, is_one, pack))),
         };
         Self { surfaces, is_drawn: mode.has_faces(), planes: planes.clone() }
-    }
-
-    fn n_values(&self) -> usize {
-        N
     }
 
     fn clip_counts(&self) -> ClipCounts {
@@ -184,6 +179,7 @@ impl Layers<'_, TRANSPARENT_VALUES> {
 
 /// Transparent layers: translucent faces, and the visible parts of lines.
 struct ClearLayers<'a> {
+    shader: &'a Shader,
     /// `None` if no face is translucent.
     faces: Option<Layers<'a, TRANSPARENT_VALUES>>,
     /// Visible parts of lines.
@@ -192,13 +188,7 @@ struct ClearLayers<'a> {
     lines: [PolygonList<TRANSPARENT_VALUES>; 1],
 }
 
-/// Transparent layers with their shader.
-struct Lit<'a, 's> {
-    layers: &'s ClearLayers<'a>,
-    shader: &'s Shader,
-}
-
-impl TransparentLayer for Lit<'_, '_> {
+impl TransparentLayer for ClearLayers<'_> {
     fn draw(
         &self,
         grid: &SampleGrid,
@@ -206,36 +196,32 @@ impl TransparentLayer for Lit<'_, '_> {
         scanner: &mut Scanner<TRANSPARENT_VALUES>,
         target: &mut FragmentTarget<'_>,
     ) {
-        let shade = |values: &[[f32; TRANSPARENT_VALUES]], shaded: &mut [(ShadedSample, f32)]| {
-            for (shaded, values) in shaded.iter_mut().zip(values) {
-                *shaded = self.shader.transparent(values);
-            }
-        };
-        if let Some(faces) = &self.layers.faces {
-            faces.draw_transparent(grid, band, scanner, &mut target.writer(&shade, false));
+        if let Some(faces) = &self.faces {
+            faces.draw_transparent(grid, band, scanner, &mut target.writer(self.shader, false));
         }
-        let lines = PolygonLayer { lists: &self.layers.lines, corners: &NoTriangles };
-        lines.draw_on(grid, band, scanner, &mut target.writer(&shade, true));
+        let lines = PolygonLayer { lists: &self.lines, corners: &NoTriangles };
+        lines.draw_on(grid, band, scanner, &mut target.writer(self.shader, true));
     }
 }
 
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
-    pub fn new(painter: Painter<'a>, mode: &DrawMode) -> Self {
+    pub fn new(setup: &'a Setup<'_>, config: &Config) -> Self {
+        let (painter, mode) = (setup.painter(), &config.draw_mode());
         let surface = &painter.appearance.surface;
         let planes = ugscene::shared_planes(painter.scene, surface.all_rest(), surface.frames()).into();
-        let solid = match PackedLayout::new(painter.appearance, painter.lighting) {
-            PackedLayout::Plain => Solid::Plain(Layers::new(painter, &planes, mode, false, pack_plain)),
-            PackedLayout::Colored => Solid::Colored(Layers::new(painter, &planes, mode, false, pack_colored)),
-            PackedLayout::Mixed => Solid::Mixed(Layers::new(painter, &planes, mode, false, pack_mixed)),
-            PackedLayout::MixedColored => {
-                Solid::MixedColored(Layers::new(painter, &planes, mode, false, pack_mixed_colored))
-            }
+        let few = |pack| Solid::Few(Layers::new(painter, &planes, mode, false, pack));
+        let many = |pack| Solid::Many(Layers::new(painter, &planes, mode, false, pack));
+        let solid = match setup.layout {
+            Layout::Hues => few(pack_hue),
+            Layout::Light => few(pack_light),
+            Layout::Mixed { has_levels: false } => many(pack_white),
+            Layout::Mixed { has_levels: true } => many(pack_transparent),
         };
         let faces = painter
             .appearance
             .palette
-            .has_translucency()
+            .has_translucency
             .then(|| Layers::new(painter, &planes, mode, true, pack_transparent));
         let shape: Box<dyn LineShape> = match mode.exact {
             Some(_) => Box::new(CurvedLines::new(painter)),
@@ -254,18 +240,26 @@ impl<'a> RenderLayers<'a> {
             clip_counts = faces.iter().fold(clip_counts, |all, faces| all.merge(faces.clip_counts()));
         }
         let lines = [strips(&painter, &strokes, width)];
+        let (grid, shader) = (&setup.grid, &setup.shader);
         Self {
+            grid,
+            shader,
             solid,
-            clear: ClearLayers { faces, strokes, lines },
+            clear: ClearLayers { shader, faces, strokes, lines },
             has_faces: mode.has_faces(),
             clip_counts,
             progress: &(),
         }
     }
 
-    /// With progress reports while drawing.
-    pub fn telling(self, progress: &'a dyn Progress) -> Self {
+    /// Reports progress while drawing.
+    pub fn with_progress(self, progress: &'a dyn Progress) -> Self {
         Self { progress, ..self }
+    }
+
+    /// Progress of drawing.
+    pub fn progress(&self) -> impl BandProgress + use<'a> {
+        Drawing(self.progress)
     }
 
     /// How many faces and lines were clipped.
@@ -273,74 +267,22 @@ impl<'a> RenderLayers<'a> {
         self.clip_counts
     }
 
-    fn lit<'s>(&'s self, shader: &'s Shader) -> Option<Lit<'a, 's>> {
+    /// The transparent layers, if there are any.
+    pub fn transparent(&self) -> Option<&dyn TransparentLayer> {
         let has_faces = self.has_faces && self.clear.faces.is_some();
-        (has_faces || !self.clear.strokes.is_empty()).then_some(Lit { layers: &self.clear, shader })
+        (has_faces || !self.clear.strokes.is_empty()).then_some(&self.clear)
     }
 
     /// Draws all pixels of the grid, row after row. `resolve` combines the samples of a pixel.
     pub fn paint<P: Copy + Send + Sync>(
         &self,
-        grid: &SampleGrid,
         filter: Filter,
-        shader: &Shader,
         resolve: &impl Resolve<P>,
     ) -> (Vec<P>, SampleStats) {
-        let progress = &Drawing(self.progress);
-        with_rasterizer!(self, grid, shader, |rasterizer| match filter {
-            Filter::Box => rasterizer.paint(shader, resolve, progress),
-            _ => rasterizer.paint_filtered(filter, shader, resolve, progress),
+        with_rasterizer!(self, |rasterizer| match filter {
+            Filter::Box => rasterizer.paint(self.shader, Keep::Light, resolve, &self.progress()),
+            _ => rasterizer.paint_filtered(filter, self.shader, resolve, &self.progress()),
         })
-    }
-
-    /// Like [`RenderLayers::paint`] without a filter; `resolve` also receives the surfaces at the
-    /// centres of pixels.
-    pub fn paint_with_centers<P: Copy + Send + Sync>(
-        &self,
-        grid: &SampleGrid,
-        shader: &Shader,
-        resolve: &impl Resolve<P>,
-    ) -> (Vec<P>, SampleStats) {
-        with_rasterizer!(self, grid, shader, |rasterizer| {
-            rasterizer.paint_with_centers(shader, resolve, &Drawing(self.progress))
-        })
-    }
-
-    /// The pixels of the grid, row after row, each from the surfaces at its centre.
-    pub fn paint_centers<P: Copy + Send + Sync>(
-        &self,
-        grid: &SampleGrid,
-        shader: &Shader,
-        pixel: impl Fn(&Center<'_>) -> P + Sync,
-    ) -> Vec<P> {
-        with_rasterizer!(self, grid, shader, |rasterizer| {
-            rasterizer.paint_centers(pixel, &Drawing(self.progress))
-        })
-    }
-
-    /// One pixel as [`RenderLayers::paint`] draws it.
-    pub fn probe_filtered<P: Copy>(
-        &self,
-        grid: &SampleGrid,
-        filter: Filter,
-        shader: &Shader,
-        resolve: &impl Resolve<P>,
-        pixel: [u32; 2],
-    ) -> P {
-        with_rasterizer!(self, grid, shader, |rasterizer| {
-            rasterizer.probe_filtered(filter, shader, resolve, pixel)
-        })
-    }
-
-    /// All samples of one pixel, and the pixel.
-    pub fn probe<P: Copy>(
-        &self,
-        grid: &SampleGrid,
-        shader: &Shader,
-        resolve: &impl Resolve<P>,
-        pixel: [u32; 2],
-    ) -> (Vec<ProbedSample>, PixelSamples<'static>, P) {
-        with_rasterizer!(self, grid, shader, |rasterizer| rasterizer.probe(shader, resolve, pixel))
     }
 }
 
@@ -392,7 +334,10 @@ impl RenderLayers<'_> {
 
     /// The light of values interpolated between corners of an opaque polygon of
     /// [`RenderLayers::for_each_polygon`].
-    pub fn shade(&self, shader: &Shader, values: &[f32; TRANSPARENT_VALUES]) -> ShadedSample {
-        shader.opaque(&values[..with_layers!(&self.solid, |layers| layers.n_values())])
+    pub fn shade(&self, values: &[f32; TRANSPARENT_VALUES]) -> ShadedSample {
+        match &self.solid {
+            Solid::Few(_) => self.shader.one(&[values[0], values[1], values[2]]),
+            Solid::Many(_) => self.shader.one(values),
+        }
     }
 }

@@ -9,6 +9,7 @@ use ugscene::{Geometry, Scene, View};
 
 use crate::config::Config;
 use crate::error::Error;
+use crate::packing::Layout;
 use crate::painter::Painter;
 use crate::shade::Shader;
 
@@ -19,12 +20,13 @@ pub struct Setup<'a> {
     pub grid: SampleGrid,
     pub appearance: Appearance,
     pub lighting: Lighting,
+    pub layout: Layout,
     pub shader: Shader,
     /// Back-facing faces are culled.
     is_culled: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
-    pub is_uncut: bool,
+    pub keeps_highlights: bool,
 }
 
 impl<'a> Setup<'a> {
@@ -41,7 +43,7 @@ impl<'a> Setup<'a> {
         }
         let mut scene = drawable(scene);
         if !scene.color_tables.is_empty() {
-            uglight::settle(scene.to_mut());
+            uglight::freeze_colors_at_zero(scene.to_mut());
         }
         if config.repeat {
             ugscene::repeat_vertices(scene.to_mut(), true);
@@ -65,16 +67,17 @@ impl<'a> Setup<'a> {
         let law = config.law(&scene);
         let lighting = Lighting::new(&scene, view.eye, view.forward, law);
         let palette = &appearance.palette;
-        let is_uncut = palette.has_light() || config.picture.keeps_light();
+        let keeps_highlights = palette.has_light || config.picture.keeps_light();
         if config.exact.is_some() {
             check_exact(&scene, &view)?;
             if appearance.surface.has_moving_spectra(&scene, &scene.wires, shift) {
                 return Err(Error::ExactMovingSpectrum);
             }
         }
-        let shader = Shader::new(palette.interpolation(), !is_uncut, law.acts_on_light());
+        let layout = Layout::new(&scene, &appearance, &lighting);
+        let shader = Shader::new(palette.interpolation, !keeps_highlights, law.acts_on_light(), layout);
         let is_culled = config.cull;
-        Ok(Self { scene, view, grid, appearance, lighting, shader, is_culled, is_uncut })
+        Ok(Self { scene, view, grid, appearance, lighting, layout, shader, is_culled, keeps_highlights })
     }
 
     /// The scene, whose vertices are part of one body each. Faces and wires keep their order.
@@ -90,6 +93,7 @@ impl<'a> Setup<'a> {
             grid: &self.grid,
             appearance: &self.appearance,
             lighting: &self.lighting,
+            layout: self.layout,
             is_culled: self.is_culled,
         }
     }

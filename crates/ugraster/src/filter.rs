@@ -13,7 +13,7 @@ use ugframe::Filter;
 use crate::progress::BandProgress;
 use crate::rasterizer::{Rasterizer, TileBuffers, paint_parts};
 use crate::resolve::{Center, PixelSamples, Planes, Resolve, Resolver};
-use crate::shading::{SampleStats, Shading};
+use crate::shading::{SampleShading, SampleStats};
 use crate::transparency::Keep;
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
@@ -25,7 +25,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     pub fn paint_filtered<P: Copy + Send + Sync>(
         &self,
         filter: Filter,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         resolve: &impl Resolve<P>,
         progress: &dyn BandProgress,
     ) -> (Vec<P>, SampleStats) {
@@ -53,7 +53,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     pub fn probe_filtered<P>(
         &self,
         filter: Filter,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         resolve: &impl Resolve<P>,
         [column, row]: [u32; 2],
     ) -> P {

@@ -2,7 +2,7 @@
 //!
 //! It draws on a grid of samples, several to a pixel, with a depth test at each sample. It knows
 //! no scenes, cameras or colours: corners carry a depth key and N values ([`Corner`]), and a
-//! [`Shading`] turns the N interpolated values of a sample into linear light. [`Resolve`] makes a
+//! [`SampleShading`] turns the N interpolated values of a sample into linear light. [`Resolve`] makes a
 //! pixel of the light of its samples, so the caller decides about backgrounds and pixel formats.
 //! Output is the same bits on any number of threads and on every processor.
 //!
@@ -12,13 +12,13 @@
 //! to a pixel. The nearer one is visible at each pixel:
 //!
 //! ```
-//! use ugraster::{Corner, Encoding, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
-//! use ugraster::{SampleGrid, ShadedRun, ShadedSample, Shading, TileShape};
+//! use ugraster::{Corner, Encoding, Keep, NoTriangles, PixelSamples, PolygonLayer, PolygonList, Rasterizer};
+//! use ugraster::{SampleGrid, ShadedRun, ShadedSample, SampleShading, TileShape};
 //!
 //! /// The only interpolated value is grey light.
 //! struct Grey;
 //!
-//! impl Shading<1> for Grey {
+//! impl SampleShading<1> for Grey {
 //!     fn shade(&self, [greys]: [&[f32]; 1], _: Encoding, run: &mut ShadedRun) {
 //!         for (sample, &grey) in greys.iter().enumerate() {
 //!             let light = [grey; 3];
@@ -43,7 +43,7 @@
 //! let opaque = &PolygonLayer { lists: &[polygons], corners: &NoTriangles };
 //! let rasterizer = Rasterizer { grid: &grid, opaque, transparent: None };
 //! let red = |samples: &PixelSamples<'_>| samples.sum[0];
-//! let (pixels, stats) = rasterizer.paint(&Grey, &red, &());
+//! let (pixels, stats) = rasterizer.paint(&Grey, Keep::Light, &red, &());
 //! let middle_row = &pixels[2 * 9..3 * 9];
 //! assert_eq!(middle_row[..4], [0.75; 4]);
 //! assert_eq!(middle_row[5..], [0.25; 4]);
@@ -123,8 +123,8 @@ pub use probe::{ProbedSample, ProbedSurface};
 pub use progress::BandProgress;
 pub use rasterizer::Rasterizer;
 pub use resolve::{Center, PixelSamples, Resolve, ResolveSingle};
-pub use shading::{Encoding, RUN, SampleStats, ShadedRun, ShadedSample, Shading};
+pub use shading::{Encoding, RUN, SampleShading, SampleStats, ShadedRun, ShadedSample};
 pub use tile::{Area, Tile, VisibleItem};
 pub use transparency::{
-    Fragment, FragmentShading, FragmentTarget, FragmentWriter, TRANSPARENT_VALUES, TransparentLayer,
+    Fragment, FragmentTarget, FragmentWriter, Keep, TRANSPARENT_VALUES, TransparentLayer,
 };

@@ -2,7 +2,7 @@
 
 use crate::rasterizer::{Rasterizer, TileBuffers};
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver};
-use crate::shading::{Encoding, ShadedRun, ShadedSample, Shading};
+use crate::shading::{Encoding, SampleShading, ShadedRun, ShadedSample};
 use crate::tile::VisibleItem;
 use crate::transparency::{Fragment, Keep};
 
@@ -34,7 +34,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     /// where a tile starts.
     pub fn probe<P: Copy>(
         &self,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         resolve: &impl Resolve<P>,
         pixel: [u32; 2],
     ) -> (Vec<ProbedSample>, PixelSamples<'static>, P) {
@@ -46,7 +46,7 @@ impl<const N: usize> Rasterizer<'_, N> {
 
     fn probe_samples<'s>(
         &'s self,
-        shading: &'s dyn Shading<N>,
+        shading: &'s dyn SampleShading<N>,
         [column, row]: [u32; 2],
     ) -> (Vec<ProbedSample>, PixelSamples<'static>, Resolver<'s, N>, TileBuffers<N>) {
         let grid = self.grid;

@@ -9,7 +9,7 @@ use crate::grid::SampleGrid;
 use crate::layer::OpaqueLayer;
 use crate::progress::BandProgress;
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver, center};
-use crate::shading::{SampleStats, Shading};
+use crate::shading::{SampleShading, SampleStats};
 use crate::tile::{Area, Tile};
 use crate::transparency::{Keep, TransparencyBuffer, TransparentLayer};
 
@@ -26,30 +26,12 @@ pub struct Rasterizer<'a, const N: usize> {
 }
 
 impl<const N: usize> Rasterizer<'_, N> {
-    /// The pixels of the grid, row after row, and statistics of their samples. `resolve` receives
-    /// no [`PixelSamples::center`]. Progress counts bands.
+    /// The pixels of the grid, row after row, and statistics of their samples. With
+    /// [`Keep::Centers`], `resolve` receives what is visible at the centres of pixels. Progress counts
+    /// bands.
     pub fn paint<P: Copy + Send + Sync>(
         &self,
-        shading: &dyn Shading<N>,
-        resolve: &impl Resolve<P>,
-        progress: &dyn BandProgress,
-    ) -> (Vec<P>, SampleStats) {
-        self.paint_bands(shading, Keep::Light, resolve, progress)
-    }
-
-    /// As [`Rasterizer::paint`], and `resolve` receives what is visible at the centres of pixels.
-    pub fn paint_with_centers<P: Copy + Send + Sync>(
-        &self,
-        shading: &dyn Shading<N>,
-        resolve: &impl Resolve<P>,
-        progress: &dyn BandProgress,
-    ) -> (Vec<P>, SampleStats) {
-        self.paint_bands(shading, Keep::Centers, resolve, progress)
-    }
-
-    fn paint_bands<P: Copy + Send + Sync>(
-        &self,
-        shading: &dyn Shading<N>,
+        shading: &dyn SampleShading<N>,
         keep: Keep,
         resolve: &impl Resolve<P>,
         progress: &dyn BandProgress,

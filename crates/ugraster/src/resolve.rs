@@ -3,7 +3,7 @@
 use fearless_simd::{Level, Simd, dispatch};
 
 use crate::grid::SampleGrid;
-use crate::shading::{Encoding, RUN, SampleStats, ShadedRun, Shading};
+use crate::shading::{Encoding, RUN, SampleShading, SampleStats, ShadedRun};
 use crate::tile::{EMPTY, Tile, VisibleItem};
 use crate::transparency::{Fragment, TransparencyBuffer};
 
@@ -81,7 +81,7 @@ pub type Planes = [Vec<f32>; 4];
 /// Shades samples and adds them up, with buffers that are reused.
 pub struct Resolver<'a, const N: usize> {
     grid: &'a SampleGrid,
-    shading: &'a dyn Shading<N>,
+    shading: &'a dyn SampleShading<N>,
     run: ShadedRun,
     /// A row of samples.
     lit: Planes,
@@ -94,7 +94,7 @@ pub struct Resolver<'a, const N: usize> {
 
 impl<'a, const N: usize> Resolver<'a, N> {
     /// With empty buffers.
-    pub fn new(grid: &'a SampleGrid, shading: &'a dyn Shading<N>) -> Self {
+    pub fn new(grid: &'a SampleGrid, shading: &'a dyn SampleShading<N>) -> Self {
         Self {
             grid,
             shading,

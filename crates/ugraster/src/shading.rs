@@ -16,7 +16,7 @@ pub enum Encoding {
 }
 
 /// Computes light from N interpolated values.
-pub trait Shading<const N: usize>: Sync {
+pub trait SampleShading<const N: usize>: Sync {
     /// The light of a run of samples, at most [`RUN`]. Each value has a slice of its own, with one
     /// element per sample. The light of a sample must not depend on the others in the run.
     fn shade(&self, values: [&[f32]; N], encoding: Encoding, run: &mut ShadedRun);

@@ -269,7 +269,7 @@ fn triangles_are_drawn_like_polygons() {
             let layer = PolygonLayer { lists: &[list], corners: &table };
             let pixel = |all: &PixelSamples<'_>| (all.sum[0], all.covered, all.center.opaque);
             let rasterizer = Rasterizer { grid: &grid, opaque: &layer, transparent: None };
-            rasterizer.paint_with_centers(&Grey, &pixel, &()).0
+            rasterizer.paint(&Grey, Keep::Centers, &pixel, &()).0
         };
         for (ours, exact) in draw(triangles).into_iter().zip(draw(polygons)) {
             assert_eq!(ours.1, exact.1);
@@ -288,7 +288,7 @@ fn triangles_are_drawn_like_polygons() {
 /// The light is the interpolated value.
 struct Grey;
 
-impl Shading<1> for Grey {
+impl SampleShading<1> for Grey {
     fn shade(&self, [lights]: [&[f32]; 1], _: Encoding, run: &mut ShadedRun) {
         for (sample, &light) in lights.iter().enumerate() {
             run.set(sample, ShadedSample { light: [light; 3], intensity: light, is_out_of_range: false });
@@ -311,9 +311,9 @@ fn painted(polygons: &[Vec<Corner<1>>], grid: &SampleGrid) -> Vec<f32> {
     let rasterizer = Rasterizer { grid, opaque: &layer, transparent: None };
     let mean = |sum: [f32; 3]| sum[0] / (grid.samples * grid.samples) as f32;
     let light = |all: &PixelSamples<'_>| mean(all.sum);
-    let (pixels, _) = rasterizer.paint(&Grey, &light, &());
+    let (pixels, _) = rasterizer.paint(&Grey, Keep::Light, &light, &());
     let both = |all: &PixelSamples<'_>| (mean(all.sum), all.center.opaque);
-    let (marked, _) = rasterizer.paint_with_centers(&Grey, &both, &());
+    let (marked, _) = rasterizer.paint(&Grey, Keep::Centers, &both, &());
     let centers = rasterizer.paint_centers(|center: &Center<'_>| center.opaque, &());
     for (idx, ((&light, marked), center)) in pixels.iter().zip(&marked).zip(centers).enumerate() {
         assert_eq!((light, center), *marked);

@@ -18,11 +18,11 @@ use crate::edges::Scanner;
 use crate::grid::SampleGrid;
 use crate::layer::ShapeTarget;
 use crate::polygons::greater;
-use crate::shading::{SampleStats, ShadedSample};
+use crate::shading::{Encoding, SampleShading, SampleStats, ShadedRun};
 use crate::tile::{Area, EMPTY, OpaqueSamples, shared_plane};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
-/// Number of interpolated values of transparent shapes.
+/// Number of interpolated values of transparent shapes. The last is the transmittance, 0…1.
 pub const TRANSPARENT_VALUES: usize = 8;
 
 /// Fragments stored at once, if more than one sample is drawn: 64 MiB.
@@ -109,6 +109,7 @@ pub struct TransparencyBuffer {
     /// One for each sample of the tile; no elements if the tile has no fragments.
     composites: Vec<Composite>,
     kept: Vec<Fragment>,
+    run: ShadedRun,
     area: Area,
 }
 
@@ -137,6 +138,7 @@ impl TransparencyBuffer {
                 opaque,
                 fragments: &mut self.fragments,
                 front: &mut self.front,
+                run: &mut self.run,
                 n_offered: 0,
                 max_fragments: if part.n_samples() > 1 { MAX_FRAGMENTS } else { usize::MAX },
                 stats: SampleStats::default(),
@@ -279,24 +281,21 @@ pub struct FragmentTarget<'a> {
     fragments: &'a mut Vec<Fragment>,
     /// Depth keys of the nearest fragments with a transmittance of 0, of the whole tile.
     front: &'a mut [f32],
+    run: &'a mut ShadedRun,
     max_fragments: usize,
     /// Samples of shapes, whether they become fragments or not.
     n_offered: u64,
     stats: SampleStats,
 }
 
-/// Computes the light of each sample of a run from its interpolated values, and its transmittance,
-/// 0…1. Both slices have the same length.
-pub type FragmentShading<'s> = dyn Fn(&[[f32; TRANSPARENT_VALUES]], &mut [(ShadedSample, f32)]) + 's;
-
 /// Samples that are shaded in one call.
-const RUN: usize = 32;
+const TOGETHER: usize = 32;
 
 impl<'a> FragmentTarget<'a> {
     /// Receives samples of faces, or of lines.
     pub fn writer<'t>(
         &'t mut self,
-        shading: &'t FragmentShading<'t>,
+        shading: &'t dyn SampleShading<TRANSPARENT_VALUES>,
         is_line: bool,
     ) -> FragmentWriter<'t, 'a> {
         FragmentWriter { target: self, shading, is_line }
@@ -306,7 +305,7 @@ impl<'a> FragmentTarget<'a> {
 /// Stores samples of transparent shapes as fragments.
 pub struct FragmentWriter<'t, 'a> {
     target: &'t mut FragmentTarget<'a>,
-    shading: &'t FragmentShading<'t>,
+    shading: &'t dyn SampleShading<TRANSPARENT_VALUES>,
     is_line: bool,
 }
 
@@ -331,35 +330,36 @@ impl ShapeTarget<TRANSPARENT_VALUES> for FragmentWriter<'_, '_> {
         if self.target.fragments.len() >= self.target.max_fragments {
             return;
         }
-        let (mut places, mut values) = ([(0, 0.0); RUN], [[0.0; TRANSPARENT_VALUES]; RUN]);
+        let (mut places, mut values) = ([(0, 0.0); TOGETHER], [[0.0; TOGETHER]; TRANSPARENT_VALUES]);
         let mut n = 0;
         for (column, index) in columns.clone().zip(self.target.opaque.area.indices(row, &columns)) {
             // No fragment of a row occludes another one, so their order does not matter.
             if let Some((key, of_sample)) = sample(column, self.occluder_key(index, item)) {
-                (places[n], values[n]) = ((index, key), of_sample);
+                places[n] = (index, key);
+                values.iter_mut().zip(of_sample).for_each(|(all, value)| all[n] = value);
                 n += 1;
-                if n == RUN {
-                    self.push(&places, &values, item);
+                if n == TOGETHER {
+                    self.push(&places, values.each_ref().map(|all| &all[..]), item);
                     n = 0;
                 }
             }
         }
-        self.push(&places[..n], &values[..n], item);
+        self.push(&places[..n], values.each_ref().map(|all| &all[..n]), item);
     }
 }
 
 impl FragmentWriter<'_, '_> {
     /// Shades samples, given by index and key, and stores them.
-    fn push(&mut self, places: &[(usize, f32)], values: &[[f32; TRANSPARENT_VALUES]], item: u32) {
-        let mut shaded = [(ShadedSample::default(), 0.0); RUN];
-        let shaded = &mut shaded[..places.len()];
-        (self.shading)(values, shaded);
+    fn push(&mut self, places: &[(usize, f32)], values: [&[f32]; TRANSPARENT_VALUES], item: u32) {
         let target = &mut *self.target;
-        for (&(sample, key), (shaded, transmittance)) in places.iter().zip(shaded) {
+        self.shading.shade(values, Encoding::Linear, target.run);
+        for (idx, &(sample, key)) in places.iter().enumerate() {
+            let transmittance = values[TRANSPARENT_VALUES - 1][idx].clamp(0.0, 1.0);
             // A fragment that transmits everything is invisible.
-            if *transmittance < 1.0 && target.fragments.len() < target.max_fragments {
-                target.stats.count(shaded);
-                if *transmittance == 0.0 {
+            if transmittance < 1.0 && target.fragments.len() < target.max_fragments {
+                let shaded = target.run.get(idx);
+                target.stats.count(&shaded);
+                if transmittance == 0.0 {
                     target.front[sample] = greater(target.front[sample], key);
                 }
                 target.fragments.push(Fragment {
@@ -368,7 +368,7 @@ impl FragmentWriter<'_, '_> {
                     item,
                     is_line: self.is_line,
                     light: shaded.light,
-                    transmittance: *transmittance,
+                    transmittance,
                 });
             }
         }
@@ -429,6 +429,14 @@ mod tests {
         n_shaded: AtomicU64,
     }
 
+    /// Counts samples.
+    impl SampleShading<TRANSPARENT_VALUES> for Panes {
+        fn shade(&self, values: [&[f32]; TRANSPARENT_VALUES], _: Encoding, run: &mut ShadedRun) {
+            self.n_shaded.fetch_add(values[0].len() as u64, Ordering::Relaxed);
+            run.light[0][..values[0].len()].copy_from_slice(values[0]);
+        }
+    }
+
     impl TransparentLayer for Panes {
         fn draw(
             &self,
@@ -437,19 +445,14 @@ mod tests {
             _: &mut Scanner<TRANSPARENT_VALUES>,
             target: &mut FragmentTarget<'_>,
         ) {
-            let shading = |values: &[[f32; TRANSPARENT_VALUES]], shaded: &mut [(ShadedSample, f32)]| {
-                self.n_shaded.fetch_add(values.len() as u64, Ordering::Relaxed);
-                for (value, shaded) in values.iter().zip(shaded) {
-                    *shaded = (ShadedSample { light: [value[0]; 3], ..ShadedSample::default() }, 0.5);
-                }
-            };
-            let mut writer = target.writer(&shading, false);
+            let mut writer = target.writer(self, false);
             let Area { columns, rows } = writer.area();
             for item in 0..self.n {
                 // A permutation, since the factor is prime.
                 let key = (u64::from(item) * 7919 % u64::from(self.n)) as f32;
+                let values = [key, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.5];
                 for row in rows[0]..rows[1] {
-                    writer.draw_each(row, columns[0]..columns[1], item, |_, _| Some((key, [key; _])));
+                    writer.draw_each(row, columns[0]..columns[1], item, |_, _| Some((key, values)));
                 }
             }
         }

@@ -1,14 +1,14 @@
 //! A scene from arrays, for callers that have no text.
 
+use std::fmt;
 use std::ops::Range;
 
 use glam::DVec3;
 use rustc_hash::FxHashSet;
-use thiserror::Error;
 use ugphysics::Velocity;
 
 use crate::{
-    BodyId, Camera, Color, ColorId, ColorValue, Face, Illum, IllumId, Light, LightKind, Scene, SurfaceId,
+    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
     SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
 };
 
@@ -81,23 +81,20 @@ pub struct AddedMesh {
 }
 
 /// Why something cannot be part of a scene. Rows are counted from 0.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum BuildError {
     /// A name is empty or has other characters than letters, digits, `:`, `_` and `#`, or begins
     /// with a digit.
-    #[error("`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit")]
     Name {
         /// The name.
         name: String,
     },
     /// Two colours, two surfaces or two meshes have the same name.
-    #[error("the name `{name}` is used twice")]
     Repeated {
         /// The name.
         name: String,
     },
     /// A number is NaN, infinite, or out of its range.
-    #[error("{what} {row} is out of range: {range}")]
     OutOfRange {
         /// The array, or the property.
         what: &'static str,
@@ -107,7 +104,6 @@ pub enum BuildError {
         range: &'static str,
     },
     /// An array has not as many rows as another.
-    #[error("{found} rows of {what} instead of {expected}")]
     Length {
         /// The array.
         what: &'static str,
@@ -117,7 +113,6 @@ pub enum BuildError {
         expected: usize,
     },
     /// A corner is no row of the positions, or a colour, surface or body no row of the scene.
-    #[error("{what} {row} refers to row {id} of {n_rows}")]
     NoRow {
         /// The array.
         what: &'static str,
@@ -129,9 +124,28 @@ pub enum BuildError {
         n_rows: usize,
     },
     /// A table would have more rows than ids can express.
-    #[error("the scene has too many rows; split it")]
     TooMany,
 }
+
+impl fmt::Display for BuildError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Name { name } => write!(
+                f,
+                "`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit"
+            ),
+            Self::Repeated { name } => write!(f, "the name `{name}` is used twice"),
+            Self::OutOfRange { what, row, range } => write!(f, "{what} {row} is out of range: {range}"),
+            Self::Length { what, found, expected } => {
+                write!(f, "{found} rows of {what} instead of {expected}")
+            }
+            Self::NoRow { what, row, id, n_rows } => write!(f, "{what} {row} refers to row {id} of {n_rows}"),
+            Self::TooMany => f.write_str("the scene has too many rows; split it"),
+        }
+    }
+}
+
+impl std::error::Error for BuildError {}
 
 impl SceneBuilder {
     /// Adds a colour. `translucency`: 0 opaque … 1 invisible.
@@ -231,9 +245,9 @@ impl SceneBuilder {
             let (color, normal) = (mesh.colors.get(row).copied(), mesh.normals.get(row).copied());
             self.scene.add_vertex(Vertex { name, position, color, normal });
         }
-        let illum = mesh.surface.map(|surface| {
-            self.scene.illums.push(Illum::Surface(surface));
-            IllumId::from_index(self.scene.illums.len() - 1)
+        let shading = mesh.surface.map(|surface| {
+            self.scene.shadings.push(Shading::Surface(surface));
+            ShadingId::from_index(self.scene.shadings.len() - 1)
         });
         let name = Some(self.scene.names.add(mesh.name));
         let body = mesh.body.unwrap_or(self.scene.bodies.unstated());
@@ -247,7 +261,7 @@ impl SceneBuilder {
             }
             let ids = corners.iter().map(|&corner| VertexId::from_index(first + corner as usize));
             let contours = self.scene.contours.push_all([ids]);
-            self.scene.faces.push(Face { name, contours, color: mesh.color, illum, body });
+            self.scene.faces.push(Face { name, contours, color: mesh.color, shading, body });
         }
         let faces = first_face..self.scene.faces.len();
         let n_degenerate = sizes.len() - faces.len();

@@ -7,7 +7,7 @@
 //!   [`separate_bodies`]).
 //! - Positions: rest positions from seen ones ([`Geometry`], [`rest_positions`], equation (P4)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
-//! - The colours that meet at a vertex ([`vertex_shares`]).
+//! - The colours that meet at a vertex ([`vertex_mixes`]).
 //! - The faces that are not flat ([`bent_faces`]).
 //! - The faces that lie in one plane ([`shared_planes`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
@@ -38,6 +38,7 @@ mod camera_motion;
 mod camera_options;
 #[cfg(feature = "cli")]
 pub mod cli;
+mod color_mix;
 mod data;
 mod default_camera;
 mod edges;
@@ -55,7 +56,6 @@ mod relative_motion;
 mod requirements;
 mod rest_frames;
 mod shared_planes;
-mod shares;
 mod split;
 mod times_in_view;
 mod words;
@@ -67,6 +67,7 @@ pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
 pub use camera::{CameraPoint, Slab, View, view_distance};
 pub use camera_motion::{axes_from_scene, camera_velocity};
 pub use camera_options::{CameraError, CameraOptions};
+pub use color_mix::{ColorMix, face_vertices, vertex_mixes};
 pub use data::*;
 pub use default_camera::DefaultCamera;
 pub use edges::face_edges;
@@ -87,8 +88,8 @@ pub use requirements::{
 };
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use shared_planes::shared_planes;
-pub use shares::{Shares, face_vertices, vertex_shares};
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
+pub use words::shorten;
 use world_lines::world_lines;
 pub use world_lines::{WorldLinePoint, seen_event};

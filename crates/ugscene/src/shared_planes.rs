@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{BodyId, ColorId, Face, IllumId, RestFrames, Scene, unit_normal};
+use crate::{BodyId, ColorId, Face, RestFrames, Scene, ShadingId, unit_normal};
 
 /// Distance from a plane up to which a corner counts as being in it, relative to the largest
 /// coordinate of its face. Rest positions that (P4) recovers from text have errors of 10⁻¹⁵.
@@ -160,11 +160,11 @@ impl PlacedFace<'_> {
 
     /// What pieces of one face have in common; where they overlap it does not matter which of two
     /// faces of one look is visible. `None` if corners have colours of their own.
-    fn look(&self, plane: &Plane) -> Option<(Option<ColorId>, Option<IllumId>, BodyId, bool)> {
-        let Face { color, illum, body, .. } = *self.face;
+    fn look(&self, plane: &Plane) -> Option<(Option<ColorId>, Option<ShadingId>, BodyId, bool)> {
+        let Face { color, shading, body, .. } = *self.face;
         let corners = self.scene.contours.corners(self.face.contours.clone());
         let is_own = corners.iter().any(|corner| self.scene.vertices[corner.index()].color.is_some());
         let is_front = self.plane()?.normal.dot(plane.normal) > 0.0;
-        (!is_own).then_some((color, illum, body, is_front))
+        (!is_own).then_some((color, shading, body, is_front))
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers in messages.
+//! Numbers and words in messages.
 
 use glam::DVec3;
 
@@ -6,4 +6,13 @@ use glam::DVec3;
 pub(crate) fn point(p: DVec3) -> String {
     let number = |x: f64| format!("{x:?}").trim_end_matches(".0").to_owned();
     p.to_array().map(number).join(" ")
+}
+
+/// A word for a message: its first 40 characters, and `…` if there are more.
+pub fn shorten(word: &str) -> String {
+    const MAX: usize = 40;
+    match word.char_indices().nth(MAX) {
+        Some((end, _)) => format!("{}…", &word[..end]),
+        None => word.to_owned(),
+    }
 }

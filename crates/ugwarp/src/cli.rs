@@ -9,7 +9,8 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::{Format, PictureLimits};
 use uglight::ColorShift;
-use ugparse::{Foreign, Source, foreign_data, pipe};
+use ugmeshfile::{Foreign, foreign_data};
+use ugparse::{Source, pipe};
 use ugphysics::Velocity;
 use ugpicture::cli::{
     AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
@@ -22,13 +23,13 @@ use ugpipe::{
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
-use ugsky::{Arrangement, Band, Basis, Extent, Star, StarOptions, VISIBLE_NM};
+use ugsky::{Arrangement, Band, Basis, Extent, StarOptions, VISIBLE_NM};
 
 use crate::config::Config;
 use crate::error::Error;
 use crate::open::{Opened, open};
 use crate::render::{PROVENANCE, metadata, run};
-use crate::star_list::{is_star_list, read_stars};
+use crate::star_list::{StarList, is_star_list, read_stars};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///
@@ -266,19 +267,15 @@ impl Args {
         }
         let mut opened = if is_list {
             self.refuse_for_stars()?;
-            Opened {
-                panorama: None,
-                bands: Vec::new(),
-                stars: stars(input)?,
-                scene: None,
-                highlights: None,
-                notes: Vec::new(),
-            }
+            let StarList { stars, notes } = stars(input)?;
+            Opened { panorama: None, bands: Vec::new(), stars, scene: None, highlights: None, notes }
         } else {
             self.open_panorama(input, context)?
         };
         if let Some(path) = &self.stars {
-            opened.stars.extend(stars(&context.input_file(path)?)?);
+            let StarList { stars, notes } = stars(&context.input_file(path)?)?;
+            opened.stars.extend(stars);
+            opened.notes.extend(notes);
         }
         opened.scene = self.scene.as_ref().map(|path| self.scene(path, context)).transpose()?.map(Box::new);
         if opened.panorama.is_none() && opened.stars.is_empty() {
@@ -397,7 +394,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 /// The stars of a list.
-fn stars(input: &Input) -> Result<Vec<Star>, Failure> {
+fn stars(input: &Input) -> Result<StarList, Failure> {
     read_stars(&input.name, &input.text).map_err(|found| Failure::Report(found.report()))
 }
 

@@ -60,7 +60,7 @@ pub use config::Config;
 pub use error::Error;
 pub use open::{Opened, open};
 pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};
-pub use star_list::{is_star_list, read_stars};
+pub use star_list::{StarList, is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{

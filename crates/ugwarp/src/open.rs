@@ -1,5 +1,7 @@
 //! From the bytes of files to a sky.
 
+use core::f64::consts::{PI, TAU};
+
 use ugimage::{PictureLimits, Pixels, read_picture};
 use ugscene::Scene;
 use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
@@ -44,7 +46,7 @@ impl<'s> From<&'s Opened> for Sky<'s> {
 pub fn open(
     files: &[&[u8]],
     arrangement: Arrangement,
-    extent: Option<Extent>,
+    mut extent: Option<Extent>,
     highlights: Option<f32>,
     mut limits: PictureLimits,
 ) -> Result<Opened, Error> {
@@ -54,9 +56,26 @@ pub fn open(
         return Err(PanoramaError::Sides { n_files: files.len() }.into());
     }
     for (idx, file) in files.iter().enumerate() {
-        let (size, pixels) = read_picture(file, &limits).map_err(|error| Error::Read { idx, error })?;
-        limits.bytes -= pixels.n_bytes().min(limits.bytes);
-        pictures.push((size, texels(pixels, &mut notes)));
+        let picture = read_picture(file, &limits).map_err(|error| Error::Read { idx, error })?;
+        limits.bytes -= picture.pixels.n_bytes().min(limits.bytes);
+        notes.extend(picture.notes);
+        if let Some([left, right, top, bottom]) = picture.part
+            && extent.is_none()
+            && arrangement == Arrangement::Equirectangular
+        {
+            let stated = Extent {
+                longitudes: [left, right].map(|edge| TAU * (edge - 0.5)),
+                latitudes: [bottom, top].map(|edge| PI * (0.5 - edge)),
+            };
+            let [west, east] = stated.longitudes.map(f64::to_degrees);
+            let [south, north] = stated.latitudes.map(f64::to_degrees);
+            notes.push(format!(
+                "the picture says that it shows a part of the sphere (GPano), longitudes {west:.2} to {east:.2} and \
+                 latitudes {south:.2} to {north:.2} degrees"
+            ));
+            extent = Some(stated);
+        }
+        pictures.push((picture.size, texels(picture.pixels, &mut notes)));
     }
     let is_clipped = pictures.iter().any(|(_, texels)| matches!(texels, Texels::Srgb(_)));
     if highlights.is_some() && !is_clipped {

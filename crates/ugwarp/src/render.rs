@@ -168,7 +168,10 @@ impl<'s> Prepared<'s> {
         let view = view(config, size)?;
         let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let (brightest, notes) = (statistics.max_light, notes(config, warp, &statistics));
+        let (brightest, mut notes) = (statistics.max_light, notes(config, warp, &statistics));
+        if sky.panorama.is_none() && sky.stars.is_empty() {
+            notes.retain(|note| !matches!(note, Note::BlackPanorama));
+        }
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }

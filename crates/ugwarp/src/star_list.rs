@@ -47,20 +47,23 @@ const LATITUDES: ([f64; 2], &str) = ([-90.0, 90.0], "degrees from -90 to 90");
 const COORDINATES: ([f64; 2], &str) = ([-1e100, 1e100], "a coordinate of a direction");
 
 static COLUMNS: [StarColumn; 11] = [
-    StarColumn { names: &["ra", "ra_deg", "right ascension"], range: LONGITUDES },
-    StarColumn { names: &["ra_hours"], range: ([-24.0, 24.0], "hours from -24 to 24") },
-    StarColumn { names: &["dec", "dec_deg", "declination"], range: LATITUDES },
+    StarColumn { names: &["ra", "ra_deg", "right ascension", "raj2000", "ra_icrs"], range: LONGITUDES },
+    StarColumn { names: &["ra_hours", "ra_h"], range: ([-24.0, 24.0], "hours from -24 to 24") },
+    StarColumn { names: &["dec", "dec_deg", "declination", "dej2000", "de_icrs"], range: LATITUDES },
     StarColumn { names: &["lon", "longitude"], range: LONGITUDES },
     StarColumn { names: &["lat", "latitude"], range: LATITUDES },
     StarColumn { names: &["x"], range: COORDINATES },
     StarColumn { names: &["y"], range: COORDINATES },
     StarColumn { names: &["z"], range: COORDINATES },
-    StarColumn { names: &["mag", "magnitude", "vmag"], range: ([-60.0, 60.0], "a magnitude from -60 to 60") },
     StarColumn {
-        names: &["kelvin", "temperature", "teff"],
+        names: &["mag", "magnitude", "vmag", "phot_g_mean_mag"],
+        range: ([-60.0, 60.0], "a magnitude from -60 to 60"),
+    },
+    StarColumn {
+        names: &["kelvin", "temperature", "teff", "teff_gspphot", "t"],
         range: ([100.0, 1e6], "kelvins from 100 to 1000000"),
     },
-    StarColumn { names: &["b-v", "bv"], range: ([-0.4, 8.0], "a colour index from -0.4 to 8") },
+    StarColumn { names: &["b-v", "bv", "ci"], range: ([-0.4, 8.0], "a colour index from -0.4 to 8") },
 ];
 
 impl StarColumn {
@@ -68,10 +71,28 @@ impl StarColumn {
     fn name(&self) -> &'static str {
         self.names[0]
     }
+}
 
-    fn is_named(&self, name: &[u8]) -> bool {
-        self.names.iter().any(|other| name.eq_ignore_ascii_case(other.as_bytes()))
-    }
+/// The row in [`COLUMNS`] of a name, which may have its unit in brackets: `ra [deg]`, `ra (h)`.
+fn column_of(name: &[u8]) -> Option<usize> {
+    let name = str::from_utf8(name).ok()?.trim();
+    let (name, unit) = match name.split_once(['[', '(']) {
+        Some((name, unit)) => (name.trim_end(), unit.trim_end_matches([']', ')'])),
+        None => (name, ""),
+    };
+    let is_named = |column: &StarColumn| column.names.iter().any(|known| name.eq_ignore_ascii_case(known));
+    let column = COLUMNS.iter().position(is_named)?;
+    let is_hours = matches!(unit.to_ascii_lowercase().as_str(), "h" | "hr" | "hours" | "hourangle");
+    Some(if column == Column::Ra as usize && is_hours { Column::RaHours as usize } else { column })
+}
+
+/// A list of stars that was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StarList {
+    /// The stars.
+    pub stars: Vec<Star>,
+    /// What its user should know, one sentence each.
+    pub notes: Vec<String>,
 }
 
 /// An error in a list of stars.
@@ -121,8 +142,10 @@ impl StarListMistake {
     /// How to correct it.
     fn remedy(&self) -> String {
         match self {
-            Self::NoNames | Self::Missing(_) => "begin with the names of columns: `ra,dec,mag,kelvin`, or `lon,lat` \
-                                                 or `x,y,z` in place of `ra,dec`, or `b-v` in place of `kelvin`",
+            Self::NoNames | Self::Missing(_) => {
+                "begin with the names of columns: `ra,dec,mag,kelvin`, or `ra_hours` in place of `ra`, `lon,lat` or \
+                 `x,y,z` in place of `ra,dec`, or `b-v` in place of `kelvin`"
+            }
             Self::Twice(_) => "rename or remove one",
             Self::Fields { .. } => {
                 "write as many fields in each line; put a field with a comma in double quotes, without blanks around \
@@ -145,55 +168,79 @@ pub fn is_star_list(file: &[u8]) -> bool {
     let head = &file[..file.len().min(4096)];
     let mut record = ByteRecord::new();
     let is_text = |byte: &u8| *byte >= b' ' || byte.is_ascii_whitespace();
-    next(&mut reader(head, separator(head)), &mut record)
+    next(&mut reader(head, separator(head)), &mut record, separator(head))
         && record.as_slice().iter().all(is_text)
-        && record
-            .iter()
-            .filter(|name| COLUMNS.iter().any(|column| column.is_named(name.trim_ascii())))
-            .count()
-            >= 2
+        && record.iter().filter_map(column_of).count() >= 2
 }
 
 /// Reads a list of stars. `name`: of the file, for messages.
 ///
-/// The first line has the names of columns, separated by commas, semicolons or tabs; other columns
-/// than the known ones
-/// are allowed and ignored. Lines that are empty or begin with `#` are skipped.
+/// The first line has the names of columns, separated by commas, semicolons, tabs or blanks; other
+/// columns than the known ones are allowed and ignored. In a list with the columns `ra` and
+/// `rarad`, those of the HYG catalogue, `ra` is in hours. Lines that are empty or begin with `#` are
+/// skipped, and stars without a magnitude, a temperature or a direction are left out.
 ///
 /// # Errors
 /// All errors of up to 20 lines, with line and column.
-pub fn read_stars(name: &str, file: &[u8]) -> Result<Vec<Star>, Box<Diagnostics>> {
+pub fn read_stars(name: &str, file: &[u8]) -> Result<StarList, Box<Diagnostics>> {
     read(file).map_err(|errors| Box::new(Diagnostics::new(&Source::new(name, file), errors)))
 }
 
-fn read(file: &[u8]) -> Result<Vec<Star>, Vec<Diagnostic>> {
+fn read(file: &[u8]) -> Result<StarList, Vec<Diagnostic>> {
     let separator = separator(file);
     let (mut reader, mut record) = (reader(file, separator), ByteRecord::new());
-    if !next(&mut reader, &mut record) {
+    if !next(&mut reader, &mut record, separator) {
         return Err(vec![StarListMistake::NoNames.at(0..0)]);
     }
     let layout = Layout::new(&record).map_err(|wrong| vec![wrong.at(file, separator, &record)])?;
     let (mut stars, mut errors) = (Vec::new(), Vec::new());
-    while errors.len() < MOST_MISTAKES && next(&mut reader, &mut record) {
+    let (mut n_incomplete, mut largest) = (0, f64::NEG_INFINITY);
+    while errors.len() < MOST_MISTAKES && next(&mut reader, &mut record, separator) {
         match layout.star(&record) {
             Ok(_) if stars.len() == MAX_STARS => {
                 errors.push(Wrong(None, StarListMistake::TooMany).at(file, separator, &record));
                 break;
             }
-            Ok(star) => stars.push(star),
+            Ok(star) => {
+                largest = largest.max(layout.right_ascension(&record));
+                stars.push(star);
+            }
+            Err(Wrong(_, StarListMistake::Empty(_))) => n_incomplete += 1,
             Err(wrong) => errors.push(wrong.at(file, separator, &record)),
         }
     }
-    if errors.is_empty() { Ok(stars) } else { Err(errors) }
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    let mut notes = Vec::new();
+    if n_incomplete > 0 {
+        let fields = "a direction, a magnitude and a temperature or colour index";
+        notes.push(format!(
+            "{n_incomplete} stars of the list are left out, since they have not all of {fields}"
+        ));
+    }
+    if layout.is_hyg {
+        notes.push(
+            "the list has the columns of the HYG catalogue: its right ascensions are in hours".to_owned(),
+        );
+    } else if stars.len() > 1 && (0.0..24.0).contains(&largest) {
+        notes.push(
+            "all right ascensions are below 24 degrees: if they are hours, name the column `ra_hours`"
+                .to_owned(),
+        );
+    }
+    Ok(StarList { stars, notes })
 }
 
 /// The character between the names of columns: a comma, a semicolon or a tab, whichever is there
-/// most often.
+/// most often, or else a blank.
 fn separator(file: &[u8]) -> u8 {
+    let file = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file);
     let mut lines = file.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     let names = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")).unwrap_or_default();
     let count = |separator: &u8| names.iter().filter(|byte| *byte == separator).count();
-    [b'\t', b';', b','].into_iter().max_by_key(count).unwrap_or(b',')
+    let most = [b'\t', b';', b','].into_iter().max_by_key(count).filter(|most| count(most) > 0);
+    most.unwrap_or(if names.contains(&b' ') { b' ' } else { b',' })
 }
 
 fn reader(file: &[u8], separator: u8) -> Reader<&[u8]> {
@@ -202,13 +249,20 @@ fn reader(file: &[u8], separator: u8) -> Reader<&[u8]> {
 }
 
 /// Reads the next record, skipping blank lines and comments; returns false at the end of the file.
-fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord) -> bool {
+fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord, separator: u8) -> bool {
     // Bytes in memory are read without errors.
     while matches!(reader.read_byte_record(record), Ok(true)) {
         let first = record.get(0).unwrap_or_default().trim_ascii_start();
-        if !(first.starts_with(b"#") || first.is_empty() && record.len() == 1) {
-            return true;
+        if first.starts_with(b"#") || record.iter().all(<[u8]>::is_empty) && record.len() <= 1 {
+            continue;
         }
+        if separator == b' ' {
+            // Of several blanks in a row one separates.
+            let position = record.position().cloned();
+            *record = record.iter().filter(|field| !field.is_empty()).collect();
+            record.set_position(position);
+        }
+        return true;
     }
     false
 }
@@ -232,6 +286,9 @@ impl Wrong {
         }
         for _ in 0..field.unwrap_or(0) {
             rest = &rest[(field_end(rest, separator) + 1).min(rest.len())..];
+            if separator == b' ' {
+                rest = rest.trim_ascii_start();
+            }
         }
         let end = if field.is_some() { field_end(rest, separator) } else { line_end(rest) };
         let start = file.len() - rest[..end].trim_ascii_start().len() - rest[end..].len();
@@ -258,6 +315,10 @@ struct Layout {
     magnitude: usize,
     color: (Column, usize),
     n_columns: usize,
+    /// The list has the columns of the HYG catalogue.
+    is_hyg: bool,
+    /// The column of distances in it, which is 0 for the sun.
+    distance: Option<usize>,
 }
 
 enum Direction {
@@ -270,15 +331,19 @@ impl Layout {
     fn new(record: &ByteRecord) -> Result<Self, Wrong> {
         let mut indices = [None; COLUMNS.len()];
         for (idx, name) in record.iter().enumerate() {
-            let Some(column) = COLUMNS.iter().position(|column| column.is_named(name.trim_ascii())) else {
-                continue;
-            };
+            let Some(column) = column_of(name) else { continue };
             if indices[column].replace(idx).is_some() {
                 return Err(Wrong(Some(idx), StarListMistake::Twice(&COLUMNS[column])));
             }
         }
-        let at = |column: Column| indices[column as usize];
         let missing = |what: &'static str| Wrong(None, StarListMistake::Missing(what));
+        let place =
+            |name: &[u8]| record.iter().position(|other| other.trim_ascii().eq_ignore_ascii_case(name));
+        let is_hyg = place(b"rarad").is_some();
+        if is_hyg && let Some(idx) = indices[Column::Ra as usize].take() {
+            indices[Column::RaHours as usize] = Some(idx);
+        }
+        let at = |column: Column| indices[column as usize];
         let both = |one: Column, other: Column| Some([(one, at(one)?), (other, at(other)?)]);
         let vector = || Some([at(Column::X)?, at(Column::Y)?, at(Column::Z)?]);
         let direction = both(Column::Ra, Column::Dec)
@@ -295,13 +360,30 @@ impl Layout {
                 .or_else(|| color(Column::ColorIndex))
                 .ok_or_else(|| missing("temperatures"))?,
             n_columns: record.len(),
+            is_hyg,
+            distance: place(b"dist").filter(|_| is_hyg),
         })
+    }
+
+    /// The right ascension of a star of the list, degrees; NaN without one.
+    fn right_ascension(&self, record: &ByteRecord) -> f64 {
+        match self.direction {
+            Direction::Angles([(Column::Ra, idx), _]) => {
+                number(&COLUMNS[Column::Ra as usize], &record[idx]).unwrap_or(f64::NAN)
+            }
+            _ => f64::NAN,
+        }
     }
 
     fn star(&self, record: &ByteRecord) -> Result<Star, Wrong> {
         if record.len() != self.n_columns {
             let mistake = StarListMistake::Fields { n_fields: record.len(), n_columns: self.n_columns };
             return Err(Wrong(None, mistake));
+        }
+        let is_at_eye =
+            |idx: usize| str::from_utf8(&record[idx]).is_ok_and(|field| field.trim().parse() == Ok(0.0));
+        if let Some(idx) = self.distance.filter(|&idx| is_at_eye(idx)) {
+            return Err(Wrong(Some(idx), StarListMistake::Empty(&COLUMNS[Column::X as usize])));
         }
         let number = |column: Column, idx: usize| {
             number(&COLUMNS[column as usize], &record[idx]).map_err(|mistake| Wrong(Some(idx), mistake))
@@ -336,7 +418,7 @@ fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMist
         format!("{}{rest}", String::from_utf8_lossy(&field[..field.len().min(MOST_QUOTED)]))
     };
     let ([least, most], _) = column.range;
-    match fast_float2::parse::<f64, _>(field) {
+    match std::str::from_utf8(field).unwrap_or_default().parse::<f64>() {
         _ if field.is_empty() => Err(StarListMistake::Empty(column)),
         Err(_) => Err(StarListMistake::NotANumber(column, quoted())),
         Ok(number) if !(least..=most).contains(&number) => Err(StarListMistake::OutOfRange(column, quoted())),

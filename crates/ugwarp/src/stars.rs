@@ -93,7 +93,7 @@ impl StarField {
             return None;
         }
         let (mut sum, mut first, mut last) = (0.0, u32::MAX, 0);
-        for window in self.film.cap(direction, StarOptions::REACH * deviation) {
+        for window in self.film.pixels_near(direction, StarOptions::REACH * deviation) {
             // Pixels may be much longer than wide: along a disc there are more than can be counted,
             // and the sum over some of them is as exact.
             self.film.visit_evenly(&window, |facet| {
@@ -128,7 +128,7 @@ impl StarField {
     fn draw(&self, point: &Point, top: u32, pixels: &mut [[f32; 4]]) {
         let width = self.size[0] as usize;
         let bottom = i64::from(top) + (pixels.len() / width) as i64;
-        for window in self.film.cap(point.direction, StarOptions::REACH * point.deviation) {
+        for window in self.film.pixels_near(point.direction, StarOptions::REACH * point.deviation) {
             let rows = window.rows.start.max(i64::from(top))..window.rows.end.min(bottom);
             let columns = match self.lens {
                 Lens::Pinhole => window.columns.start.max(0)..window.columns.end.min(width as i64),

@@ -178,7 +178,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
 /// The violation.
 pub fn stars(seed: u64, bytes: &[u8]) -> Result<(), String> {
     match ugwarp::read_stars("stars.csv", bytes) {
-        Ok(stars) => sky(stars.as_slice().into(), &quick(&mut Random(seed), seed), seed),
+        Ok(list) => sky(list.stars.as_slice().into(), &quick(&mut Random(seed), seed), seed),
         Err(findings) => {
             std::hint::black_box(findings.render(false));
             Ok(())

@@ -1,11 +1,8 @@
 //! Writes glTF 2.0: a node and a mesh for each name of faces, a primitive for each of its colours,
 //! 32-bit floats, linear colours.
 
-use std::borrow::Cow;
-
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
-use gltf::binary::{Glb, Header};
 use serde_json::{Value, json};
 use ugphysics::srgb_decode;
 use ugscene::Camera;
@@ -21,15 +18,21 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 
 pub(super) fn write_glb(mesh: &mut PolygonMesh) -> Result<Vec<u8>, Error> {
     check_range(mesh)?;
-    let (document, buffer) = document(mesh, None);
-    let json = document.to_string().into_bytes();
-    // The file header stores the length in 32 bits. 64 bytes are reserved for headers and padding.
-    if u32::try_from(json.len() + buffer.len() + 64).is_err() {
-        return Err(Error::TooLarge);
+    let (document, mut buffer) = document(mesh, None);
+    let mut json = document.to_string().into_bytes();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    buffer.resize(buffer.len().next_multiple_of(4), 0);
+    let chunks = [(json, b"JSON"), (buffer, b"BIN\0")].into_iter().filter(|(chunk, _)| !chunk.is_empty());
+    let chunks: Vec<_> = chunks.collect();
+    let length: usize = 12 + chunks.iter().map(|(chunk, _)| 8 + chunk.len()).sum::<usize>();
+    let length = u32::try_from(length).map_err(|_| Error::TooLarge)?;
+    let mut file = [*b"glTF", 2_u32.to_le_bytes(), length.to_le_bytes()].concat();
+    for (chunk, kind) in chunks {
+        file.extend((chunk.len() as u32).to_le_bytes());
+        file.extend(kind);
+        file.extend(chunk);
     }
-    let header = Header { magic: *b"glTF", version: 2, length: 0 };
-    let bin = (!buffer.is_empty()).then_some(Cow::Owned(buffer));
-    Glb { header, json: json.into(), bin }.to_vec().map_err(|_| Error::TooLarge)
+    Ok(file)
 }
 
 pub(super) fn write_json(mesh: &mut PolygonMesh) -> Result<Vec<u8>, Error> {

@@ -4,6 +4,7 @@
 
 mod cli;
 mod common;
+mod found_files;
 mod hostile;
 mod reading;
 mod round_trip;

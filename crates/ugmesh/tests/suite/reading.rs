@@ -418,7 +418,19 @@ fn errors_name_the_problem_and_line() {
     obj("v 0 0 0\nv 1 2 nan", "line 2: `nan` in a vertex is not a finite number");
     obj("v 0 0 0\nf 1 2 3", "line 2: a face refers to vertex `2`, but there are 1 before it");
     obj("v 0 0 0\nf 0 1 1", "line 2: a face refers to vertex `0`, but there are 1 before it");
-    obj("v 0 0 0\nf 1//1", "line 2: a face refers to normal `1`, but there are 0 before it");
+    obj("one\ntwo", "line 1: this is not an OBJ file: no line of it is a statement of OBJ");
+    let page = "<!DOCTYPE html>\n<html></html>";
+    obj(page, "it is a web page; download the file itself");
+    let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 5\n";
+    obj(pointer, "it is a Git LFS pointer; fetch the file itself with `git lfs pull`");
+    of(
+        "a.stl",
+        "STL",
+        pointer.as_bytes(),
+        "it is a Git LFS pointer; fetch the file itself with `git lfs pull`",
+    );
+    of("a.stl", "STL", b"\xff\xfes\0o\0", "it is UTF-16 text; save it as UTF-8 or ASCII");
+    of("a.obj", "OBJ", b"\x1f\x8b\x08", "it is compressed data; decompress it first");
     let shown = format!("line 1: `{}…` in a vertex is not a finite number", "x".repeat(40));
     obj(&format!("v 1 2 {}", "x".repeat(1000)), &shown);
     obj("vn 1", "line 1: a normal needs 3 numbers");
@@ -447,8 +459,28 @@ fn errors_name_the_problem_and_line() {
     gltf(b"glTF\x02\0\0\0\0\0\0\0", "the file is truncated; copy it again");
     gltf(
         &glb(r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]}"#, b""),
-        "`extensionsRequired[0] = \"KHR_draco_mesh_compression\"`: unsupported extension; export without it",
+        "the mesh has Draco compression (KHR_draco_mesh_compression); export without it",
     );
+    let required = r#"{"asset":{"version":"2.0"},"extensionsRequired":["EXT_meshopt_compression"]}"#;
+    gltf(
+        &glb(required, b""),
+        "the mesh has meshopt compression (EXT_meshopt_compression); export without it",
+    );
+    of(
+        "a.gltf",
+        "glTF",
+        br#"{"asset":{"version":"1.0"},"meshes":{"a":{}}}"#,
+        "glTF 1.0 is not read; convert the mesh to glTF 2.0",
+    );
+    of("a.gltf", "glTF", b"{}", "this is not a glTF document: it has no `asset` with a version");
+    let half = r#"{"asset":{"version":"2.0"},"nodes":[{"mesh":0.5}]}"#;
+    let found = convert(&Config::default(), "a.gltf", half).unwrap_err().to_string();
+    assert!(found.contains("0.5 is not a whole number"), "{found}");
+    gltf(&glb_with_nodes(r#"[{"mesh":7}]"#), "mesh 7 does not exist; export the mesh again");
+    let ascii =
+        |row: &str| format!("1\nproperty float x\nproperty float y\nproperty float z\nend_header\n{row}");
+    ply(&ascii("0 a 0\n"), "line 8: vertex 0, y: `a` is not a number");
+    ply(&ascii("0\n0"), "line 9: vertex 0, z: the file ends here; copy it again");
     let two_parents = glb_with_nodes(r#"[{"children":[1,2]},{"children":[2]},{"mesh":0}]"#);
     gltf(&two_parents, "node 2 has two parents; export the mesh again");
     let mut long = glb_with_nodes(r#"[{"mesh":0}]"#);

@@ -1,73 +1,94 @@
-//! Reads the numbers of glTF accessors.
-//!
-//! The readers of the `gltf` crate trust the counts, offsets and types in the file; here they are
-//! checked first.
+//! Reads the numbers of glTF accessors. Counts, offsets and types are checked before they are used.
 
 use std::borrow::Cow;
 
-use gltf::Accessor;
-use gltf::accessor::DataType;
-use gltf::accessor::sparse::IndexType;
-use gltf::buffer::View;
-
+use super::gltf_document::{Accessor, BufferView, Document, Whole, view_bytes};
+use super::kind::Kind;
 use crate::error::Problem;
 
 /// Largest number of components of an accessor without a buffer view, which is all zeros.
 const MAX_ZEROS: usize = 1 << 24;
 
-/// All components of all rows. Normalized integers are converted to fractions.
-pub(super) fn read(accessor: &Accessor, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<f64>, Problem> {
-    let kind = accessor.data_type();
-    let n_components = accessor.dimensions().multiplicity();
-    let row_size = kind.size() * n_components;
-    let mut numbers = match accessor.view() {
-        Some(view) => rows(&view, accessor.offset(), accessor.count(), row_size, buffers)?
-            .flat_map(|row| components(row, kind))
-            .collect(),
-        None if accessor.count() <= MAX_ZEROS / n_components => vec![0.0; accessor.count() * n_components],
-        None => return Err(out_of_bounds()),
-    };
-    if let Some(sparse) = accessor.sparse() {
-        let (indices, values) = (sparse.indices(), sparse.values());
-        let index_kind = match indices.index_type() {
-            IndexType::U8 => DataType::U8,
-            IndexType::U16 => DataType::U16,
-            IndexType::U32 => DataType::U32,
+/// The type of components with this code.
+fn component(code: Whole) -> Result<Kind, Problem> {
+    Ok(match code.0 {
+        5120 => Kind::I8,
+        5121 => Kind::U8,
+        5122 => Kind::I16,
+        5123 => Kind::U16,
+        5125 => Kind::U32,
+        5126 => Kind::F32,
+        code => return Err(Problem::new(format!("{code} is not a component type; export the mesh again"))),
+    })
+}
+
+impl Accessor {
+    /// Number of components of a row.
+    pub fn n_components(&self) -> Result<usize, Problem> {
+        Ok(match self.shape.as_str() {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            "VEC4" | "MAT2" => 4,
+            "MAT3" => 9,
+            "MAT4" => 16,
+            _ => return Err(Problem::new("an accessor has no known type; export the mesh again")),
+        })
+    }
+
+    /// True if the rows can be indices.
+    pub fn is_index(&self) -> bool {
+        matches!(component(self.component_type), Ok(Kind::U8 | Kind::U16 | Kind::U32))
+            && self.shape == "SCALAR"
+    }
+
+    /// All components of all rows. Normalized integers are converted to fractions.
+    pub fn read(&self, document: &Document, buffers: &[Cow<'_, [u8]>]) -> Result<Vec<f64>, Problem> {
+        let view = |index| Document::row(&document.buffer_views, index, "buffer view");
+        let kind = component(self.component_type)?;
+        let n_components = self.n_components()?;
+        let row_size = kind.size() * n_components;
+        let count = self.count.0;
+        let mut numbers = match self.buffer_view {
+            Some(index) => rows(view(index)?, self.byte_offset, count, row_size, buffers)?
+                .flat_map(|row| components(row, kind))
+                .collect(),
+            None if count <= MAX_ZEROS / n_components => vec![0.0; count * n_components],
+            None => return Err(out_of_bounds()),
         };
-        let count = sparse.count();
-        let places = rows(&indices.view(), indices.offset(), count, index_kind.size(), buffers)?;
-        let values = rows(&values.view(), values.offset(), count, row_size, buffers)?;
-        for (place, row) in places.zip(values) {
-            let first = components(place, index_kind).next().unwrap_or(0.0) as usize * n_components;
-            let target = numbers.get_mut(first..first + n_components).ok_or_else(out_of_bounds)?;
-            target.iter_mut().zip(components(row, kind)).for_each(|(old, new)| *old = new);
+        if let Some(sparse) = &self.sparse {
+            let (indices, values) = (&sparse.indices, &sparse.values);
+            let index_kind = component(indices.component_type)?;
+            let (count, size) = (sparse.count.0, index_kind.size());
+            let places = rows(view(indices.buffer_view)?, indices.byte_offset, count, size, buffers)?;
+            let values = rows(view(values.buffer_view)?, values.byte_offset, count, row_size, buffers)?;
+            for (place, row) in places.zip(values) {
+                let place = components(place, index_kind).next().unwrap_or(0.0) as usize;
+                let first = place.saturating_mul(n_components);
+                let target =
+                    numbers.get_mut(first..first.saturating_add(n_components)).ok_or_else(out_of_bounds)?;
+                target.iter_mut().zip(components(row, kind)).for_each(|(old, new)| *old = new);
+            }
         }
+        if self.normalized {
+            let full = kind.full();
+            numbers.iter_mut().for_each(|number| *number = (*number / full).max(-1.0));
+        }
+        Ok(numbers)
     }
-    if accessor.normalized() {
-        let full = match kind {
-            DataType::I8 => f64::from(i8::MAX),
-            DataType::U8 => f64::from(u8::MAX),
-            DataType::I16 => f64::from(i16::MAX),
-            DataType::U16 => f64::from(u16::MAX),
-            DataType::U32 | DataType::F32 => 1.0,
-        };
-        numbers.iter_mut().for_each(|number| *number = (*number / full).max(-1.0));
-    }
-    Ok(numbers)
 }
 
 /// The bytes of each row, after a bounds check.
 fn rows<'b>(
-    view: &View,
-    offset: usize,
+    view: &BufferView,
+    offset: Whole,
     count: usize,
     row_size: usize,
     buffers: &'b [Cow<'_, [u8]>],
 ) -> Result<impl Iterator<Item = &'b [u8]> + use<'b>, Problem> {
     let find = || {
-        let end = view.offset().checked_add(view.length())?;
-        let bytes = buffers.get(view.buffer().index())?.get(view.offset()..end)?.get(offset..)?;
-        let stride = view.stride().unwrap_or(row_size);
+        let bytes = view_bytes(view, buffers)?.get(offset.0..)?;
+        let stride = view.byte_stride.map_or(row_size, |stride| stride.0);
         let needed =
             count.checked_sub(1).map_or(Some(0), |n| n.checked_mul(stride)?.checked_add(row_size))?;
         (stride >= row_size && needed <= bytes.len()).then_some((bytes, stride))
@@ -80,14 +101,6 @@ fn out_of_bounds() -> Problem {
     Problem::new("an accessor reaches beyond its buffer; export the mesh again")
 }
 
-fn components(row: &[u8], kind: DataType) -> impl Iterator<Item = f64> {
-    row.chunks_exact(kind.size()).map(move |bytes| match (kind, bytes) {
-        (DataType::I8, &[a]) => f64::from(a as i8),
-        (DataType::U8, &[a]) => f64::from(a),
-        (DataType::I16, &[a, b]) => f64::from(i16::from_le_bytes([a, b])),
-        (DataType::U16, &[a, b]) => f64::from(u16::from_le_bytes([a, b])),
-        (DataType::U32, &[a, b, c, d]) => f64::from(u32::from_le_bytes([a, b, c, d])),
-        (DataType::F32, &[a, b, c, d]) => f64::from(f32::from_le_bytes([a, b, c, d])),
-        _ => unreachable!("chunks have the size of the kind"),
-    })
+fn components(row: &[u8], kind: Kind) -> impl Iterator<Item = f64> {
+    row.chunks_exact(kind.size()).map(move |bytes| kind.decode(bytes, true))
 }

@@ -1,51 +1,43 @@
 //! Reads glTF 2.0: the nodes of its scene, with transforms, normals and colours.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
-use gltf::accessor::{DataType, Dimensions};
-use gltf::json::validation::Checked::Valid;
-use gltf::json::validation::{Error as Invalid, Validate};
-use gltf::json::{Path, Root};
-use gltf::material::AlphaMode;
-use gltf::mesh::{Mode, Semantic};
-use gltf::{Accessor, Document, Primitive};
 use rustc_hash::FxHashMap;
-use serde_json::Value;
 use ugphysics::srgb_encode;
-use ugpipe::shorten;
-use ugscene::VertexId;
+use ugscene::{VertexId, shorten};
 
-use super::Input;
-use super::{accessor, strip};
+use super::gltf_document::{Document, Instances, Material, Node, Primitive, Whole, split, view_bytes};
+use super::{Input, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 use crate::textures::{MAX_TEXTURE_BYTES, Textures};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let (json, blob) = split(input.bytes)?;
-    let (document, nodes) = parse(&json)?;
-    let buffers = buffers(&document, blob, input)?;
-    if let Some(copyright) = &document.as_json().asset.copyright {
+    let document = Document::parse(json)?;
+    if let Some(copyright) = &document.asset.copyright {
         builder.comment(copyright);
     }
     let mut reader = Reader {
         builder,
-        buffers,
+        buffers: buffers(&document, blob, input)?,
+        document: &document,
         numbers: FxHashMap::default(),
         room: MAX_NUMBERS,
         n_skipped: 0,
+        n_without_positions: 0,
         input,
-        root: document.as_json(),
         textures: Textures::default(),
     };
-    reader.scene(&document, &nodes)?;
-    let (n_skipped, textures) = (reader.n_skipped, reader.textures);
-    if document.nodes().any(|node| node.skin().is_some()) {
+    reader.scene()?;
+    let Reader { n_skipped, n_without_positions, textures, .. } = reader;
+    if document.nodes.iter().any(|node| node.skin.is_some()) {
         builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
     textures.warn(builder);
@@ -54,98 +46,43 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         "set of lines or points is left out",
         "sets of lines or points are left out",
     );
+    builder.warn_count(
+        n_without_positions,
+        "set of triangles without positions is left out",
+        "sets of triangles without positions are left out",
+    );
     Ok(())
-}
-
-type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
-
-/// Splits a file into its JSON text and, for GLB, its binary chunk.
-fn split(bytes: &[u8]) -> Result<Chunks<'_>, Problem> {
-    if !bytes.starts_with(b"glTF") {
-        return Ok((bytes.into(), None));
-    }
-    // The crate subtracts the size of the header from the length without a check.
-    let length = bytes.get(8..12).and_then(|length| length.try_into().ok()).map(u32::from_le_bytes);
-    if length.is_none_or(|length| length < 20 || length as usize > bytes.len()) {
-        return Err(Problem::new("the file is truncated; copy it again"));
-    }
-    let glb = gltf::Glb::from_slice(bytes).map_err(|error| Problem::new(error.to_string()))?;
-    Ok((glb.json, glb.bin))
-}
-
-/// The document, and the JSON of its nodes: the crate rounds their transforms to 32 bits.
-fn parse(json: &[u8]) -> Result<(Document, Vec<Value>), Problem> {
-    let bad = |error: serde_json::Error| Problem::new(error.to_string());
-    let root: Root = serde_json::from_slice(json).map_err(bad)?;
-    check(&root)?;
-    let mut value: Value = serde_json::from_slice(json).map_err(bad)?;
-    let nodes = match value.get_mut("nodes").map(Value::take) {
-        Some(Value::Array(nodes)) => nodes,
-        _ => Vec::new(),
-    };
-    Ok((Document::from_json_without_validation(root), nodes))
-}
-
-/// Extensions that do not affect the geometry, so that files that use them can be read without
-/// support for them.
-const HARMLESS: [&str; 6] = [
-    "KHR_lights_punctual",
-    "KHR_materials_",
-    "KHR_mesh_quantization",
-    "KHR_texture_",
-    "EXT_texture_",
-    "MSFT_texture_",
-];
-
-/// Checks that every index into a table is in range. The crate relies on it.
-fn check(root: &Root) -> Result<(), Problem> {
-    // The validation of the crate does not check this index.
-    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let positions = primitives.filter_map(|primitive| primitive.attributes.get(&Valid(Semantic::Positions)));
-    if let Some(row) = positions.map(|index| index.value()).find(|&row| row >= root.accessors.len()) {
-        return Err(Problem::new(format!("`POSITION` refers to accessor {row}, which does not exist")));
-    }
-    let mut found = None;
-    root.validate(root, Path::new, &mut |path, error| {
-        let path = path();
-        let path = path.as_str();
-        // Bounds are not used here, and some exporters omit them.
-        let is_bounds = error == Invalid::Missing && (path.ends_with(".min") || path.ends_with(".max"));
-        let is_harmless = error == Invalid::Unsupported && HARMLESS.iter().any(|name| path.contains(name));
-        if !is_bounds && !is_harmless && found.is_none() {
-            let remedy =
-                if error == Invalid::Unsupported { "export without it" } else { "export the mesh again" };
-            let what = format!("`{path}`: {}; {remedy}", error.to_string().to_lowercase());
-            found = Some(Problem::new(what));
-        }
-    });
-    found.map_or(Ok(()), Err)
 }
 
 /// Largest number of bytes of all buffers, as the mesh states them.
 const MAX_BUFFER_BYTES: u64 = u32::MAX as u64;
 
-/// All buffers: of the file itself, from data URIs and from separate files.
+/// All buffers: of the file itself, from data URIs and from separate files. A buffer with none of
+/// these is empty: nothing may use it, as fallbacks of compressed ones.
 fn buffers<'a>(
     document: &Document,
-    mut blob: Option<Cow<'a, [u8]>>,
+    mut blob: Option<&'a [u8]>,
     input: &Input<'_>,
 ) -> Result<Vec<Cow<'a, [u8]>>, Problem> {
     let mut buffers = Vec::new();
     let mut room = MAX_BUFFER_BYTES;
-    for buffer in document.buffers() {
-        room = room.checked_sub(buffer.length() as u64).ok_or_else(|| {
+    for (index, buffer) in document.buffers.iter().enumerate() {
+        let length = buffer.byte_length.0;
+        room = room.checked_sub(length as u64).ok_or_else(|| {
             let what = "the buffers have more than";
             Problem::new(format!("{what} {MAX_BUFFER_BYTES} bytes together, the limit; split the mesh"))
         })?;
-        let bytes: Cow<[u8]> = match buffer.source() {
-            gltf::buffer::Source::Bin => {
-                blob.take().ok_or_else(|| Problem::new("the binary chunk is missing; copy the file again"))?
-            }
-            gltf::buffer::Source::Uri(uri) => load(uri, buffer.length() as u64, input)?.into(),
+        let bytes: Cow<[u8]> = match &buffer.uri {
+            Some(uri) => load(uri, length as u64, input)?.into(),
+            None => match blob.take() {
+                Some(blob) => blob.into(),
+                None => {
+                    buffers.push(Cow::default());
+                    continue;
+                }
+            },
         };
-        if bytes.len() < buffer.length() {
-            let (index, length) = (buffer.index(), buffer.length());
+        if bytes.len() < length {
             let what = format!("buffer {index} has only {} of {length} bytes; copy it again", bytes.len());
             return Err(Problem::new(what));
         }
@@ -204,71 +141,107 @@ const MAX_NUMBERS: usize = 1 << 28;
 
 struct Reader<'a, 'b> {
     builder: &'a mut Builder,
+    document: &'a Document,
     buffers: Vec<Cow<'b, [u8]>>,
     /// The numbers of accessors that were already read: primitives may share accessors.
     numbers: FxHashMap<usize, Rc<Vec<f64>>>,
     /// How many more numbers accessors may have.
     room: usize,
+    /// Sets of lines or points.
     n_skipped: usize,
+    /// Sets of triangles without positions.
+    n_without_positions: usize,
     input: &'a Input<'a>,
-    root: &'a Root,
     textures: Textures,
 }
 
 impl Reader<'_, '_> {
     /// Reads all nodes of the default scene or, if there is none, of the first scene. Without any
     /// scene, the nodes without parents are the roots.
-    fn scene(&mut self, document: &Document, nodes: &[Value]) -> Result<(), Problem> {
-        let scene = document.default_scene().or_else(|| document.scenes().next());
-        let roots: Vec<gltf::Node> = match scene {
-            Some(scene) => scene.nodes().collect(),
+    fn scene(&mut self) -> Result<(), Problem> {
+        let Document { nodes, meshes, scenes, .. } = self.document;
+        let roots: Vec<Whole> = match scenes.get(self.document.scene.unwrap_or_default().0) {
+            Some(scene) => scene.nodes.clone(),
             None => {
-                let mut is_child = vec![false; document.nodes().len()];
-                document
-                    .nodes()
-                    .flat_map(|node| node.children())
-                    .for_each(|node| is_child[node.index()] = true);
-                document.nodes().filter(|node| !is_child[node.index()]).collect()
+                let children = nodes.iter().flat_map(|node| &node.children).map(|child| child.0);
+                let children: BTreeSet<usize> = children.collect();
+                (0..nodes.len()).filter(|row| !children.contains(row)).map(Whole).collect()
             }
         };
-        let mut is_visited = vec![false; document.nodes().len()];
+        let mut is_visited = vec![false; nodes.len()];
         let mut todo: Vec<_> = roots.into_iter().map(|node| (node, DAffine3::IDENTITY)).collect();
         todo.reverse();
-        while let Some((node, scene_from_parent)) = todo.pop() {
-            if std::mem::replace(&mut is_visited[node.index()], true) {
-                let what = format!("node {} has two parents; export the mesh again", node.index());
+        while let Some((index, scene_from_parent)) = todo.pop() {
+            let node = Document::row(nodes, index, "node")?;
+            if std::mem::replace(&mut is_visited[index.0], true) {
+                let what = format!("node {} has two parents; export the mesh again", index.0);
                 return Err(Problem::new(what));
             }
-            let scene_from_node = scene_from_parent * local_transform(nodes.get(node.index()));
-            let mesh = node.mesh();
-            let name = node.name().or(mesh.as_ref().and_then(gltf::Mesh::name));
-            self.builder.name_faces(name.unwrap_or_default());
-            for primitive in mesh.iter().flat_map(|mesh| mesh.primitives()) {
-                self.primitive(&primitive, scene_from_node)?;
+            let scene_from_node = scene_from_parent * local_transform(node);
+            if let Some(mesh) = node.mesh {
+                let mesh = Document::row(meshes, mesh, "mesh")?;
+                self.builder.name_faces(node.name.as_deref().or(mesh.name.as_deref()).unwrap_or_default());
+                // Joints place a mesh with a skin; its node does not.
+                let placed = if node.skin.is_some() { DAffine3::IDENTITY } else { scene_from_node };
+                for node_from_instance in self.instances(node)? {
+                    for primitive in &mesh.primitives {
+                        self.primitive(primitive, placed * node_from_instance)?;
+                    }
+                }
             }
-            let children: Vec<_> = node.children().map(|child| (child, scene_from_node)).collect();
-            todo.extend(children.into_iter().rev());
+            todo.extend(node.children.iter().rev().map(|&child| (child, scene_from_node)));
         }
         Ok(())
     }
 
+    /// The transforms of the instances of a node's mesh; the identity if it states none.
+    fn instances(&mut self, node: &Node) -> Result<Vec<DAffine3>, Problem> {
+        let Some(Instances { attributes }) = &node.extensions.instances else {
+            return Ok(vec![DAffine3::IDENTITY]);
+        };
+        let mut rows = |name: &str, n_components: usize| match attributes.get(name) {
+            Some(&index) => self.rows(index, n_components, name).map(Some),
+            None => Ok(None),
+        };
+        let (places, turns, sizes) = (rows("TRANSLATION", 3)?, rows("ROTATION", 4)?, rows("SCALE", 3)?);
+        let lengths = [(&places, 3), (&turns, 4), (&sizes, 3)];
+        let count = lengths.iter().filter_map(|(rows, width)| Some(rows.as_ref()?.len() / width)).min();
+        let row = |rows: &Option<Rc<Vec<f64>>>, row: usize, width: usize| {
+            rows.as_ref().map(|rows| rows[width * row..width * (row + 1)].to_vec())
+        };
+        let instance = |idx: usize| {
+            let part = |rows, width| row(rows, idx, width);
+            transform(
+                part(&places, 3).and_then(|part| part.try_into().ok()),
+                part(&turns, 4).and_then(|part| part.try_into().ok()),
+                part(&sizes, 3).and_then(|part| part.try_into().ok()),
+            )
+        };
+        Ok((0..count.unwrap_or(1)).map(instance).collect())
+    }
+
     fn primitive(&mut self, primitive: &Primitive, scene_from_node: DAffine3) -> Result<(), Problem> {
-        if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
+        let mode = primitive.mode.map_or(TRIANGLES, |mode| mode.0);
+        if !(TRIANGLES..=TRIANGLE_FAN).contains(&mode) {
             self.n_skipped += 1;
             return Ok(());
         }
-        let Some(accessor) = primitive.get(&Semantic::Positions) else { return Ok(()) };
-        let positions = self.vectors(&accessor, "POSITION")?;
+        let Some(&positions) = primitive.attributes.get("POSITION") else {
+            self.n_without_positions += 1;
+            return Ok(());
+        };
+        let positions = self.rows(positions, 3, "POSITION")?;
         let n_positions = positions.len() / 3;
-        let normals = match primitive.get(&Semantic::Normals) {
-            Some(accessor) => Some(self.vectors(&accessor, "NORMAL")?),
+        let normals = match primitive.attributes.get("NORMAL") {
+            Some(&normals) => Some(self.rows(normals, 3, "NORMAL")?),
             None => None,
         };
-        let mut material = Material::new(primitive);
-        if let Some(mean) = self.texture_mean(primitive) {
-            material.factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
-        }
-        let colors = self.colors(primitive, &material)?;
+        let material = match primitive.material {
+            Some(index) => Some(Document::row(&self.document.materials, index, "material")?),
+            None => None,
+        };
+        let surface = self.surface(material);
+        let colors = self.colors(primitive, &surface)?;
         let corners = self.corners(primitive, n_positions)?;
 
         // The inverse transpose keeps normals perpendicular to surfaces under non-uniform scaling.
@@ -285,50 +258,61 @@ impl Reader<'_, '_> {
             let color = colors.as_ref().and_then(|colors| colors.get(row)).copied();
             vertices[row] = self.builder.vertex(position, normal, color)?;
         }
-        let color = if colors.is_some() { None } else { material.color() };
-        let name = primitive.material().name().unwrap_or_default().to_string();
-        let color = color.map(|color| self.builder.material(color, &name));
+        let color = match (&colors, material) {
+            (None, Some(material)) => {
+                Some(self.builder.material(surface.display_color([1.0; 4]), &material.name))
+            }
+            _ => None,
+        };
         // A reflection reverses the orientation of triangles.
         let is_mirrored = scene_from_node.matrix3.determinant() < 0.0;
-        for [a, b, c] in triangles(primitive.mode(), corners.len()) {
+        for [a, b, c] in triangles(mode, corners.len()) {
             let triangle = if is_mirrored { [a, c, b] } else { [a, b, c] };
             self.builder.face(&triangle.map(|corner| vertices[corners[corner]]), color)?;
         }
         Ok(())
     }
 
-    /// The mean linear light of the texture of a primitive's base colour. The JSON is read here,
-    /// because the crate panics if an image has no source.
-    fn texture_mean(&mut self, primitive: &Primitive) -> Option<[f64; 3]> {
-        let texture = primitive.material().pbr_metallic_roughness().base_color_texture()?;
-        let index = texture.texture().source().index();
-        let image = self.root.images.get(index)?;
-        let number = format!("image {index}");
+    /// The colour of a material, times the mean of its texture; white without one.
+    fn surface(&mut self, material: Option<&Material>) -> Surface {
+        let Some(material) = material else { return Surface { factor: [1.0; 4], is_blended: false } };
+        let specular = material.extensions.specular_glossiness.as_ref();
+        let color = specular.unwrap_or(&material.pbr_metallic_roughness);
+        let mut factor = color.factor.unwrap_or([1.0; 4]);
+        if let Some(mean) = color.texture.as_ref().and_then(|texture| self.texture_mean(texture.index)) {
+            factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
+        }
+        Surface { factor, is_blended: material.alpha_mode == "BLEND" }
+    }
+
+    /// The mean linear light of a texture.
+    fn texture_mean(&mut self, index: Whole) -> Option<[f64; 3]> {
+        let Document { textures, images, buffer_views, .. } = self.document;
         let (buffers, input) = (&self.buffers, self.input);
+        let source = textures.get(index.0).and_then(|texture| texture.source);
+        let Some(image) = source.and_then(|source| images.get(source.0)) else {
+            let none = || Err("it has no PNG or JPEG picture".to_owned());
+            return self.textures.mean(&format!("texture {}", index.0), none);
+        };
+        let number = format!("image {}", source.unwrap_or_default().0);
         if let Some(uri) = &image.uri {
             let name = if uri.starts_with("data:") { number } else { percent_decoded(uri) };
             let load = || load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what);
             return self.textures.mean(&name, load);
         }
-        let view = image.buffer_view.and_then(|view| self.root.buffer_views.get(view.value()));
-        let bytes = || {
-            let view = view?;
-            let start = view.byte_offset.unwrap_or_default().0 as usize;
-            let end = start.checked_add(view.byte_length.0 as usize)?;
-            Some(buffers.get(view.buffer.value())?.get(start..end)?.to_vec())
-        };
-        self.textures.mean(&number, || bytes().ok_or_else(|| "it is not in the buffers".to_owned()))
+        let view = image.buffer_view.and_then(|view| buffer_views.get(view.0));
+        let bytes = view.and_then(|view| view_bytes(view, buffers));
+        self.textures
+            .mean(&number, || bytes.map(<[u8]>::to_vec).ok_or_else(|| "it is not in the buffers".to_owned()))
     }
 
     /// The index of the primitive's vertex for each corner.
     fn corners(&mut self, primitive: &Primitive, n_positions: usize) -> Result<Vec<usize>, Problem> {
-        let Some(accessor) = primitive.indices() else { return Ok((0..n_positions).collect()) };
-        if !matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32)
-            || accessor.dimensions() != Dimensions::Scalar
-        {
+        let Some(index) = primitive.indices else { return Ok((0..n_positions).collect()) };
+        if !Document::row(&self.document.accessors, index, "accessor")?.is_index() {
             return Err(Problem::new("indices are not unsigned integers; export the mesh again"));
         }
-        let corners: Vec<usize> = self.numbers(&accessor)?.iter().map(|&row| row as usize).collect();
+        let corners: Vec<usize> = self.numbers(index)?.iter().map(|&row| row as usize).collect();
         match corners.iter().find(|&&row| row >= n_positions) {
             Some(row) => {
                 Err(Problem::new(format!("a triangle refers to vertex {row}, but there are {n_positions}")))
@@ -338,40 +322,44 @@ impl Reader<'_, '_> {
     }
 
     /// `COLOR_0` times the colour of the material (both linear), display-encoded.
-    fn colors(&mut self, primitive: &Primitive, material: &Material) -> Result<Option<Vec<Rgba>>, Problem> {
-        let Some(accessor) = primitive.get(&Semantic::Colors(0)) else { return Ok(None) };
-        let n_components = match accessor.dimensions() {
-            Dimensions::Vec3 => 3,
-            Dimensions::Vec4 => 4,
-            _ => return Err(Problem::new("`COLOR_0` must have three or four components")),
-        };
-        let numbers = self.numbers(&accessor)?;
+    fn colors(&mut self, primitive: &Primitive, surface: &Surface) -> Result<Option<Vec<Rgba>>, Problem> {
+        let Some(&index) = primitive.attributes.get("COLOR_0") else { return Ok(None) };
+        let n_components = Document::row(&self.document.accessors, index, "accessor")?.n_components()?;
+        if !(3..=4).contains(&n_components) {
+            return Err(Problem::new("`COLOR_0` must have three or four components"));
+        }
+        let numbers = self.numbers(index)?;
         let colors = numbers.chunks_exact(n_components).map(|part| {
             let alpha = part.get(3).copied().unwrap_or(1.0);
-            material.display_color([part[0], part[1], part[2], alpha])
+            surface.display_color([part[0], part[1], part[2], alpha])
         });
         Ok(Some(colors.collect()))
     }
 
-    fn vectors(&mut self, accessor: &Accessor, name: &str) -> Result<Rc<Vec<f64>>, Problem> {
-        if accessor.dimensions() != Dimensions::Vec3 {
-            return Err(Problem::new(format!("`{name}` must have three components; export the mesh again")));
+    /// The numbers of an accessor with rows of `width` components.
+    fn rows(&mut self, index: Whole, width: usize, name: &str) -> Result<Rc<Vec<f64>>, Problem> {
+        let accessor = Document::row(&self.document.accessors, index, "accessor")?;
+        if accessor.n_components()? != width {
+            return Err(Problem::new(format!(
+                "`{name}` must have {width} components; export the mesh again"
+            )));
         }
-        self.numbers(accessor)
+        self.numbers(index)
     }
 
-    fn numbers(&mut self, accessor: &Accessor) -> Result<Rc<Vec<f64>>, Problem> {
-        if let Some(known) = self.numbers.get(&accessor.index()) {
+    fn numbers(&mut self, index: Whole) -> Result<Rc<Vec<f64>>, Problem> {
+        if let Some(known) = self.numbers.get(&index.0) {
             return Ok(Rc::clone(known));
         }
-        let n_numbers = accessor.count().saturating_mul(accessor.dimensions().multiplicity());
+        let accessor = Document::row(&self.document.accessors, index, "accessor")?;
+        let n_numbers = accessor.count.0.saturating_mul(accessor.n_components()?);
         self.room = self.room.checked_sub(n_numbers).ok_or_else(|| {
             Problem::new(format!(
                 "the accessors have more than {MAX_NUMBERS} numbers together; split the mesh"
             ))
         })?;
-        let numbers = Rc::new(accessor::read(accessor, &self.buffers)?);
-        self.numbers.insert(accessor.index(), Rc::clone(&numbers));
+        let numbers = Rc::new(accessor.read(self.document, &self.buffers)?);
+        self.numbers.insert(index.0, Rc::clone(&numbers));
         Ok(numbers)
     }
 }
@@ -380,56 +368,43 @@ fn vector(numbers: &[f64], row: usize) -> DVec3 {
     DVec3::from_slice(&numbers[3 * row..3 * row + 3])
 }
 
+/// Modes of primitives that have surfaces; the modes before these are points and lines.
+const TRIANGLES: usize = 4;
+const TRIANGLE_STRIP: usize = 5;
+const TRIANGLE_FAN: usize = 6;
+
 /// The triangles of `len` corners, as indices of corners.
-fn triangles(mode: Mode, len: usize) -> Vec<[usize; 3]> {
+fn triangles(mode: usize, len: usize) -> Vec<[usize; 3]> {
     match mode {
-        Mode::TriangleStrip => strip(len).collect(),
-        Mode::TriangleFan => (2..len).map(|last| [0, last - 1, last]).collect(),
+        TRIANGLE_STRIP => strip(len).collect(),
+        TRIANGLE_FAN => (2..len).map(|last| [0, last - 1, last]).collect(),
         _ => (0..len / 3).map(|idx| [3 * idx, 3 * idx + 1, 3 * idx + 2]).collect(),
     }
 }
 
-/// The transform of a node from its JSON: a column-major matrix, or scale, rotation and
-/// translation.
-fn local_transform(node: Option<&Value>) -> DAffine3 {
-    let numbers =
-        |key: &str| -> Option<Vec<f64>> { node?.get(key)?.as_array()?.iter().map(Value::as_f64).collect() };
-    if let Some(matrix) = numbers("matrix").and_then(|m| <[f64; 16]>::try_from(m).ok()) {
-        return DAffine3::from_mat4(DMat4::from_cols_array(&matrix));
+/// The transform of a node: a column-major matrix, or scale, rotation and translation.
+fn local_transform(node: &Node) -> DAffine3 {
+    match &node.matrix {
+        Some(matrix) => DAffine3::from_mat4(DMat4::from_cols_array(matrix)),
+        None => transform(node.translation, node.rotation, node.scale),
     }
-    let vector = |key: &str, default: DVec3| match numbers(key).as_deref() {
-        Some(&[x, y, z]) => DVec3::new(x, y, z),
-        _ => default,
-    };
-    let rotation = match numbers("rotation").as_deref() {
-        // Exporters round quaternions to 32 bits, so they are normalized to pure rotations.
-        Some(&[x, y, z, w]) if x * x + y * y + z * z + w * w > 0.0 => {
-            DQuat::from_xyzw(x, y, z, w).normalize()
-        }
-        _ => DQuat::IDENTITY,
-    };
-    let (scale, translation) = (vector("scale", DVec3::ONE), vector("translation", DVec3::ZERO));
+}
+
+fn transform(translation: Option<[f64; 3]>, rotation: Option<[f64; 4]>, scale: Option<[f64; 3]>) -> DAffine3 {
+    // Exporters round quaternions to 32 bits, so they are normalized to pure rotations.
+    let rotation = DQuat::from_array(rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]));
+    let rotation = if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+    let [scale, translation] = [scale.unwrap_or([1.0; 3]), translation.unwrap_or_default()].map(DVec3::from);
     DAffine3::from_scale_rotation_translation(scale, rotation, translation)
 }
 
-struct Material {
-    /// Linear red, green and blue, and alpha.
+/// The colour of a primitive: linear red, green and blue, and alpha.
+struct Surface {
     factor: [f64; 4],
-    is_given: bool,
     is_blended: bool,
 }
 
-impl Material {
-    fn new(primitive: &Primitive) -> Self {
-        let material = primitive.material();
-        let surface = material.pbr_metallic_roughness();
-        Self {
-            factor: surface.base_color_factor().map(f64::from),
-            is_given: material.index().is_some(),
-            is_blended: material.alpha_mode() == AlphaMode::Blend,
-        }
-    }
-
+impl Surface {
     /// The display-encoded product of the linear colour `part` and the colour of the material.
     fn display_color(&self, part: [f64; 4]) -> Rgba {
         let [red, green, blue, alpha] = [0, 1, 2, 3].map(|idx| part[idx] * self.factor[idx]);
@@ -437,9 +412,5 @@ impl Material {
         let encode = |linear: f64| if linear == 1.0 { 1.0 } else { srgb_encode(linear) };
         let alpha = if self.is_blended { alpha } else { 1.0 };
         Rgba([encode(red), encode(green), encode(blue), alpha])
-    }
-
-    fn color(&self) -> Option<Rgba> {
-        self.is_given.then(|| self.display_color([1.0; 4]))
     }
 }

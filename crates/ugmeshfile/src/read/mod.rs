@@ -2,6 +2,8 @@
 
 mod accessor;
 mod gltf;
+mod gltf_document;
+mod kind;
 mod mtl;
 mod obj;
 mod off;
@@ -11,6 +13,8 @@ mod text;
 
 use crate::builder::Builder;
 use crate::error::Problem;
+use crate::foreign;
+use crate::format::is_binary_stl;
 use crate::{MeshFormat, MeshScene, ReadFile};
 
 /// A mesh file during reading.
@@ -30,6 +34,9 @@ pub fn read(
     read_file: ReadFile<'_>,
     prefix: &str,
 ) -> Result<MeshScene, Problem> {
+    if let Some(foreign) = foreign::by_content(bytes).filter(|_| !is_binary_stl(bytes)) {
+        return Err(Problem::new(format!("it is {foreign}; {}", foreign.remedy())));
+    }
     let mut builder = Builder::new(prefix);
     let input = Input { bytes, read_file };
     match format {

@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::builder::Rgba;
+use ugscene::shorten;
+
+use super::text::any_number;
+use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 
 /// Diffuse colours and their textures by name.
@@ -15,13 +18,13 @@ pub(super) struct Materials {
 impl Materials {
     /// Adds the materials of a file. Only diffuse colours and opacity are read. Malformed
     /// statements are ignored, since a mesh is usable without its materials.
-    pub fn add(&mut self, bytes: &[u8]) {
+    pub fn add(&mut self, bytes: &[u8], builder: &mut Builder) {
         let text = decode(bytes);
         let mut current: Option<&mut Rgba> = None;
         let mut name = "";
         for line in text.lines() {
             let (keyword, rest) = split(line);
-            let mut numbers = rest.split_whitespace().map_while(|word| word.parse::<f64>().ok());
+            let mut numbers = rest.split_whitespace().map_while(any_number);
             match (keyword, &mut current) {
                 ("newmtl", _) => {
                     let color = self.colors.entry(rest.to_string()).or_insert(UNNAMED);
@@ -35,6 +38,9 @@ impl Materials {
                         // Missing components equal the first.
                         let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
                         color.0[..3].copy_from_slice(&[red, green, blue]);
+                    } else {
+                        let (name, kind) = (shorten(name), shorten(rest));
+                        builder.warn(format!("the colour of material `{name}` is not read: `Kd {kind}`"));
                     }
                 }
                 ("d", Some(color)) => numbers.take(1).for_each(|opacity| color.0[3] = opacity),
@@ -48,11 +54,28 @@ impl Materials {
     }
 }
 
-/// The file in a statement such as `map_Kd -s 1 1 1 bark.png`. Without options its name may have
-/// blanks.
-fn file_of_map(rest: &str) -> String {
-    let file = if rest.starts_with('-') { rest.split_whitespace().next_back() } else { Some(rest) };
-    file.unwrap_or_default().replace('\\', "/")
+/// The file in a statement such as `map_Kd -s 1 1 1 tree bark.png`.
+fn file_of_map(mut rest: &str) -> String {
+    while rest.starts_with('-') {
+        let (option, arguments) = split(rest);
+        let most = match option {
+            "-o" | "-s" | "-t" => 3,
+            "-mm" => 2,
+            "-blendu" | "-blendv" | "-bm" | "-boost" | "-cc" | "-clamp" | "-imfchan" | "-texres"
+            | "-type" => 1,
+            _ => break,
+        };
+        rest = arguments;
+        for idx in 0..most {
+            let (word, after) = split(rest);
+            // The last two numbers of `-o`, `-s` and `-t` may be missing.
+            if most == 3 && idx > 0 && any_number(word).is_none() {
+                break;
+            }
+            rest = after;
+        }
+    }
+    rest.to_owned()
 }
 
 /// The colour of a material without `Kd`, the same as in other readers.

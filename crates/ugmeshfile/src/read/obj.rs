@@ -5,15 +5,15 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::io;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugpipe::shorten;
-use ugscene::{ColorId, VertexId};
+use ugscene::{ColorId, VertexId, shorten};
 
 use super::Input;
 use super::mtl::{self, Materials};
-use super::text::numbers;
+use super::text::{any_number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
@@ -34,9 +34,16 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         in_head &= statement.is_empty();
         reader.builder.line = u32::try_from(line).unwrap_or(u32::MAX);
         let at_line = |problem: Problem| Problem { line: Some(line), ..problem };
-        reader.statement(line, statement).map_err(at_line)?;
+        reader.statement(line, without_comment(statement)).map_err(at_line)?;
     }
     reader.finish()
+}
+
+/// The statement without a comment at its end. Names may have a `#`, but not after a blank.
+fn without_comment(statement: &str) -> &str {
+    let end = statement.match_indices('#').map(|(at, _)| at);
+    let mut end = end.filter(|&at| statement[..at].ends_with(char::is_whitespace));
+    end.next().map_or(statement, |at| statement[..at].trim_end())
 }
 
 /// The lines with their numbers. A backslash at the end of a line continues it on the next.
@@ -55,6 +62,13 @@ fn statements(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
         Some((idx + 1, statement))
     })
 }
+
+/// Words that begin statements of OBJ.
+const KEYWORDS: [&str; 33] = [
+    "v", "vt", "vn", "vp", "f", "fo", "l", "p", "o", "g", "s", "mg", "mtllib", "usemtl", "maplib", "usemap",
+    "deg", "bmat", "step", "cstype", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end",
+    "con", "bevel", "lod", "call",
+];
 
 /// Largest number of bytes of all material files of a mesh.
 const MAX_MATERIAL_BYTES: u64 = 1 << 28;
@@ -81,6 +95,11 @@ struct Reader<'a> {
     color: Option<ColorId>,
     has_vertex_colors: bool,
     n_skipped: usize,
+    /// Corners whose normal does not exist.
+    n_without_normal: usize,
+    /// A statement of OBJ, and the first line that is none.
+    has_statement: bool,
+    unknown_line: Option<usize>,
     unknown_materials: BTreeSet<String>,
 }
 
@@ -101,12 +120,16 @@ impl<'a> Reader<'a> {
             color: None,
             has_vertex_colors: false,
             n_skipped: 0,
+            n_without_normal: 0,
+            has_statement: false,
+            unknown_line: None,
             unknown_materials: BTreeSet::new(),
         }
     }
 
     fn statement(&mut self, line: usize, statement: &str) -> Result<(), Problem> {
         let (keyword, rest) = mtl::split(statement);
+        self.has_statement |= KEYWORDS.contains(&keyword);
         match keyword {
             "v" => self.vertex(line, rest)?,
             "vn" => self.normal(rest)?,
@@ -123,7 +146,8 @@ impl<'a> Reader<'a> {
                 let name = if matches!(rest, "" | "default") { &self.object } else { rest };
                 self.groups.push((self.faces.len(), name.to_string()));
             }
-            _ => {}
+            "" => {}
+            _ => self.unknown_line = self.unknown_line.or(Some(line)),
         }
         Ok(())
     }
@@ -142,7 +166,7 @@ impl<'a> Reader<'a> {
 
     /// NaN is accepted: some exporters write `nan` for faces without area.
     fn normal(&mut self, rest: &str) -> Result<(), Problem> {
-        let mut parts = rest.split_whitespace().map_while(|word| fast_float2::parse(word).ok());
+        let mut parts = rest.split_whitespace().map_while(any_number);
         let (Some(x), Some(y), Some(z)) = (parts.next(), parts.next(), parts.next()) else {
             return Err(Problem::new("a normal needs 3 numbers"));
         };
@@ -161,7 +185,7 @@ impl<'a> Reader<'a> {
 
     /// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices counted from 1, or backwards from
     /// −1.
-    fn corner(&self, word: &str) -> Result<(VertexId, Option<u32>), Problem> {
+    fn corner(&mut self, word: &str) -> Result<(VertexId, Option<u32>), Problem> {
         let mut parts = word.split('/');
         let (position, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
         let n_vertices = self.builder.n_vertices();
@@ -175,14 +199,9 @@ impl<'a> Reader<'a> {
         if normal.is_empty() {
             return Ok((vertex, None));
         }
-        let n_normals = self.normals.len();
-        let row = row(normal, n_normals).filter(|&row| row < n_normals as u64).ok_or_else(|| {
-            Problem::new(format!(
-                "a face refers to normal `{}`, but there are {n_normals} before it",
-                shorten(normal)
-            ))
-        })?;
-        Ok((vertex, Some(row as u32)))
+        let normal = row(normal, self.normals.len()).filter(|&row| row < self.normals.len() as u64);
+        self.n_without_normal += usize::from(normal.is_none());
+        Ok((vertex, normal.map(|row| row as u32)))
     }
 
     /// `mtllib` allows several names, but a single name with spaces is more common, so that is
@@ -191,12 +210,12 @@ impl<'a> Reader<'a> {
         if !self.libraries.insert(rest.to_owned()) {
             return Ok(());
         }
-        if let Ok(bytes) = (self.input.read_file)(rest, self.material_room + 1) {
+        if let Ok(bytes) = read_named(self.input, rest, self.material_room + 1) {
             return self.add_materials(&bytes);
         }
         let names: Vec<&str> = rest.split_whitespace().collect();
         for name in if names.is_empty() { vec![rest] } else { names } {
-            match (self.input.read_file)(name, self.material_room + 1) {
+            match read_named(self.input, name, self.material_room + 1) {
                 Ok(bytes) => self.add_materials(&bytes)?,
                 Err(error) => {
                     self.builder
@@ -213,7 +232,7 @@ impl<'a> Reader<'a> {
                 "the files of materials have more than {MAX_MATERIAL_BYTES} bytes together, the limit"
             ))
         })?;
-        self.materials.add(bytes);
+        self.materials.add(bytes, self.builder);
         Ok(())
     }
 
@@ -222,8 +241,17 @@ impl<'a> Reader<'a> {
         if known.is_none() {
             self.unknown_materials.insert(name.to_string());
         }
-        let tinted = known.map(|color| match self.materials.textures.get(name) {
-            Some(file) => self.textured(color, &file.clone()),
+        let file = self.materials.textures.get(name).cloned();
+        let tinted = known.map(|color| match file {
+            // Exporters write so where the texture alone has the colour.
+            Some(file) if color.0[..3] == [0.0; 3] => {
+                self.builder.warn(format!(
+                    "material `{}` is black and has a texture, which alone colours its faces",
+                    shorten(name)
+                ));
+                self.textured(Rgba([1.0, 1.0, 1.0, color.0[3]]), &file)
+            }
+            Some(file) => self.textured(color, &file),
             None => color,
         });
         self.color = tinted.map(|color| self.builder.material(color, name));
@@ -231,12 +259,15 @@ impl<'a> Reader<'a> {
 
     /// The colour with the mean of a texture, if its file can be read.
     fn textured(&mut self, color: Rgba, file: &str) -> Rgba {
-        let load = || (self.input.read_file)(file, MAX_TEXTURE_BYTES).map_err(|error| error.to_string());
+        let load = || read_named(self.input, file, MAX_TEXTURE_BYTES).map_err(|error| error.to_string());
         self.textures.mean(file, load).map_or(color, |mean| tinted(color, mean))
     }
 
     /// Builds the faces, after all vertices have been read.
     fn finish(mut self) -> Result<(), Problem> {
+        if let (false, Some(line)) = (self.has_statement, self.unknown_line) {
+            return Err(Problem::at(line, "this is not an OBJ file: no line of it is a statement of OBJ"));
+        }
         let mut splitter = NormalSplitter::new(self.builder.n_vertices());
         let mut start = 0;
         let mut groups = self.groups.iter().peekable();
@@ -271,11 +302,26 @@ impl<'a> Reader<'a> {
         }
         self.textures.warn(self.builder);
         self.builder.warn_count(
+            self.n_without_normal,
+            "corner refers to a normal that does not exist, and has none",
+            "corners refer to normals that do not exist, and have none",
+        );
+        self.builder.warn_count(
             self.n_skipped,
             "line, point or curve is left out",
             "lines, points or curves are left out",
         );
     }
+}
+
+/// Reads a file that the mesh names, perhaps by a path of another machine: then it is searched for
+/// in the folder of the mesh.
+fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<Vec<u8>> {
+    let name = name.replace('\\', "/");
+    (input.read_file)(&name, limit).or_else(|error| match name.rsplit_once('/') {
+        Some((_, last)) => (input.read_file)(last, limit).map_err(|_| error),
+        None => Err(error),
+    })
 }
 
 /// The bits of a normal, by which equal normals with different indices are identified.

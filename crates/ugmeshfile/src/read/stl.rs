@@ -5,10 +5,9 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugpipe::shorten;
-use ugscene::VertexId;
+use ugscene::{VertexId, shorten};
 
-use super::text::numbers;
+use super::text::{Words, any_number, numbers};
 use crate::builder::Builder;
 use crate::decode::decode;
 use crate::error::Problem;
@@ -16,8 +15,11 @@ use crate::format::is_binary_stl;
 
 pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let mut merged = MergedVertices { builder, by_place: FxHashMap::default() };
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
-    if is_text && !is_binary_stl(bytes) {
+    // Headers of binary files may begin so, too.
+    let has_zeros = bytes[..bytes.len().min(1024)].contains(&0);
+    if is_text && !has_zeros && !is_binary_stl(bytes) {
         read_text(&decode(bytes), &mut merged)
     } else {
         read_binary(bytes, &mut merged)
@@ -51,14 +53,19 @@ fn read_binary(bytes: &[u8], merged: &mut MergedVertices) -> Result<(), Problem>
     let Some((header, triangles)) = bytes.split_at_checked(84) else {
         return Err(Problem::new("the file is too short for STL"));
     };
-    let count = u32_at(header, 80);
+    let declared = u32_at(header, 80) as usize;
     let available = triangles.len() / 50;
-    if (available as u64) < u64::from(count) {
+    if available < declared {
         let what =
-            format!("{count} triangles are declared, but the file ends after {available}; copy it again");
+            format!("{declared} triangles are declared, but the file ends after {available}; copy it again");
         return Err(Problem::new(what));
     }
-    for triangle in triangles.chunks_exact(50).take(count as usize) {
+    if available > declared {
+        merged
+            .builder
+            .warn(format!("{declared} triangles are declared, and all {available} of the file are read"));
+    }
+    for triangle in triangles.chunks_exact(50) {
         let corner = |first: usize| {
             [0, 4, 8].map(|offset| f64::from(f32::from_bits(u32_at(triangle, first + offset))))
         };
@@ -71,31 +78,38 @@ fn u32_at(bytes: &[u8], offset: usize) -> u32 {
     u32::from_le_bytes([bytes[offset], bytes[offset + 1], bytes[offset + 2], bytes[offset + 3]])
 }
 
-/// ASCII STL: `vertex x y z` in groups of three; all other lines only delimit these. The numbers
-/// are rounded to 32 bits, as in binary STL.
+/// ASCII STL: `vertex x y z` in groups of three; all other words only delimit these, over any
+/// lines. The numbers are rounded to 32 bits, as in binary STL.
 fn read_text(text: &str, merged: &mut MergedVertices) -> Result<(), Problem> {
     let mut corners = Vec::with_capacity(3);
-    for (idx, line) in text.lines().enumerate() {
-        let mut words = line.split_whitespace();
-        let keyword = words.next().unwrap_or_default().to_ascii_lowercase();
+    let mut words = Words::new(text);
+    // Within a name, which ends with its line, or with the next facet where all is in one line.
+    let mut name_line = None;
+    while let Some(word) = words.next() {
+        let line = words.line;
+        let keyword = word.to_ascii_lowercase();
+        if name_line == Some(line) && !matches!(&*keyword, "facet" | "solid" | "endsolid") {
+            continue;
+        }
+        name_line = None;
         match keyword.as_str() {
             "vertex" => {
-                let corner: [f64; 3] = numbers(&mut words, idx + 1, "vertex")?;
+                let corner: [f64; 3] = numbers(&mut words, line, "vertex")?;
                 corners.push(corner.map(|x| f64::from(x as f32)));
             }
             "endloop" => {
                 let Ok(triangle) = <[[f64; 3]; 3]>::try_from(&corners[..]) else {
-                    let what = format!("a facet has {} corners, not 3", corners.len());
-                    return Err(Problem::at(idx + 1, what));
+                    return Err(Problem::at(line, format!("a facet has {} corners, not 3", corners.len())));
                 };
-                let at_line = |problem: Problem| Problem { line: Some(idx + 1), ..problem };
+                let at_line = |problem: Problem| Problem { line: Some(line), ..problem };
                 merged.triangle(triangle).map_err(at_line)?;
                 corners.clear();
             }
-            "solid" | "endsolid" | "facet" | "endfacet" | "outer" | "color" | "" => {}
-            _ => {
-                return Err(Problem::at(idx + 1, format!("`{}` is not a keyword of STL", shorten(&keyword))));
-            }
+            "solid" | "endsolid" => name_line = Some(line),
+            "facet" | "endfacet" | "outer" | "loop" | "normal" | "color" => {}
+            // Of normals and colours.
+            _ if any_number(word).is_some() => {}
+            _ => return Err(Problem::at(line, format!("`{}` is not a keyword of STL", shorten(word)))),
         }
     }
     if corners.is_empty() { Ok(()) } else { Err(Problem::new("the file ends inside a facet; copy it again")) }

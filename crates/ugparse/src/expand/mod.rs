@@ -97,7 +97,7 @@ fn expand_here<'t>(
         path_rows: FxHashMap::default(),
         has_linked_paths: false,
         undefined: BTreeMap::new(),
-        first_illums: vec![None; document.scopes.len()],
+        first_shadings: vec![None; document.scopes.len()],
         bodies: BodyTable::default(),
         error: None,
         degenerate: BTreeMap::new(),
@@ -141,8 +141,8 @@ struct Expander<'d, 't> {
     has_linked_paths: bool,
     /// Errors for undefined paths, by position.
     undefined: BTreeMap<u32, Diagnostic>,
-    /// For each expanded scope, the row of its first illum.
-    first_illums: Vec<Option<usize>>,
+    /// For each expanded scope, the row of its first shading.
+    first_shadings: Vec<Option<usize>>,
     bodies: BodyTable<'t>,
     /// The first error of expansion.
     error: Option<Diagnostic>,
@@ -173,7 +173,7 @@ impl<'t> Expander<'_, 't> {
 
         let end = file.counts();
         self.scene.contours = file.contours;
-        self.scene.illums = file.illums;
+        self.scene.shadings = file.shadings;
         let mut queues = Queues {
             faces: Queue::new(file.faces),
             wires: Queue::new(file.wires),
@@ -225,10 +225,10 @@ impl<'t> Expander<'_, 't> {
             return;
         }
         let default = scope.outer_default;
-        let first_time = self.first_illums[row].is_none();
-        let first_illum = *self.first_illums[row].get_or_insert_with(|| {
-            self.scene.illums.extend_from_slice(&scope.illums);
-            self.scene.illums.len() - scope.illums.len()
+        let first_time = self.first_shadings[row].is_none();
+        let first_shading = *self.first_shadings[row].get_or_insert_with(|| {
+            self.scene.shadings.extend_from_slice(&scope.shadings);
+            self.scene.shadings.len() - scope.shadings.len()
         });
         let placement = Placement {
             scope,
@@ -238,7 +238,7 @@ impl<'t> Expander<'_, 't> {
             bodies: &bodies,
             first_time,
             first_color: self.links.first_colors[row],
-            first_illum,
+            first_shading,
             outer_default: default
                 .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
         };

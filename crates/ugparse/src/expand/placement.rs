@@ -38,8 +38,8 @@ pub(super) struct Placement<'p> {
     pub first_time: bool,
     /// Row of the scope's first colour in the scene.
     pub first_color: usize,
-    /// Row of the scope's first illum in the scene.
-    pub first_illum: usize,
+    /// Row of the scope's first shading in the scene.
+    pub first_shading: usize,
     /// The unnamed colour in effect at the `def`.
     pub outer_default: Option<ColorId>,
 }

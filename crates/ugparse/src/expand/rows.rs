@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{Camera, Face, IllumId, Item, Light, LightKind, LightMotion, VertexId, Wire, newell_normal};
+use ugscene::{Camera, Face, Item, Light, LightKind, LightMotion, ShadingId, VertexId, Wire, newell_normal};
 
 use super::Expander;
 use super::cameras::NestedCamera;
@@ -55,7 +55,7 @@ impl Expander<'_, '_> {
             name: self.optional_name(scope, face.name, inherited),
             contours: self.contours(placement, face.contours.clone(), inherited.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
-            illum: face.illum.map(|illum| IllumId::from_index(placement.first_illum + illum.index())),
+            shading: face.shading.map(|row| ShadingId::from_index(placement.first_shading + row.index())),
             body: placement.bodies[face.body.index()],
         };
         self.scene.faces.push(placed);

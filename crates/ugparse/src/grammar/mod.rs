@@ -19,8 +19,8 @@ use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
 use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, IllumStatement, LightStatement,
-    MixStatement, MotionReference, References, Repeat, StatedFrame, Statement, SurfaceStatement,
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
+    MotionReference, References, Repeat, ShadingStatement, StatedFrame, Statement, SurfaceStatement,
     VertexStatement,
 };
 use crate::token::{
@@ -114,23 +114,23 @@ impl<'t> Grammar<'t> {
         Ok((rest, Statement::Vertex(VertexStatement { name, position, color, normal })))
     }
 
-    /// `f [ID] contours [color] [illum] [< x y z >]`
+    /// `f [ID] contours [color] [shading] [< x y z >]`
     fn face<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
-        let (input, illum) = self.illum(input)?;
+        let (input, shading) = self.shading(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Face(FaceStatement { name, color, illum, motion })))
+        Ok((input, Statement::Face(FaceStatement { name, color, shading, motion })))
     }
 
     /// `number` or `surface`
-    fn illum<'a>(&self, input: Input<'a>) -> Parsed<'a, Option<IllumStatement>> {
+    fn shading<'a>(&self, input: Input<'a>) -> Parsed<'a, Option<ShadingStatement>> {
         if let (rest, Some(surface)) = self.optional_name(input)? {
-            return Ok((rest, Some(IllumStatement::Surface(surface))));
+            return Ok((rest, Some(ShadingStatement::Surface(surface))));
         }
         let (rest, level) = opt(number).parse(input)?;
-        Ok((rest, level.map(IllumStatement::Level)))
+        Ok((rest, level.map(ShadingStatement::Level)))
     }
 
     /// `w [ID] contours [color] [< x y z >]`; the velocity is our extension, for flat scenes.
@@ -139,7 +139,7 @@ impl<'t> Grammar<'t> {
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Wire(FaceStatement { name, color, illum: None, motion })))
+        Ok((input, Statement::Wire(FaceStatement { name, color, shading: None, motion })))
     }
 
     /// One or more `( vertex … )`.

@@ -1,7 +1,7 @@
 //! Moves colours and surfaces from the scopes to the scene, and resolves their names.
 
 use rayon::prelude::*;
-use ugscene::{Color, ColorId, Illum, Mix, NameId, Names, Scene, SurfaceId, SurfaceProperties};
+use ugscene::{Color, ColorId, Mix, NameId, Names, Scene, Shading, SurfaceId, SurfaceProperties};
 
 use super::corners::LEAST_ROWS;
 use super::enclosing;
@@ -142,8 +142,8 @@ pub(super) fn gather_mixes(
 
 /// Replaces names of surfaces by rows; returns false if one is not defined.
 pub(super) fn name_surfaces(scope: &mut Scope<'_>, surfaces: &[Option<usize>]) -> bool {
-    for illum in &mut scope.illums {
-        if let Illum::Surface(id) = illum
+    for shading in &mut scope.shadings {
+        if let Shading::Surface(id) = shading
             && let Some(row) = surfaces[id.index()]
         {
             *id = SurfaceId::from_index(row);

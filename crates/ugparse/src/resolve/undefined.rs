@@ -6,7 +6,7 @@ use crate::grammar::Grammar;
 use crate::named::Named;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{IllumStatement, References, Statement};
+use crate::statement::{References, ShadingStatement, Statement};
 use crate::suggest::nearest;
 use crate::token::word;
 
@@ -35,7 +35,7 @@ impl UndefinedNames<'_, '_, '_> {
                 Some(Statement::Call(call)) => self.check_color(call.color),
                 Some(Statement::Face(face) | Statement::Wire(face)) => {
                     self.check_color(face.color);
-                    if let Some(IllumStatement::Surface(name)) = face.illum {
+                    if let Some(ShadingStatement::Surface(name)) = face.shading {
                         self.check_surface(name);
                     }
                     references.names.iter().for_each(|&name| self.check_vertex(name));

@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 use serde::Serialize;
-use uglight::{ColorShift, Interpolation, light_names};
+use uglight::{ColorForm, ColorShift, Interpolation, light_names};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::Velocity;
 use ugpicture::explain::{
@@ -148,7 +148,7 @@ fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) 
     let light = pixels::light(scenery, &one, &()).0;
     let mean = light.pixels().first().copied().unwrap_or_default();
     let whole = || pixels::light(scenery, config, &()).0;
-    PixelSteps::new(&config.picture, mean, !scenery.is_uncut, whole)
+    PixelSteps::new(&config.picture, mean, !scenery.keeps_highlights, whole)
 }
 
 /// Computes the explanations of samples.
@@ -251,11 +251,11 @@ impl Teller<'_> {
 
     fn color(&self, visit: &Visit) -> SampleColor {
         let (scenery, point) = (self.scenery, &visit.point);
-        if scenery.appearance.is_spectral() || point.color.swatch.light.is_some() {
+        if scenery.appearance.is_spectral() || point.color.swatch.form != ColorForm::Hue {
             return SampleColor::of_light(visit.light.to_array(), self.is_lit(point));
         }
         let base = scenery.appearance.hue_color(&point.color.swatch);
-        let is_hue = scenery.appearance.palette.interpolation() == Interpolation::Hue;
+        let is_hue = scenery.appearance.palette.interpolation == Interpolation::Hue;
         let wavelength = (!point.color.swatch.is_grey()).then(|| {
             let seen_nm = scenery.appearance.hue_shift.wavelength_nm(base.wavelength_nm, point.doppler());
             HueWavelength::new(base.wavelength_nm, seen_nm, is_hue.then_some(base.hue))

@@ -1,7 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{Common, Swatch};
+use uglight::{ColorForm, FaceColors, Mixing, Swatch};
 use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{Face, VertexId};
 
@@ -11,7 +11,7 @@ use crate::painter::Painter;
 #[derive(Clone, Debug)]
 pub struct Look {
     /// What its corners have in common.
-    pub common: Common,
+    pub colors: FaceColors,
     /// Normal of the face on its visible side, in the axes of the scene.
     normal: DVec3,
     /// The light level, if it is the same everywhere.
@@ -63,7 +63,7 @@ impl Triangle {
         let number = |of: fn(&Swatch) -> f64| [of(&a), of(&b) - of(&a), of(&c) - of(&a)];
         let hues =
             [number(|color| color.tint), number(|color| color.saturation), number(|color| color.value)];
-        let are_hues = colors.iter().all(|color| color.light.is_none() && color.translucency == 0.0);
+        let are_hues = colors.iter().all(|color| color.form == ColorForm::Hue && color.translucency == 0.0);
         let (rows, normals) = (corners.map(|corner| corner.1), corners.map(|corner| corner.2));
         Self { colors, rows, normals, hues: are_hues.then_some(hues), sides }
     }
@@ -78,7 +78,7 @@ impl Triangle {
                 let [tint, saturation, value] = hues.map(|[a, b, c]| a + second * b + third * c);
                 Swatch { tint, saturation, value, ..self.colors[0] }
             }
-            None => Swatch::mixed(self.colors, weights),
+            None => Swatch::mean(&self.colors, weights),
         }
     }
 }
@@ -88,12 +88,12 @@ impl Look {
     pub fn new(painter: &Painter<'_>, frame: Option<&PictureRays>, face: &Face) -> Self {
         let (appearance, lighting) = (painter.appearance, painter.lighting);
         let is_moving = frame.is_none_or(|frame| !frame.velocity.is_zero());
-        let common = appearance.common_in_motion(painter.scene, face, is_moving);
+        let colors = appearance.face_colors_in_motion(painter.scene, face, is_moving);
         let normal = painter.seen_normal(face);
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corner = |&vertex: &VertexId| {
             (
-                appearance.swatch(vertex, &common),
+                appearance.swatch(vertex, &colors),
                 appearance.surface.row(vertex),
                 painter.normal_at(vertex, normal),
             )
@@ -106,20 +106,20 @@ impl Look {
         let has_normals = corners.iter().any(|corner| corner.2 != first.2);
         let has_level = painter.scene.light_level(face).is_some();
         let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
-        let keeps_light = common.is_light || common.is_display;
+        let (keeps_light, is_light) = (colors.mixing != Mixing::Hue, colors.mixing == Mixing::Light);
         let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && lighting.is_colored();
         // A body on a world line turns.
         let has_directions = (has_normals || frame.is_none()) && lighting.needs_geometry();
         let is_even = has_level || !(lighting.needs_places() || has_directions);
         let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)
-            .then(|| painter.level(face, vertices[0], normal, common.is_light));
+            .then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
         let triangles = match frame {
             Some(frame) if has_colors || has_normals => triangles(painter, frame, face, &corners),
             _ => Box::default(),
         };
         Self {
-            common,
+            colors,
             normal: first.2,
             level,
             needs_place: lighting.needs_places(),
@@ -188,7 +188,7 @@ impl Look {
                 Some(rows) => appearance.seen_light(rows, stretch, place),
                 None => appearance.seen_light([(self.row, 1.0)], stretch, place),
             };
-            Swatch { light: Some(light), ..*rest }
+            Swatch { form: ColorForm::Light(light), ..*rest }
         } else {
             let has_own = mixed.is_some() && self.has_tints && stretch != 1.0;
             let rest_nm = if has_own { appearance.wavelength_nm(rest.tint) } else { self.wavelength_nm };
@@ -202,7 +202,7 @@ impl Look {
             return (color, level);
         }
         let [point, normal, shift] = lit();
-        (color, painter.lighting.level(point, normal, shift, self.common.is_light))
+        (color, painter.lighting.level(point, normal, shift, self.colors.mixing == Mixing::Light))
     }
 
     /// The point of the triangles on a ray. Where rounding places the ray outside all triangles, the

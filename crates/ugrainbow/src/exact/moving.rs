@@ -97,7 +97,7 @@ impl<'a> MovingFaces<'a> {
         let frame = RestFrame::new(element.velocity);
         let stretch = frame.wave_to_rest(ray.wave).frequency;
         let look = &self.looks[&face];
-        let color = appearance.color_at(&look.common, corners, weights);
+        let color = appearance.color_at(&look.colors, corners, weights);
         let color = (Some(color.swatch), || Some(color.rows));
         look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
             let outside = self.world.outside[face as usize];

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use uglight::Swatch;
+use uglight::{ColorForm, Swatch};
 use ugphysics::{Event, WorldLine, doppler_at};
 use ugpicture::outlines::PictureRays;
 use ugscene::{BodyId, CameraPoint};
@@ -85,23 +85,13 @@ impl Curve<'_> {
     }
 
     fn joint(&self, part: f64) -> Joint {
-        let [a, b] = self.colors;
-        let mix = |a: f64, b: f64| a + part * (b - a);
-        let rest = Swatch {
-            tint: mix(a.tint, b.tint),
-            saturation: mix(a.saturation, b.saturation),
-            value: mix(a.value, b.value),
-            factor: mix(a.factor, b.factor),
-            translucency: 0.0,
-            is_display: a.is_display,
-            light: a.light.zip(b.light).map(|(a, b)| a + part * (b - a)),
-        };
+        let rest = Swatch::mean(&self.colors, [1.0 - part, part]);
         let (seen, doppler) = self.seen(part);
         let (stretch, appearance) = (1.0 / doppler, self.painter.appearance);
         let color = match self.rows.filter(|_| appearance.is_spectral()) {
             Some([a, b]) => {
                 let light = appearance.seen_light([(a, 1.0 - part), (b, part)], stretch, None);
-                Swatch { light: Some(light), ..rest }
+                Swatch { form: ColorForm::Light(light), ..rest }
             }
             None => appearance.seen(&rest, appearance.wavelength_nm(rest.tint), stretch),
         };

@@ -4,7 +4,7 @@ mod text;
 
 use glam::DVec3;
 use serde::Serialize;
-use uglight::{Interpolation, Swatch};
+use uglight::{Interpolation, Mixing, Swatch};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::{doppler_at, srgb_decode, srgb_encode, wavelength_to_hue};
 use ugpicture::explain::{
@@ -15,14 +15,14 @@ use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
 use ugscene::{Geometry, RestPosition, SeenPosition, VertexId};
 
+use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::error::Error;
-use crate::front::{of_fragment, of_surface};
-use crate::packing::{Interpolated, PackedLayout, Plain};
+use crate::packing::Layout;
 use crate::pixels::{self, backdrop, mean};
 use crate::render::warnings;
-use crate::render_layers::RenderLayers;
+use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
 /// The explanation of a sample.
@@ -97,14 +97,16 @@ pub fn explain(
     let config = &Config { picture: canvas.options().clone(), ..config.clone() };
     let picture = &config.picture;
     let setup = prepare(&parsed.scene, config)?;
-    let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let layers = RenderLayers::new(&setup, config);
     let backdrop = backdrop(picture);
     let light = |all: &PixelSamples<'_>| mean(&backdrop, all);
-    let (samples, _, own) = layers.probe(&setup.grid, &setup.shader, &light, pixel);
-    let mean = match picture.filter {
-        Filter::Box => own,
-        filter => layers.probe_filtered(&setup.grid, filter, &setup.shader, &light, pixel),
-    };
+    let (samples, mean) = with_rasterizer!(layers, |rasterizer| {
+        let (samples, _, own) = rasterizer.probe(layers.shader, &light, pixel);
+        match picture.filter {
+            Filter::Box => (samples, own),
+            filter => (samples, rasterizer.probe_filtered(filter, layers.shader, &light, pixel)),
+        }
+    });
     let whole = || pixels::light(&setup, &layers, config).0;
     let teller = Teller { setup: &setup, config, source, parsed: &parsed };
     let explanation = Explanation {
@@ -119,7 +121,7 @@ pub fn explain(
         colors: parsed.scene.stage.seen_colors().copied(),
         sample: nearest(&samples, |sample| sample.place, pixel, picture.samples)
             .map(|sample| teller.shown(sample)),
-        steps: PixelSteps::new(picture, mean, !setup.is_uncut, whole),
+        steps: PixelSteps::new(picture, mean, !setup.keeps_highlights, whole),
     };
     Ok((explanation, warnings(source, parsed)))
 }
@@ -246,13 +248,19 @@ impl Teller<'_> {
 
     /// The colour that interpolated values stand for.
     fn color(&self, values: &[f32], doppler: f64) -> SampleColor {
-        let layout = PackedLayout::new(&self.setup.appearance, &self.setup.lighting);
-        let (Plain { tint, saturation, value }, light_level) = match layout.color(values) {
-            Interpolated::Light(light) => return SampleColor::of_light(light, true),
-            Interpolated::Hue { color, level } => (color, level),
+        let [tint, saturation, value] = [0, 1, 2].map(|i| f64::from(values[i]));
+        let is_light = match self.setup.layout {
+            Layout::Hues => false,
+            Layout::Light => true,
+            Layout::Mixed { .. } => values[6] > 0.5,
         };
+        if is_light {
+            return SampleColor::of_light([tint, saturation, value], true);
+        }
+        let has_levels = self.setup.layout == Layout::Mixed { has_levels: true };
+        let light_level = has_levels.then(|| [3, 4, 5].map(|i| f64::from(values[i])));
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
-        let interpolation = self.setup.appearance.palette.interpolation();
+        let interpolation = self.setup.appearance.palette.interpolation;
         let hue = match interpolation {
             Interpolation::Hue => tint,
             Interpolation::Wavelength => wavelength_to_hue(tint),
@@ -272,29 +280,24 @@ impl Teller<'_> {
         let vertices = |rows: &std::ops::Range<u32>| scene.contours.corners(rows.clone()).to_vec();
         if let Some(face) = scene.faces.get(item as usize) {
             let normal = painter.seen_normal(face);
-            let common = painter.common(face);
+            let colors = painter.appearance.face_colors(scene, face);
+            let is_light = colors.mixing == Mixing::Light;
             let corner = |vertex: VertexId| {
-                let swatch = painter.swatch(vertex, &common);
-                let level = painter.level(face, vertex, normal, common.is_light);
+                let swatch = painter.swatch(vertex, &colors);
+                let level = painter.level(face, vertex, normal, is_light);
                 let lights = if scene.light_level(face).is_some() {
                     Vec::new()
                 } else {
                     let [point, normal, shift] = painter.lit_point(face, vertex, normal);
-                    painter.lighting.parts(scene, point, normal, shift, common.is_light)
+                    painter.lighting.parts(scene, point, normal, shift, is_light)
                 };
                 self.corner(vertex, &swatch, level, lights)
             };
             return vertices(&face.contours).into_iter().map(corner).collect();
         }
         let Some(wire) = scene.wires.get(item as usize - scene.faces.len()) else { return Vec::new() };
-        let color = painter.wire_swatch(wire);
-        let is_display = painter.is_display_wire(wire, &color);
-        let end = |vertex| {
-            let end = painter.wire_end(vertex, &color);
-            // A single colour of a display is drawn as a hue.
-            let light = end.light.filter(|_| !end.is_display || is_display);
-            self.corner(vertex, &Swatch { light, ..end }, DVec3::ONE, Vec::new())
-        };
+        let swatch = painter.wire_swatch(wire, true);
+        let end = |vertex| self.corner(vertex, &swatch(vertex), DVec3::ONE, Vec::new());
         vertices(&wire.contours).into_iter().map(end).collect()
     }
 
@@ -312,7 +315,7 @@ impl Teller<'_> {
             1.0 => hsv.value,
             factor => srgb_encode(factor * srgb_decode(hsv.value)),
         };
-        let light = swatch.light.map(|light| light.to_array());
+        let light = swatch.form.light().map(|light| light.to_array());
         ExplainedCorner {
             vertex: scene.names.get(scene.vertices[vertex.index()].name).to_owned(),
             hue_saturation_value: light.is_none().then_some([hsv.hue, hsv.saturation, value]),

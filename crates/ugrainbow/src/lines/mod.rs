@@ -23,7 +23,7 @@ use crate::config::Wireframe;
 use crate::packing::pack_transparent;
 use crate::painter::Painter;
 pub use hidden::{Occluders, Visibility, occluded_part};
-use uglight::Swatch;
+use uglight::{ColorForm, Swatch};
 
 /// Lines are moved towards the eye by this part of their distance, so that they pass the depth test
 /// against the faces whose edges they are.
@@ -121,24 +121,12 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn Li
 }
 
 fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShape, lines: &mut Vec<Line>) {
-    let color = painter.wire_swatch(wire);
-    let keeps_light = shape.keeps_light(wire.body);
-    // One end given as light makes the whole wire light, as with faces.
-    let is_light = keeps_light && painter.is_light_wire(wire, &color);
-    let is_display = !is_light && painter.is_display_wire(wire, &color);
-    let end = |vertex| {
-        let swatch = Swatch { translucency: 0.0, ..painter.wire_end(vertex, &color) };
-        if is_light || is_display {
-            Swatch { is_display, ..painter.appearance.palette.as_light(swatch) }
-        } else {
-            Swatch { light: None, ..swatch }
-        }
-    };
+    let end = painter.wire_swatch(wire, shape.keeps_light(wire.body));
     for contour in painter.scene.wire_contours(wire) {
         for ends in contour.windows(2) {
             let ends = [ends[0], ends[1]];
             let rows = Some(ends.map(|vertex| painter.wire_end_row(vertex, wire)));
-            lines.push(Line { item, body: wire.body, ends, colors: ends.map(end), rows });
+            lines.push(Line { item, body: wire.body, ends, colors: ends.map(&end), rows });
         }
     }
 }
@@ -150,8 +138,8 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
         Some(color) => [plain(color); 2],
         None => {
             let is_moving = !shape.keeps_light(face.body);
-            let common = painter.appearance.common_in_motion(painter.scene, face, is_moving);
-            edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.appearance.swatch(end, &common) })
+            let colors = painter.appearance.face_colors_in_motion(painter.scene, face, is_moving);
+            edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.appearance.swatch(end, &colors) })
         }
     };
     let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));
@@ -160,7 +148,7 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
 
 /// A colour that is neither shifted nor attenuated.
 fn plain(color: Hsv) -> Swatch {
-    Swatch { light: Some(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
+    Swatch { form: ColorForm::Light(DVec3::from_array(color.to_rgb().map(srgb_decode))), ..Swatch::WHITE }
 }
 
 /// Straight pieces of lines in the picture, hidden or not, and how many were clipped.

@@ -5,10 +5,10 @@ mod transfer;
 
 use fearless_simd::{Level, Simd, dispatch};
 use ugphysics::{attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue};
-use ugraster::{Encoding, RUN, ShadedRun, ShadedSample, Shading, TRANSPARENT_VALUES};
+use ugraster::{Encoding, RUN, SampleShading, ShadedRun, ShadedSample, TRANSPARENT_VALUES};
 
-use crate::packing::Packed;
-use hues::{Lights, Pure, all_between, decode_all, encode, encode_all};
+use crate::packing::Layout;
+use hues::{Lights, all_between, decode_all, encode_all};
 use transfer::decode;
 use uglight::Interpolation;
 
@@ -24,6 +24,8 @@ pub struct Shader {
     ceiling: f32,
     /// Light levels multiply linear light; otherwise they multiply display-encoded values.
     acts_on_light: bool,
+    /// Three numbers are light.
+    is_light: bool,
     /// SIMD instructions of the processor. The result does not depend on them.
     level: Level,
     /// Attenuation for hues −60…0 and 240…300; in between it is 1. Tables, because the wavelength
@@ -36,55 +38,27 @@ impl Shader {
     /// Computes the tables. `is_clipped`: values of hues are clipped to 1, sample by sample, as in
     /// 1988; otherwise the transfer function is continued above 1. `acts_on_light`: light levels
     /// multiply linear light, see [`ugphysics::Brightness::acts_on_light`].
-    pub fn new(interpolation: Interpolation, is_clipped: bool, acts_on_light: bool) -> Self {
+    pub fn new(interpolation: Interpolation, is_clipped: bool, acts_on_light: bool, layout: Layout) -> Self {
         let fade = |hue: f64| attenuation(hue_to_wavelength(hue));
         Self {
             interpolation,
             ceiling: if is_clipped { 1.0 } else { f32::INFINITY },
             acts_on_light,
+            is_light: layout == Layout::Light,
             level: Level::new(),
             red_fade: Table::new(FADE_CELLS, |part| fade(-60.0 + 60.0 * part)),
             violet_fade: Table::new(FADE_CELLS, |part| fade(240.0 + 60.0 * part)),
         }
     }
 
-    /// The light of a sample of numbers in one of the layouts.
-    #[inline]
-    pub fn opaque(&self, sample: &[f32]) -> ShadedSample {
-        let Packed { color, level, is_light } = Packed::new(sample);
-        if is_light.is_some_and(|is_light| is_light > 0.5) {
-            // It already contains the light of lamps.
-            return given(color, self.ceiling);
-        }
-        self.lit(color, level.unwrap_or([1.0; 3]))
-    }
-
-    /// The light of a transparent sample, and the part of the light from behind that it transmits.
-    pub fn transparent(
-        &self,
-        [opaque @ .., translucency]: &[f32; TRANSPARENT_VALUES],
-    ) -> (ShadedSample, f32) {
-        (self.opaque(opaque), translucency.clamp(0.0, 1.0))
-    }
-
-    fn lit(&self, [tint, saturation, value]: [f32; 3], lights: [f32; 3]) -> ShadedSample {
-        let is_product = is_product(lights);
-        let fade = if is_product { 1.0 } else { self.fade(tint, saturation) };
-        let pure = Pure { hue: self.hue(tint), fade, saturation };
-        if self.acts_on_light {
-            let (levels, peak) = encode(pure, [value; 3], f32::INFINITY);
-            let (light, intensity) = times(levels.map(linear), linear(peak), lights, self.ceiling);
-            let (light, intensity, fade) = if is_product {
-                self.faded_light(light, intensity, lights)
-            } else {
-                (light, intensity, fade)
-            };
-            return ShadedSample { light, intensity, is_out_of_range: fade == 0.0 };
-        }
-        let (levels, intensity) = encode(pure, lights.map(|light| value * light), self.ceiling);
-        let (levels, intensity, fade) =
-            if is_product { self.faded(levels, intensity) } else { (levels, intensity, fade) };
-        ShadedSample { light: levels.map(linear), intensity, is_out_of_range: fade == 0.0 }
+    /// The light of one sample.
+    pub fn one<const N: usize>(&self, sample: &[f32; N]) -> ShadedSample
+    where
+        Self: SampleShading<N>,
+    {
+        let mut run = ShadedRun::default();
+        self.shade(sample.each_ref().map(std::slice::from_ref), Encoding::Linear, &mut run);
+        run.get(0)
     }
 
     /// Display-encoded red, green and blue with their hue attenuated, the greatest of them before
@@ -126,19 +100,21 @@ impl Shader {
         run: &mut ShadedRun,
     ) {
         let n = tints.len();
-        let (mut own_hues, mut own_fades) = ([0.0; RUN], [0.0; RUN]);
+        // Set only where they are needed, since many runs are short.
+        let (mut own_hues, mut own_fades): ([f32; RUN], [f32; RUN]);
         let hues = match self.interpolation {
             Interpolation::Hue => tints,
             Interpolation::Wavelength => {
+                own_hues = [0.0; RUN];
                 own_hues.iter_mut().zip(tints).for_each(|(hue, &tint)| *hue = self.hue(tint));
                 &own_hues[..n]
             }
         };
         let fades = if all_between(self.level, tints, self.bright_tints()) {
-            run.is_out_of_range = [false; RUN];
+            run.is_out_of_range[..n].fill(false);
             None
         } else {
-            own_fades[..n].fill(1.0);
+            own_fades = [1.0; RUN];
             let [low, high] = self.bright_tints();
             for (idx, fade) in own_fades[..n].iter_mut().enumerate() {
                 let is_product = || lights.is_some_and(|lights| is_product(lights.map(|light| light[idx])));
@@ -228,17 +204,37 @@ impl Shader {
     }
 }
 
-impl<const N: usize> Shading<N> for Shader {
-    fn shade(&self, samples: [&[f32]; N], encoding: Encoding, run: &mut ShadedRun) {
-        let Packed { color, level, is_light } = Packed::new(&samples);
-        // Without an early exit, which would prevent vectorization.
-        let all_light =
-            |is_light: &[f32]| is_light.iter().fold(true, |all, is_light| all & (*is_light > 0.5));
-        if !is_light.is_some_and(all_light) {
-            self.lit_all(color, level, encoding, run);
+impl SampleShading<3> for Shader {
+    fn shade(&self, color: [&[f32]; 3], encoding: Encoding, run: &mut ShadedRun) {
+        if self.is_light {
+            dispatch!(self.level, simd => set_light(simd, color, |_| true, self.ceiling, run));
+            encode_light(color[0].len(), |_| true, encoding, run);
+        } else {
+            self.lit_all(color, None, encoding, run);
         }
-        if let Some(is_light) = is_light {
-            set_given(color, is_light, self.ceiling, encoding, run);
+    }
+}
+
+impl SampleShading<TRANSPARENT_VALUES> for Shader {
+    fn shade(
+        &self,
+        [a, b, c, red, green, blue, is_light, _]: [&[f32]; TRANSPARENT_VALUES],
+        encoding: Encoding,
+        run: &mut ShadedRun,
+    ) {
+        // Without an early exit, which would prevent vectorization.
+        let (mut has_light, mut has_hues) = (false, false);
+        for &light in is_light {
+            has_light |= light > 0.5;
+            has_hues |= light.is_nan() | (light <= 0.5);
+        }
+        if has_hues {
+            self.lit_all([a, b, c], Some([red, green, blue]), encoding, run);
+        }
+        if has_light {
+            let is_given = |idx: usize| is_light[idx] > 0.5;
+            dispatch!(self.level, simd => set_light(simd, [a, b, c], is_given, self.ceiling, run));
+            encode_light(a.len(), is_given, encoding, run);
         }
     }
 }
@@ -263,45 +259,37 @@ fn times(light: [f32; 3], peak: f32, levels: [f32; 3], ceiling: f32) -> ([f32; 3
     (std::array::from_fn(|i| light[i] * levels[i].min(most)), intensity)
 }
 
-/// Replaces the samples whose colours are given as light.
-fn set_given(light: [&[f32]; 3], is_light: &[f32], ceiling: f32, encoding: Encoding, run: &mut ShadedRun) {
-    let is_given = |is_light: &f32| *is_light > 0.5;
-    // Without an early exit, which would prevent vectorization.
-    if !is_light.iter().fold(false, |any, is_light| any | is_given(is_light)) {
-        return;
-    }
-    dispatch!(Level::new(), simd => set_given_run(simd, light, is_light, ceiling, run));
-    if encoding == Encoding::Display {
-        for (idx, _) in is_light.iter().enumerate().filter(|(_, is_light)| is_given(is_light)) {
-            run.light.iter_mut().for_each(|light| light[idx] = srgb_encode(f64::from(light[idx])) as f32);
-        }
-    }
-}
-
+/// Sets the samples whose colours are given as light, clipped to `ceiling`.
 #[inline(always)] // Compiled for several instruction sets.
-fn set_given_run<S: Simd>(_: S, light: [&[f32]; 3], is_light: &[f32], ceiling: f32, run: &mut ShadedRun) {
-    let n = is_light.len().min(RUN);
-    let (is_light, [red, green, blue]) = (&is_light[..n], light.map(|channel| &channel[..n]));
+fn set_light<S: Simd>(
+    _: S,
+    light: [&[f32]; 3],
+    is_given: impl Fn(usize) -> bool,
+    ceiling: f32,
+    run: &mut ShadedRun,
+) {
+    let n = light[0].len().min(RUN);
+    let [red, green, blue] = light.map(|channel| &channel[..n]);
     let [reds, greens, blues] = run.light.each_mut().map(|channel| &mut channel[..n]);
     let (intensity, is_out_of_range) = (&mut run.intensity[..n], &mut run.is_out_of_range[..n]);
     for idx in 0..n {
-        let given = given([red[idx], green[idx], blue[idx]], ceiling);
-        let is_given = is_light[idx] > 0.5;
-        reds[idx] = if is_given { given.light[0] } else { reds[idx] };
-        greens[idx] = if is_given { given.light[1] } else { greens[idx] };
-        blues[idx] = if is_given { given.light[2] } else { blues[idx] };
-        intensity[idx] = if is_given { given.intensity } else { intensity[idx] };
+        let is_given = is_given(idx);
+        reds[idx] = if is_given { red[idx].min(ceiling) } else { reds[idx] };
+        greens[idx] = if is_given { green[idx].min(ceiling) } else { greens[idx] };
+        blues[idx] = if is_given { blue[idx].min(ceiling) } else { blues[idx] };
+        let most = 0.0f32.max(red[idx]).max(green[idx]).max(blue[idx]);
+        intensity[idx] = if is_given { most } else { intensity[idx] };
         is_out_of_range[idx] &= !is_given;
     }
 }
 
-/// A sample whose colour is given as light, clipped to `ceiling`.
-#[inline(always)]
-fn given(light: [f32; 3], ceiling: f32) -> ShadedSample {
-    let [red, green, blue] = light;
-    let intensity = 0.0f32.max(red).max(green).max(blue);
-    let light = [red.min(ceiling), green.min(ceiling), blue.min(ceiling)];
-    ShadedSample { light, intensity, is_out_of_range: false }
+/// Encodes the samples that are light for a display, if that is wanted.
+fn encode_light(n: usize, is_given: impl Fn(usize) -> bool, encoding: Encoding, run: &mut ShadedRun) {
+    if encoding == Encoding::Display {
+        for idx in (0..n).filter(|&idx| is_given(idx)) {
+            run.light.iter_mut().for_each(|light| light[idx] = srgb_encode(f64::from(light[idx])) as f32);
+        }
+    }
 }
 
 /// A function on 0…1, interpolated linearly between tabulated points.
@@ -331,6 +319,10 @@ mod tests {
 
     use super::*;
 
+    fn hues(interpolation: Interpolation, is_clipped: bool, acts_on_light: bool) -> Shader {
+        Shader::new(interpolation, is_clipped, acts_on_light, Layout::Hues)
+    }
+
     fn exact(hue: f64, saturation: f64, value: f64) -> [f64; 3] {
         Hsv { hue, saturation, value: value.min(1.0) }.to_rgb().map(srgb_decode)
     }
@@ -345,11 +337,11 @@ mod tests {
 
     #[test]
     fn hues_fade_as_their_wavelengths() {
-        let shader = Shader::new(Interpolation::Hue, true, false);
+        let shader = hues(Interpolation::Hue, true, false);
         for step in 0..=3600 {
             let hue = f64::from(step) / 10.0 - 60.0;
             let fade = attenuation(hue_to_wavelength(hue));
-            let shade = shader.opaque(&[hue as f32, 1.0, 0.8]);
+            let shade = shader.one(&[hue as f32, 1.0, 0.8]);
             assert_light(&shade, exact(hue, 1.0, 0.8 * fade));
             assert_eq!(shade.is_out_of_range, fade == 0.0, "hue {hue}");
         }
@@ -363,13 +355,13 @@ mod tests {
 
     #[test]
     fn of_pale_colours_the_hue_alone_fades() {
-        let shader = Shader::new(Interpolation::Hue, true, false);
+        let shader = hues(Interpolation::Hue, true, false);
         for hue in [-60.0, -59.0, -30.0, -1.0, 0.0, 120.0, 240.0, 250.0, 280.0, 299.0, 300.0] {
             let fade = attenuation(hue_to_wavelength(hue));
-            let mut before = shader.opaque(&[hue as f32, 0.0, 0.8]).light;
+            let mut before = shader.one(&[hue as f32, 0.0, 0.8]).light;
             for step in 0..=1000 {
                 let saturation = f64::from(step) / 1000.0;
-                let shade = shader.opaque(&[hue as f32, saturation as f32, 0.8]);
+                let shade = shader.one(&[hue as f32, saturation as f32, 0.8]);
                 assert_light(&shade, parts(hue, saturation, 0.8, fade));
                 // A thousandth of saturation is 0.0008 of display-encoded value, and the slope of
                 // decoding is at most 2.3.
@@ -384,7 +376,7 @@ mod tests {
     #[test]
     fn whitish_is_never_nearly_black() {
         for interpolation in [Interpolation::Hue, Interpolation::Wavelength] {
-            let shader = Shader::new(interpolation, true, false);
+            let shader = hues(interpolation, true, false);
             let tints: [f32; 5] = match interpolation {
                 Interpolation::Hue => [-60.0, -59.9, 299.9, 300.0, 120.0],
                 Interpolation::Wavelength => [10.0, 379.9, 380.1, 779.9, 5000.0],
@@ -392,8 +384,8 @@ mod tests {
             for tint in tints {
                 for saturation in [0.0, 1e-6, 0.03, 0.1] {
                     for color in [
-                        shader.opaque(&[tint, saturation, 1.0]),
-                        shader.opaque(&[tint, saturation, 1.0, 1.0, 1.0, 1.0]),
+                        shader.one(&[tint, saturation, 1.0]),
+                        shader.one(&[tint, saturation, 1.0, 1.0, 1.0, 1.0, 0.0, 0.0]),
                     ] {
                         // Nine tenths of display-encoded white are left.
                         let least = color.light.into_iter().fold(1.0, f32::min);
@@ -406,10 +398,10 @@ mod tests {
 
     #[test]
     fn wavelengths_fade_at_both_ends() {
-        let shader = Shader::new(Interpolation::Wavelength, true, false);
+        let shader = hues(Interpolation::Wavelength, true, false);
         for nm in [300.0, 379.0, 380.0, 400.0, 435.8, 500.0, 589.0, 700.0, 740.0, 779.0, 780.0, 5000.0] {
             let fade = attenuation(nm);
-            let shade = shader.opaque(&[nm as f32, 1.0, 1.0]);
+            let shade = shader.one(&[nm as f32, 1.0, 1.0]);
             assert_light(&shade, exact(wavelength_to_hue(nm), 1.0, fade));
             assert_eq!(shade.is_out_of_range, fade == 0.0);
         }
@@ -417,12 +409,9 @@ mod tests {
 
     /// Shades samples of N numbers as runs of various lengths and one by one, and compares.
     #[track_caller]
-    fn check_runs<const N: usize>(
-        shader: &Shader,
-        samples: &[[f32; N]],
-        one: impl Fn(&[f32; N]) -> ShadedSample,
-    ) where
-        Shader: Shading<N>,
+    fn check_runs<const N: usize>(shader: &Shader, samples: &[[f32; N]])
+    where
+        Shader: SampleShading<N>,
     {
         for n in [1, 7, 64, RUN] {
             for chunk in samples.chunks(n) {
@@ -431,11 +420,11 @@ mod tests {
                 let mut run = ShadedRun::default();
                 shader.shade(columns.each_ref().map(|all| &all[..]), Encoding::Linear, &mut run);
                 for (idx, numbers) in chunk.iter().enumerate() {
-                    assert_eq!(run.get(idx), one(numbers), "{numbers:?}, {n} at once");
+                    assert_eq!(run.get(idx), shader.one(numbers), "{numbers:?}, {n} at once");
                 }
                 shader.shade(columns.each_ref().map(|all| &all[..]), Encoding::Display, &mut run);
                 for (idx, numbers) in chunk.iter().enumerate() {
-                    let levels = one(numbers).light.map(|light| srgb_encode(f64::from(light)));
+                    let levels = shader.one(numbers).light.map(|light| srgb_encode(f64::from(light)));
                     for (ours, exact) in run.get(idx).light.iter().zip(levels) {
                         // Where the curve is steepest, an error of 3e-7 in light is 4e-6 of a
                         // level.
@@ -477,36 +466,32 @@ mod tests {
             for ([is_clipped, acts_on_light], level) in
                 kinds.into_iter().flat_map(|kind| levels.map(|level| (kind, level)))
             {
-                let shader = Shader { level, ..Shader::new(interpolation, is_clipped, acts_on_light) };
-                let plain: Vec<_> = samples.iter().map(|(color, ..)| *color).collect();
-                check_runs(&shader, &plain, |numbers| shader.opaque(numbers));
-                let colored: Vec<_> =
-                    samples.iter().map(|&([a, b, c], [d, e, f], _)| [a, b, c, d, e, f]).collect();
-                check_runs(&shader, &colored, |numbers| shader.opaque(numbers));
-                let mixed: Vec<_> = samples.iter().map(|&([a, b, c], _, light)| [a, b, c, light]).collect();
-                check_runs(&shader, &mixed, |numbers| shader.opaque(numbers));
-                let mixed: Vec<_> =
-                    samples.iter().map(|&([a, b, c], [d, e, f], light)| [a, b, c, d, e, f, light]).collect();
-                check_runs(&shader, &mixed, |numbers| shader.opaque(numbers));
+                let shader = Shader { level, ..hues(interpolation, is_clipped, acts_on_light) };
+                let few: Vec<_> = samples.iter().map(|(color, ..)| *color).collect();
+                check_runs(&shader, &few);
+                let all = samples.iter().map(|&([a, b, c], [d, e, f], light)| [a, b, c, d, e, f, light, 0.0]);
+                check_runs(&shader, &all.collect::<Vec<_>>());
+                let shader = Shader { is_light: true, ..shader };
+                check_runs(&shader, &few);
             }
         }
     }
 
     #[test]
     fn grey_has_no_wavelength() {
-        let shade = Shader::new(Interpolation::Wavelength, true, false).opaque(&[5000.0, 0.0, 0.5]);
+        let shade = hues(Interpolation::Wavelength, true, false).one(&[5000.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
-        let shade = Shader::new(Interpolation::Hue, true, false).opaque(&[300.0, 0.0, 0.5]);
+        let shade = hues(Interpolation::Hue, true, false).one(&[300.0, 0.0, 0.5]);
         assert_light(&shade, [srgb_decode(0.5); 3]);
     }
 
     #[test]
     fn intensity_is_told_before_clipping() {
-        let shader = Shader::new(Interpolation::Hue, true, false);
-        let shade = shader.opaque(&[120.0, 0.5, 1.5]);
+        let shader = hues(Interpolation::Hue, true, false);
+        let shade = shader.one(&[120.0, 0.5, 1.5]);
         assert_eq!(shade.intensity, 1.5);
         assert_light(&shade, exact(120.0, 0.5, 1.0));
-        let shade = shader.opaque(&[0.0, 0.0, 1.0, 0.5, 2.0, 0.0]);
+        let shade = shader.one(&[0.0, 0.0, 1.0, 0.5, 2.0, 0.0, 0.0, 0.0]);
         assert_eq!(shade.intensity, 2.0);
         assert_light(&shade, [srgb_decode(0.5), 1.0, 0.0]);
     }
@@ -518,8 +503,8 @@ mod tests {
         for hue in [40.0, 130.0, 200.0] {
             let own = exact(hue, 0.6, 0.5);
             for (is_clipped, level) in [(false, 0.25), (false, 7.0), (true, 0.25), (true, 7.0)] {
-                let shader = Shader::new(Interpolation::Hue, is_clipped, true);
-                let shade = shader.opaque(&[hue as f32, 0.6, 0.5, level, level, level]);
+                let shader = hues(Interpolation::Hue, is_clipped, true);
+                let shade = shader.one(&[hue as f32, 0.6, 0.5, level, level, level, 0.0, 0.0]);
                 let bright = srgb_decode(0.5) * f64::from(level);
                 let scale = f64::from(level) / if is_clipped { bright.max(1.0) } else { 1.0 };
                 // Single precision, of which the level multiplies the errors.
@@ -533,16 +518,19 @@ mod tests {
 
     #[test]
     fn without_a_ceiling_bright_colours_follow_the_curve() {
-        let shader = Shader::new(Interpolation::Hue, false, false);
+        let shader = hues(Interpolation::Hue, false, false);
         for value in [0.25, 1.0, 1.0001, 1.5, 40.0] {
-            let shade = shader.opaque(&[120.0, 0.5, value]);
+            let shade = shader.one(&[120.0, 0.5, value]);
             let light =
                 Hsv { hue: 120.0, saturation: 0.5, value: f64::from(value) }.to_rgb().map(srgb_decode);
             for (ours, exact) in shade.light.iter().zip(light) {
                 assert!((f64::from(*ours) - exact).abs() < 1e-6 * exact.max(1.0), "{shade:?} {light:?}");
             }
         }
-        assert_eq!(shader.opaque(&[7.0, -0.5, 0.25, 1.0]).light, [7.0, -0.5, 0.25]);
-        assert_eq!(shader.opaque(&[120.0, 0.5, 0.25, 0.0]), shader.opaque(&[120.0, 0.5, 0.25]));
+        let light = [7.0, -0.5, 0.25];
+        assert_eq!(shader.one(&[7.0, -0.5, 0.25, 1.0, 1.0, 1.0, 1.0, 0.0]).light, light);
+        let hue = [120.0, 0.5, 0.25];
+        assert_eq!(shader.one(&[120.0, 0.5, 0.25, 1.0, 1.0, 1.0, 0.0, 0.0]), shader.one(&hue));
+        assert_eq!(Shader { is_light: true, ..shader }.one(&light).light, light);
     }
 }

@@ -7,7 +7,6 @@ use ugraster::{Corner, SampleGrid, ShadedSample, TRANSPARENT_VALUES};
 
 use super::patch::{Interpolants, Patch};
 use crate::render_layers::RenderLayers;
-use crate::shade::Shader;
 
 /// Display-encoded red, green and blue, from 0 to 255, not rounded.
 pub type Levels = [f64; 3];
@@ -15,7 +14,6 @@ pub type Levels = [f64; 3];
 /// Shades patches with the colours of the display.
 pub struct FigureColors<'a> {
     pub layers: &'a RenderLayers<'a>,
-    pub shader: &'a Shader,
     /// How light is developed; `None` if it needs no development.
     pub development: Option<Development>,
     pub grid: &'a SampleGrid,
@@ -46,7 +44,7 @@ impl FigureColors<'_> {
     ) -> Levels {
         let scale = if self.grid.is_perspective { 1.0 / at.key } else { 1.0 };
         let values = at.values.map(|value| (value * scale) as f32);
-        let line = SeenLayer { light: self.cued(self.shader.transparent(&values).0, at.key), pass: 0.0 };
+        let line = SeenLayer { light: self.cued(self.layers.shader.one(&values), at.key), pass: 0.0 };
         let layer = |patch: &'p Patch| {
             let numbers = patch.interpolants_at([at.x, at.y]);
             (numbers.key, self.layer(patch, &numbers))
@@ -58,9 +56,9 @@ impl FigureColors<'_> {
 
     fn layer(&self, patch: &Patch, Interpolants { values, key }: &Interpolants) -> SeenLayer {
         let (shade, pass) = if patch.is_transparent {
-            self.shader.transparent(values)
+            (self.layers.shader.one(values), values[TRANSPARENT_VALUES - 1].clamp(0.0, 1.0))
         } else {
-            (self.layers.shade(self.shader, values), 0.0)
+            (self.layers.shade(values), 0.0)
         };
         SeenLayer { light: self.cued(shade, *key), pass }
     }

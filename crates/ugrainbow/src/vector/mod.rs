@@ -67,20 +67,20 @@ pub fn draw<'a>(
     let size = config.picture.size;
     let mut scale = scale(size);
     let mut setup = prepare(scene, &at_scale(config, scale))?;
-    let mut layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+    let mut layers = RenderLayers::new(&setup, config);
     let coarser = coarser(scale, seen::n_fragments(&layers, size.map(|side| side * scale)));
     if coarser < scale {
         scale = coarser;
         drop(layers);
         setup = prepare(scene, &at_scale(config, scale))?;
-        layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+        layers = RenderLayers::new(&setup, config);
     }
-    let layers = layers.telling(progress);
+    let layers = layers.with_progress(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
         return Err(Error::FigureBackground);
     }
     let seen = seen::faces(&setup, &layers);
-    let development = if setup.is_uncut { Some(development(scene, config)?) } else { None };
+    let development = if setup.keeps_highlights { Some(development(scene, config)?) } else { None };
     let (clip_counts, stats) = (layers.clip_counts(), seen.stats);
     let job = FigureJob { layers: &layers, setup: &setup, config, scale, seen: &seen };
     let figure = match format {
@@ -115,7 +115,7 @@ fn development(scene: &Scene, config: &Config) -> Result<Development, Error> {
     let stops = match config.picture.exposure {
         Some(Exposure::Auto) => {
             let setup = prepare(scene, config)?;
-            let layers = RenderLayers::new(setup.painter(), &config.draw_mode());
+            let layers = RenderLayers::new(&setup, config);
             return Ok(config.picture.development(|| pixels::light(&setup, &layers, config).0));
         }
         Some(Exposure::Stops(stops)) => stops,
@@ -141,13 +141,8 @@ impl FigureJob<'_> {
         let faces = patches(layers, setup, size, f64::from(scale), &seen.is_near);
         let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
         let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
-        let colors = FigureColors {
-            layers,
-            shader: &setup.shader,
-            development,
-            grid: &setup.grid,
-            ground: ground.unwrap_or([1.0; 3]),
-        };
+        let colors =
+            FigureColors { layers, development, grid: &setup.grid, ground: ground.unwrap_or([1.0; 3]) };
         let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
         let mut elements = painted(&colors, &faces, &index, size)?;
         let strokes = layers.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
@@ -251,7 +246,7 @@ mod tests {
             let scale = scale(size);
             let fine = at_scale(&config, scale);
             let setup = prepare(&scene, &fine).unwrap();
-            let layers = RenderLayers::new(setup.painter(), &fine.draw_mode());
+            let layers = RenderLayers::new(&setup, &fine);
             let n_fragments = seen::n_fragments(&layers, fine.picture.size);
             assert_eq!(n_fragments, f64::from(n_panes * 64 * 64 * scale * scale));
             assert_eq!(coarser(scale, n_fragments), expected);

@@ -2,10 +2,10 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use ugraster::{Corner, PixelSamples, SampleStats, TRANSPARENT_VALUES};
+use ugraster::{Corner, Keep, PixelSamples, SampleStats, TRANSPARENT_VALUES};
 
 use crate::planar::doubled_area;
-use crate::render_layers::RenderLayers;
+use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
 /// Visibility of faces at samples.
@@ -51,7 +51,7 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let is_seen: Vec<AtomicBool> = scene.faces.iter().map(|_| AtomicBool::new(false)).collect();
     // The pixels are `()`, which take no memory. The order in which tasks visit faces does not
     // matter.
-    let (_, stats) = layers.paint_with_centers(&setup.grid, &setup.shader, &|all: &PixelSamples<'_>| {
+    let mark = |all: &PixelSamples<'_>| {
         let center = &all.center;
         let transparent = center.fragments.iter().filter(|fragment| !fragment.is_line);
         let transparent = transparent.map(|fragment| fragment.item);
@@ -60,6 +60,9 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
                 face.store(true, Ordering::Relaxed);
             }
         }
+    };
+    let (_, stats) = with_rasterizer!(layers, |rasterizer| {
+        rasterizer.paint(layers.shader, Keep::Centers, &mark, &layers.progress())
     });
     let is_seen: Vec<bool> = is_seen.into_iter().map(AtomicBool::into_inner).collect();
     let mut is_corner = vec![false; scene.vertices.len()];

@@ -72,8 +72,8 @@ optional_index! {
     ColorId
     /// Row of [`Scene::surfaces`].
     SurfaceId
-    /// Row of [`Scene::illums`].
-    IllumId
+    /// Row of [`Scene::shadings`].
+    ShadingId
     /// A name in a [`Names`] table.
     NameId
 }

@@ -16,13 +16,15 @@ pub use body::{Bodies, Body};
 pub use color_table::{ColorTable, TablePlace};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
-pub use ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
+pub use ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 pub use motion::{Carrier, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{
-    Camera, Color, ColorValue, Face, FaceOrWire, Illum, Light, LightKind, LightMotion, Mix, Projection,
-    Scene, Tint, Vertex, Wire,
+    Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
+    Shading, Tint, Vertex, Wire,
 };
-pub use stage::{ColorScale, ColorStage, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage};
+pub use stage::{
+    ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,
+};
 pub use surface::{SurfaceNumber, SurfaceProperties};

@@ -17,7 +17,7 @@ use ugphysics::Velocity;
 use super::body::Bodies;
 use super::color_table::ColorTable;
 use super::contours::Contours;
-use super::ids::{BodyId, ColorId, IllumId, NameId, SurfaceId, VertexId};
+use super::ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 use super::names::Names;
 use super::remarks::Remarks;
 use super::stage::{HueScale, Stage};
@@ -57,7 +57,7 @@ pub struct Scene {
     /// `f`.
     pub faces: Vec<Face>,
     /// Light levels and surfaces of faces; stored separately, because few faces have one.
-    pub illums: Vec<Illum>,
+    pub shadings: Vec<Shading>,
     /// `w`.
     pub wires: Vec<Wire>,
     /// `l`.
@@ -186,14 +186,14 @@ pub struct Face {
     /// Colour; `None` means lightness 1, saturation 0, opaque.
     pub color: Option<ColorId>,
     /// Its light level or surface, see [`Scene::light_level`] and [`Scene::surface`].
-    pub illum: Option<IllumId>,
+    pub shading: Option<ShadingId>,
     /// The body it is part of.
     pub body: BodyId,
 }
 
 /// The light level or surface of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Illum {
+pub enum Shading {
     /// Fixed light level: the face is not lit.
     Level(f64),
     /// Reflection properties.
@@ -351,17 +351,17 @@ impl Scene {
 
     /// The fixed light level of a face, if it has one; such a face is not lit.
     pub fn light_level(&self, face: &Face) -> Option<f64> {
-        match self.illums[face.illum?.index()] {
-            Illum::Level(level) => Some(level),
-            Illum::Surface(_) => None,
+        match self.shadings[face.shading?.index()] {
+            Shading::Level(level) => Some(level),
+            Shading::Surface(_) => None,
         }
     }
 
     /// The reflection properties of a face, if it has any.
     pub fn surface(&self, face: &Face) -> Option<&SurfaceProperties> {
-        match self.illums[face.illum?.index()] {
-            Illum::Level(_) => None,
-            Illum::Surface(surface) => Some(&self.surfaces[surface.index()]),
+        match self.shadings[face.shading?.index()] {
+            Shading::Level(_) => None,
+            Shading::Surface(surface) => Some(&self.surfaces[surface.index()]),
         }
     }
 

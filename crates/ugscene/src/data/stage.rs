@@ -15,7 +15,7 @@ pub struct Stage {
     pub colors: ColorStage,
     /// The colours that were given to vertices between corners with mixed colours; `None` if there
     /// are none.
-    pub mixtures: Option<Mixtures>,
+    pub mixtures: Option<MixtureNames>,
 }
 
 /// The names of mixed colours: the prefix `mix` with this many `#`, and a number.
@@ -23,11 +23,11 @@ pub struct Stage {
 /// Vertices with such a colour are those that subdivision added between corners where faces of
 /// different colours meet. Programs that keep colours apart remove it from them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mixtures {
+pub struct MixtureNames {
     n_marks: u32,
 }
 
-impl Mixtures {
+impl MixtureNames {
     const WORD: &str = "mix";
 
     /// The shortest prefix that none of `names` begins with.

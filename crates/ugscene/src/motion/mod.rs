@@ -7,9 +7,10 @@ mod observer;
 mod placement;
 mod world_lines;
 
+use std::fmt;
+
 use glam::DVec3;
 use rayon::prelude::*;
-use thiserror::Error;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
 use observer::Observer;
@@ -53,37 +54,27 @@ pub enum Anchor {
 }
 
 /// Why the motions of a scene are invalid.
-#[derive(Clone, Debug, Error)]
+#[derive(Clone, Debug)]
 pub enum MotionError {
     /// Positions or colours of the scene are as seen already.
-    #[error(transparent)]
     Stage(StageError),
     /// [`MotionOptions::velocity`] is invalid.
-    #[error("velocity of the bodies: {0}")]
     Velocity(VelocityError),
     /// [`MotionOptions::camera_velocity`] is invalid.
-    #[error("velocity of the camera: {0}")]
     CameraVelocity(VelocityError),
     /// The velocity of a body relative to the camera rounds to the speed of light.
-    #[error(
-        "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to the camera",
-        beta.x, beta.y, beta.z
-    )]
     TooFast {
         /// The body's velocity in the frame of the scene.
         beta: DVec3,
     },
     /// The camera is invalid.
-    #[error(transparent)]
     Camera(CameraError),
     /// The eye cannot move with the camera's body.
-    #[error("the eye cannot move with the motion of the camera: {error}")]
     Eye {
         /// Why.
         error: WorldLineError,
     },
     /// A body cannot move so.
-    #[error("motion `{name}`: {error}")]
     WorldLine {
         /// The name of the motion.
         name: String,
@@ -91,12 +82,36 @@ pub enum MotionError {
         error: WorldLineError,
     },
     /// A single effect is asked for, and a body accelerates or turns.
-    #[error("bodies that accelerate or turn are seen with contraction and flight time together")]
     PartialGeometry,
     /// A single effect is asked for, and a colour changes with own time.
-    #[error("colours that change with time are seen with contraction and flight time together")]
     PartialTimes,
 }
+
+impl fmt::Display for MotionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Stage(error) => error.fmt(f),
+            Self::Velocity(error) => write!(f, "velocity of the bodies: {error}"),
+            Self::CameraVelocity(error) => write!(f, "velocity of the camera: {error}"),
+            Self::TooFast { beta: DVec3 { x, y, z } } => write!(
+                f,
+                "the body with velocity {x} {y} {z} in the scene moves too close to the speed of light \
+                 relative to the camera"
+            ),
+            Self::Camera(error) => error.fmt(f),
+            Self::Eye { error } => write!(f, "the eye cannot move with the motion of the camera: {error}"),
+            Self::WorldLine { name, error } => write!(f, "motion `{name}`: {error}"),
+            Self::PartialGeometry => f.write_str(
+                "bodies that accelerate or turn are seen with contraction and flight time together",
+            ),
+            Self::PartialTimes => f.write_str(
+                "colours that change with time are seen with contraction and flight time together",
+            ),
+        }
+    }
+}
+
+impl std::error::Error for MotionError {}
 
 /// Where the bodies of a scene are relative to the camera.
 #[derive(Clone, Debug)]

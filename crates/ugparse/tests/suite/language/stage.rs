@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ugphysics::{Brightness, Velocity};
 use ugscene::{
-    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, Mixtures, SeenColors, SeenGeometry, Stage,
-    Tint,
+    ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry,
+    Stage, Tint,
 };
 
 use super::*;
@@ -41,7 +41,7 @@ fn every_stage_reads_back() {
     }
     for &geometry in &geometries {
         for &colors in &colors {
-            for mixtures in [None, Some(Mixtures::unused(["mix", "mix##1"].into_iter()))] {
+            for mixtures in [None, Some(MixtureNames::unused(["mix", "mix##1"].into_iter()))] {
                 let stage = Stage { geometry, colors, mixtures };
                 let text = written(stage);
                 assert_eq!(text.is_empty(), stage.is_at_rest());

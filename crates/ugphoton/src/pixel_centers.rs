@@ -1,4 +1,4 @@
-//! Surfaces at the middles of pixels: for channels and legends.
+//! Surfaces at the centres of pixels: for channels and legends.
 
 use rayon::prelude::*;
 use ugphysics::{BodyEvent, RestFrame};
@@ -10,12 +10,12 @@ use ugpicture::rays::{PastRay, along};
 
 /// The surface at the middle of each pixel.
 pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
-    let middles = Middles::new(scenery, [0, 0, size[0], size[1]], samples);
-    (0..middles.len()).into_par_iter().map(|idx| middles.item(idx)).collect()
+    let centers = PixelCenters::new(scenery, [0, 0, size[0], size[1]], samples);
+    (0..centers.len()).into_par_iter().map(|idx| centers.item(idx)).collect()
 }
 
-/// The surfaces at the middles of the pixels of a part of a picture.
-pub struct Middles<'a> {
+/// The surfaces at the centres of the pixels of a part of a picture.
+pub struct PixelCenters<'a> {
     scenery: &'a Scenery<'a>,
     /// Left column, top row and number of columns.
     area: [u32; 3],
@@ -25,13 +25,13 @@ pub struct Middles<'a> {
     surfaces: Vec<Option<(f64, u32)>>,
 }
 
-impl<'a> Middles<'a> {
+impl<'a> PixelCenters<'a> {
     /// `area`: left column, upper row, width and height.
     pub fn new(scenery: &'a Scenery<'a>, [left, top, width, height]: [u32; 4], samples: u32) -> Self {
         let n_pixels = width as usize * height as usize;
-        let mut middles = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
-        middles.surfaces = (0..n_pixels).into_par_iter().map(|idx| middles.surface(idx)).collect();
-        middles
+        let mut centers = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
+        centers.surfaces = (0..n_pixels).into_par_iter().map(|idx| centers.surface(idx)).collect();
+        centers
     }
 
     /// Number of pixels.

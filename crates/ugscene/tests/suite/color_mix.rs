@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use ugscene::{ColorId, Shares, vertex_shares};
+use ugscene::{ColorId, ColorMix, vertex_mixes};
 
 use super::parse;
 
@@ -19,7 +19,7 @@ fn colours_are_counted_once_in_their_order() {
         (0..n_colors).for_each(|color| writeln!(text, "c c{color} .5 {color};").unwrap());
         let scene = parse(&text);
         let positions: Vec<_> = scene.vertices.iter().map(|vertex| vertex.position).collect();
-        let Shares::Mixed(parts) = &vertex_shares(&scene, &positions)[0] else { panic!("{n_colors}") };
+        let ColorMix::Mixed(parts) = &vertex_mixes(&scene, &positions)[0] else { panic!("{n_colors}") };
         assert!(parts.iter().map(|part| part.0).eq((0..n_colors).map(|row| Some(ColorId::from_index(row)))));
         assert!(parts.iter().all(|part| (part.1 * n_colors as f64 - 1.0).abs() < 1e-9), "{n_colors}");
     }

@@ -72,7 +72,7 @@ impl Film {
 
     /// The pixels in which one eye sees directions within `radius` of `direction`, in every frame.
     /// `radius`: radians, less than π/2.
-    pub fn cap(&self, direction: DVec3, radius: f64) -> impl Iterator<Item = Window> {
+    pub fn pixels_near(&self, direction: DVec3, radius: f64) -> impl Iterator<Item = Window> {
         let n_frames = if self.lens == Lens::Cube { 6 } else { 1 };
         (0..n_frames).filter_map(move |frame| self.window(frame, direction, radius))
     }
@@ -346,7 +346,7 @@ mod tests {
                 let mut expected: Vec<_> =
                     all.iter().filter(|facet| is_inside(facet)).map(|facet| facet.place).collect();
                 let mut found = Vec::new();
-                for window in film.cap(direction, radius) {
+                for window in film.pixels_near(direction, radius) {
                     film.visit(&window, |facet| {
                         if is_inside(facet) && facet.place.is_some() {
                             found.push(facet.place);
@@ -406,7 +406,7 @@ mod tests {
             let direction = film.sight([4.7, 4.4]).map_or(DVec3::ZERO, |sight| sight.direction.normalize());
             let deviation = 4.0 * film.pixel_side(direction);
             let mut sum = 0.0;
-            for window in film.cap(direction, 4.0 * deviation) {
+            for window in film.pixels_near(direction, 4.0 * deviation) {
                 film.visit_evenly(&window, |facet| {
                     let square = (facet.direction - direction).length_squared();
                     sum += libm::exp(-0.5 * square / (deviation * deviation)) * facet.solid_angle;

@@ -7,7 +7,7 @@ use ugscene::View;
 use crate::lines::LIFT;
 
 /// The nearest surface that transmits less than half of the light behind it.
-pub fn front(view: &View, center: &Center<'_>) -> Option<SurfaceSample> {
+pub fn center_surface(view: &View, center: &Center<'_>) -> Option<SurfaceSample> {
     let fragment = center.fragments.iter().rev().find(|fragment| fragment.transmittance < 0.5);
     fragment.map(|fragment| of_fragment(view, fragment)).or(center.opaque.map(of_surface))
 }

@@ -7,15 +7,15 @@ use crate::{ColorId, Scene, VertexId, corner_angle};
 
 /// The colours of a vertex. `None` is white, for faces without a colour.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shares {
+pub enum ColorMix {
     /// Its own, or that of all its faces.
     One(Option<ColorId>),
     /// The colours of its faces, in their order, each once and with its share by the angles of the
-    /// faces, or those of a mixture (`c_mix`). Shares add up to 1.
+    /// faces, or those of a mixture (`c_mix`). ColorMix add up to 1.
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
 
-impl Shares {
+impl ColorMix {
     /// Where colours are spectra: a mixture (`c_mix`) is its parts.
     #[must_use]
     pub fn of_spectra(self, scene: &Scene) -> Self {
@@ -46,9 +46,9 @@ impl Shares {
 ///
 /// `positions`: one for each vertex, in the rest frame of its body, where angles do not depend on
 /// the speed.
-pub fn vertex_shares(scene: &Scene, positions: &[DVec3]) -> Vec<Shares> {
+pub fn vertex_mixes(scene: &Scene, positions: &[DVec3]) -> Vec<ColorMix> {
     // If all vertices have a colour, the faces do not matter.
-    let own = scene.vertices.iter().map(|vertex| vertex.color.map(|color| Shares::One(Some(color))));
+    let own = scene.vertices.iter().map(|vertex| vertex.color.map(|color| ColorMix::One(Some(color))));
     if let Some(shares) = own.collect() {
         return shares;
     }
@@ -151,19 +151,19 @@ impl Sum {
         }
     }
 
-    fn finish(self) -> Shares {
+    fn finish(self) -> ColorMix {
         match self {
-            Self::Own(color) => Shares::One(Some(color)),
-            Self::Nothing => Shares::One(None),
-            Self::One(color) => Shares::One(color),
+            Self::Own(color) => ColorMix::One(Some(color)),
+            Self::Nothing => ColorMix::One(None),
+            Self::One(color) => ColorMix::One(color),
             Self::Many(Parts { all: mut parts, .. }) => {
                 let whole: f64 = parts.iter().map(|part| part.1).sum();
                 // All angles are 0.
                 if whole <= 0.0 {
-                    return Shares::One(None);
+                    return ColorMix::One(None);
                 }
                 parts.iter_mut().for_each(|part| part.1 /= whole);
-                Shares::Mixed(parts)
+                ColorMix::Mixed(parts)
             }
         }
     }

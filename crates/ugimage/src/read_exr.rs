@@ -1,0 +1,196 @@
+//! Reads OpenEXR files: the first layer with colours, with its windows and chromaticities.
+
+use std::io::Cursor;
+
+use exr::compression::Compression;
+use exr::math::Vec2;
+use exr::meta::attribute::ChannelDescription;
+use exr::meta::header::Header;
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, pixel_vec::PixelVec, read as exr_reader};
+
+use crate::encoding::Encoding;
+use crate::read::{Declared, MOST_INFLATED, PictureLimits, ReadError, check_packed, reserved};
+use crate::read_light::broken;
+
+/// Bytes of a pixel of light.
+const N_BYTES_OF_LIGHT: u64 = size_of::<[f32; 4]>() as u64;
+
+/// The size of the display window, and the light in it: black outside of the data window.
+///
+/// # Errors
+/// [`ReadError`] if the file is truncated or corrupt, has no colours, or exceeds a limit.
+pub(crate) fn read(
+    file: &[u8],
+    limits: &PictureLimits,
+    declared: &mut Declared,
+    notes: &mut Vec<String>,
+) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+    /// Of headers, as the decoder of pixels checks them.
+    const PEDANTIC: bool = true;
+    let broken = |error: &dyn std::fmt::Display| broken("EXR", error);
+    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), PEDANTIC);
+    let headers = headers.map_err(|error| broken(&error))?.headers;
+    // The first layer with these channels is read, so none may be too large.
+    for header in headers.iter().filter(|header| !header.deep) {
+        check_layer(header, file.len(), limits)?;
+    }
+    let Some((header, channels)) =
+        headers.iter().filter(|header| !header.deep).find_map(|header| Some((header, Channels::of(header)?)))
+    else {
+        return Err(broken(&"it has no channels of colours"));
+    };
+    if let Some(note) = &channels.note {
+        notes.push(note.clone());
+    }
+    let (data_size, mut pixels) = channels.read(file).map_err(|error| broken(&error))?;
+    // Colours of EXR files are multiplied by alpha.
+    for [red, green, blue, alpha] in &mut pixels {
+        if *alpha > 0.0 && *alpha < 1.0 {
+            [*red, *green, *blue] = [*red / *alpha, *green / *alpha, *blue / *alpha];
+        }
+    }
+    let attributes = &header.shared_attributes;
+    declared.encoding = attributes.chromaticities.and_then(|chromaticities| {
+        let pair = |Vec2(x, y): Vec2<f32>| [x, y].map(f64::from);
+        let exr::meta::attribute::Chromaticities { red, green, blue, white } = chromaticities;
+        Encoding::from_chromaticities([red, green, blue, white].map(pair), None)
+    });
+    let display = attributes.display_window;
+    let size = limits.check([display.size.width(), display.size.height()], N_BYTES_OF_LIGHT)?;
+    let Vec2(x, y) = header.own_attributes.layer_position;
+    let corner = [x, y].map(i64::from);
+    let origin = [display.position.x(), display.position.y()].map(i64::from);
+    if data_size == size && corner == origin {
+        return Ok((size, pixels));
+    }
+    let mut shown = reserved(size[0] as usize * size[1] as usize)?;
+    for row in 0..i64::from(size[1]) {
+        let row = row + origin[1] - corner[1];
+        for column in 0..i64::from(size[0]) {
+            let column = column + origin[0] - corner[0];
+            let is_in =
+                (0..i64::from(data_size[0])).contains(&column) && (0..i64::from(data_size[1])).contains(&row);
+            let idx = if is_in { row * i64::from(data_size[0]) + column } else { -1 };
+            shown
+                .push(usize::try_from(idx).ok().and_then(|idx| pixels.get(idx)).copied().unwrap_or_default());
+        }
+    }
+    Ok((size, shown))
+}
+
+/// The channels of a layer that are read.
+struct Channels {
+    /// Red, green and blue, or one for all.
+    names: Vec<String>,
+    alpha: String,
+    note: Option<String>,
+}
+
+impl Channels {
+    /// `R`, `G` and `B`; or those of a layer in the names, as Blender writes them; or luminance; or
+    /// the only channel.
+    fn of(header: &Header) -> Option<Self> {
+        let names: Vec<String> =
+            header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+        let has = |name: &str| names.iter().any(|known| known == name);
+        let colors = |prefix: &str| ["R", "G", "B"].map(|letter| format!("{prefix}{letter}"));
+        let prefixes = names.iter().filter_map(|name| name.strip_suffix('R'));
+        let mut prefixes: Vec<&str> =
+            prefixes.filter(|prefix| colors(prefix).iter().all(|name| has(name))).collect();
+        // The combined picture before its parts.
+        prefixes.sort_by_key(|prefix| (!prefix.is_empty(), !prefix.contains("Combined"), prefix.len()));
+        if let Some(prefix) = prefixes.first() {
+            let note = (!prefix.is_empty()).then(|| {
+                format!("of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read")
+            });
+            return Some(Self { names: colors(prefix).to_vec(), alpha: format!("{prefix}A"), note });
+        }
+        let alone = if names.len() == 1 { names.first().map(String::as_str) } else { None };
+        let grey = if has("Y") { "Y" } else { alone? };
+        let note = if has("RY") {
+            "of the picture only its luminance is read; write red, green and blue".to_owned()
+        } else {
+            format!("the picture has no colours: its channel `{grey}` is read as grey")
+        };
+        Some(Self { names: vec![grey.to_owned()], alpha: "A".to_owned(), note: Some(note) })
+    }
+
+    fn read(&self, file: &[u8]) -> exr::error::Result<([u32; 2], Vec<[f32; 4]>)> {
+        type Image = PixelVec<[f32; 4]>;
+        let new =
+            |resolution: Vec2<usize>, _: &_| Image { resolution, pixels: vec![[0.0; 4]; resolution.area()] };
+        let set = |image: &mut Image, position: Vec2<usize>, pixel: [f32; 4]| {
+            let idx = position.flat_index_for_size(image.resolution);
+            image.pixels[idx] = pixel;
+        };
+        let reader = exr_reader().no_deep_data().largest_resolution_level().specific_channels();
+        let data = match &self.names[..] {
+            [red, green, blue] => {
+                reader
+                    .required(red.as_str())
+                    .required(green.as_str())
+                    .required(blue.as_str())
+                    .optional(self.alpha.as_str(), 1.0_f32)
+                    .collect_pixels(
+                        |resolution, _| new(resolution, &()),
+                        move |image, position, (red, green, blue, alpha): (f32, f32, f32, f32)| {
+                            set(image, position, [red, green, blue, alpha]);
+                        },
+                    )
+                    .first_valid_layer()
+                    .all_attributes()
+                    .non_parallel()
+                    .from_buffered(Cursor::new(file))?
+                    .layer_data
+                    .channel_data
+                    .pixels
+            }
+            names => {
+                reader
+                    .required(names[0].as_str())
+                    .optional(self.alpha.as_str(), 1.0_f32)
+                    .collect_pixels(
+                        |resolution, _| new(resolution, &()),
+                        move |image, position, (grey, alpha): (f32, f32)| {
+                            set(image, position, [grey, grey, grey, alpha]);
+                        },
+                    )
+                    .first_valid_layer()
+                    .all_attributes()
+                    .non_parallel()
+                    .from_buffered(Cursor::new(file))?
+                    .layer_data
+                    .channel_data
+                    .pixels
+            }
+        };
+        Ok(([data.resolution.width() as u32, data.resolution.height() as u32], data.pixels))
+    }
+}
+
+/// Refuses a layer that is too large, or for which a file of `n_file` bytes has not enough.
+fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result<(), ReadError> {
+    /// Bytes in the file for each block of pixels: its place, its row, its size.
+    const N_BYTES_OF_BLOCK: u64 = 16;
+    let size = limits.check([header.layer_size.width(), header.layer_size.height()], N_BYTES_OF_LIGHT)?;
+    let n_pixels = size[0] as usize * size[1] as usize;
+    let n_bytes = |channel: &ChannelDescription| {
+        // A channel may have one sample for several pixels. The decoder refuses one for none.
+        let n_along = |side: u32, sampling: usize| u64::from(side) / (sampling as u64).max(1);
+        let n_samples = n_along(size[0], channel.sampling.x()) * n_along(size[1], channel.sampling.y());
+        channel.sample_type.bytes_per_sample() as u64 * n_samples
+    };
+    let n_stored = header.channels.list.iter().map(n_bytes).fold(0, u64::saturating_add);
+    let ratio = match header.compression {
+        Compression::Uncompressed => 1,
+        // Runs of 128 bytes have two.
+        Compression::RLE => 64,
+        // Some store 3 of 4 bytes first.
+        _ => MOST_INFLATED * 4 / 3,
+    };
+    check_packed(n_file, n_stored, ratio)?;
+    check_packed(n_file, N_BYTES_OF_BLOCK * header.chunk_count as u64, 1)?;
+    // Reserved before the decoder allocates as much; it is used only for pixels that are read.
+    drop(reserved::<[f32; 4]>(n_pixels)?);
+    Ok(())
+}
