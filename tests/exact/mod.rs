@@ -4,6 +4,7 @@
 mod modes;
 mod rules;
 mod samples;
+mod world_lines;
 
 use std::collections::BTreeMap;
 

@@ -6,8 +6,9 @@ use glam::DVec3;
 use ugphysics::Event;
 use ugscene::{Scene, Shading};
 
-use crate::path::{Media, Ray, Solid};
-use crate::world::{Faces, Intersection, World};
+use crate::media::{Media, Solid};
+use ugpicture::rays::PastRay;
+use ugpicture::rays::{Faces, Intersection, World};
 
 /// Rays from a point inside a closed surface leave it once more than they enter it, in every
 /// direction. Surfaces that are not closed, such as a single pane, are told apart by the
@@ -86,7 +87,7 @@ impl Immersion {
 /// first, in every direction.
 pub fn is_enclosed(world: &World, faces: Faces<'_>, event: Event, is_opaque: impl Fn(u32) -> bool) -> bool {
     let meets_opaque = |direction: &DVec3| {
-        let ray = Ray::in_vacuum(event, *direction);
+        let ray = PastRay::in_vacuum(event, *direction);
         let first = world.closest(faces, &ray, 0.0..f64::INFINITY);
         first.is_some_and(|found| is_opaque(found.triangle.face))
     };
@@ -105,10 +106,10 @@ pub struct Crossing {
 
 impl Crossing {
     /// Where a ray meets a face; `None` if that is not of a transparent solid.
-    pub fn new(world: &World, faces: Faces<'_>, ray: &Ray, found: &Intersection) -> Option<Self> {
+    pub fn new(world: &World, faces: Faces<'_>, ray: &PastRay, found: &Intersection) -> Option<Self> {
         let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
         let step = ray.in_part(found.part, &world.parts[found.part].frame).1;
-        Some(Self { solid, is_exit: faces.outside(found.triangle.face).dot(step) > 0.0, s: found.s })
+        Some(Self { solid, is_exit: world.outside[found.triangle.face as usize].dot(step) > 0.0, s: found.s })
     }
 
     /// The media of the ray behind it; `None` if it leaves a solid that it is not in.
@@ -119,7 +120,7 @@ impl Crossing {
 
 /// The crossings of a ray into the past, in their order along it.
 fn crossings(world: &World, faces: Faces<'_>, event: Event, direction: DVec3) -> Vec<Crossing> {
-    let ray = Ray::in_vacuum(event, direction);
+    let ray = PastRay::in_vacuum(event, direction);
     let mut all = Vec::new();
     let _ = world.visit(faces, &ray, 0.0..f64::INFINITY, |found| {
         all.extend(Crossing::new(world, faces, &ray, &found));

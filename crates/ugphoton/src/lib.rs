@@ -15,13 +15,12 @@
 //!
 //! # Modules
 //!
-//! Each line imports only from the lines above it:
+//! What rays meet is found by [`ugpicture::outlines`] and [`ugpicture::rays`]. Each line imports only
+//! from the lines above it:
 //!
 //! ```text
 //! error  config                             errors; options
-//! sampling  frame  path                      rest frames; rays and their media
-//! outline  moving_boxes  corridor            which bodies rays may meet
-//! world_line_part  world                    bodies on world lines; the faces, by rest frame
+//! sampling  media                           places on lamps; the media that rays are in
 //! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
 //! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
@@ -53,15 +52,12 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod config;
-mod corridor;
 mod error;
 pub mod explain;
 mod immersion;
-mod moving_boxes;
+mod media;
 mod notes;
 mod open_solids;
-mod outline;
-mod path;
 mod pixel_centers;
 mod pixels;
 mod render;
@@ -73,8 +69,6 @@ mod surface_point;
 mod tests;
 mod tracer;
 mod wires;
-mod world;
-mod world_line_part;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};

@@ -5,8 +5,8 @@ use ugphysics::{RestFrame, Velocity};
 use ugpicture::{Emission, MediumLight, SeenItem};
 use ugscene::BodyId;
 
-use crate::path::{Ray, along};
 use crate::scenery::Scenery;
+use ugpicture::rays::{PastRay, along};
 
 /// The surface at the middle of each pixel.
 pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
@@ -40,7 +40,7 @@ impl<'a> PixelCenters<'a> {
     }
 
     /// The ray through the sample nearest to the centre of a pixel; ties go to the lower-right one.
-    fn ray(&self, idx: usize) -> Option<Ray> {
+    fn ray(&self, idx: usize) -> Option<PastRay> {
         let [left, top, width] = self.area;
         // A picture has fewer than 2^32 pixels.
         let (column, row) = ((idx % width as usize) as u32, (idx / width as usize) as u32);
@@ -73,7 +73,7 @@ impl<'a> PixelCenters<'a> {
     }
 
     /// Light of a body along a ray, if the eye is in a transparent solid.
-    fn in_medium(&self, ray: &Ray, body: BodyId, on_line: Option<Velocity>) -> Option<MediumLight> {
+    fn in_medium(&self, ray: &PastRay, body: BodyId, on_line: Option<Velocity>) -> Option<MediumLight> {
         self.scenery.media_at(ray.origin).innermost()?;
         let frame = match on_line {
             Some(velocity) => RestFrame::new(velocity),

@@ -5,16 +5,17 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Filter, LinearFrame};
+use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugpicture::{Backdrop, PictureOptions, channel_planes};
 use ugpipe::Progress;
 
 use crate::config::Config;
 use crate::lens::frame_around;
-use crate::path::Ray;
 use crate::pixel_centers::PixelCenters;
 use crate::scenery::Scenery;
 use crate::tracer::{Arriving, Tracer, Visit};
-use crate::world::{Intersection, PacketMemory};
+use ugpicture::rays::PastRay;
+use ugpicture::rays::{Intersection, PacketMemory};
 
 /// Pixels along a side of a tile, which one task computes.
 const TILE: u32 = 16;
@@ -61,9 +62,13 @@ impl Statistics {
 /// The light of a picture, or of a part of it, with the requested channels. Tiles are missing if
 /// the caller stopped it.
 pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) -> (LinearFrame, Statistics) {
-    let painting = Painting::new(scenery, config);
+    let mut painting = Painting::new(scenery, config);
     let [width, height] = painting.area.clone().map(|range| range.len() as u32);
     let [left, top] = [painting.area[0].start, painting.area[1].start];
+    // Adaptive samples are too few for outlines.
+    if painting.contrast.is_none() {
+        painting.outlines = scenery.outlines(painting.tiles());
+    }
     let [columns, rows] = [width, height].map(|side| side.div_ceil(TILE));
     progress.step("tracing rays", u64::from(columns) * u64::from(rows));
     let tiles: Vec<Tile> = (0..columns * rows)
@@ -132,7 +137,7 @@ pub struct ExplainedRay {
     /// Its column and row in the picture.
     pub place: [u32; 2],
     /// Its ray.
-    pub ray: Ray,
+    pub ray: PastRay,
     /// Its light, and the part of the background that is seen.
     pub arriving: Arriving,
     /// From the eye on.
@@ -169,6 +174,8 @@ struct Painting<'a> {
     /// See [`Config::adaptive`].
     contrast: Option<f64>,
     backdrop: Backdrop,
+    /// Outlines of faces, if these find what rays from the eye meet.
+    outlines: Option<Outlines>,
 }
 
 /// Pixels of a part of the picture.
@@ -199,6 +206,18 @@ impl<'a> Painting<'a> {
             filter,
             contrast: config.adaptive,
             backdrop: Backdrop::new(background, samples),
+            outlines: None,
+        }
+    }
+
+    /// The tiles, in samples.
+    fn tiles(&self) -> Tiles {
+        let n = self.samples;
+        Tiles {
+            size: self.size.map(|side| side * n),
+            start: [0, 1].map(|axis| self.area[axis].start * n),
+            tile: [TILE * n; 2],
+            margin: self.filter.margin() * n,
         }
     }
 
@@ -237,7 +256,7 @@ impl<'a> Painting<'a> {
         };
         let (columns, rows) = (range(0), range(1));
         let mut statistics = Statistics::default();
-        let samples = self.samples(&columns, &rows, (tracer, packet), &mut statistics);
+        let samples = self.samples(at, [&columns, &rows], (tracer, packet), &mut statistics);
         let weights = self.filter.weights(self.samples);
         let mut pixels = Vec::with_capacity(columns.len() * rows.len());
         for row in rows.clone() {
@@ -252,8 +271,8 @@ impl<'a> Painting<'a> {
     /// The samples that the pixels of a tile need.
     fn samples(
         &self,
-        columns: &Range<u32>,
-        rows: &Range<u32>,
+        tile: [u32; 2],
+        [columns, rows]: [&Range<u32>; 2],
         (tracer, packet): (&mut Tracer<'_>, &mut Packet),
         statistics: &mut Statistics,
     ) -> Samples {
@@ -274,12 +293,23 @@ impl<'a> Painting<'a> {
         let mut samples = Samples { columns: across, rows: down, light };
         let own = [columns, rows];
         let Some(contrast) = self.contrast else {
-            self.trace(&mut samples, own, (tracer, packet), statistics, |_| true);
+            let mut trace = |seen: Option<&NearestFaces<'_>>, samples: &mut Samples| {
+                // Bodies on world lines may be where no outline is.
+                let seen_everywhere = seen.filter(|_| self.scenery.world.is_inertial());
+                self.trace(samples, own, seen, (tracer, packet), statistics, |sample| {
+                    seen_everywhere.is_none_or(|seen| seen.at(sample).is_some())
+                });
+            };
+            let area = [samples.columns.clone(), samples.rows.clone()];
+            match &self.outlines {
+                Some(outlines) => outlines.with_nearest(tile, area, |seen| trace(Some(seen), &mut samples)),
+                None => trace(None, &mut samples),
+            }
             return samples;
         };
         let first = first_samples(n);
         let is_first = |[column, row]: [u32; 2]| first.contains(&(column % n)) && first.contains(&(row % n));
-        self.trace(&mut samples, own, (tracer, packet), statistics, is_first);
+        self.trace(&mut samples, own, None, (tracer, packet), statistics, is_first);
         // Without the samples beside the outermost pixels.
         let pixels = [(columns, 0), (rows, 1)].map(|(range, axis): (&Range<u32>, usize)| {
             range.start.saturating_sub(margin)..(range.end + margin).min(self.size[axis])
@@ -296,7 +326,7 @@ impl<'a> Painting<'a> {
             let at = || (row - pixels[1].start) as usize * width + (column - pixels[0].start) as usize;
             is_inside && is_refined[at()]
         };
-        self.trace(&mut samples, own, (tracer, packet), statistics, |sample| {
+        self.trace(&mut samples, own, None, (tracer, packet), statistics, |sample| {
             !is_first(sample) && is_pixel_refined(sample.map(|at| at / n))
         });
         for row in pixels[1].clone() {
@@ -307,11 +337,13 @@ impl<'a> Painting<'a> {
         samples
     }
 
-    /// Traces those samples that are wanted. `own`: the pixels of the tile.
+    /// Traces those samples that are wanted. `own`: the pixels of the tile. `seen`: what outlines find
+    /// there.
     fn trace(
         &self,
         samples: &mut Samples,
         [columns, rows]: [&Range<u32>; 2],
+        seen: Option<&NearestFaces<'_>>,
         (tracer, packet): (&mut Tracer<'_>, &mut Packet),
         statistics: &mut Statistics,
         is_wanted: impl Fn([u32; 2]) -> bool,
@@ -321,7 +353,7 @@ impl<'a> Painting<'a> {
             for left in samples.columns.clone().step_by(PACKET as usize) {
                 let (right, bottom) =
                     ((left + PACKET).min(samples.columns.end), (top + PACKET).min(samples.rows.end));
-                packet.trace(self.scenery, left..right, top..bottom, &is_wanted);
+                packet.trace(self.scenery, [left..right, top..bottom], seen, &is_wanted);
                 statistics.n_samples += packet.places.len() as u64;
                 for (&[column, row], (ray, first)) in
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
@@ -456,7 +488,7 @@ fn first_samples(n: u32) -> Vec<u32> {
 #[derive(Default)]
 struct Packet {
     places: Vec<[u32; 2]>,
-    rays: Vec<Ray>,
+    rays: Vec<PastRay>,
     first: Vec<Option<Intersection>>,
     memory: PacketMemory,
 }
@@ -466,8 +498,8 @@ impl Packet {
     fn trace(
         &mut self,
         scenery: &Scenery<'_>,
-        columns: Range<u32>,
-        rows: Range<u32>,
+        [columns, rows]: [Range<u32>; 2],
+        seen: Option<&NearestFaces<'_>>,
         is_wanted: impl Fn([u32; 2]) -> bool,
     ) {
         self.places.clear();
@@ -481,7 +513,8 @@ impl Packet {
             }
         }
         let slab = scenery.view.slab;
-        scenery.first(&self.rays, slab.near..slab.far, &mut self.memory, &mut self.first);
+        let (range, rays) = (slab.near..slab.far, (&self.rays[..], &self.places[..]));
+        scenery.first(rays, range, seen, &mut self.memory, &mut self.first);
     }
 }
 

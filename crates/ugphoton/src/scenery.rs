@@ -8,14 +8,16 @@ use rayon::prelude::*;
 use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
+use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugscene::{BodyId, Face, HueScale, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
 use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
-use crate::path::{Media, Ray, Solid};
-use crate::world::{Faces, Intersection, PacketMemory, World};
+use crate::media::{Media, Solid};
+use ugpicture::rays::PastRay;
+use ugpicture::rays::{Faces, Intersection, PacketMemory, World};
 
 /// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
 /// reflections by mirrors that approach each other.
@@ -108,7 +110,8 @@ impl<'a> Scenery<'a> {
             return Err(Error::MovingSpectrum);
         }
         let faces = Faces { scene: &scene, rest: surface.all_rest() };
-        let world = World::new(faces, surface.frames());
+        let planes = ugscene::shared_planes(&scene, faces.rest, surface.frames());
+        let world = World::new(faces, surface.frames(), planes, |_| true);
         if let Some(body) = moving_medium(&scene, surface.frames()) {
             let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
             return Err(Error::MovingMedium { name: name.to_string() });
@@ -158,16 +161,16 @@ impl<'a> Scenery<'a> {
 
     /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter
     /// is the depth along the view, or the distance with another lens than a pinhole.
-    pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<Ray> {
+    pub fn primary_ray(&self, [column, row]: [u32; 2]) -> Option<PastRay> {
         self.ray_through([f64::from(column) + 0.5, f64::from(row) + 0.5])
     }
 
     /// The same through any place, in samples.
     #[inline]
-    pub fn ray_through(&self, place: [f64; 2]) -> Option<Ray> {
+    pub fn ray_through(&self, place: [f64; 2]) -> Option<PastRay> {
         let sight = self.film.sight(place)?;
         if self.is_seen_from_origin() {
-            return Some(Ray::from_eye(sight.direction));
+            return Some(PastRay::from_eye(sight.direction));
         }
         self.ray_at_event(&sight)
     }
@@ -181,15 +184,15 @@ impl<'a> Scenery<'a> {
     /// The ray of a line of sight, whose light may arrive at another event than the origin, or in a
     /// medium.
     #[inline(never)] // Or the sight of every sample is passed in memory.
-    fn ray_at_event(&self, &Sight { eye, direction }: &Sight) -> Option<Ray> {
+    fn ray_at_event(&self, &Sight { eye, direction }: &Sight) -> Option<PastRay> {
         let ahead = match self.rays.shutter {
             Shutter::Pinhole => 0.0,
             Shutter::Film { distance } => distance * (direction.length() - 1.0),
         };
         let origin = Event { t: -ahead, x: eye };
         match self.media_at(origin).innermost() {
-            None => Some(Ray::in_vacuum(origin, direction)),
-            Some(solid) => Ray::in_medium(origin, direction, self.medium(solid)),
+            None => Some(PastRay::in_vacuum(origin, direction)),
+            Some(solid) => PastRay::in_medium(origin, direction, self.medium(solid)),
         }
     }
 
@@ -207,15 +210,34 @@ impl<'a> Scenery<'a> {
         Medium { index: self.properties(solid.surface).refraction, velocity }
     }
 
+    /// The outlines of faces as they are seen, if rays from the eye find faces faster by them than
+    /// by the hierarchy. `tiles`: the parts in which the picture is drawn.
+    pub fn outlines(&self, tiles: Tiles) -> Option<Outlines> {
+        /// Samples for each face from which outlines are faster. With the teapot and the street they
+        /// execute 22 % more instructions at 14, and 10 % less at 57.
+        const LEAST: u64 = 32;
+        let n_samples = u64::from(tiles.size[0]) * u64::from(tiles.size[1]);
+        let are_faster = n_samples >= LEAST * self.scene.faces.len() as u64;
+        if !(are_faster && self.is_seen_from_origin() && self.film.is_pinhole()) {
+            return None;
+        }
+        Some(self.world.outlines(self.faces(), self.appearance.surface.frames(), &self.view, tiles))
+    }
+
     /// The face that each of neighbouring rays from the eye meets first, for parameters in a range.
+    /// `seen`: what outlines find at samples, if they are used; `places`: the samples of the rays.
     pub fn first(
         &self,
-        rays: &[Ray],
+        (rays, places): (&[PastRay], &[[u32; 2]]),
         range: Range<f64>,
+        seen: Option<&NearestFaces<'_>>,
         memory: &mut PacketMemory,
         first: &mut Vec<Option<Intersection>>,
     ) {
         first.clear();
+        if let Some(seen) = seen {
+            return self.world.first_behind(self.faces(), rays, range, |row| seen.at(places[row]), first);
+        }
         if !self.is_seen_from_origin() {
             first.extend(rays.iter().map(|ray| self.closest(ray, range.clone())));
             return;
@@ -226,13 +248,13 @@ impl<'a> Scenery<'a> {
 
     /// The face that a ray meets first, for parameters in a range.
     #[inline]
-    pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+    pub fn closest(&self, ray: &PastRay, range: Range<f64>) -> Option<Intersection> {
         self.world.closest(self.faces(), ray, range)
     }
 
     /// The parameter and the row of the first face on a ray that transmits less than half of the
     /// light behind it.
-    pub fn first_opaque(&self, ray: &Ray, mut range: Range<f64>) -> Option<(f64, u32)> {
+    pub fn first_opaque(&self, ray: &PastRay, mut range: Range<f64>) -> Option<(f64, u32)> {
         loop {
             let found = self.closest(ray, range.clone())?;
             let color = self.scene.faces[found.triangle.face as usize].color;

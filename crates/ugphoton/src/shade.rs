@@ -6,12 +6,13 @@ use glam::DVec3;
 use uglight::{ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor};
 use ugphysics::{Event, WaveVector, srgb_encode};
 
-use crate::corridor::Corridor;
 use crate::immersion::Crossing;
-use crate::path::{Media, Ray, Solid, Start};
+use crate::media::{Media, Solid};
 use crate::sampling::disk_point;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
+use ugpicture::rays::Corridor;
+use ugpicture::rays::{PastRay, Start};
 
 /// Shades points of surfaces; it owns the memory it needs for that.
 pub struct Shader<'a> {
@@ -188,7 +189,7 @@ fn unshadowed(
     // ray starts above them, so the limit of the light is as smooth as the normals.
     let lift = frame.camera_from_rest(Event { t: 0.0, x: point.lift });
     let origin = Event { t: point.event.t + lift.t, x: point.event.x + lift.x };
-    let ray = Ray {
+    let ray = PastRay {
         origin,
         step,
         // Nothing depends on the frequency of a shadow ray.

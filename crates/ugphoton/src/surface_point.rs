@@ -5,9 +5,9 @@ use uglight::{ScatteringTime, SurfaceColor, SurfaceElement};
 use ugphysics::{Event, RestFrame, WaveVector, WorldLine, unit_or_zero};
 use ugscene::SurfaceId;
 
-use crate::path::{Ray, Start, along};
 use crate::scenery::Scenery;
-use crate::world::Intersection;
+use ugpicture::rays::Intersection;
+use ugpicture::rays::{PastRay, Start, along};
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.
@@ -53,7 +53,7 @@ pub struct Element {
 
 impl SurfacePoint {
     /// Where a ray meets a face.
-    pub fn new(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection) -> Self {
+    pub fn new(scenery: &Scenery<'_>, ray: &PastRay, found: &Intersection) -> Self {
         let part = &scenery.world.parts[found.part];
         if let Some(motion) = &part.motion {
             return Self::on_line(scenery, ray, found, &motion.line);
@@ -61,7 +61,7 @@ impl SurfacePoint {
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let wave = part.frame.wave_to_rest(ray.wave);
-        let outside = scenery.faces().outside(found.triangle.face);
+        let outside = scenery.world.outside[found.triangle.face as usize];
         let step = ray.in_part(found.part, &part.frame).1;
         let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
@@ -92,14 +92,13 @@ impl SurfacePoint {
 
     /// Where a ray meets a face of a body on a world line.
     #[inline(never)] // Keeps `new` small, which is called for every ray.
-    fn on_line(scenery: &Scenery<'_>, ray: &Ray, found: &Intersection, line: &WorldLine) -> Self {
+    fn on_line(scenery: &Scenery<'_>, ray: &PastRay, found: &Intersection, line: &WorldLine) -> Self {
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let own_time = found.own_time;
         let element = line.element(place, own_time);
         let frame = RestFrame::new(element.velocity);
-        let faces = scenery.faces();
-        let outside = faces.outside(found.triangle.face);
+        let outside = scenery.world.outside[found.triangle.face as usize];
         let step = frame.rest_from_camera(ray.step).x;
         let outside_in_frame = element.normal(outside);
         let is_outside = outside_in_frame.dot(step) <= 0.0;

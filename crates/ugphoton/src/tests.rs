@@ -11,12 +11,12 @@ use ugphysics::{Event, Medium, Velocity, WaveVector};
 use ugtesting::Random;
 
 use crate::Config;
-use crate::corridor::Corridor;
-use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
-use crate::path::{Ray, Start, along};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
-use crate::world::{Intersection, PacketMemory, World};
+use ugpicture::rays::Corridor;
+use ugpicture::rays::{Intersection, PacketMemory, World};
+use ugpicture::rays::{MovingBox, MovingBoxes, Rays};
+use ugpicture::rays::{PastRay, Start, along};
 
 /// Tetrahedra in random places, each with a velocity of its own.
 fn scene(random: &mut Random, n: usize, fastest: f64) -> String {
@@ -56,7 +56,7 @@ struct Worlds<'a> {
 
 impl Worlds<'_> {
     /// Checks the searches along one ray. Returns the nearest hit.
-    fn check(&self, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+    fn check(&self, ray: &PastRay, range: Range<f64>) -> Option<Intersection> {
         let faces = self.scenery.faces();
         let [found, expected] =
             [&self.scenery.world, self.plain].map(|world| world.closest(faces, ray, range.clone()));
@@ -76,8 +76,8 @@ impl Worlds<'_> {
 }
 
 /// A ray from an event, into the past, in a direction of the frame of the camera.
-fn ray(origin: Event, step: Event, start: Start) -> Ray {
-    Ray { origin, step, wave: WaveVector { frequency: 1.0, k: DVec3::ZERO }, start }
+fn ray(origin: Event, step: Event, start: Start) -> PastRay {
+    PastRay { origin, step, wave: WaveVector { frequency: 1.0, k: DVec3::ZERO }, start }
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn hits_are_those_of_testing_every_body() {
         let worlds = Worlds { scenery: &scenery, plain: &plain.world };
         for _ in 0..400 {
             // From the eye.
-            let primary = Ray::from_eye(random.direction() * random.between(0.5, 2.0));
+            let primary = PastRay::from_eye(random.direction() * random.between(0.5, 2.0));
             let first = worlds.check(&primary, 0.0..f64::INFINITY);
             n_hits[0] += usize::from(first.is_some());
             // From any event, through any medium.
@@ -134,8 +134,8 @@ fn packets_hit_what_testing_every_body_hits() {
         for _ in 0..300 {
             let middle = random.direction();
             let spread = *random.pick(&[0.0, 0.01, 0.3, 1.2]);
-            let rays: Vec<Ray> =
-                (0..64).map(|_| Ray::from_eye(middle + random.in_ball(1.0) * spread * 0.5)).collect();
+            let rays: Vec<PastRay> =
+                (0..64).map(|_| PastRay::from_eye(middle + random.in_ball(1.0) * spread * 0.5)).collect();
             let [found, expected] = [&scenery.world, &plain.world].map(|world| {
                 let mut first = vec![None; rays.len()];
                 world.first(

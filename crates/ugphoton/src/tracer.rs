@@ -5,11 +5,12 @@ use serde::Serialize;
 use uglight::{ColorFilter, ColorForm};
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
-use crate::path::{Media, Ray, Solid, Start};
+use crate::media::{Media, Solid};
 use crate::scenery::Scenery;
 use crate::shade::{LampLight, Shader, absorption};
 use crate::surface_point::SurfacePoint;
-use crate::world::Intersection;
+use ugpicture::rays::Intersection;
+use ugpicture::rays::{PastRay, Start};
 
 /// Light that arrives along a ray.
 #[derive(Clone, Copy, Debug)]
@@ -99,7 +100,7 @@ const FAINT: f64 = 4e-6;
 /// A ray and the state of its path.
 #[derive(Clone, Copy)]
 struct Path<'p> {
-    ray: &'p Ray,
+    ray: &'p PastRay,
     media: &'p Media,
     /// Reflections and refractions so far.
     depth: u32,
@@ -132,7 +133,7 @@ impl<'a> Tracer<'a> {
     /// As [`Tracer::arriving`], with the surfaces that contribute.
     pub fn explained(
         &mut self,
-        ray: &Ray,
+        ray: &PastRay,
         first: Option<Intersection>,
         far: f64,
         sample: u64,
@@ -146,7 +147,13 @@ impl<'a> Tracer<'a> {
     /// The light that arrives along a ray, and how much of the background is seen. `first`: the
     /// nearest face on the ray within the clipping distances. `far`: the end of the range of
     /// parameters.
-    pub fn arriving(&mut self, ray: &Ray, first: Option<Intersection>, far: f64, sample: u64) -> Arriving {
+    pub fn arriving(
+        &mut self,
+        ray: &PastRay,
+        first: Option<Intersection>,
+        far: f64,
+        sample: u64,
+    ) -> Arriving {
         let media = self.scenery.media_at(ray.origin);
         let path = Path {
             ray,
@@ -297,7 +304,7 @@ impl<'a> Tracer<'a> {
         let frame = point.frame(self.scenery);
         let forward = medium(self.scenery, media.innermost(), point).step(wave);
         let step = frame.camera_from_rest(Event { t: -forward.t, x: -forward.x });
-        let ray = Ray {
+        let ray = PastRay {
             origin: point.event,
             step,
             wave: frame.wave_to_camera(wave),

@@ -112,11 +112,16 @@ impl Film {
         self.half_stereo.is_none()
     }
 
+    /// True if straight lines of sight pass one pinhole to one flat film.
+    pub fn is_pinhole(&self) -> bool {
+        self.lens == Lens::Pinhole && self.frames == [1, 1]
+    }
+
     /// The line of sight at a place, in samples from the upper left corner. `None` outside the
     /// circle of a fisheye.
     #[inline(always)] // Called for every sample: otherwise the direction is passed in memory.
     pub fn sight(&self, place: [f64; 2]) -> Option<Sight> {
-        if self.lens == Lens::Pinhole && self.frames == [1, 1] {
+        if self.is_pinhole() {
             return Some(Sight { eye: DVec3::ZERO, direction: self.through_pinhole(place) });
         }
         self.sight_in_frames(place)

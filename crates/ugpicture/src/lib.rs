@@ -59,8 +59,10 @@ mod line;
 mod metadata;
 mod note;
 mod options;
+pub mod outlines;
 mod output;
 mod picture_file;
+pub mod rays;
 mod rendering;
 
 pub use annotations::{Annotated, Layout, Subject, VisibleWires};

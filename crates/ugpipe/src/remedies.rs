@@ -37,10 +37,6 @@ pub const EXACT_SEEN_COLORS: &str = "-xc shifts colours itself, at every sample,
 pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \
      leave out -xc, or -nc and --no-flight-time";
 
-/// Exact mode follows rays to inertial bodies.
-pub const EXACT_WORLD_LINE: &str = "-xc does not follow rays to bodies that accelerate or turn: leave it out, or give the scene at \
-     rest to ugphoton";
-
 /// Lights that move are drawn at rest.
 pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
 

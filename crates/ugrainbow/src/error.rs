@@ -31,9 +31,6 @@ pub enum Error {
     /// An exact picture in orthographic projection.
     #[error("rays go to the eye, and in orthographic projection they do not meet there")]
     ExactOrthographic,
-    /// An exact picture of bodies that accelerate or turn.
-    #[error("a body of this scene accelerates or turns, and no ray follows it here")]
-    ExactWorldLine,
     /// An exact picture that shifts hues, of moving bodies with spectra.
     #[error("hues are shifted, and a black body or spectrum of this scene moves")]
     ExactMovingSpectrum,

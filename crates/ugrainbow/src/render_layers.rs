@@ -96,7 +96,7 @@ pub struct Layers<'a, const N: usize> {
 
 /// How faces are intersected with samples.
 enum Surfaces<'a, const N: usize> {
-    Rays(Faces<'a, N>),
+    Rays(Box<Faces<'a, N>>),
     Polygons(DrawList<'a, N>),
 }
 
@@ -111,7 +111,7 @@ impl<'a, const N: usize> Layers<'a, N> {
         let is_one = |face: &Face| painter.is_transparent(face) == is_transparent;
         let surfaces = match mode.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
-            Some(_) => Surfaces::Rays(Faces::new(painter, planes, is_one, pack)),
+            Some(_) => Surfaces::Rays(Box::new(Faces::new(painter, planes, is_one, pack))),
         };
         Self { surfaces, is_drawn: mode.has_faces(), planes: planes.clone() }
     }

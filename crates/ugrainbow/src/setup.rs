@@ -110,9 +110,6 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     if !view.is_perspective {
         return Err(Error::ExactOrthographic);
     }
-    if scene.bodies.has_world_lines() {
-        return Err(Error::ExactWorldLine);
-    }
     Ok(())
 }
 

@@ -114,7 +114,6 @@ mod tile;
 mod transparency;
 mod triangles;
 
-pub use bins::Bins;
 pub use block::{BLOCK, BlockClasses, TriangleBlock};
 pub use depth_fade::DepthFade;
 pub use edges::Scanner;

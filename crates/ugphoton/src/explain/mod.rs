@@ -18,7 +18,7 @@ use ugscene::{HueScale, SeenColors};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::path::Solid;
+use crate::media::Solid;
 use crate::pixels::{self, ExplainedRay};
 use crate::render::as_seen;
 use crate::scenery::Scenery;

@@ -10,11 +10,11 @@ use ugtesting::Random;
 
 use super::ray;
 use crate::Config;
-use crate::path::{Ray, Start};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
-use crate::world::Intersection;
+use ugpicture::rays::Intersection;
+use ugpicture::rays::{PastRay, Start};
 
 fn scenery_at(text: &str, time: f64) -> Scenery<'static> {
     let source = ugparse::Source::new("test.ug", text);
@@ -129,7 +129,7 @@ fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVe
     found
 }
 
-fn all_hits(scenery: &Scenery<'_>, ray: &Ray) -> Vec<Intersection> {
+fn all_hits(scenery: &Scenery<'_>, ray: &PastRay) -> Vec<Intersection> {
     let mut all = Vec::new();
     let flow = scenery.world.visit(scenery.faces(), ray, 0.0..f64::INFINITY, |found| {
         all.push(found);
@@ -182,7 +182,7 @@ fn hits_are_those_of_emission_events() {
             let first = scenery.closest(&ray, 0.0..f64::INFINITY);
             assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
             if let (Some(first), 0) = (first, idx % 2) {
-                let seen = SurfacePoint::new(&scenery, &Ray::from_eye(direction), &first);
+                let seen = SurfacePoint::new(&scenery, &PastRay::from_eye(direction), &first);
                 let light = line.emission(seen.place, origin).unwrap();
                 let beta = seen.frame(&scenery).velocity().beta();
                 assert!((first.own_time - light.own_time).abs() < 1e-8, "{text}\n{first:?} {light:?}");

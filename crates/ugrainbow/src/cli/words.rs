@@ -13,7 +13,6 @@ impl Words for Error {
             Self::ExplainExact => "--explain works in scanline mode only: leave out -xc",
             Self::ExactSeenColors => remedies::EXACT_SEEN_COLORS,
             Self::ExactPartialGeometry => remedies::EXACT_PARTIAL_GEOMETRY,
-            Self::ExactWorldLine => remedies::EXACT_WORLD_LINE,
             Self::ExactOrthographic => {
                 "-xc follows rays to the eye, and in orthographic projection they do not meet there: \
                  leave out -xc, or -og (in the scene, too)"

@@ -1,15 +1,17 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{Appearance, ColorForm, Mixing, Swatch};
+use uglight::{ColorForm, FaceColors, Mixing, Swatch};
+use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{Face, VertexId};
 
-use super::frame::{PictureRays, Ray};
 use crate::painter::Painter;
 
 /// The appearance of a face, point by point.
 #[derive(Clone, Debug)]
 pub struct Look {
+    /// What its corners have in common.
+    pub colors: FaceColors,
     /// Normal of the face on its visible side, in the axes of the scene.
     normal: DVec3,
     /// The light level, if it is the same everywhere.
@@ -20,103 +22,116 @@ pub struct Look {
     is_lit_by_spectra: bool,
     /// Coloured lamps, whose light changes the hue.
     is_lit_by_hues: bool,
-    is_light: bool,
+    has_colors: bool,
+    has_tints: bool,
+    has_normals: bool,
     /// Its colour at rest, or that of its first corner, with the wavelength of the colour.
     color: Swatch,
     wavelength_nm: f64,
     /// Index of its spectrum.
     row: u32,
-    /// If colours or normals differ between corners.
-    mesh: Option<Box<Mesh>>,
-}
-
-/// Triangles between the corners of a face. Values at a point are interpolated linearly in the rest
-/// frame.
-#[derive(Clone, Debug)]
-struct Mesh {
-    corners: Vec<Corner>,
-    triangles: Vec<Triangle>,
-    has_colors: bool,
-    has_tints: bool,
-    has_normals: bool,
-    has_translucency: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Corner {
-    color: Swatch,
-    /// Index of its spectrum.
-    row: u32,
-    normal: DVec3,
+    /// Triangles between the corners, if colours or normals differ between these. Values at a point
+    /// are interpolated linearly in the rest frame.
+    triangles: Box<[Triangle]>,
 }
 
 #[derive(Clone, Debug)]
 struct Triangle {
-    corners: [u32; 3],
+    colors: [Swatch; 3],
+    /// Indices of the spectra of the corners.
+    rows: [u32; 3],
+    normals: [DVec3; 3],
+    /// If the colours are opaque hues, tint, saturation and value: each at the first corner, and the
+    /// differences to the other two.
+    hues: Option<[[f64; 3]; 3]>,
     /// Normals of the planes through the eye and each side. Dot products with a ray are
     /// proportional to the weights of the opposite corners.
     sides: [DVec3; 3],
-    /// Tint, saturation and value: each at the first corner, and the differences to the other two.
-    numbers: [[f64; 3]; 3],
 }
 
-/// A point of a triangle in barycentric coordinates: the weights are not negative and add up to 1.
-#[derive(Clone, Copy)]
-struct Spot<'a> {
-    mesh: &'a Mesh,
-    triangle: &'a Triangle,
-    weights: [f64; 3],
+/// The weighted mean.
+#[inline]
+pub fn mean(weights: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
+    weights[0] * a + weights[1] * b + weights[2] * c
+}
+
+impl Triangle {
+    fn new(places: [DVec3; 3], corners: [(Swatch, u32, DVec3); 3]) -> Self {
+        let [a, b, c] = places;
+        let sides = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from));
+        let colors @ [a, b, c] = corners.map(|corner| corner.0);
+        let number = |of: fn(&Swatch) -> f64| [of(&a), of(&b) - of(&a), of(&c) - of(&a)];
+        let hues =
+            [number(|color| color.tint), number(|color| color.saturation), number(|color| color.value)];
+        let are_hues = colors.iter().all(|color| color.form == ColorForm::Hue && color.translucency == 0.0);
+        let (rows, normals) = (corners.map(|corner| corner.1), corners.map(|corner| corner.2));
+        Self { colors, rows, normals, hues: are_hues.then_some(hues), sides }
+    }
+
+    /// The colour at a point, given by weights of the corners.
+    #[inline]
+    fn color(&self, weights: [f64; 3]) -> Swatch {
+        match &self.hues {
+            Some(hues) => {
+                let [_, second, third] = weights;
+                // A number that is the same at all corners keeps its bits.
+                let [tint, saturation, value] = hues.map(|[a, b, c]| a + second * b + third * c);
+                Swatch { tint, saturation, value, ..self.colors[0] }
+            }
+            None => Swatch::mean(&self.colors, weights),
+        }
+    }
 }
 
 impl Look {
-    /// The appearance of `face`. `contours`: its corners at rest, in the axes of `frame`.
-    pub fn new(painter: &Painter<'_>, frame: &PictureRays, face: &Face, contours: &[Vec<DVec3>]) -> Self {
-        let appearance = painter.appearance;
-        let colors = appearance.face_colors_in_motion(painter.scene, face, !frame.velocity.is_zero());
+    /// The appearance of `face`. `frame`: rays in its rest frame; `None` on a world line.
+    pub fn new(painter: &Painter<'_>, frame: Option<&PictureRays>, face: &Face) -> Self {
+        let (appearance, lighting) = (painter.appearance, painter.lighting);
+        let is_moving = frame.is_none_or(|frame| !frame.velocity.is_zero());
+        let colors = appearance.face_colors_in_motion(painter.scene, face, is_moving);
         let normal = painter.seen_normal(face);
-        let corner = |&vertex: &VertexId| {
-            let color = appearance.swatch(vertex, &colors);
-            Corner {
-                color,
-                row: painter.appearance.surface.row(vertex),
-                normal: painter.normal_at(vertex, normal),
-            }
-        };
         let vertices = painter.scene.contours.corners(face.contours.clone());
-        let corners: Vec<Corner> = vertices.iter().map(corner).collect();
+        let corner = |&vertex: &VertexId| {
+            (
+                appearance.swatch(vertex, &colors),
+                appearance.surface.row(vertex),
+                painter.normal_at(vertex, normal),
+            )
+        };
+        let corners: Vec<(Swatch, u32, DVec3)> = vertices.iter().map(corner).collect();
         let first = corners[0];
-        let differ = |of: &dyn Fn(&Corner, &Corner) -> bool| corners.iter().any(|corner| of(corner, &first));
         let is_spectral = appearance.is_spectral();
-        let has_colors = differ(&|a, b| a.color != b.color || (is_spectral && a.row != b.row));
-        let has_tints = differ(&|a, b| a.color.tint != b.color.tint);
-        let has_normals = differ(&|a, b| a.normal != b.normal);
+        let has_colors =
+            corners.iter().any(|corner| corner.0 != first.0 || (is_spectral && corner.1 != first.1));
+        let has_normals = corners.iter().any(|corner| corner.2 != first.2);
         let has_level = painter.scene.light_level(face).is_some();
         let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
         let (keeps_light, is_light) = (colors.mixing != Mixing::Hue, colors.mixing == Mixing::Light);
-        let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && painter.lighting.is_colored();
-        let is_even = has_level
-            || !(painter.lighting.needs_places() || has_normals && painter.lighting.needs_geometry());
+        let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && lighting.is_colored();
+        // A body on a world line turns.
+        let has_directions = (has_normals || frame.is_none()) && lighting.needs_geometry();
+        let is_even = has_level || !(lighting.needs_places() || has_directions);
         let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)
             .then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
-        let has_translucency = corners.iter().any(|corner| corner.color.translucency > 0.0);
-        let mesh = || {
-            let triangles = painter.triangles(face);
-            let mesh = Mesh::new(&corners, contours, triangles);
-            Box::new(Mesh { has_colors, has_tints, has_normals, has_translucency, ..mesh })
+        let triangles = match frame {
+            Some(frame) if has_colors || has_normals => triangles(painter, frame, face, &corners),
+            _ => Box::default(),
         };
-        let mesh = (has_colors || has_normals).then(mesh);
         Self {
-            normal: first.normal,
+            colors,
+            normal: first.2,
             level,
-            needs_place: painter.lighting.needs_places(),
+            needs_place: lighting.needs_places(),
             is_lit_by_spectra,
             is_lit_by_hues,
-            is_light,
-            color: first.color,
-            wavelength_nm: appearance.wavelength_nm(first.color.tint),
-            row: first.row,
-            mesh,
+            has_colors,
+            has_tints: corners.iter().any(|corner| corner.0.tint != first.0.tint),
+            has_normals,
+            color: first.0,
+            wavelength_nm: appearance.wavelength_nm(first.0.tint),
+            row: first.1,
+            triangles,
         }
     }
 
@@ -128,102 +143,73 @@ impl Look {
         &self,
         painter: &Painter<'_>,
         frame: &PictureRays,
-        ray: &Ray,
+        ray: &RestRay,
         key: f64,
     ) -> (Swatch, DVec3) {
+        let spot = (!self.triangles.is_empty()).then(|| self.spot(ray.rest));
+        let mixed = spot.filter(|_| self.has_colors);
+        let color = mixed.map(|(triangle, weights)| triangle.color(weights));
+        let rows = || mixed.map(|(it, weights)| std::array::from_fn(|at| (it.rows[at], weights[at])));
+        self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
+            let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
+            let normal = match spot {
+                Some((triangle, weights)) if self.has_normals => {
+                    mean(weights, triangle.normals).normalize_or_zero()
+                }
+                _ => self.normal,
+            };
+            [if self.needs_place { place() } else { DVec3::ZERO }, normal, frame.lamp_shift]
+        })
+    }
+
+    /// Apparent colour and light level of a point of the face. `mixed`: its colour at rest, if the
+    /// colours of corners differ, and the rows of their spectra with weights. `stretch`: 1/D. `lit`: position, normal and shift of lamps, see
+    /// [`uglight::Lighting::level`].
+    #[inline(always)] // As `at`.
+    pub fn shaded<const SPECTRAL: bool>(
+        &self,
+        painter: &Painter<'_>,
+        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<[(u32, f64); 3]>),
+        stretch: f64,
+        lit: impl Fn() -> [DVec3; 3],
+    ) -> (Swatch, DVec3) {
         let appearance = painter.appearance;
-        let spot = self.mesh.as_ref().map(|mesh| mesh.spot(ray.rest));
-        let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
-        if SPECTRAL && self.is_lit_by_spectra {
-            let place = [place(), self.normal_at(spot), frame.lamp_shift];
-            return (self.seen_spectrum(appearance, spot, ray.stretch, Some(place)), DVec3::ONE);
-        }
+        let rest = mixed.as_ref().unwrap_or(&self.color);
         if !SPECTRAL && self.is_lit_by_hues {
-            let light = painter.lighting.irradiances(place(), self.normal_at(spot), frame.lamp_shift);
-            let color = spot.filter(|spot| spot.mesh.has_colors).map_or(self.color, |spot| spot.color());
+            let [point, normal, shift] = lit();
+            let light = painter.lighting.irradiances(point, normal, shift);
             let lamps = painter.lighting.colored_lamps();
-            return (appearance.seen_lit(&color, ray.stretch, &light, lamps), DVec3::ONE);
+            return (appearance.seen_lit(rest, stretch, &light, lamps), DVec3::ONE);
         }
-        let color = match &spot {
-            &spot if SPECTRAL => self.seen_spectrum(appearance, spot, ray.stretch, None),
-            Some(spot) if spot.mesh.has_colors => {
-                let color = spot.color();
-                let has_own = spot.mesh.has_tints && ray.stretch != 1.0;
-                let rest_nm = if has_own { appearance.wavelength_nm(color.tint) } else { self.wavelength_nm };
-                appearance.seen(&color, rest_nm, ray.stretch)
-            }
-            _ => appearance.seen(&self.color, self.wavelength_nm, ray.stretch),
+        let color = if SPECTRAL {
+            // Between corners, the apparent colours of spectra are mixed.
+            let place = self.is_lit_by_spectra.then(&lit);
+            let light = match rows() {
+                Some(rows) => appearance.seen_light(rows, stretch, place),
+                None => appearance.seen_light([(self.row, 1.0)], stretch, place),
+            };
+            Swatch { form: ColorForm::Light(light), ..*rest }
+        } else {
+            let has_own = mixed.is_some() && self.has_tints && stretch != 1.0;
+            let rest_nm = if has_own { appearance.wavelength_nm(rest.tint) } else { self.wavelength_nm };
+            appearance.seen(rest, rest_nm, stretch)
         };
+        if SPECTRAL && self.is_lit_by_spectra {
+            return (color, DVec3::ONE);
+        }
         let color = painter.lit_as_written(color);
         if let Some(level) = self.level {
             return (color, level);
         }
-        // Here rather than in a closure, so that the weights stay in registers.
-        let normal = match &spot {
-            Some(spot) if spot.mesh.has_normals => spot.normal(),
-            _ => self.normal,
-        };
-        let point = if self.needs_place { place() } else { DVec3::ZERO };
-        (color, painter.lighting.level(point, normal, frame.lamp_shift, self.is_light))
+        let [point, normal, shift] = lit();
+        (color, painter.lighting.level(point, normal, shift, self.colors.mixing == Mixing::Light))
     }
 
-    /// The normal where a ray meets the face.
-    fn normal_at(&self, spot: Option<Spot<'_>>) -> DVec3 {
-        spot.filter(|spot| spot.mesh.has_normals).map_or(self.normal, |spot| spot.normal())
-    }
-
-    /// The apparent colour in spectral mode. Between corners, the apparent colours of spectra are
-    /// mixed. `place`: under lamps with spectra of their own.
-    fn seen_spectrum(
-        &self,
-        appearance: &Appearance,
-        spot: Option<Spot<'_>>,
-        stretch: f64,
-        place: Option<[DVec3; 3]>,
-    ) -> Swatch {
-        match spot.filter(|spot| spot.mesh.has_colors) {
-            None => {
-                let light = appearance.seen_light([(self.row, 1.0)], stretch, place);
-                Swatch { form: ColorForm::Light(light), ..self.color }
-            }
-            Some(spot) => {
-                let light = appearance.seen_light(spot.rows(), stretch, place);
-                Swatch { form: ColorForm::Light(light), ..spot.color() }
-            }
-        }
-    }
-}
-
-impl Mesh {
-    fn new(corners: &[Corner], contours: &[Vec<DVec3>], triangles: Option<Vec<[u32; 3]>>) -> Self {
-        let places = contours.concat();
-        // A self-intersecting face has no triangulation, so it gets a fan.
-        let fan = || (2..places.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
-        let triangle = |at: [u32; 3]| {
-            let [a, b, c] = at.map(|corner| places[corner as usize]);
-            let sides = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from));
-            let [a, b, c] = at.map(|corner| &corners[corner as usize].color);
-            let number = |of: fn(&Swatch) -> f64| [of(a), of(b) - of(a), of(c) - of(a)];
-            let numbers =
-                [number(|color| color.tint), number(|color| color.saturation), number(|color| color.value)];
-            Triangle { corners: at, sides, numbers }
-        };
-        let triangles = triangles.unwrap_or_else(fan).into_iter().map(triangle).collect();
-        Self {
-            corners: corners.to_vec(),
-            triangles,
-            has_colors: true,
-            has_tints: true,
-            has_normals: true,
-            has_translucency: true,
-        }
-    }
-
-    /// The point of the mesh on a ray. Where rounding places the ray outside all triangles, the
+    /// The point of the triangles on a ray. Where rounding places the ray outside all triangles, the
     /// nearest triangle is used.
     #[inline]
-    fn spot(&self, ray: DVec3) -> Spot<'_> {
-        let mut best = Spot { mesh: self, triangle: &self.triangles[0], weights: [1.0, 0.0, 0.0] };
+    fn spot(&self, ray: DVec3) -> (&Triangle, [f64; 3]) {
+        let mut best = (&self.triangles[0], [1.0, 0.0, 0.0]);
         let mut most = f64::NEG_INFINITY;
         for triangle in &self.triangles {
             let products = triangle.sides.map(|side| side.dot(ray));
@@ -231,57 +217,33 @@ impl Mesh {
             let weights = products.map(|product| product * part);
             let least = weights[0].min(weights[1]).min(weights[2]);
             if least > most {
-                most = least;
-                best = Spot { triangle, weights, ..best };
+                (best, most) = ((triangle, weights), least);
             }
             if least >= 0.0 {
-                return best;
+                return (triangle, weights);
             }
         }
-        let weights = best.weights.map(|weight| weight.max(0.0));
+        let (triangle, weights) = best;
+        let weights = weights.map(|weight| weight.max(0.0));
         let sum: f64 = weights.iter().sum();
-        Spot { weights: weights.map(|weight| weight / sum), ..best }
+        (triangle, weights.map(|weight| weight / sum))
     }
 }
 
-impl Spot<'_> {
-    /// The rows of the spectra of the corners, with their weights.
-    fn rows(&self) -> impl Iterator<Item = (u32, f64)> + use<> {
-        let rows = self.triangle.corners.map(|corner| self.mesh.corners[corner as usize].row);
-        rows.into_iter().zip(self.weights)
-    }
-
-    /// The weighted mean. Colours are interpolated as in scanline mode.
-    #[inline]
-    fn color(&self) -> Swatch {
-        let [_, second, third] = self.weights;
-        // A number that is the same at all corners keeps its bits.
-        let [tint, saturation, value] = self.triangle.numbers.map(|[a, b, c]| a + second * b + third * c);
-        let first = &self.mesh.corners[self.triangle.corners[0] as usize];
-        let mixing = first.color.form.mixing();
-        let form = if mixing == Mixing::Hue { ColorForm::Hue } else { mixing.form(self.light()) };
-        let translucency = if self.mesh.has_translucency { self.translucency() } else { 0.0 };
-        Swatch { tint, saturation, value, factor: first.color.factor, form, translucency }
-    }
-
-    fn translucency(&self) -> f64 {
-        let of = |corner: u32| self.mesh.corners[corner as usize].color.translucency;
-        let [a, b, c] = self.triangle.corners.map(of);
-        a + self.weights[1] * (b - a) + self.weights[2] * (c - a)
-    }
-
-    fn light(&self) -> DVec3 {
-        let light = |corner: u32| self.mesh.corners[corner as usize].color.form.light();
-        self.mean(self.triangle.corners.map(|corner| light(corner).unwrap_or_default()))
-    }
-
-    #[inline]
-    fn normal(&self) -> DVec3 {
-        let corners = self.triangle.corners;
-        self.mean(corners.map(|corner| self.mesh.corners[corner as usize].normal)).normalize_or_zero()
-    }
-
-    fn mean(&self, [a, b, c]: [DVec3; 3]) -> DVec3 {
-        self.weights[0] * a + self.weights[1] * b + self.weights[2] * c
-    }
+/// The triangles of a face. `corners`: colour, row and normal of each corner.
+fn triangles(
+    painter: &Painter<'_>,
+    frame: &PictureRays,
+    face: &Face,
+    corners: &[(Swatch, u32, DVec3)],
+) -> Box<[Triangle]> {
+    let vertices = painter.scene.contours.corners(face.contours.clone());
+    let place = |id: VertexId| frame.aligned_from_scene(painter.appearance.surface.rest(id));
+    let triangle = |at: [u32; 3]| {
+        let places = at.map(|corner| place(vertices[corner as usize]));
+        Triangle::new(places, at.map(|corner| corners[corner as usize]))
+    };
+    // A self-intersecting face has no triangulation, so it gets a fan.
+    let fan = || (2..vertices.len() as u32).map(|corner| [0, corner - 1, corner]).collect();
+    painter.triangles(face).unwrap_or_else(fan).into_iter().map(triangle).collect()
 }

@@ -3,17 +3,18 @@
 use std::ops::{ControlFlow, Range};
 use std::sync::Arc;
 
+use crate::outlines::{Outlines, RestFaces, Tiles};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
 use ugphysics::{RestFrame, WorldLine};
-use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, unit_normal};
+use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, View, unit_normal};
 
-use crate::corridor::Corridor;
-use crate::moving_boxes::{MovingBox, MovingBoxes, Rays};
-use crate::outline::Outline;
-use crate::path::{Ray, Start};
-use crate::world_line_part::{CurveHit, Next, WorldLineMotion};
+use super::corridor::Corridor;
+use super::moving_boxes::{MovingBox, MovingBoxes, Rays};
+use super::path::{PastRay, Start};
+use super::sphere::Outline;
+use super::world_line_part::{CurveHit, Next, WorldLineMotion};
 
 /// How far a ray leaves a surface before it can meet another one, relative to the largest
 /// coordinate. Rounding errors are below a hundredth of it.
@@ -31,6 +32,10 @@ pub struct World {
     n_inertial: usize,
     /// The plane of each face, see [`ugscene::shared_planes`].
     planes: Vec<u32>,
+    /// The unit normal of each face on its outside, see [`Faces::outside`].
+    pub outside: Vec<DVec3>,
+    /// For each face, its part and the row of its first triangle there.
+    triangles_of: Vec<[u32; 2]>,
     /// These parts by their moving boxes; `None` if they are few. Hits do not depend on it.
     pub boxes: Option<MovingBoxes>,
 }
@@ -115,8 +120,14 @@ impl Intersection {
 }
 
 impl World {
-    /// Builds the hierarchies.
-    pub fn new(faces: Faces<'_>, frames: &RestFrames) -> Self {
+    /// Builds the hierarchies of the faces for which `is_traced` returns true. `planes`: the plane of
+    /// each face, see [`ugscene::shared_planes`].
+    pub fn new(
+        faces: Faces<'_>,
+        frames: &RestFrames,
+        planes: Vec<u32>,
+        is_traced: impl Fn(&Face) -> bool,
+    ) -> Self {
         let scene = faces.scene;
         // Many scenes have thousands of bodies, few have that many velocities.
         let mut first_bodies: Vec<BodyId> = Vec::new();
@@ -136,7 +147,7 @@ impl World {
             })
             .collect();
         let mut rows: Vec<Vec<u32>> = vec![Vec::new(); first_bodies.len()];
-        for (row, face) in scene.faces.iter().enumerate() {
+        for (row, face) in scene.faces.iter().enumerate().filter(|(_, face)| is_traced(face)) {
             // Scenes have fewer than 2^32 faces.
             rows[part_of_body[face.body.index()]].push(row as u32);
         }
@@ -152,7 +163,14 @@ impl World {
         let boxes = || MovingBoxes::new(&parts.iter().map(Part::moving_box).collect::<Vec<_>>());
         let boxes = (n_inertial > FEW_PARTS).then(boxes);
         parts.extend(on_world_lines);
-        Self { parts, n_inertial, planes: ugscene::shared_planes(scene, faces.rest, frames), boxes }
+        let mut triangles_of = vec![[0; 2]; scene.faces.len()];
+        for (part, Part { triangles, .. }) in parts.iter().enumerate() {
+            for (row, triangle) in triangles.iter().enumerate().rev() {
+                triangles_of[triangle.face as usize] = [part as u32, row as u32];
+            }
+        }
+        let outside = (0..scene.faces.len() as u32).into_par_iter().map(|face| faces.outside(face)).collect();
+        Self { parts, n_inertial, planes, outside, triangles_of, boxes }
     }
 
     /// All triangles, with the rows of their parts.
@@ -164,7 +182,7 @@ impl World {
     /// The latest event of the past at which light that follows the ray left a face, (P22), for
     /// parameters in a range.
     #[inline]
-    pub fn closest(&self, faces: Faces<'_>, ray: &Ray, range: Range<f64>) -> Option<Intersection> {
+    pub fn closest(&self, faces: Faces<'_>, ray: &PastRay, range: Range<f64>) -> Option<Intersection> {
         let mut best: Option<Intersection> = None;
         let visit = |row: usize, best: &mut Option<Intersection>| {
             let part = &self.parts[row];
@@ -184,17 +202,14 @@ impl World {
                 -ray.step.t * best.map_or(range.end, |best| best.s)
             }),
         }
-        for row in self.n_inertial..self.parts.len() {
-            let end = best.map_or(range.end, |best| best.s);
-            best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
-        }
+        best = self.before(faces, ray, range, best);
         best.map(|best| self.first_in_plane(faces, ray, best))
     }
 
     /// Of the faces that share the plane of `nearest` and that the ray meets there, the first in the
     /// scene.
     #[inline]
-    fn first_in_plane(&self, faces: Faces<'_>, ray: &Ray, nearest: Intersection) -> Intersection {
+    fn first_in_plane(&self, faces: Faces<'_>, ray: &PastRay, nearest: Intersection) -> Intersection {
         let plane = |found: &Intersection| self.planes.get(found.triangle.face as usize).copied();
         if plane(&nearest).is_none_or(|plane| plane == 0) {
             return nearest;
@@ -212,7 +227,7 @@ impl World {
 
     /// The hierarchy of moving boxes, and a ray for it; `None` if all parts have to be tested.
     #[inline]
-    fn boxes_for(&self, ray: &Ray, range: &Range<f64>) -> Option<(&MovingBoxes, Rays)> {
+    fn boxes_for(&self, ray: &PastRay, range: &Range<f64>) -> Option<(&MovingBoxes, Rays)> {
         let boxes = self.boxes.as_ref().filter(|_| range.start >= 0.0)?;
         Some((boxes, Rays::from_step(ray.origin, ray.step)?))
     }
@@ -221,7 +236,7 @@ impl World {
     pub fn coincident(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         first: &Intersection,
         found: &mut Vec<Intersection>,
     ) {
@@ -239,12 +254,109 @@ impl World {
         }
     }
 
+    /// The inertial faces as they are seen through a pinhole. `view`: has samples as its picture
+    /// coordinates.
+    pub fn outlines(&self, faces: Faces<'_>, frames: &RestFrames, view: &View, tiles: Tiles) -> Outlines {
+        let Faces { scene, rest } = faces;
+        let of = RestFaces { scene, rest, frames, planes: &self.planes };
+        Outlines::new(of, view, tiles, |face| frames.world_line(face.body).is_none())
+    }
+
+    /// True if no body is on a world line.
+    pub fn is_inertial(&self) -> bool {
+        self.n_inertial == self.parts.len()
+    }
+
+    /// What each of several rays from the eye meets first, for parameters in a range. `seen`: the
+    /// inertial face that a ray with a row meets first.
+    pub fn first_behind(
+        &self,
+        faces: Faces<'_>,
+        rays: &[PastRay],
+        range: Range<f64>,
+        seen: impl Fn(usize) -> Option<u32>,
+        first: &mut Vec<Option<Intersection>>,
+    ) {
+        let mut last = None;
+        for (row, ray) in rays.iter().enumerate() {
+            let on_face = seen(row).and_then(|face| self.on_face(faces, ray, face, last));
+            last = on_face.or(last);
+            // Of inertial faces in one plane, outlines find the first.
+            let found = self.before(faces, ray, range.clone(), on_face);
+            first.push(match found {
+                Some(found) if found.part >= self.n_inertial => Some(self.first_in_plane(faces, ray, found)),
+                _ => found,
+            });
+        }
+    }
+
+    /// Where a ray from the eye meets the plane of a face that it runs through. `last`: a hit nearby.
+    fn on_face(
+        &self,
+        faces: Faces<'_>,
+        ray: &PastRay,
+        face: u32,
+        last: Option<Intersection>,
+    ) -> Option<Intersection> {
+        let [part, first] = self.triangles_of[face as usize];
+        let Part { frame, triangles, .. } = &self.parts[part as usize];
+        let step = frame.light_to_rest(ray.step.x);
+        let (mut best, mut most) = (None, f64::NEG_INFINITY);
+        let last = last.filter(|last| last.triangle.face == face).map(|last| last.row);
+        let all = (first..).take_while(|&row| triangles.get(row as usize).is_some_and(|it| it.face == face));
+        for row in last.into_iter().chain(all) {
+            let triangle = triangles[row as usize];
+            let [a, b, c] = triangle.corners.map(|corner| faces.rest[corner.index()]);
+            // The weights of corners are proportional to the products of the ray with the planes
+            // through the eye and the opposite sides.
+            let products = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from).dot(step));
+            let part_of = 1.0 / (products[0] + products[1] + products[2]);
+            let weights = products.map(|product| product * part_of);
+            let least = weights[0].min(weights[1]).min(weights[2]);
+            if least > most {
+                let normal = (b - a).cross(c - a);
+                (best, most) = (Some((row, triangle, weights, a.dot(normal) / step.dot(normal))), least);
+            }
+            if least >= 0.0 {
+                break;
+            }
+        }
+        let (row, triangle, weights, s) = best?;
+        // Rounding may place the ray outside all triangles.
+        let weights = weights.map(|weight| weight.max(0.0));
+        let [_, second, third] = weights.map(|weight| weight / weights.iter().sum::<f64>());
+        let part = part as usize;
+        s.is_finite().then_some(Intersection {
+            part,
+            s,
+            own_time: 0.0,
+            triangle,
+            row,
+            weights: [second, third],
+        })
+    }
+
+    /// The nearer of a hit and those on bodies on world lines.
+    fn before(
+        &self,
+        faces: Faces<'_>,
+        ray: &PastRay,
+        range: Range<f64>,
+        mut best: Option<Intersection>,
+    ) -> Option<Intersection> {
+        for row in self.n_inertial..self.parts.len() {
+            let end = best.map_or(range.end, |best| best.s);
+            best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
+        }
+        best
+    }
+
     /// [`World::closest`] for neighbouring rays from the eye, all at once. `first`: nothing at the
     /// beginning.
     pub fn first(
         &self,
         faces: Faces<'_>,
-        rays: &[Ray],
+        rays: &[PastRay],
         range: Range<f64>,
         memory: &mut PacketMemory,
         first: &mut [Option<Intersection>],
@@ -254,7 +366,7 @@ impl World {
             Some((boxes, bounds)) => boxes.visit_nearest(&bounds, 0.0..f64::INFINITY, |row| {
                 self.first_of_part(faces, row, rays, range.clone(), memory, first);
                 // The latest time at which light left what is seen so far.
-                let time = |(ray, found): (&Ray, &Option<Intersection>)| {
+                let time = |(ray, found): (&PastRay, &Option<Intersection>)| {
                     found.map_or(f64::INFINITY, |found| -ray.step.t * found.s)
                 };
                 rays.iter().zip(&*first).map(time).fold(0.0, f64::max)
@@ -265,10 +377,9 @@ impl World {
                 }
             }
         }
-        for row in self.n_inertial..self.parts.len() {
+        if self.n_inertial < self.parts.len() {
             for (ray, best) in rays.iter().zip(&mut *first) {
-                let end = best.map_or(range.end, |best| best.s);
-                *best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(*best);
+                *best = self.before(faces, ray, range.clone(), *best);
             }
         }
         if !self.planes.is_empty() {
@@ -283,14 +394,14 @@ impl World {
         &self,
         faces: Faces<'_>,
         row: usize,
-        rays: &[Ray],
+        rays: &[PastRay],
         range: Range<f64>,
         memory: &mut PacketMemory,
         first: &mut [Option<Intersection>],
     ) {
         let PacketMemory { directions, hits, rows } = memory;
         let part = &self.parts[row];
-        let is_seen = |ray: &Ray| {
+        let is_seen = |ray: &PastRay| {
             self.boxes.is_none() || part.outline.is_some_and(|outline| outline.is_seen(ray.step.x))
         };
         rows.clear();
@@ -333,7 +444,7 @@ impl World {
     pub fn visit(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         visit: impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
@@ -344,7 +455,7 @@ impl World {
     pub fn visit_along(
         &self,
         faces: Faces<'_>,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         corridor: Option<&mut Corridor>,
         mut visit: impl FnMut(Intersection) -> ControlFlow<()>,
@@ -410,7 +521,7 @@ impl Part {
         &self,
         faces: Faces<'_>,
         row: usize,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
     ) -> Option<Intersection> {
         let mut best: Option<Intersection> = None;
@@ -433,7 +544,7 @@ impl Part {
         &self,
         faces: Faces<'_>,
         row: usize,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         visit: &mut impl FnMut(Intersection) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
@@ -450,7 +561,7 @@ impl Part {
     }
 
     /// The own time in which a ray leaves the surface at its origin.
-    fn clearance_on_line(&self, ray: &Ray) -> f64 {
+    fn clearance_on_line(&self, ray: &PastRay) -> f64 {
         match ray.start {
             Start::Surface { .. } => {
                 let reach = ray.origin.x.length() - ray.origin.t;

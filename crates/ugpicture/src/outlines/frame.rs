@@ -2,11 +2,10 @@
 
 use glam::{DMat3, DVec3};
 use ugphysics::Velocity;
-use ugscene::BodyId;
+use ugscene::{BodyId, Face, RestFrames, Scene, View};
 
 use super::film::{Form, center};
 use super::sections::Side;
-use crate::painter::Painter;
 
 /// The rays of a picture in the rest frame of a body, in aligned axes (û, e₁, e₂): the first is the
 /// direction of motion, so that a boost changes one coordinate only. All coordinates are relative
@@ -32,45 +31,55 @@ pub struct PictureRays {
 
 /// A ray in the rest frame.
 #[derive(Clone, Copy, Debug)]
-pub struct Ray {
+pub struct RestRay {
     /// The emission event of light seen at depth 1, as a position at rest.  Eq. (P4), (P6)
     pub rest: DVec3,
     /// 1/D, the factor by which wavelengths are stretched: |p'|/|p|.  Eq. (P10)
     pub stretch: f64,
 }
 
-/// The rest frames of the bodies of a scene, in the order of the bodies.
-pub fn frames(painter: &Painter<'_>) -> Vec<PictureRays> {
-    painter.scene.bodies.ids().map(|body| PictureRays::new(painter, body)).collect()
-}
-
 impl PictureRays {
-    fn new(painter: &Painter<'_>, body: BodyId) -> Self {
-        let velocity = painter.appearance.surface.velocity(body);
+    /// The rays in the rest frame of each body of a scene.
+    pub fn all(frames: &RestFrames, view: &View, scene: &Scene) -> Vec<Self> {
+        scene.bodies.ids().map(|body| Self::new(frames, view, body)).collect()
+    }
+
+    fn new(frames: &RestFrames, view: &View, body: BodyId) -> Self {
+        let velocity = frames.velocity(body);
         let along = velocity.direction();
         let (e1, e2) = along.any_orthonormal_pair();
         let camera_from_aligned = DMat3::from_cols(along, e1, e2);
         let aligned_from_camera = camera_from_aligned.transpose();
-        let scene_from_boosted =
-            DMat3::from_quat(painter.appearance.surface.frames().of(body).scene_from_boosted());
+        let scene_from_boosted = DMat3::from_quat(frames.of(body).scene_from_boosted());
         let place = |axis: DVec3| {
-            let place = painter.view.place(axis);
+            let place = view.place(axis);
             DVec3::new(place.x, place.y, place.z)
         };
         Self {
             velocity,
             scene_from_aligned: scene_from_boosted * camera_from_aligned,
-            lamp_shift: painter.appearance.surface.frames().lamp_shift(body),
+            lamp_shift: frames.lamp_shift(body),
             camera_from_aligned,
             samples_from_seen: DMat3::from_cols(place(along), place(e1), place(e2)),
-            rays: painter.view.rays().map(|ray| aligned_from_camera * ray),
+            rays: view.rays().map(|ray| aligned_from_camera * ray),
             exp_minus_rapidity: 1.0 / (velocity.gamma() + velocity.proper_speed()),
         }
+    }
+
+    /// The contours of a face at rest, in the axes of this frame.
+    pub fn contours(&self, scene: &Scene, rest: &[DVec3], face: &Face) -> Vec<Vec<DVec3>> {
+        let corner = |id: &ugscene::VertexId| self.aligned_from_scene(rest[id.index()]);
+        scene.face_contours(face).map(|contour| contour.iter().map(corner).collect()).collect()
     }
 
     /// The rays of a row of samples, `y` down the picture; argument of [`PictureRays::ray`].
     pub fn row(&self, y: f64) -> DVec3 {
         self.rays[0] + y * self.rays[2]
+    }
+
+    /// The rays through the middles of a row of samples.
+    pub fn row_of_samples(&self, row: u32) -> DVec3 {
+        self.row(center(row))
     }
 
     /// The ray at `x` across the picture, in samples: the emission position at rest of light seen
@@ -82,16 +91,16 @@ impl PictureRays {
 
     /// The ray at the middle of a column. `length`: of the apparent ray.
     #[inline]
-    pub fn ray_of_length(&self, row: DVec3, column: u32, length: f64) -> Ray {
+    pub fn ray_of_length(&self, row: DVec3, column: u32, length: f64) -> RestRay {
         let seen = row + center(column) * self.rays[1];
         if self.is_extreme() {
             let rest = self.rest(seen);
-            return Ray { rest, stretch: rest.length() / length };
+            return RestRay { rest, stretch: rest.length() / length };
         }
         // The boost is linear in the event at time −|p|.
         let (gamma, speed) = (self.velocity.gamma(), self.velocity.proper_speed());
         let rest = DVec3 { x: gamma * seen.x + speed * length, ..seen };
-        Ray { rest, stretch: (gamma * length + speed * seen.x) / length }
+        RestRay { rest, stretch: (gamma * length + speed * seen.x) / length }
     }
 
     /// True if a boost cancels more digits than single precision allows.

@@ -1,14 +1,13 @@
-//! Rays into the past, and the media they are in.
+//! Rays into the past.
 
 use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, Medium, RestFrame, WaveVector};
-use ugscene::SurfaceId;
 
 /// A ray, followed from the eye into the past.
 #[derive(Clone, Copy, Debug)]
-pub struct Ray {
+pub struct PastRay {
     /// Where it starts, in the frame of the camera relative to the eye.
     pub origin: Event,
     /// A step of it into the past, in the frame of the camera.
@@ -37,7 +36,7 @@ pub enum Start {
     },
 }
 
-impl Ray {
+impl PastRay {
     /// Light seen in a direction, of any length but 0, at the moment of the picture.
     pub fn from_eye(direction: DVec3) -> Self {
         let length = direction.length();
@@ -78,44 +77,6 @@ impl Ray {
             Start::Surface { part, place } if part == row => (place, frame.rest_from_camera(self.step).x),
             _ => (frame.rest_from_camera(self.origin).x, frame.rest_from_camera(self.step).x),
         }
-    }
-}
-
-/// The transparent solids that a ray is in, the innermost last.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Media(Vec<Solid>);
-
-/// A transparent solid: the faces of one part with one surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Solid {
-    /// Row of the part.
-    pub part: usize,
-    /// Its surface.
-    pub surface: SurfaceId,
-}
-
-impl Media {
-    /// The medium that the ray is in; `None` for vacuum.
-    pub fn innermost(&self) -> Option<Solid> {
-        self.0.last().copied()
-    }
-
-    /// After the ray entered a solid.
-    #[must_use]
-    pub fn with(&self, solid: Solid) -> Self {
-        let mut media = Vec::with_capacity(self.0.len() + 1);
-        media.extend_from_slice(&self.0);
-        media.push(solid);
-        Self(media)
-    }
-
-    /// After the ray left a solid; `None` if it was not in it.
-    #[must_use]
-    pub fn without(&self, solid: Solid) -> Option<Self> {
-        let at = self.0.iter().rposition(|&entry| entry == solid)?;
-        let mut media = self.0.clone();
-        media.remove(at);
-        Some(Self(media))
     }
 }
 

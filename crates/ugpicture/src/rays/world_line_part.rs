@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use ugbvh::{Bvh, Curve, DisplacedBvh};
 use ugphysics::{Event, RayStretch, SeenTriangle, SmoothStretch, WorldLine, WorldTube};
 
-use crate::path::{Ray, Start, along};
+use super::path::{PastRay, Start, along};
 
 /// How a body moves that has no rest frame.
 #[derive(Debug)]
@@ -22,12 +22,12 @@ pub struct WorldLineMotion {
     seen_by_eye: Vec<SmoothStretch>,
     /// The triangles where the eye sees them; `None` if light leaves a triangle at very different
     /// own times.
-    pub seen: Option<Seen>,
+    pub seen: Option<SeenMesh>,
 }
 
 /// The triangles of a body where the eye sees them. There light runs straight.
 #[derive(Debug)]
-pub struct Seen {
+pub struct SeenMesh {
     triangles: DisplacedBvh,
     /// When light leaves each triangle.
     own_times: Vec<Range<f64>>,
@@ -37,7 +37,7 @@ pub struct Seen {
 
 const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
 
-impl Seen {
+impl SeenMesh {
     /// Triangles that are far from flat, besides an eighth of all. With more, rays are faster as
     /// curves.
     const MOST_CURVED: usize = 16;
@@ -95,7 +95,7 @@ impl WorldLineMotion {
     pub fn new(line: &Arc<WorldLine>, bvh: &Bvh, points: &[DVec3], corners: &[[u32; 3]]) -> Option<Self> {
         let tube = line.tube(points.iter().copied())?;
         let seen_by_eye = line.smooth_stretches(&tube, EYE).unwrap_or_default();
-        let seen = Seen::new(line, &tube, &seen_by_eye, bvh, points, corners);
+        let seen = SeenMesh::new(line, &tube, &seen_by_eye, bvh, points, corners);
         Some(Self { line: line.clone(), tube, seen_by_eye, seen })
     }
 
@@ -107,7 +107,7 @@ impl WorldLineMotion {
     pub fn visit(
         &self,
         bvh: &Bvh,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         clearance: f64,
         mut visit: impl FnMut(CurveHit) -> Next,
@@ -155,9 +155,9 @@ impl WorldLineMotion {
     /// [`WorldLineMotion::visit`] for a ray to the eye. `visit_hit` returns its parameter, too.
     fn visit_seen(
         &self,
-        seen: &Seen,
+        seen: &SeenMesh,
         bvh: &Bvh,
-        ray: &Ray,
+        ray: &PastRay,
         range: Range<f64>,
         mut visit_hit: impl FnMut(&RayStretch<'_>, ugbvh::Hit) -> (Next, f64),
     ) {
@@ -199,7 +199,7 @@ pub enum Next {
 
 /// The event beyond which a ray is not followed; `None` for a ray in a vacuum, which meets a body
 /// only where it is seen.
-fn ends_before(ray: &Ray, end: f64) -> Option<Event> {
+fn ends_before(ray: &PastRay, end: f64) -> Option<Event> {
     /// Light in a medium without an end is followed so far, in distances from the eye.
     const FAR: f64 = 1e4;
     /// Steps of light in a vacuum, up to rounding.

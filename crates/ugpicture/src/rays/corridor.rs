@@ -1,6 +1,6 @@
 //! Which parts shadow rays from neighbouring places to the same lamp may meet.
 
-use crate::moving_boxes::{MovingBoxes, Rays};
+use super::moving_boxes::{MovingBoxes, Rays};
 
 /// The parts that neighbouring rays may meet, found once for all of them.
 #[derive(Debug, Default)]

@@ -2,26 +2,29 @@
 
 use std::ops::Range;
 
-use super::film::{LengthRow, RowForm};
+use super::film::LengthRow;
 
 /// Depth keys, and the faces they belong to.
 #[derive(Default)]
 pub struct Nearest {
     columns: Range<u32>,
     rows: Range<u32>,
-    keys: Vec<f32>,
+    keys: Vec<f64>,
     /// Index of the face; undefined where nothing has been drawn.
     faces: Vec<u32>,
 }
 
 /// Farther than everything.
-const EMPTY: f32 = f32::NEG_INFINITY;
+pub const EMPTY: f64 = f64::NEG_INFINITY;
 
 /// A run of samples in a row that show the same face.
 #[derive(Clone, Debug)]
 pub struct Run {
+    /// Its row.
     pub row: u32,
+    /// Its columns.
     pub columns: Range<u32>,
+    /// The row of the shape.
     pub face: u32,
 }
 
@@ -45,7 +48,7 @@ impl Nearest {
         columns: Range<u32>,
         lengths: LengthRow<'_>,
         face: u32,
-        key: impl Fn(u32, f64) -> f32,
+        key: impl Fn(u32, f64) -> f64,
     ) {
         let samples = self.samples(row, &columns);
         let stored = self.keys[samples.clone()].iter_mut().zip(&mut self.faces[samples]);
@@ -75,8 +78,18 @@ impl Nearest {
         })
     }
 
+    /// The face at a sample; `None` where nothing has been drawn.
+    #[inline]
+    pub fn at(&self, [column, row]: [u32; 2]) -> Option<u32> {
+        if !(self.columns.contains(&column) && self.rows.contains(&row)) {
+            return None;
+        }
+        let sample = self.samples(row, &(column..column + 1)).start;
+        (self.keys[sample] != EMPTY).then(|| self.faces[sample])
+    }
+
     /// The depth keys of a run.
-    pub fn keys(&self, run: &Run) -> &[f32] {
+    pub fn keys(&self, run: &Run) -> &[f64] {
         &self.keys[self.samples(run.row, &run.columns)]
     }
 
@@ -86,28 +99,4 @@ impl Nearest {
         let [first, end] = [columns.start, columns.end].map(|column| (column - self.columns.start) as usize);
         start + first..start + end
     }
-}
-
-/// The depth keys of a plane along a row; [`EMPTY`] behind the eye and where clipped.
-#[derive(Clone, Copy, Debug)]
-pub struct PlaneRow {
-    /// The key as a function of the column.
-    pub form: RowForm,
-    /// Least and greatest key between the clipping planes.
-    pub limits: [f64; 2],
-}
-
-impl PlaneRow {
-    /// The key at a column whose ray has length `length`.
-    #[inline]
-    pub fn key(&self, column: u32, length: f64) -> f32 {
-        limited(self.form.at(column, length), self.limits)
-    }
-}
-
-/// A key in single precision; [`EMPTY`] outside the limits.
-#[inline]
-pub fn limited(key: f64, [least, most]: [f64; 2]) -> f32 {
-    let is_within = key >= least && key <= most;
-    if is_within { key as f32 } else { EMPTY }
 }

@@ -1,0 +1,19 @@
+//! What a ray into the past meets: faces of bodies with one velocity by a hierarchy of their triangles
+//! at rest, and bodies on world lines, in whose coordinates rays are curves.
+//!
+//! [`path`]: rays; [`world`]: all bodies; [`sphere`], [`moving_boxes`] and [`corridor`]: bodies that
+//! rays cannot meet; [`world_line_part`]: bodies that accelerate, spin or orbit. Rays from a pinhole
+//! find inertial faces faster by [`crate::outlines`], if these are large.
+
+mod corridor;
+mod moving_boxes;
+mod path;
+mod sphere;
+mod world;
+mod world_line_part;
+
+pub use corridor::Corridor;
+pub use moving_boxes::{MovingBox, MovingBoxes, Rays};
+pub use path::{PastRay, Start, along};
+pub use world::{FaceTriangle, Faces, Intersection, PacketMemory, Part, World};
+pub use world_line_part::{SeenMesh, WorldLineMotion};
