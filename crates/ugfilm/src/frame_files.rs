@@ -6,7 +6,7 @@ use std::io::{self, Read, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use ugimage::{Metadata, read_history};
-use ugpipe::{Claim, Context, Failure, finite, stale};
+use ugpipe::{Claim, Context, Failure, finite, is_occupied, stale};
 
 /// Names of numbered files: `frame_%04d.png`.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,23 +58,32 @@ impl FrameNames {
 /// The exposure of a film in stops, from a file beside its first frame if that has the same `key`:
 /// a hash of all that the exposure depends on.
 pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
-    let text = fs::read_to_string(names.exposure()).ok()?;
+    /// More than a key and a number need.
+    const MAX_BYTES: u64 = 4096;
+    let path = names.exposure();
+    // Links are not followed: they may lead to what has no end, or to another's file.
+    fs::symlink_metadata(&path).ok().filter(|found| found.is_file() && found.len() <= MAX_BYTES)?;
+    let text = fs::read_to_string(path).ok()?;
     let (kept, stops) = text.trim_end().split_once(' ')?;
     finite(stops).ok().filter(|_| kept == key)
 }
 
-/// Writes the file that [`kept_exposure`] reads.
+/// Writes the file that [`kept_exposure`] reads, unless something else than a file is in its place.
 ///
 /// # Errors
 /// The file cannot be written.
 pub fn keep_exposure(names: &FrameNames, key: &str, stops: f64) -> Result<(), Failure> {
-    Context::write_now(&names.exposure(), format!("{key} {stops}\n").as_bytes())
+    let path = names.exposure();
+    if is_occupied(&path) {
+        return Ok(());
+    }
+    Context::write_now(&path, format!("{key} {stops}\n").as_bytes())
 }
 
 /// Removes the file that [`kept_exposure`] reads, if all `n_frames` frames are there.
 pub fn remove_kept_exposure(names: &FrameNames, n_frames: u32) {
     let kept = names.exposure();
-    if kept.exists() && (1..=n_frames).all(|frame| names.path(frame).exists()) {
+    if !is_occupied(&kept) && kept.exists() && (1..=n_frames).all(|frame| names.path(frame).exists()) {
         // What cannot be removed does no harm.
         let _ = fs::remove_file(kept);
     }
@@ -203,5 +212,26 @@ mod tests {
         assert_eq!(found, [".f_07.png.claim", ".f_x.png.claim", ".g_03.png.claim", "f_04.png.claim"]);
         drop(held);
         assert!(!claim_of(&names.path(7)).exists());
+    }
+
+    /// A link in the place of a helper file: what it leads to stays, whatever it says.
+    #[test]
+    fn helper_files_follow_no_links() {
+        let folder = tempfile::tempdir().unwrap();
+        let names = FrameNames::new(&format!("{}/f_%d.png", folder.path().display())).unwrap();
+        let precious = folder.path().join("thesis.txt");
+        for helper in [names.exposure(), claim_of(&names.path(1))] {
+            fs::write(&precious, "key 3").unwrap();
+            std::os::unix::fs::symlink(&precious, &helper).unwrap();
+            fs::write(names.path(1), "").unwrap();
+            keep_exposure(&names, "other", 1.0).unwrap();
+            if helper == names.exposure() {
+                assert_eq!(kept_exposure(&names, "key"), None);
+            }
+            drop(claim(&names.path(1)).unwrap());
+            remove_kept_exposure(&names, 1);
+            assert_eq!(fs::read(&precious).unwrap(), b"key 3");
+            fs::remove_file(&helper).unwrap();
+        }
     }
 }

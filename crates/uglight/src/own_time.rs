@@ -47,7 +47,7 @@ pub fn freeze_colors_at_zero(scene: &mut Scene) {
 
 impl Appearance {
     /// The colour at rest of a face whose colour changes, at an own time; `None` if it does not
-    /// change. `is_moving`: see [`Appearance::common_in_motion`].
+    /// change. `is_moving`: see [`Appearance::face_colors_in_motion`].
     #[must_use]
     pub fn color_at_time(
         &self,

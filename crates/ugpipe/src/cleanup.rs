@@ -105,15 +105,25 @@ fn is_temporary(name: &str) -> bool {
 
 /// A file that marks what one process works on. It is deleted when this is dropped, or by a signal.
 pub struct Claim {
-    path: PathBuf,
+    /// The file; `None` if something else is in its place.
+    path: Option<PathBuf>,
     /// Locked as long as it is open.
     _file: Option<fs::File>,
+}
+
+/// True if a link, a folder, a pipe or a device has this name: helper files are neither written to
+/// nor read from these.
+pub fn is_occupied(path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|found| !found.is_file())
 }
 
 impl Claim {
     /// Creates and locks the file; `None` if another process has locked it. Where files cannot be
     /// created or locked, every process has the claim.
     pub fn new(path: &Path) -> Option<Self> {
+        if is_occupied(path) {
+            return Some(Self { path: None, _file: None });
+        }
         handle_signals();
         let mut leftovers = leftovers();
         let opened = fs::OpenOptions::new().write(true).create(true).truncate(false).open(path);
@@ -123,16 +133,18 @@ impl Claim {
             Err(_) => None,
         };
         leftovers.files.insert(path.to_owned());
-        Some(Self { path: path.to_owned(), _file: file })
+        Some(Self { path: Some(path.to_owned()), _file: file })
     }
 }
 
 impl Drop for Claim {
     fn drop(&mut self) {
-        let mut leftovers = leftovers();
-        // Another process may have removed it.
-        let _ = fs::remove_file(&self.path);
-        leftovers.files.remove(&self.path);
+        if let Some(path) = &self.path {
+            let mut leftovers = leftovers();
+            // Another process may have removed it.
+            let _ = fs::remove_file(path);
+            leftovers.files.remove(path);
+        }
     }
 }
 

@@ -94,7 +94,14 @@ impl fmt::Display for Failure {
             Self::Read { name, error } if error.kind() == io::ErrorKind::IsADirectory => {
                 write!(f, "`{name}` is a directory; name a file in it")
             }
-            Self::Read { name, error } => write!(f, "cannot read `{name}`: {}", reason(error)),
+            Self::Read { name, error } => {
+                write!(f, "cannot read `{name}`: {}", reason(error))?;
+                // As word processors write the hyphen of an option.
+                match name.chars().next().filter(|c| matches!(c, '\u{2010}'..='\u{2015}' | '\u{2212}')) {
+                    Some(c) => write!(f, "; options begin with `-`, not with `{c}` (U+{:04X})", u32::from(c)),
+                    None => Ok(()),
+                }
+            }
             Self::Write { name, error } if error.kind() == io::ErrorKind::NotFound => {
                 let folder = Path::new(name).parent().filter(|folder| !folder.as_os_str().is_empty());
                 match folder {

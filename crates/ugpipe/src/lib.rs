@@ -139,7 +139,7 @@ mod values;
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ToolArgs};
 #[cfg(feature = "cli")]
-pub use cleanup::{Claim, Running};
+pub use cleanup::{Claim, Running, is_occupied};
 #[cfg(feature = "cli")]
 pub use completion::{COMPLETE, completions};
 #[cfg(feature = "cli")]

@@ -6,13 +6,13 @@
 //! (P6) and intersected with the plane of the face there. Outline and depth are those of the
 //! intersection, so faces need no subdivision. The steps, one file each:
 //!
-//! 1. [`frame`]: rays of a row of samples in the rest frame of a body;
-//! 2. [`film`]: linear functions of these rays: side of an edge, depth, and D;
-//! 3. [`outline`]: whether a ray passes through a face;
-//! 4. [`footprint`]: the part of the picture that a face can cover, bounded by arcs of conics (P8);
-//! 5. [`bins`]: the faces of each tile of the picture;
-//! 6. [`sections`]: where a row of samples enters and leaves a face;
-//! 7. [`nearest`]: the nearest face at each sample.
+//! 1. `frame`: rays of a row of samples in the rest frame of a body;
+//! 2. `film`: linear functions of these rays: side of an edge, depth, and D;
+//! 3. `outline`: whether a ray passes through a face;
+//! 4. `footprint`: the part of the picture that a face can cover, bounded by arcs of conics (P8);
+//! 5. `bins`: the faces of each tile of the picture;
+//! 6. `sections`: where a row of samples enters and leaves a face;
+//! 7. `nearest`: the nearest face at each sample.
 //!
 //! # Watertight edges
 //!
@@ -25,7 +25,7 @@
 //! # Row by row
 //!
 //! Testing each sample separately would be slow. The side of an edge and the depth of a plane are
-//! linear in p', and so in p and |p| ([`film`]). Along a row of samples they are a straight line
+//! linear in p', and so in p and |p| (`film`). Along a row of samples they are a straight line
 //! plus a multiple of |p|; such a function is convex or concave and changes sign at most twice.
 //! Between the columns of these changes all samples are in the face or all are outside, so one of
 //! them is tested. Samples where rounding could decide are tested one by one.

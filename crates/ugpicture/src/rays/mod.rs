@@ -1,8 +1,8 @@
 //! What a ray into the past meets: faces of bodies with one velocity by a hierarchy of their triangles
 //! at rest, and bodies on world lines, in whose coordinates rays are curves.
 //!
-//! [`path`]: rays; [`world`]: all bodies; [`sphere`], [`moving_boxes`] and [`corridor`]: bodies that
-//! rays cannot meet; [`world_line_part`]: bodies that accelerate, spin or orbit. Rays from a pinhole
+//! `path`: rays; `world`: all bodies; `sphere`, `moving_boxes` and `corridor`: bodies that
+//! rays cannot meet; `world_line_part`: bodies that accelerate, spin or orbit. Rays from a pinhole
 //! find inertial faces faster by [`crate::outlines`], if these are large.
 
 mod corridor;
