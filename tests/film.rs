@@ -581,6 +581,23 @@ fn frames_are_drawn_again_after_a_change_of_an_included_file() {
     assert_eq!(drawn(), Some("ugfilm: note: 1 frames drawn, 2 were there already".to_owned()));
 }
 
+/// The scene of the camera and what it includes, and a second list of stars.
+#[test]
+fn frames_of_skies_are_drawn_again_after_a_change_of_any_file() {
+    let shell = Shell::new(&["stars.csv"]);
+    let write = |name: &str, text: &str| fs::write(shell.path(name), text).unwrap();
+    write("eye.ug", "include way.ug ; cam -ep 0 0 0 -vc 0 1 0 -va 80 <ship> ;");
+    write("way.ug", "motion ship -acc 0 1 0 ;");
+    write("more.csv", "ra,dec,mag,kelvin\n10,0,1,5000\n40,0,1,5000\n");
+    let command = "ugfilm -warp -frames 2 --scene eye.ug --stars more.csv -ti 0..1 -sz 16 12 -ex 0 -fo q_%d.png stars.csv";
+    let drawn = || shell.run(command)[1].lines().any(|line| line.contains("note: 0 frames drawn, 2 were"));
+    assert!(!drawn() && drawn());
+    write("way.ug", "motion ship -acc 0 2 0 ;");
+    assert!(!drawn() && drawn());
+    write("more.csv", "ra,dec,mag,kelvin\n10,0,2,5000\n40,0,1,5000\n");
+    assert!(!drawn() && drawn());
+}
+
 #[test]
 fn a_million_frames_and_a_folder_that_cannot_be_written() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);

@@ -88,14 +88,7 @@ fn panoramas_are_stopped() {
     let mut config = ugwarp::Config::default();
     config.picture.size = [128, 1024];
     check(|progress| ugwarp::render_with(&sky, &config, progress));
-    let opened = ugwarp::Opened {
-        panorama: Some(sky),
-        bands: Vec::new(),
-        stars: Vec::new(),
-        scene: None,
-        highlights: None,
-        notes: Vec::new(),
-    };
+    let opened = ugwarp::Opened { panorama: Some(sky), ..ugwarp::Opened::default() };
     // A PNG file is compressed while it is drawn.
     let metadata = ugwarp::metadata(None, ugwarp::PROVENANCE);
     check(|progress| ugwarp::run(&config, &opened, &metadata, progress));

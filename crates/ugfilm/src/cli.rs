@@ -11,7 +11,7 @@ use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
-    one_of, parse_words, sha256, shell_os_word, whole,
+    one_of, parse_words, shell_os_word, whole,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
@@ -424,7 +424,7 @@ impl Read {
             let input = context.input()?;
             let opened = args.panorama(script, &input, context)?;
             opened.notes.iter().for_each(|note| context.note(note));
-            let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
+            let origin = opened.origin(&input, context);
             return Ok(Self::Panorama(Box::new(opened), origin));
         }
         let reading = pipe::options(&args.common)?;

@@ -13,7 +13,7 @@ use crate::source::{LineMark, Span};
 use crate::statement::{PathStatement, References, Statement};
 use crate::token::{
     Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
-    mark, skip_statement, syntax_error, wanted, word,
+    mark, skip_statement, syntax_error, wanted, without_mark, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -157,6 +157,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                     input = rest;
                 }
                 Some(b) if b.is_ascii_whitespace() || *b == 0x0B => input = &input[1..],
+                _ if let Some(rest) = without_mark(input) => input = rest,
                 _ => return Ok(input),
             }
         }

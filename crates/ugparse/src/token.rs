@@ -124,8 +124,12 @@ pub(crate) fn is_blank(byte: u8) -> bool {
     is(byte, BLANK)
 }
 
-/// The mark that editors put before UTF-8 text.
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+/// The text after the mark that editors put before UTF-8, or after Control-Z, which ends texts of
+/// DOS.
+pub(crate) fn without_mark(input: Input<'_>) -> Option<Input<'_>> {
+    let ends = |rest: &Input<'_>| rest.trim_ascii_start().is_empty();
+    input.strip_prefix(b"\xef\xbb\xbf").or_else(|| input.strip_prefix(b"\x1a").filter(ends))
+}
 
 /// Skips white space and comments.
 pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
@@ -133,9 +137,7 @@ pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
         match input.first() {
             Some(&byte) if is_blank(byte) => input = &input[1..],
             Some(b'{') => input = comment(input)?.0,
-            Some(0xef) if input.starts_with(BYTE_ORDER_MARK) => input = &input[BYTE_ORDER_MARK.len()..],
-            // Control-Z ends texts of CP/M and DOS.
-            Some(0x1a) if input[1..].trim_ascii_start().is_empty() => return Ok((&input[input.len()..], ())),
+            _ if let Some(rest) = without_mark(input) => input = rest,
             _ => return Ok((input, ())),
         }
     }

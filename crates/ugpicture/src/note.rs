@@ -37,6 +37,8 @@ pub enum Note {
     NothingMet,
     /// The panorama is outside the picture.
     NoPanorama,
+    /// The list has no stars.
+    NoStars,
     /// Everything is culled, or smaller than a sample.
     BackFacing,
     /// Everything is seen edge-on, or smaller than a sample.
@@ -129,6 +131,7 @@ impl Note {
                 | Self::NothingInPicture
                 | Self::NothingMet
                 | Self::NoPanorama
+                | Self::NoStars
                 | Self::BackFacing
                 | Self::EdgeOn
         )
@@ -177,6 +180,7 @@ impl fmt::Display for Note {
                 "nothing is drawn: everything is outside the picture, where fast bodies often are"
             }
             Self::NoPanorama => "the picture shows no part of the panorama",
+            Self::NoStars => "the list has no stars",
             Self::BackFacing => "nothing is drawn: everything is seen from behind, or smaller than a sample",
             Self::EdgeOn => "nothing is drawn: everything is seen edge-on or smaller than a sample",
             Self::BlackLines => "the lines are black on black",

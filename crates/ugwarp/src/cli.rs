@@ -281,24 +281,27 @@ impl Args {
         let mut opened = if is_list {
             self.refuse_for_stars()?;
             let StarList { stars, notes } = stars(input)?;
-            Opened { panorama: None, bands: Vec::new(), stars, scene: None, highlights: None, notes }
+            Opened { stars, notes, ..Opened::default() }
         } else {
             self.open_panorama(input, context)?
         };
         if let Some(path) = &self.stars {
-            let StarList { stars, notes } = stars(&context.input_file(path)?)?;
+            let input = context.input_file(path)?;
+            opened.others.push(sha256(&input.text));
+            let StarList { stars, notes } = stars(&input)?;
             opened.stars.extend(stars);
             opened.notes.extend(notes);
         }
-        opened.scene = self.scene.as_ref().map(|path| self.scene(path, context)).transpose()?.map(Box::new);
-        if opened.panorama.is_none() && opened.stars.is_empty() {
-            opened.notes.push("the list has no stars".to_owned());
+        if let Some(path) = &self.scene {
+            let (scene, hash) = self.scene(path, context)?;
+            opened.scene = Some(Box::new(scene));
+            opened.others.push(hash);
         }
         Ok(opened)
     }
 
-    /// Reads the scene of the camera.
-    fn scene(&self, path: &Path, context: &Context) -> Result<Scene, Failure> {
+    /// Reads the scene of the camera, and the SHA-256 of its text with all that it includes.
+    fn scene(&self, path: &Path, context: &Context) -> Result<(Scene, String), Failure> {
         let options = pipe::options(&self.common)?;
         let Input { name, text } = context.input_file(path)?;
         let source = pipe::follow(Source::new(name, text), &options, context).map_err(pipe::refused)?;
@@ -307,7 +310,7 @@ impl Args {
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
         }
-        Ok(parsed.scene)
+        Ok((parsed.scene, sha256(&source.text)))
     }
 
     /// Refuses options of panoramas, if a list of stars is read instead.
@@ -358,6 +361,7 @@ impl Args {
                 error => Failure::of(error),
             },
         )?;
+        opened.others.extend(others.iter().map(|other| sha256(&other.text)));
         for (path, range_nm) in self.bands() {
             if arrangement == Arrangement::Sides {
                 return Err(Failure::usage(
@@ -365,6 +369,7 @@ impl Args {
                 ));
             }
             let file = context.input_file(path)?;
+            opened.others.push(sha256(&file.text));
             let band = open(&[&file.text], arrangement, self.extent(), None, limits)
                 .map_err(|error| Failure::Failed(format!("`{}`: {}", file.name, error.words())))?;
             opened.notes.extend(band.notes);
@@ -406,10 +411,23 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let input = context.input()?;
     let opened = args.open(&input, context)?;
     let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
-    let origin = format!("SHA-256 {} {}", sha256(&input.text), context.recorded_name());
+    let origin = opened.origin(&input, context);
     let metadata = metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
+}
+
+impl Opened {
+    /// The words for the origin of a picture: the SHA-256 and the name of the first file, and one of
+    /// all other files together.
+    pub fn origin(&self, input: &Input, context: &Context) -> String {
+        let (hash, name) = (sha256(&input.text), context.recorded_name());
+        if self.others.is_empty() {
+            return format!("SHA-256 {hash} {name}");
+        }
+        let all = sha256(format!("{hash} {}", self.others.join(" ")).as_bytes());
+        format!("SHA-256 {hash} including {all} {name}")
+    }
 }
 
 /// The stars of a list.

@@ -9,6 +9,7 @@ use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texel
 use crate::error::Error;
 
 /// A panorama, stars or both, and what their user should know.
+#[derive(Default)]
 pub struct Opened {
     /// The panorama.
     pub panorama: Option<Panorama>,
@@ -22,6 +23,8 @@ pub struct Opened {
     pub highlights: Option<f32>,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
+    /// SHA-256 of each other file than the first that a command line read.
+    pub others: Vec<String>,
 }
 
 impl<'s> From<&'s Opened> for Sky<'s> {
@@ -83,14 +86,7 @@ pub fn open(
     }
     let panorama = Panorama::arranged(pictures, arrangement, extent)?;
     let highlights = highlights.filter(|_| is_clipped);
-    Ok(Opened {
-        panorama: Some(panorama),
-        bands: Vec::new(),
-        stars: Vec::new(),
-        scene: None,
-        highlights,
-        notes,
-    })
+    Ok(Opened { panorama: Some(panorama), highlights, notes, ..Opened::default() })
 }
 
 /// The note on highlights that are not clipped.

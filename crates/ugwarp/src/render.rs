@@ -170,7 +170,7 @@ impl<'s> Prepared<'s> {
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, mut notes) = (statistics.max_light, notes(config, warp, &statistics));
         if sky.panorama.is_none() && sky.stars.is_empty() {
-            notes.retain(|note| !matches!(note, Note::BlackPanorama));
+            notes = vec![Note::NoStars];
         }
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }

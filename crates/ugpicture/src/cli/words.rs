@@ -94,6 +94,7 @@ impl Words for Note {
             | Self::OpenSolid(_)
             | Self::ReversedSolid(_)
             | Self::StraightThroughGlass
+            | Self::NoStars
             | Self::ClippedIntensity { has_light: false, .. } => "{}",
         };
         words.replacen("{}", &self.to_string(), 1)

@@ -347,14 +347,7 @@ fn infrared_and_ultraviolet_light_is_seen_in_motion() {
 #[test]
 fn files_are_those_of_whole_pictures() {
     let colors = |d: DVec3| [0.5 + 0.5 * d.x, 0.5 + 0.5 * d.y, 0.5 + 0.5 * d.z];
-    let opened = Opened {
-        panorama: Some(panorama(256, colors)),
-        bands: Vec::new(),
-        stars: Vec::new(),
-        scene: None,
-        highlights: None,
-        notes: Vec::new(),
-    };
+    let opened = Opened { panorama: Some(panorama(256, colors)), ..Opened::default() };
     let metadata = Metadata { software: "ugwarp".into(), comment: "ugwarp".into(), ..Metadata::default() };
     let fisheye = Lens::Fisheye { angle: PI };
     for (lens, samples, small) in [(Lens::Pinhole, 1, false), (fisheye, 2, false), (fisheye, 1, true)] {

@@ -136,8 +136,8 @@ fn odd_bytes_are_refused_outside_comments() {
     refused(b"v a 0 0 0;\n\xff\xfe", "`\u{fffd}\u{fffd}` is not a statement");
     refused(b"v a\xff 0 0 0;", "expected a name of letters, digits, `:`, `_` and `#`, found `a\u{fffd}`");
     refused(b"v a \0 0 0;", "expected a number, found `\0`");
-    let dash = errors("v a 0 0 \u{2212}1;");
-    assert!(dash[0].contains("`\u{2212}` (U+2212) is a minus sign of Unicode"), "{dash:?}");
+    let dash = ugparse::parse(&Source::new("t.ug", "v a 0 0 \u{2212}1;"), &Options::default()).unwrap_err();
+    assert!(dash.render(false).contains("`\u{2212}` (U+2212) is a minus sign of Unicode"), "{dash}");
     // Marks of editors before the text, and after it.
     assert_eq!(flat("\u{feff}v a 0 0 0;\n\x1a\r\n".as_bytes()), "v a 0 0 0;\n");
     assert_eq!(flat(b"{\0\xff}v a 0 0 0;"), "{\0\u{fffd}}\nv a 0 0 0;\n");
