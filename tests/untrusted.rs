@@ -208,12 +208,11 @@ fn fields_of_meshes() {
         "v 0 0 @\n",
         "v 0 0 0 1 1 @\n",
         &format!("{points}f 1 2 @\n"),
-        &format!("{points}f 1//@ 2 3\n"),
         &format!("{points}usemtl @\nf 1 2 3\n"),
         &format!("mtllib @\n{points}f 1 2 3\n"),
         &format!("# @\n{points}f 1 2 3\n"),
     ];
-    check_files(&["ugmesh", "mesh.obj"], "mesh.obj", &obj, &["vn @ 0 0\n", "@ 1\n"]);
+    check_files(&["ugmesh", "mesh.obj"], "mesh.obj", &obj, &["vn @ 0 0\n", "@ 1\n", "v 0 0 0\nf 1//@ 1 1\n"]);
     let mesh = format!("mtllib a.mtl\n{points}usemtl @\nf 1 2 3\n");
     let files = [("mesh.obj", mesh.as_str()), ("a.mtl", "newmtl x@\nKd @ 1 1\n@ 2\n")];
     assert!(Case { words: &["ugmesh", "mesh.obj"], files: &files }.check());

@@ -26,7 +26,7 @@ pub fn document([width, height]: [u32; 2], metadata: &Metadata, drawing: &str) -
     let description =
         if words.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", words.join("\n")) };
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
          viewBox=\"0 0 {width} {height}\">\n{description}{drawing}</svg>\n"
     )
     .into_bytes()

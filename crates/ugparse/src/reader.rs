@@ -157,7 +157,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                     input = rest;
                 }
                 Some(b) if b.is_ascii_whitespace() || *b == 0x0B => input = &input[1..],
-                _ if let Some(rest) = without_mark(input) => input = rest,
+                Some(0xef | 0x1a) if let Some(rest) = without_mark(input) => input = rest,
                 _ => return Ok(input),
             }
         }

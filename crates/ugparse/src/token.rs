@@ -137,7 +137,7 @@ pub(crate) fn blank(mut input: Input<'_>) -> Parsed<'_, ()> {
         match input.first() {
             Some(&byte) if is_blank(byte) => input = &input[1..],
             Some(b'{') => input = comment(input)?.0,
-            _ if let Some(rest) = without_mark(input) => input = rest,
+            Some(0xef | 0x1a) if let Some(rest) = without_mark(input) => input = rest,
             _ => return Ok((input, ())),
         }
     }
