@@ -221,9 +221,13 @@ fn fields_of_meshes() {
         "OFF\n1 1 0\n0 0 @\n",
         "OFF\n1 1 0\n0 0 0\n3 0 @ 0\n",
         "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 @ 1 1\n",
-        "4OFF @\n3 1 0\n",
     ];
-    check_files(&["ugmesh", "mesh.off"], "mesh.off", &off, &["@OFF\n3 1 0\n", "OFF\n@ 1 0\n"]);
+    check_files(
+        &["ugmesh", "mesh.off"],
+        "mesh.off",
+        &off,
+        &["@OFF\n3 1 0\n", "OFF\n@ 1 0\n", "4OFF @\n3 1 0\n"],
+    );
 
     let stl = ["solid x\n@ 1\n", "solid\nfacet\nouter loop\nvertex 0 0 @\n"];
     check_files(&["ugmesh", "mesh.stl"], "mesh.stl", &stl, &["solid @\nendsolid @\n"]);
