@@ -45,7 +45,7 @@ pub fn first(random: &mut Random) -> Outcome {
     let up = normal.normalize() * normal.dot(toward_eye).signum();
     world.bodies.insert(random.below(row + 1), decal.clone());
     let on_plane = world.text();
-    decal.vertices.iter_mut().for_each(|place| *place += 0.01 * size * up);
+    decal.vertices.iter_mut().for_each(|place| *place += 0.001 * size * up);
     let place = world.bodies.iter().position(|body| body.paint == decal.paint).unwrap_or(0);
     world.bodies[place] = decal;
     let mut picture = Picture::new(&world, UNSHIFTED).by(renderer);
