@@ -75,7 +75,7 @@ impl Encoding {
             DVec3::new(x, y, 1.0 - x - y)
         });
         let primaries = DMat3::from_cols(columns[0], columns[1], columns[2]);
-        // X, Y and Z as primaries are X, Y and Z in any white.
+        // With X, Y and Z as primaries, the channels are X, Y and Z, whatever white is stated.
         let amounts = if primaries == DMat3::IDENTITY { DVec3::ONE } else { primaries.inverse() * white };
         let xyz_from_light = primaries * DMat3::from_diagonal(amounts);
         let curve = gamma.map_or(Curve::Gamma(1.0), |gamma| {

@@ -146,7 +146,8 @@ impl Channels {
     }
 }
 
-/// Refuses a layer that is too large, or for which a file of `n_file` bytes has not enough.
+/// Refuses a layer whose pixels exceed the limits, or need more bytes than the `n_file` of the file
+/// can hold.
 fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result<(), ReadError> {
     /// Bytes in the file for each block of pixels: its place, its row, its size.
     const N_BYTES_OF_BLOCK: u64 = 16;

@@ -56,8 +56,8 @@ impl Appearance {
     }
 
     /// As [`Appearance::face_colors`], of a face that moves or not. Colours given as light have no
-    /// hue to shift: on moving bodies they are replaced by the nearest hue, except in spectral mode.
-    /// So are colours of a display, and their hues are mixed.
+    /// hue to shift: on moving bodies they are replaced by the nearest hue, except in spectral
+    /// mode. So are colours of a display, and their hues are mixed.
     pub fn face_colors_in_motion(&self, scene: &Scene, face: &Face, is_moving: bool) -> FaceColors {
         let colors = self.face_colors(scene, face);
         let keeps_light = self.keeps_light() || !is_moving;

@@ -95,7 +95,7 @@ impl Palette {
     /// Converts all colours of a scene.
     ///
     /// `is_spectral`: colours are spectra, so all of them are drawn as light. `has_hues_of_light`:
-    /// if not, colours given as light have no tint, since finding it takes long.
+    /// whether colours given as light need their hue as well, which takes long to find.
     pub fn new(
         scene: &Scene,
         interpolation: Interpolation,

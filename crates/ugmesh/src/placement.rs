@@ -17,8 +17,8 @@ pub enum Size {
     Fit(f64),
 }
 
-/// Moves the centre of the bounding box of the faces to the origin if `is_centered`, then scales the
-/// mesh about the origin. Wires count as well if `has_wires`: meshes are written without them.
+/// Moves the centre of the bounding box of the faces to the origin if `is_centered`, then scales
+/// the mesh about the origin. Wires count as well if `has_wires`: meshes are written without them.
 pub(crate) fn scale_and_center(
     scene: &mut Scene,
     size: Size,

@@ -31,10 +31,10 @@
 //! This crate has no physics and no pixels: it stores the motions of bodies and the [`Stage`] of a
 //! scene for other programs.
 //!
-//! The feature `report` adds [`Diagnostics`] as text with the lines they are about, remedies that name
-//! programs and suggestions for misspelt names; `triangles` adds `read`, which cuts bent faces;
-//! `cli` adds both, the program of the same name, and the module `pipe`, with which all programs read
-//! scenes and the files these include. Libraries leave it out.
+//! The feature `report` adds [`Diagnostics`] as text with the lines they are about, remedies that
+//! name programs and suggestions for misspelt names; `triangles` adds `read`, which cuts bent
+//! faces; `cli` adds both, the program of the same name, and the module `pipe`, with which all
+//! programs read scenes and the files these include. Libraries leave it out.
 
 mod cameras;
 mod chunked_writer;

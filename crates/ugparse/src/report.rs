@@ -73,7 +73,7 @@ fn with_whole_column(drawn: String, source: &Source, marks: &[LineMark], span: S
     drawn.replacen(&place(column), &place(column + excerpt.n_cut), 1)
 }
 
-/// The line shown for a location.
+/// The part of a source line that is shown with a diagnostic, and the span to underline in it.
 struct Excerpt {
     text: String,
     mark: std::ops::Range<usize>,
@@ -142,7 +142,7 @@ impl Diagnostics {
 
 #[cfg(feature = "cli")]
 impl Setting {
-    /// The option, as the end of a remedy.
+    /// The end of a help text that names the command-line option.
     fn words(&self) -> String {
         match self {
             Self::Lax => "; with -lax others are passed on".to_owned(),

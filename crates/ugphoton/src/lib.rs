@@ -15,8 +15,8 @@
 //!
 //! # Modules
 //!
-//! What rays meet is found by [`ugpicture::outlines`] and [`ugpicture::rays`]. Each line imports only
-//! from the lines above it:
+//! What rays meet is found by [`ugpicture::outlines`] and [`ugpicture::rays`]. Each line imports
+//! only from the lines above it:
 //!
 //! ```text
 //! error  config                             errors; options

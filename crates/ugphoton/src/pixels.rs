@@ -337,8 +337,8 @@ impl<'a> Painting<'a> {
         samples
     }
 
-    /// Traces those samples that are wanted. `own`: the pixels of the tile. `seen`: what outlines find
-    /// there.
+    /// Traces those samples that are wanted. `own`: the pixels of the tile. `seen`: what outlines
+    /// find there.
     fn trace(
         &self,
         samples: &mut Samples,

@@ -213,8 +213,8 @@ impl<'a> Scenery<'a> {
     /// The outlines of faces as they are seen, if rays from the eye find faces faster by them than
     /// by the hierarchy. `tiles`: the parts in which the picture is drawn.
     pub fn outlines(&self, tiles: Tiles) -> Option<Outlines> {
-        /// Samples for each face from which outlines are faster. With the teapot and the street they
-        /// execute 22 % more instructions at 14, and 10 % less at 57.
+        /// Samples for each face from which outlines are faster. With the teapot and the street
+        /// they execute 22 % more instructions at 14, and 10 % less at 57.
         const LEAST: u64 = 32;
         let n_samples = u64::from(tiles.size[0]) * u64::from(tiles.size[1]);
         let are_faster = n_samples >= LEAST * self.scene.faces.len() as u64;

@@ -141,7 +141,7 @@ impl Drop for Claim {
     fn drop(&mut self) {
         if let Some(path) = &self.path {
             let mut leftovers = leftovers();
-            // Another process may have removed it.
+            // It fails if another process has removed the file, which is harmless.
             let _ = fs::remove_file(path);
             leftovers.files.remove(path);
         }

@@ -22,7 +22,7 @@ pub struct SampleGrid {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Samples along a side of a pixel.
+    /// Number of samples along each side of a pixel.
     pub samples: u32,
     /// True if depth keys are 1/distance and interpolated values are multiplied by them.
     pub is_perspective: bool,

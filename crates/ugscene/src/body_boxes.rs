@@ -135,8 +135,8 @@ impl BodyBoxes {
             let corners = &rest[first..rest.len().min(first + N_CORNERS)];
             corners.iter().sum::<DVec3>() / corners.len() as f64
         };
-        // A corner of the box of a spinning body may be too far out to move so; it is then where the
-        // middle of its box is.
+        // A corner of the box of a spinning body may be too far out to move so; it is then where
+        // the middle of its box is.
         let seen = |(row, (&rest, body)): (usize, (&DVec3, &BodyId))| {
             let motion = &placed.motions[body.index()];
             motion.light(rest).or_else(|_| motion.light(middle(row))).map_or(rest, |(seen, _)| seen)

@@ -10,8 +10,8 @@ use crate::{ColorId, Scene, VertexId, corner_angle};
 pub enum ColorMix {
     /// Its own, or that of all its faces.
     One(Option<ColorId>),
-    /// The colours of its faces, in their order, each once and with its share by the angles of the
-    /// faces, or those of a mixture (`c_mix`). ColorMix add up to 1.
+    /// The colours of its faces, each once, weighted by the angles of the faces at the vertex; or
+    /// the parts of a mixture (`c_mix`). In the order of the faces; the weights add up to 1.
     Mixed(Vec<(Option<ColorId>, f64)>),
 }
 

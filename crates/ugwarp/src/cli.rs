@@ -418,8 +418,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 impl Opened {
-    /// The words for the origin of a picture: the SHA-256 and the name of the first file, and one of
-    /// all other files together.
+    /// The words for the origin of a picture: the SHA-256 and the name of the first file, and one
+    /// of all other files together.
     pub fn origin(&self, input: &Input, context: &Context) -> String {
         let (hash, name) = (sha256(&input.text), context.recorded_name());
         if self.others.is_empty() {

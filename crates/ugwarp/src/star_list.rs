@@ -177,8 +177,8 @@ pub fn is_star_list(file: &[u8]) -> bool {
 ///
 /// The first line has the names of columns, separated by commas, semicolons, tabs or blanks; other
 /// columns than the known ones are allowed and ignored. In a list with the columns `ra` and
-/// `rarad`, those of the HYG catalogue, `ra` is in hours. Lines that are empty or begin with `#` are
-/// skipped, and stars without a magnitude, a temperature or a direction are left out.
+/// `rarad`, those of the HYG catalogue, `ra` is in hours. Lines that are empty or begin with `#`
+/// are skipped, and stars without a magnitude, a temperature or a direction are left out.
 ///
 /// # Errors
 /// All errors of up to 20 lines, with line and column.

@@ -98,11 +98,14 @@ fn read_head(words: &mut Words<'_>) -> Result<(Layout, [u64; 2]), Problem> {
 
 fn read_vertex(words: &mut Words<'_>, layout: Layout, builder: &mut Builder) -> Result<(), Problem> {
     let n_numbers = 3 + 3 * usize::from(layout.has_normal) + 4 * usize::from(layout.has_color);
-    let first: Vec<&str> = words.next().into_iter().collect();
+    let mut fields: Vec<&str> = words.next().into_iter().collect();
     let line = words.line;
-    let rest: Vec<&str> =
-        if layout.has_lines { words.rest_of_line().collect() } else { words.take(n_numbers - 1).collect() };
-    let mut fields = first.into_iter().chain(rest);
+    if layout.has_lines {
+        fields.extend(words.rest_of_line());
+    } else {
+        fields.extend(words.take(n_numbers - 1));
+    }
+    let mut fields = fields.into_iter();
     let position = numbers::<3>(&mut fields, line, "vertex")?;
     let normal = if layout.has_normal { Some(numbers::<3>(&mut fields, line, "normal")?) } else { None };
     let color = if layout.has_color { color(fields, line, layout)? } else { None };

@@ -468,9 +468,9 @@ impl WorldLine {
         self.moving().light(point, observer, Some(guess))
     }
 
-    /// The point of the body that an event is at, the inverse of [`WorldLine::event`], and the own
-    /// time τ of A: the root of (X − z(τ))·u(τ) = 0, of which there is one before the horizon of the
-    /// acceleration.  Eq. (P45)
+    /// The point of the body at an event, and the own time τ of A there: the inverse of
+    /// [`WorldLine::event`], by the root of (X − z(τ))·u(τ) = 0, of which there is one before the
+    /// horizon of the acceleration.  Eq. (P45)
     ///
     /// # Errors
     /// [`WorldLineError::Horizon`] if no point of the body can be there.
@@ -494,8 +494,8 @@ impl WorldLine {
         self.moving().own_time_when(event, frame)
     }
 
-    /// Where a point of the body would be in its coordinates at an own time if it only turned, A + ξ,
-    /// and the turn.
+    /// Where a point of the body would be in its coordinates at an own time if it only turned, A +
+    /// ξ, and the turn.
     #[must_use]
     pub fn standing(&self, point: DVec3, own_time: f64) -> (DVec3, DQuat) {
         let moving = self.moving();

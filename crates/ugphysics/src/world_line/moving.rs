@@ -47,8 +47,8 @@ impl Path {
         }
     }
 
-    /// |a| and |da/dτ|, or upper bounds of them, between own times at which the acceleration does not
-    /// jump. `inside`: one of these.
+    /// |a| and |da/dτ|, or upper bounds of them, between own times at which the acceleration does
+    /// not jump. `inside`: one of these.
     pub(super) fn bounds(&self, own_times: [f64; 2], inside: f64) -> [f64; 2] {
         match self {
             Self::Accelerated(acceleration) => [acceleration.at(inside).length(), 0.0],
@@ -162,7 +162,7 @@ impl Moving {
         self.offset_and_turn(point, own_time).0
     }
 
-    /// The offset of a point, and the turn of the body.
+    /// ξ of a point and its derivative by τ, and the rotation of the body, at an own time.
     pub(super) fn offset_and_turn(&self, point: DVec3, own_time: f64) -> (Offset, DQuat) {
         let mut offset = Offset { xi: point, swing: DVec3::ZERO };
         let mut all = DQuat::IDENTITY;

@@ -1,12 +1,14 @@
-//! What a ray into the past meets: faces of bodies with one velocity by a hierarchy of their triangles
-//! at rest, and bodies on world lines, in whose coordinates rays are curves.
+//! What a ray into the past meets: faces of bodies with one velocity by a hierarchy of their
+//! triangles at rest, and bodies on world lines, in whose coordinates rays are curves.
 //!
-//! `path`: rays; `world`: all bodies; `sphere`, `moving_boxes` and `corridor`: bodies that
+//! `path`: rays; `world`: all bodies; `part`: one of them, or all with one velocity; `sphere`,
+//! `moving_boxes` and `corridor`: bodies that
 //! rays cannot meet; `world_line_part`: bodies that accelerate, spin or orbit. Rays from a pinhole
 //! find inertial faces faster by [`crate::outlines`], if these are large.
 
 mod corridor;
 mod moving_boxes;
+mod part;
 mod path;
 mod sphere;
 mod world;
@@ -14,6 +16,7 @@ mod world_line_part;
 
 pub use corridor::Corridor;
 pub use moving_boxes::{MovingBox, MovingBoxes, Rays};
+pub use part::{FaceTriangle, Faces, Intersection, Part};
 pub use path::{PastRay, Start, along};
-pub use world::{FaceTriangle, Faces, Intersection, PacketMemory, Part, World};
+pub use world::{PacketMemory, World};
 pub use world_line_part::{SeenMesh, WorldLineMotion};

@@ -1,24 +1,17 @@
 //! The bodies of a scene, ready for rays: a hierarchy of triangles in each rest frame.
 
 use std::ops::{ControlFlow, Range};
-use std::sync::Arc;
 
-use crate::outlines::{Outlines, RestFaces, Tiles};
 use glam::DVec3;
 use rayon::prelude::*;
-use ugbvh::Bvh;
-use ugphysics::{RestFrame, WorldLine};
-use ugscene::{BodyId, Face, RestFrames, Scene, VertexId, View, unit_normal};
+use ugscene::{BodyId, Face, RestFrames, View};
+
+use crate::outlines::{Outlines, RestFaces, Tiles};
 
 use super::corridor::Corridor;
-use super::moving_boxes::{MovingBox, MovingBoxes, Rays};
-use super::path::{PastRay, Start};
-use super::sphere::Outline;
-use super::world_line_part::{CurveHit, Next, WorldLineMotion};
-
-/// How far a ray leaves a surface before it can meet another one, relative to the largest
-/// coordinate. Rounding errors are below a hundredth of it.
-const CLEARANCE: f64 = 1e-10;
+use super::moving_boxes::{MovingBoxes, Rays};
+use super::part::{FaceTriangle, Faces, Intersection, Part};
+use super::path::PastRay;
 
 /// Faces whose distances differ by no more than this part are at the same place: rounding decides
 /// which of coplanar faces is nearer.
@@ -43,47 +36,6 @@ pub struct World {
 /// The greatest number of parts that are tested one by one.
 const FEW_PARTS: usize = 4;
 
-/// The faces of all bodies with one velocity, or of one body on a world line.
-pub struct Part {
-    /// Their rest frame; of a body on a world line, that at its own time 0.
-    pub frame: RestFrame,
-    /// The motion of a body on a world line.
-    pub motion: Option<WorldLineMotion>,
-    bvh: Bvh,
-    triangles: Vec<FaceTriangle>,
-    clearance: f64,
-    /// `None` if there are no triangles.
-    outline: Option<Outline>,
-}
-
-/// A triangle of a face.
-#[derive(Clone, Copy, Debug)]
-pub struct FaceTriangle {
-    /// Row of the face.
-    pub face: u32,
-    /// Its corners are corners of the face.
-    pub corners: [VertexId; 3],
-    /// The face intersects itself, so a triangle may extend beyond it.
-    is_loose: bool,
-}
-
-/// The faces of a scene at rest.
-#[derive(Clone, Copy)]
-pub struct Faces<'a> {
-    /// The scene, each of whose vertices is part of one body.
-    pub scene: &'a Scene,
-    /// The rest position of each vertex relative to the eye, in the axes of the scene.
-    pub rest: &'a [DVec3],
-}
-
-impl Faces<'_> {
-    /// The unit normal of a face on its outside, from which its outline runs counterclockwise.
-    pub fn outside(&self, face: u32) -> DVec3 {
-        let contour = self.scene.face_contours(&self.scene.faces[face as usize]).next();
-        unit_normal(contour.unwrap_or_default().iter().map(|corner| self.rest[corner.index()]))
-    }
-}
-
 /// Memory of [`World::first`].
 #[derive(Default)]
 pub struct PacketMemory {
@@ -93,35 +45,9 @@ pub struct PacketMemory {
     rows: Vec<usize>,
 }
 
-/// Where a ray meets a face.
-#[derive(Clone, Copy, Debug)]
-pub struct Intersection {
-    /// Row of the part.
-    pub part: usize,
-    /// The parameter of the ray: the hit is at its origin plus this times its step, in every frame.
-    pub s: f64,
-    /// The own time of a body on a world line; 0 for others.
-    pub own_time: f64,
-    /// The triangle of the face.
-    pub triangle: FaceTriangle,
-    /// Its row in the part.
-    row: u32,
-    /// Barycentric weights of its second and third corner.
-    weights: [f64; 2],
-}
-
-impl Intersection {
-    /// Barycentric weights of the corners of the triangle.
-    #[inline]
-    pub fn weights(&self) -> [f64; 3] {
-        let [second, third] = self.weights;
-        [1.0 - second - third, second, third]
-    }
-}
-
 impl World {
-    /// Builds the hierarchies of the faces for which `is_traced` returns true. `planes`: the plane of
-    /// each face, see [`ugscene::shared_planes`].
+    /// Builds the hierarchies of the faces for which `is_traced` returns true. `planes`: the plane
+    /// of each face, see [`ugscene::shared_planes`].
     pub fn new(
         faces: Faces<'_>,
         frames: &RestFrames,
@@ -290,7 +216,8 @@ impl World {
         }
     }
 
-    /// Where a ray from the eye meets the plane of a face that it runs through. `last`: a hit nearby.
+    /// Where a ray from the eye meets the plane of a face that it runs through. `last`: a hit
+    /// nearby.
     fn on_face(
         &self,
         faces: Faces<'_>,
@@ -493,218 +420,5 @@ impl World {
         inertial?;
         (self.n_inertial..self.parts.len())
             .try_for_each(|row| self.parts[row].visit_on_line(faces, row, ray, range.clone(), visit_any))
-    }
-}
-
-impl Part {
-    fn new(
-        Faces { scene, rest }: Faces<'_>,
-        frame: RestFrame,
-        line: Option<&Arc<WorldLine>>,
-        rows: &[u32],
-        known: &mut [u32],
-    ) -> Self {
-        let triangle = |&row: &u32| whole_triangle(scene, row);
-        let cut = |&row: &u32| face_triangles(scene, rest, row);
-        let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
-        let triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
-        let (places, corners) = vertices(&triangles, rest, known);
-        let bvh = Bvh::new(&places, &corners);
-        let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-        let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
-        let motion = line.and_then(|line| WorldLineMotion::new(line, &bvh, &places, &corners));
-        Self { frame, motion, bvh, triangles, clearance: CLEARANCE * reach, outline }
-    }
-
-    /// The nearest hit on a body on a world line.
-    fn closest_on_line(
-        &self,
-        faces: Faces<'_>,
-        row: usize,
-        ray: &PastRay,
-        range: Range<f64>,
-    ) -> Option<Intersection> {
-        let mut best: Option<Intersection> = None;
-        self.motion.as_ref()?.visit(&self.bvh, ray, range, self.clearance_on_line(ray), |hit| {
-            let found = self.intersection_on_line(row, hit);
-            if found.triangle.is_loose && !self.is_inside(faces, &found) {
-                return Next::Everything;
-            }
-            if best.is_none_or(|best| (found.s, found.row) < (best.s, best.row)) {
-                best = Some(found);
-            }
-            Next::Nearer
-        });
-        best
-    }
-
-    /// Visits the faces of a body on a world line that a ray crosses, in any order, until `visit`
-    /// breaks.
-    fn visit_on_line(
-        &self,
-        faces: Faces<'_>,
-        row: usize,
-        ray: &PastRay,
-        range: Range<f64>,
-        visit: &mut impl FnMut(Intersection) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let Some(motion) = &self.motion else { return ControlFlow::Continue(()) };
-        let mut flow = ControlFlow::Continue(());
-        motion.visit(&self.bvh, ray, range, self.clearance_on_line(ray), |hit| {
-            let found = self.intersection_on_line(row, hit);
-            if flow.is_continue() && (!found.triangle.is_loose || self.is_inside(faces, &found)) {
-                flow = visit(found);
-            }
-            if flow.is_continue() { Next::Everything } else { Next::Nothing }
-        });
-        flow
-    }
-
-    /// The own time in which a ray leaves the surface at its origin.
-    fn clearance_on_line(&self, ray: &PastRay) -> f64 {
-        match ray.start {
-            Start::Surface { .. } => {
-                let reach = ray.origin.x.length() - ray.origin.t;
-                self.clearance + CLEARANCE * self.frame.velocity().gamma() * reach
-            }
-            _ => self.clearance,
-        }
-    }
-
-    fn intersection_on_line(&self, part: usize, CurveHit { s, own_time, hit }: CurveHit) -> Intersection {
-        Intersection { s, own_time, ..self.intersection(part, hit) }
-    }
-
-    /// True if a straight way at rest crosses a face for which `blocks` holds.
-    pub fn crosses(&self, from: DVec3, to: DVec3, blocks: impl Fn(u32) -> bool) -> bool {
-        let ray = ugbvh::Ray { origin: from, direction: to - from };
-        let visit = |hit: ugbvh::Hit| match blocks(self.triangles[hit.triangle as usize].face) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
-        self.bvh.visit(&ray, 0.0..1.0, visit).is_break()
-    }
-
-    /// The box around the part, in the frame of the camera.
-    fn moving_box(&self) -> MovingBox {
-        let Some((low, high)) = self.bvh.bounds() else { return MovingBox::EMPTY };
-        let corner = |idx: usize| {
-            let at = |axis: usize| if idx >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            self.frame.contracted(DVec3::new(at(0), at(1), at(2)))
-        };
-        let reach = low.abs().max(high.abs()).max_element();
-        let size = (high - low).max_element();
-        let corners = std::array::from_fn(corner);
-        MovingBox::new(corners, self.frame.velocity().beta(), self.frame.velocity().gamma(), size, reach)
-    }
-
-    /// The range of parameters that begins outside the surface at the ray's origin.
-    fn range(&self, step: DVec3, range: Range<f64>) -> Range<f64> {
-        range.start.max(self.clearance / ugphysics::length(step))..range.end
-    }
-
-    fn closest(
-        &self,
-        faces: Faces<'_>,
-        row: usize,
-        origin: DVec3,
-        step: DVec3,
-        range: Range<f64>,
-    ) -> Option<Intersection> {
-        let ray = ugbvh::Ray { origin, direction: step };
-        let mut range = self.range(step, range);
-        loop {
-            let found = self.intersection(row, self.bvh.closest(&ray, range.clone())?);
-            if !found.triangle.is_loose || self.is_inside(faces, &found) {
-                return Some(found);
-            }
-            range.start = found.s;
-        }
-    }
-
-    fn intersection(&self, part: usize, hit: ugbvh::Hit) -> Intersection {
-        let triangle = self.triangles[hit.triangle as usize];
-        Intersection { part, s: hit.t, own_time: 0.0, triangle, row: hit.triangle, weights: [hit.u, hit.v] }
-    }
-
-    /// The even-odd rule at a point of a face.
-    fn is_inside(&self, Faces { scene, rest }: Faces<'_>, found: &Intersection) -> bool {
-        let face = &scene.faces[found.triangle.face as usize];
-        let [a, b, c] = found.triangle.corners.map(|corner| rest[corner.index()]);
-        let [wa, wb, wc] = found.weights();
-        let point = wa * a + wb * b + wc * c;
-        // The coordinates that are kept are those of the plane of projection with the largest area.
-        let normal = (b - a).cross(c - a).abs();
-        let flat = |p: DVec3| match normal {
-            n if n.x >= n.y && n.x >= n.z => [p.y, p.z],
-            n if n.y >= n.z => [p.z, p.x],
-            _ => [p.x, p.y],
-        };
-        let [x, y] = flat(point);
-        let mut is_inside = false;
-        for contour in scene.face_contours(face) {
-            let ends = contour.iter().zip(contour.iter().cycle().skip(1));
-            for (from, to) in ends.map(|(from, to)| (flat(rest[from.index()]), flat(rest[to.index()]))) {
-                if (from[1] > y) != (to[1] > y)
-                    && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
-                {
-                    is_inside = !is_inside;
-                }
-            }
-        }
-        is_inside
-    }
-}
-
-/// The places of the vertices of some triangles alone, and the rows of their corners among them.
-/// `rows`: for each vertex of the scene, its row in its part, as far as it is known, else
-/// `u32::MAX`.
-fn vertices(triangles: &[FaceTriangle], rest: &[DVec3], rows: &mut [u32]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let mut places = Vec::new();
-    let mut row = |corner: VertexId| {
-        let row = &mut rows[corner.index()];
-        if *row == u32::MAX {
-            // Scenes have fewer than 2^32 vertices.
-            *row = places.len() as u32;
-            places.push(rest[corner.index()]);
-        }
-        *row
-    };
-    let corners = triangles.iter().map(|triangle| triangle.corners.map(&mut row)).collect();
-    (places, corners)
-}
-
-/// A face with three corners, which need not be cut.
-fn whole_triangle(scene: &Scene, row: u32) -> Option<FaceTriangle> {
-    let &[a, b, c] = scene.contours.corners(scene.faces[row as usize].contours.clone()) else { return None };
-    Some(FaceTriangle { face: row, corners: [a, b, c], is_loose: false })
-}
-
-/// The triangles of a face. One that intersects itself gets a fan from its first corner: it covers
-/// each point of the face an odd number of times.
-fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> {
-    if let Some(whole) = whole_triangle(scene, row) {
-        return vec![whole];
-    }
-    let face: &Face = &scene.faces[row as usize];
-    let corners = scene.contours.corners(face.contours.clone());
-    let triangle = |at: [u32; 3], is_loose| FaceTriangle {
-        face: row,
-        corners: at.map(|at| corners[at as usize]),
-        is_loose,
-    };
-    match ugpolygon::face_triangles(scene, face, |vertex| rest[vertex.index()]) {
-        Some(triangles) => triangles.into_iter().map(|at| triangle(at, false)).collect(),
-        // The sides of every contour, each with the first corner.
-        None => {
-            let mut first = 0;
-            let mut all = Vec::with_capacity(corners.len());
-            for contour in scene.face_contours(face) {
-                let n = contour.len() as u32;
-                all.extend((0..n).map(|side| triangle([0, first + side, first + (side + 1) % n], true)));
-                first += n;
-            }
-            all
-        }
     }
 }

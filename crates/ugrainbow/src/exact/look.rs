@@ -41,8 +41,8 @@ struct Triangle {
     /// Indices of the spectra of the corners.
     rows: [u32; 3],
     normals: [DVec3; 3],
-    /// If the colours are opaque hues, tint, saturation and value: each at the first corner, and the
-    /// differences to the other two.
+    /// If the colours are opaque hues, tint, saturation and value: each at the first corner, and
+    /// the differences to the other two.
     hues: Option<[[f64; 3]; 3]>,
     /// Normals of the planes through the eye and each side. Dot products with a ray are
     /// proportional to the weights of the opposite corners.
@@ -163,8 +163,8 @@ impl Look {
     }
 
     /// Apparent colour and light level of a point of the face. `mixed`: its colour at rest, if the
-    /// colours of corners differ, and the rows of their spectra with weights. `stretch`: 1/D. `lit`: position, normal and shift of lamps, see
-    /// [`uglight::Lighting::level`].
+    /// colours of corners differ, and the rows of their spectra with weights. `stretch`: 1/D.
+    /// `lit`: position, normal and shift of lamps, see [`uglight::Lighting::level`].
     #[inline(always)] // As `at`.
     pub fn shaded<const SPECTRAL: bool>(
         &self,
@@ -205,8 +205,8 @@ impl Look {
         (color, painter.lighting.level(point, normal, shift, self.colors.mixing == Mixing::Light))
     }
 
-    /// The point of the triangles on a ray. Where rounding places the ray outside all triangles, the
-    /// nearest triangle is used.
+    /// The point of the triangles on a ray. Where rounding places the ray outside all triangles,
+    /// the nearest triangle is used.
     #[inline]
     fn spot(&self, ray: DVec3) -> (&Triangle, [f64; 3]) {
         let mut best = (&self.triangles[0], [1.0, 0.0, 0.0]);

@@ -72,8 +72,8 @@ struct Curve<'a> {
 }
 
 impl Curve<'_> {
-    /// Where a point of the line is seen, in the axes of the camera's frame, and its Doppler factor;
-    /// NaN if it is never seen.
+    /// Where a point of the line is seen, in the axes of the camera's frame, and its Doppler
+    /// factor; NaN if it is never seen.
     fn seen(&self, part: f64) -> (DVec3, f64) {
         let rest = self.rest[0] + part * (self.rest[1] - self.rest[0]);
         let Some(line) = self.world_line else {

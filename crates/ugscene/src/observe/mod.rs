@@ -164,8 +164,8 @@ impl PlacedBodies {
     /// Places the bodies of a scene at rest. In the scene, velocities become those in the frame of
     /// the camera, each body gets its own vertices, lights that move with a body are shifted with
     /// it, and the camera receives the eye and `camera`; vertices keep their positions, until
-    /// [`PlacedBodies::show`] moves them. If anything moves or has moved, or a colour changes with own
-    /// time, the stage becomes that of a scene as seen.
+    /// [`PlacedBodies::show`] moves them. If anything moves or has moved, or a colour changes with
+    /// own time, the stage becomes that of a scene as seen.
     ///
     /// `camera`: options of the camera. `size`: pixels of the picture across and down, of which the
     /// aspect ratio decides how far a camera must stand back.

@@ -53,9 +53,9 @@ impl<'o> Placement<'o> {
         self.options.anchor_point(self.eye, self.centers[body.index()])
     }
 
-    /// The rest frame in the scene of each inertial body, with the fixed point of the contraction as
-    /// A: the option, else the reference point of the body; for the one that the option `-vel` moves,
-    /// the eye. Those of bodies on world lines have no meaning.
+    /// The rest frame in the scene of each inertial body, with the fixed point of the contraction
+    /// as A: the option, else the reference point of the body; for the one that the option `-vel`
+    /// moves, the eye. Entries of bodies on world lines are not used.
     pub(super) fn frames(&self, scene: &Scene) -> Vec<InertialFrame> {
         let frame = |body: BodyId| {
             let own = *scene.bodies.motion(body).inertial_frame().unwrap_or(&InertialFrame::REST);
@@ -82,7 +82,8 @@ impl<'o> Placement<'o> {
                 + eye_shift(motion, &self.observer, self.options.time)
         };
         let mut shifts: Vec<DVec3> = motions.iter().zip(frames).map(shift).collect();
-        // Unused vertices are part of the first body. They get the offset of a body of the same motion.
+        // Unused vertices are part of the first body. They get the offset of a body of the same
+        // motion.
         let same_motion = (1..motions.len()).find(|&row| motions[row].in_scene() == motions[0].in_scene());
         if let Some(row) = same_motion {
             shifts[0] = shifts[row];
@@ -194,7 +195,7 @@ pub(super) fn shift_lights(scene: &mut Scene, motions: &[RelativeMotion], shifts
         return;
     }
     let used = scene.bodies.ids().filter(|body| is_used[body.index()]);
-    // Those of bodies on world lines stay where they are.
+    // Vertices of bodies on world lines stay where they are.
     let (on_lines, used): (Vec<_>, Vec<_>) = used.partition(|&body| scene.bodies.is_on_world_line(body));
     let shifts: Vec<(BodyId, DVec3)> = used.into_iter().map(|body| (body, shift_of(body))).collect();
     let Some(&(_, first)) = shifts.first() else { return };

@@ -66,8 +66,8 @@ impl RestFrames {
         self.motions.iter().any(|motion| motion.world_line().is_some())
     }
 
-    /// The velocity, in the frame of the camera, of what of a body is at an event relative to that of
-    /// the eye; and the own time of a body on a world line, unless no point of it can be there.
+    /// The velocity of the point of a body at an event, in the frame of the camera with the eye as
+    /// origin; and its own time if the body is on a world line and a point of it can be there.
     pub fn at_event(&self, body: BodyId, event: Event) -> (Velocity, Option<f64>) {
         let of_line = || {
             let line = self.world_line(body)?;

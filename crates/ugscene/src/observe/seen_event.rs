@@ -20,8 +20,8 @@ pub(crate) fn eye_event(eye: DVec3, time: f64, camera: Velocity) -> Event {
     Lorentz::boost(camera).apply(Event { t: time, x: DVec3::ZERO }) + Event { t: 0.0, x: eye }
 }
 
-/// The world line of a body of a scene as seen that is not inertial, in the frame of the camera with
-/// the event of the eye as its origin; coordinates of the body are relative to the eye.
+/// The world line of a body of a scene as seen that is not inertial, in the frame of the camera
+/// with the event of the eye as its origin; coordinates of the body are relative to the eye.
 pub(crate) fn world_line(scene: &Scene, body: BodyId) -> Option<WorldLine> {
     let seen = scene.stage.seen_geometry().filter(|_| scene.bodies.is_on_world_line(body))?;
     let origin = eye_event(seen.eye, seen.time, seen.camera_velocity);

@@ -15,14 +15,14 @@ pub struct SeenVertices {
     pub bodies: Vec<BodyId>,
     /// The rest position of each vertex, see [`rest_positions`]; empty if it is not needed.
     pub rest: Vec<DVec3>,
-    /// For each vertex of a body on a world line, the own time at emission; NaN for others, and where
-    /// no point of the body can be seen. Empty without such bodies.
+    /// For each vertex of a body on a world line, the own time at emission; NaN for others, and
+    /// where no point of the body can be seen. Empty without such bodies.
     own_times: Vec<f64>,
 }
 
 impl SeenVertices {
-    /// `eye`: in scene coordinates. The columns of the scene where it has them ([`Scene::rest`]); else
-    /// they follow from seen positions, by (P4) and (P45).
+    /// `eye`: in scene coordinates. The columns of the scene where it has them ([`Scene::rest`]);
+    /// else they follow from seen positions, by (P4) and (P45).
     pub fn new(scene: &Scene, eye: DVec3, frames: &RestFrames, needs_rest: bool) -> Self {
         let bodies = vertex_bodies(scene);
         let is_known = !scene.rest.is_empty();

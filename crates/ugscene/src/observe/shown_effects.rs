@@ -30,7 +30,8 @@ impl ShownEffects {
         }
     }
 
-    /// The seen position of a point of a body: (P3), or (P1) or (P2) alone.
+    /// The seen position of a point of a body: by contraction and flight time (P3), or by one of
+    /// the two effects alone (P1), (P2).
     pub fn seen(self, RestPosition(rest): RestPosition, v: Velocity) -> SeenPosition {
         SeenPosition(match (self.contraction, self.flight_time) {
             (true, true) => seen_position(rest, v),
