@@ -13,6 +13,9 @@ use super::world::World;
 /// Pixels across and down.
 pub const SIZE: [u32; 2] = [24, 18];
 
+/// Error of the light between the vertices of the pipe, part of the brightest.
+pub const LIGHT_ERROR: f64 = 0.005;
+
 /// Colours as they are at rest.
 pub const UNSHIFTED: ColorShift = ColorShift::NONE;
 
@@ -50,6 +53,8 @@ pub struct Picture {
     pub samples: u32,
     /// How motion changes colours.
     pub shift: ColorShift,
+    /// See [`LIGHT_ERROR`].
+    pub light_error: f64,
     /// Additional options of `ugphoton`.
     pub rays: RayOptions,
     /// The lens of `ugphoton`.
@@ -77,6 +82,7 @@ impl Picture {
             size: SIZE,
             samples: 1,
             shift,
+            light_error: LIGHT_ERROR,
             rays: RayOptions { cutoff: 0.0, ..RayOptions::default() },
             lens: Lens::Pinhole,
             stereo: None,
@@ -150,7 +156,7 @@ impl Picture {
     fn seen(&self, pieces: Pieces) -> Result<Scene, String> {
         let MotionOptions { velocity, camera_velocity, time, anchor, in_place, geometry } =
             self.motion.clone();
-        let (size, light_error) = (self.size, 0.005);
+        let Self { size, light_error, .. } = *self;
         let config = uglorentz::Config {
             velocity,
             camera_velocity,
@@ -270,7 +276,8 @@ impl Picture {
             }
             Renderer::Exact => format!("uglorentz -sd 1 {motion} | ugrainbow -xc {shift} {picture}"),
             Renderer::Pipe => {
-                format!("uglorentz -sl .5 {motion} | ugdoppler -li {keep}{shift} | ugrainbow {picture}")
+                let percent = 100.0 * self.light_error;
+                format!("uglorentz -sl {percent} {motion} | ugdoppler -li {keep}{shift} | ugrainbow {picture}")
             }
         };
         format!("{{ {command} }}\n{}", self.text)
