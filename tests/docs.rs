@@ -8,9 +8,10 @@ use ugtests::documents::{Page, prepare, resized, shortened, transcripts, with_op
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
-const PAGES: [(&str, usize); 8] = [
+const PAGES: [(&str, usize); 9] = [
     ("README.md", 18),
     ("docs/start.md", 9),
+    ("docs/teaching.md", 12),
     ("docs/gallery.md", 60),
     ("docs/pipeline.md", 18),
     ("docs/meshes.md", 4),
@@ -63,19 +64,21 @@ fn commands_in_documents_work() {
 }
 
 #[test]
-fn programs_answer_mistakes_as_the_page_says() {
+fn programs_answer_as_the_pages_say() {
     if !tools::has(&[tools::SCRIPT]) {
         return;
     }
     let folder = tempfile::tempdir().expect("a temporary folder");
     let programs = programs::folder();
     prepare(folder.path(), programs);
-    let transcripts = transcripts("docs/mistakes.md");
-    assert!(transcripts.len() >= 17, "{}", transcripts.len());
-    for (command, answer) in transcripts {
-        // Drawing may take more than a second, and then shows its progress on a terminal.
-        let is_drawn = command.contains("-sz ");
-        assert_eq!(typed(&command, folder.path(), programs, !is_drawn), answer, "$ {command}");
+    for (page, least) in [("docs/mistakes.md", 17), ("docs/teaching.md", 11)] {
+        let transcripts = transcripts(page);
+        assert!(transcripts.len() >= least, "{page}: {}", transcripts.len());
+        for (command, answer) in transcripts {
+            // Drawing may take more than a second, and then shows its progress on a terminal.
+            let is_drawn = command.contains("-sz ") || command.contains(" | ");
+            assert_eq!(typed(&command, folder.path(), programs, !is_drawn), answer, "$ {command}");
+        }
     }
 }
 

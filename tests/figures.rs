@@ -71,7 +71,7 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
         }
         Tool::Rsvg => {
             let mut rsvg = Command::new("rsvg-convert");
-            rsvg.arg(input).arg("-o").arg(output);
+            rsvg.args(["-d", "72", "-p", "72"]).arg(input).arg("-o").arg(output);
             rsvg
         }
         Tool::Chromium => {
@@ -79,8 +79,10 @@ fn command(tool: Tool, input: &Path, output: &PathBuf) -> Command {
             chromium.args(["60", "chromium"]);
             // Without a sandbox, so that it also runs as root; it opens only our file.
             chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"]);
-            chromium.args(["--hide-scrollbars", "--force-device-scale-factor=1"]);
-            chromium.arg(format!("--window-size={},{}", SIZE[0], SIZE[1]));
+            chromium.args(["--hide-scrollbars", "--force-device-scale-factor=0.75"]);
+            // A point is 4/3 of a pixel of CSS.
+            let [width, height] = SIZE.map(|side| side * 4 / 3);
+            chromium.arg(format!("--window-size={width},{height}"));
             chromium.arg(format!("--user-data-dir={}", output.with_file_name("profile").display()));
             chromium.arg(format!("--screenshot={}", output.display()));
             chromium.arg(format!("file://{}", input.display()));

@@ -10,8 +10,12 @@ use ugtests::scenes;
 use crate::programs;
 
 /// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 3] =
-    [("docs/gallery.md", [640, 480]), ("docs/start.md", [1280, 960]), ("docs/motion.md", [640, 480])];
+const PAGES: [(&str, [u32; 2]); 4] = [
+    ("docs/gallery.md", [640, 480]),
+    ("docs/start.md", [1280, 960]),
+    ("docs/motion.md", [640, 480]),
+    ("docs/teaching.md", [640, 480]),
+];
 
 /// Folder of the small pictures, beside the large ones.
 const SMALL: &str = "small";

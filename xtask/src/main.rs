@@ -12,6 +12,8 @@
 //! cargo xtask hostile 50000
 //! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
+//! cargo xtask package --check
+//! cargo xtask site
 //! cargo xtask install --prefix ~/.local
 //! cargo xtask uninstall --prefix ~/.local
 //! ```
@@ -19,7 +21,6 @@
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
 mod bench;
-mod cluster;
 mod directions;
 mod gallery;
 mod globe;
@@ -31,7 +32,9 @@ mod plot;
 mod plots;
 mod programs;
 mod rays;
+mod scripts;
 mod short;
+mod site;
 mod sphere;
 mod teapot;
 mod worlds;
@@ -109,6 +112,15 @@ enum Task {
     /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
     /// missing, and Snakemake in the cache folder of the user.
     Cluster,
+    /// Write the documentation as a site, in target/site/book
+    Site,
+    /// Build a Debian package and an archive of static programs in target/packages
+    Package {
+        /// Install the package in a new Debian and remove it, build all a second time, and package
+        /// every crate: as root, with the Debian package debootstrap
+        #[arg(long)]
+        check: bool,
+    },
     /// Install the programs, their man pages and documentation, and completions for bash, zsh and
     /// fish
     Install(install::Args),
@@ -160,7 +172,9 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Plots { folder } => plots::write(folder)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
-        Task::Cluster => cluster::check()?,
+        Task::Cluster => scripts::cluster()?,
+        Task::Site => site::write(&mut out)?,
+        Task::Package { check } => scripts::package(*check)?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }

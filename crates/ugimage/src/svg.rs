@@ -18,7 +18,7 @@ pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     document(size, metadata, &image)
 }
 
-/// Makes a file of the SVG elements `drawing`, which draw `width` × `height` units. The metadata
+/// Makes a file of the SVG elements `drawing`, which draw `width` × `height` points. The metadata
 /// becomes its description.
 pub fn document([width, height]: [u32; 2], metadata: &Metadata, drawing: &str) -> Vec<u8> {
     let words = [metadata.software.as_str(), metadata.comment.as_str()];
@@ -26,7 +26,7 @@ pub fn document([width, height]: [u32; 2], metadata: &Metadata, drawing: &str) -
     let description =
         if words.is_empty() { String::new() } else { format!("<desc>{}</desc>\n", words.join("\n")) };
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}pt\" height=\"{height}pt\" \
          viewBox=\"0 0 {width} {height}\">\n{description}{drawing}</svg>\n"
     )
     .into_bytes()

@@ -132,7 +132,7 @@ const PAGES: &str = "share/doc/ugtools";
 
 /// The pages of the documentation with their pictures and all that they link to: paths in the
 /// repository.
-fn pages(root: &Path) -> io::Result<Vec<String>> {
+pub fn pages(root: &Path) -> io::Result<Vec<String>> {
     let mut pages: Vec<String> = [
         "CITATION.cff",
         "LICENSE",
