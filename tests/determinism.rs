@@ -35,10 +35,13 @@ fn pipes() -> Vec<(&'static str, Pipe)> {
     let mut figure = ship.clone();
     figure.rainbow.picture.output = ugrainbow::Output::Vector(ugimage::Format::Pdf);
     let mut annotated = figure.clone();
-    annotated.rainbow.picture.annotations =
-        ugrainbow::AnnotationOptions {
-            caption: "λ → λ/D".into(), legend: true, outline: true, grid: true
-        };
+    annotated.rainbow.picture.annotations = ugrainbow::AnnotationOptions {
+        caption: "λ → λ/D".into(),
+        legend: true,
+        outline: true,
+        grid: true,
+        ..Default::default()
+    };
     annotated.rainbow.picture.size = [320, 240];
     let mut glass = Pipe::new(0.9 * DVec3::X, size).in_place();
     glass.rainbow.picture.output = ugrainbow::Output::Vector(ugimage::Format::Svg);

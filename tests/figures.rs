@@ -184,6 +184,7 @@ fn vector_figures_show_the_same_as_the_png() {
         legend: true,
         outline: true,
         grid: true,
+        ..Default::default()
     };
     let mut searchable = annotated.clone();
     searchable.rainbow.picture.text = TextForm::Text;

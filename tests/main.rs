@@ -19,6 +19,7 @@ mod laws;
 mod light;
 mod limits;
 mod look;
+mod maps;
 mod mesh;
 mod notes;
 mod oracle;

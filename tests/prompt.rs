@@ -99,7 +99,10 @@ fn mistakes_are_answered() {
     check("uglorentz -ti 0..5 ship.ug", "only ugfilm draws numbers that change over time");
     check("uglorentz -ti 0 .. 5 ship.ug", "only ugfilm draws numbers that change over time");
     check("ugfilm -ti 0...1 -fo a_%d.png ship.ug", "`-ti`: `0...1` has three dots: write `0..1` or `0..0.1`");
-    check("ugrainbow -bg red ship.ug", "colours are lightness, hue in degrees, saturation; red is `1 0`");
+    check(
+        "ugrainbow -bg mauve ship.ug",
+        "write lightness, hue in degrees and saturation, a name such as white, or #rrggbb",
+    );
     check("ugrainbow -ed -lc '#fff' ship.ug", "lightness, hue in degrees, saturation, such as `1 240 .5`");
 
     // Options.

@@ -36,9 +36,13 @@ pub fn write(out: &mut impl Write) -> io::Result<()> {
     }
     let pages = install::pages(scenes::root())?;
     for page in &pages {
-        let copy = source.join(page);
+        let (page, copy) = (scenes::root().join(page), source.join(index(page)));
         fs::create_dir_all(copy.parent().unwrap_or(&source))?;
-        fs::copy(scenes::root().join(page), copy)?;
+        if page.extension().is_some_and(|ending| ending == "md") {
+            fs::write(copy, index(&fs::read_to_string(page)?))?;
+        } else {
+            fs::copy(page, copy)?;
+        }
     }
     let live = scenes::target_dir().join("page");
     for page in fs::read_dir(&live).into_iter().flatten() {
@@ -62,6 +66,11 @@ pub fn write(out: &mut impl Write) -> io::Result<()> {
     writeln!(out, "{}", site.join("book/index.html").display())
 }
 
+/// The name, or the text with links, of a page whose folder opens with it.
+fn index(text: &str) -> String {
+    text.replace("README.md", "index.md")
+}
+
 fn run(command: &mut Command) -> io::Result<()> {
     let status = command.status()?;
     if status.success() { Ok(()) } else { Err(io::Error::other(format!("{command:?}: {status}"))) }
@@ -69,9 +78,9 @@ fn run(command: &mut Command) -> io::Result<()> {
 
 /// The pages in the order in which the front page links to them, each with its heading.
 fn summary(front: &str) -> String {
-    let mut summary = String::from("[Front page](README.md)\n\n");
+    let mut summary = String::from("[Front page](index.md)\n\n");
     for page in links(front).filter(|link| link.ends_with(".md") && !link.contains(':')) {
-        let line = |title: &str| format!("- [{title}]({page})\n");
+        let line = |title: &str| format!("- [{title}]({})\n", index(&page));
         let text = fs::read_to_string(scenes::root().join(&page)).unwrap_or_default();
         let title = text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or(&page);
         // A page that is linked twice stands where it is linked last: in the table of all pages.

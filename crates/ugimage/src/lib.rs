@@ -57,6 +57,7 @@ mod read_exr;
 mod read_hdr;
 mod read_light;
 mod read_pfm;
+mod spelled_color;
 mod svg;
 #[cfg(test)]
 mod test_frames;
@@ -70,6 +71,7 @@ pub use pixels::Pixels;
 pub use png::Compression;
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
 pub use read_light::{ReadPicture, read_picture};
+pub use spelled_color::spelled_color;
 pub use ugframe::{
     Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET, Samples,
     Tone, auto_exposure, display_pixel,

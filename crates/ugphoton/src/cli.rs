@@ -214,7 +214,7 @@ impl Args {
             shift: self.color_shift(),
             picture: self.picture.options(
                 Output::Color(picture_format(self.dt, output, self.explain.is_some())?),
-                self.annotations.options(),
+                self.annotations.options()?,
             )?,
             rays: RayOptions {
                 depth: self.rd,

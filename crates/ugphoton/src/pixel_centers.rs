@@ -2,16 +2,21 @@
 
 use rayon::prelude::*;
 use ugphysics::{RestFrame, Velocity};
-use ugpicture::{Emission, MediumLight, SeenItem};
+use ugpicture::{Emission, FoundItems, MediumLight, SeenItem};
 use ugscene::BodyId;
 
 use crate::scenery::Scenery;
 use ugpicture::rays::{PastRay, along};
 
-/// The surface at the middle of each pixel.
-pub fn seen_items(scenery: &Scenery<'_>, size: [u32; 2], samples: u32) -> Vec<Option<SeenItem>> {
+/// Calls a function with the surfaces at the middles of the pixels of a picture.
+pub fn find_items(
+    scenery: &Scenery<'_>,
+    size: [u32; 2],
+    samples: u32,
+    found: &mut dyn FnMut(&FoundItems<'_>),
+) {
     let centers = PixelCenters::new(scenery, [0, 0, size[0], size[1]], samples);
-    (0..centers.len()).into_par_iter().map(|idx| centers.item(idx)).collect()
+    found(&|idx| centers.item(idx));
 }
 
 /// The surfaces at the centres of the pixels of a part of a picture.

@@ -6,7 +6,9 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
 use ugparse::{Diagnostics, Source};
 use ugphysics::WorldLineError;
-use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, metadata};
+use ugpicture::{
+    Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, metadata,
+};
 use ugpipe::Progress;
 use ugscene::{BodyBoxes, PlacedBodies, Provenance, Scene, ShownPoint};
 
@@ -156,7 +158,15 @@ impl PreparedScene {
     ) -> Result<Rendering, Error> {
         let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
-        let items = || Ok(pixel_centers::seen_items(scenery, picture.size, picture.samples));
+        let items = |each_sample: bool, found: &mut dyn FnMut(&FoundItems<'_>)| {
+            let (size, samples) = if each_sample {
+                (picture.size.map(|side| side * picture.samples), 1)
+            } else {
+                (picture.size, picture.samples)
+            };
+            pixel_centers::find_items(scenery, size, samples, found);
+            Ok(())
+        };
         let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
         let subject = Subject::Surfaces {
             view: &scenery.view,

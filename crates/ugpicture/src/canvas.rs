@@ -89,11 +89,19 @@ impl Canvas {
     ) -> Result<Rendering, E> {
         let Drawn { content, brightest, mut notes, annotated } = drawn;
         progress.check().map_err(Error::from)?;
-        let (content, development) = self.developed(content);
-        notes.extend(self.light_note(brightest, development));
-        notes.extend(self.levels_note(&content, development, &notes));
+        let mapped = self.layout.map(&annotated, &self.options)?;
+        let scale = mapped.as_ref().map(|(_, scale)| *scale);
+        let (content, development) = match mapped {
+            Some((frame, _)) => (Content::Image(Image::Display(frame)), None),
+            None => {
+                let (content, development) = self.developed(content);
+                notes.extend(self.light_note(brightest, development));
+                notes.extend(self.levels_note(&content, development, &notes));
+                (content, development)
+            }
+        };
         progress.step("annotating", 0);
-        let annotations = self.layout.annotate(&annotated, &self.options, development)?;
+        let annotations = self.layout.annotate(&annotated, &self.options, development, scale.as_ref())?;
         let content = annotations.add_to(content);
         notes.extend(annotations.notes);
         progress.check().map_err(Error::from)?;

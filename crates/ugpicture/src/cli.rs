@@ -9,12 +9,13 @@ use std::path::Path;
 
 use clap::{ArgAction, ArgMatches, Args};
 use ugimage::label::TextForm;
-use ugimage::{Filter, Format, Tone};
+use ugimage::{Filter, Format, Tone, spelled_color};
 use ugparse::Diagnostics;
 use ugphysics::Hsv;
 use ugpipe::{Context, Failure, Preset, Words, finite, number, one_of, whole};
 use ugscene::cli::CameraArgs;
 
+use crate::annotations::{IsoOptions, MapOptions, Quantity};
 use crate::background::Background;
 use crate::channel::Channel;
 use crate::explain::{Explanation, WriteSample};
@@ -56,10 +57,10 @@ pub struct PictureArgs {
           help_heading = PICTURE)]
     fl: Filter,
 
-    /// Background colour: lightness, hue in degrees, saturation [default: black]
+    /// Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
-          value_parser = color_part, visible_alias = "background", help_heading = PICTURE)]
-    bg: Option<Vec<f64>>,
+          visible_alias = "background", help_heading = PICTURE)]
+    bg: Option<Vec<String>>,
 
     /// Transparent background
     #[arg(long, visible_alias = "transparent", conflicts_with = "bg", help_heading = PICTURE)]
@@ -142,7 +143,7 @@ impl PictureArgs {
         if self.tb {
             return Ok(Background::Transparent);
         }
-        color("background -bg", self.bg.as_deref().unwrap_or(&[0.0])).map(Background::Color)
+        color("background -bg", self.bg.as_deref().unwrap_or(&[])).map(Background::Color)
     }
 }
 
@@ -219,17 +220,85 @@ pub struct AnnotationArgs {
     /// if that is lower
     #[arg(long, visible_alias = "grid", help_heading = ANNOTATIONS)]
     gr: bool,
+
+    /// Instead of light a quantity in false colours, with its scale: D, time, distance, speed, z
+    ///
+    /// Doppler factor, time and distance of emission, speed, depth along the view, in the frame of
+    /// the camera. The scale ends at LOW and HIGH, or at the least and greatest value that is seen.
+    /// That of D is logarithmic, from red over white at 1 to blue.
+    #[arg(long, num_args = 1..=3, value_names = ["QUANTITY", "LOW", "HIGH"], action = ArgAction::Set,
+          value_parser = quantity_word, help_heading = ANNOTATIONS)]
+    map: Option<Vec<QuantityWord>>,
+
+    /// Lines of equal values of a quantity over the picture: D, time, distance, speed, z
+    ///
+    /// The quantities are those of -map; without values they are round numbers. Lines are where the
+    /// middles of neighbouring pixels show one surface.
+    #[arg(long, num_args = 1..=33, value_names = ["QUANTITY", "VALUE"], action = ArgAction::Set,
+          value_parser = quantity_word, help_heading = ANNOTATIONS)]
+    iso: Option<Vec<QuantityWord>>,
+}
+
+/// A word of -map or -iso.
+#[derive(Clone, Copy, Debug)]
+enum QuantityWord {
+    Quantity(Quantity),
+    Number(f64),
+}
+
+fn quantity_word(word: &str) -> Result<QuantityWord, String> {
+    if let Some(quantity) = Quantity::from_name(word) {
+        return Ok(QuantityWord::Quantity(quantity));
+    }
+    let names = Quantity::ALL.map(Quantity::name).join(", ");
+    finite(word).map(QuantityWord::Number).map_err(|_| format!("neither a number nor one of {names}"))
+}
+
+/// The quantity and the numbers of -map or -iso.
+fn quantity_numbers(option: &str, words: &[QuantityWord]) -> Result<(Quantity, Vec<f64>), Failure> {
+    let number = |word: &QuantityWord| match word {
+        QuantityWord::Number(number) => Some(*number),
+        QuantityWord::Quantity(_) => None,
+    };
+    let quantity_first = || {
+        let names = Quantity::ALL.map(Quantity::name).join(", ");
+        Failure::usage(format!("{option} has one quantity first, then numbers: one of {names}"))
+    };
+    let [QuantityWord::Quantity(quantity), numbers @ ..] = words else { return Err(quantity_first()) };
+    let numbers = numbers.iter().map(number).collect::<Option<Vec<f64>>>().ok_or_else(quantity_first)?;
+    if *quantity == Quantity::Doppler && numbers.iter().any(|number| *number <= 0.0) {
+        return Err(Failure::usage(format!("the Doppler factors of {option} must be above 0")));
+    }
+    Ok((*quantity, numbers))
 }
 
 impl AnnotationArgs {
     /// The annotation options that these arguments define.
-    pub fn options(&self) -> AnnotationOptions {
-        AnnotationOptions {
+    ///
+    /// # Errors
+    /// The words of -map or -iso are no quantity with its numbers.
+    pub fn options(&self) -> Result<AnnotationOptions, Failure> {
+        let map = |words: &Vec<QuantityWord>| {
+            let (quantity, numbers) = quantity_numbers("-map", words)?;
+            let range = match numbers[..] {
+                [] => None,
+                [low, high] if low < high => Some([low, high]),
+                _ => return Err(Failure::usage("-map has two numbers or none, the lower one first")),
+            };
+            Ok::<_, Failure>(MapOptions { quantity, range })
+        };
+        let iso = |words: &Vec<QuantityWord>| {
+            let (quantity, values) = quantity_numbers("-iso", words)?;
+            Ok::<_, Failure>(IsoOptions { quantity, values })
+        };
+        Ok(AnnotationOptions {
             caption: self.cap.clone().unwrap_or_default(),
             legend: self.lg,
             outline: self.dl,
             grid: self.gr,
-        }
+            map: self.map.as_ref().map(map).transpose()?,
+            iso: self.iso.as_ref().map(iso).transpose()?,
+        })
     }
 }
 
@@ -399,50 +468,12 @@ pub fn format_named(name: &str) -> Result<Format, String> {
     Format::from_name(name).ok_or_else(|| format!("none of the formats {}", Format::list()))
 }
 
-/// A colour as in a `c` statement: lightness alone is grey, with a hue it is pure.
+/// The colour of an option called `name`, see [`spelled_color`].
 ///
 /// # Errors
-/// Lightness or saturation is outside 0…1.
-pub fn color(name: &str, numbers: &[f64]) -> Result<Hsv, Failure> {
-    let (value, hue, saturation) = match numbers {
-        [value] => (*value, 0.0, 0.0),
-        [value, hue] => (*value, *hue, 1.0),
-        [value, hue, saturation, ..] => (*value, *hue, *saturation),
-        [] => (0.0, 0.0, 0.0),
-    };
-    let is_part = |number: f64| (0.0..=1.0).contains(&number);
-    if !is_part(value) || !is_part(saturation) {
-        return Err(Failure::Usage(format!("lightness and saturation of the {name} are from 0 to 1")));
-    }
-    Ok(Hsv { hue, saturation, value })
-}
-
-/// Value parser of the numbers of a colour.
-///
-/// # Errors
-/// The word is not a number: how to write the colour, if it names one.
-pub fn color_part(word: &str) -> Result<f64, String> {
-    /// Names of colours, and their lightness, hue and saturation.
-    const NAMES: [(&str, &str); 9] = [
-        ("black", "0"),
-        ("white", "1"),
-        ("gray", ".5"),
-        ("grey", ".5"),
-        ("red", "1 0"),
-        ("yellow", "1 60"),
-        ("green", "1 120"),
-        ("cyan", "1 180"),
-        ("blue", "1 240"),
-    ];
-    finite(word).map_err(|error| match NAMES.iter().find(|(name, _)| word.eq_ignore_ascii_case(name)) {
-        Some((name, numbers)) => {
-            format!("colours are lightness, hue in degrees, saturation; {name} is `{numbers}`")
-        }
-        None if word.starts_with('#') => {
-            "colours are lightness, hue in degrees, saturation, such as `1 240 .5`".to_owned()
-        }
-        None => error,
-    })
+/// The words are no colour.
+pub fn color(name: &str, words: &[String]) -> Result<Hsv, Failure> {
+    spelled_color(words, finite).map_err(|error| Failure::Usage(format!("{name}: {error}")))
 }
 
 /// Stops, or `auto`.

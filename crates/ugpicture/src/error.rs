@@ -40,6 +40,12 @@ pub enum Error {
     /// Annotations of a format that holds linear light.
     #[error("EXR, PFM and HDR pictures hold the light of the scene and nothing else")]
     NotAnnotated,
+    /// A quantity in false colours as a vector figure.
+    #[error("false colours are drawn as pixels")]
+    MapVectors,
+    /// A quantity of the surfaces in a picture of which only the pixels are known.
+    #[error("quantities of what is seen are for pictures of a single view")]
+    NoSurfaces,
     /// A transparent background of a format without transparency.
     #[error("PFM and HDR pictures have no transparency")]
     NotTransparent,
@@ -53,7 +59,7 @@ pub enum Error {
     #[error("vector graphics are at most {MAX_VECTOR_SIDE} points along a side")]
     VectorSize,
     /// A word of the caption, or the legend, is wider than the picture.
-    #[error("the picture is too narrow for a caption or legend")]
+    #[error("the picture is too narrow for a caption, legend or scale")]
     TooNarrow,
     /// Caption and legend are almost as high as the picture.
     #[error("caption and legend leave no room for the picture")]

@@ -65,7 +65,9 @@ mod picture_file;
 pub mod rays;
 mod rendering;
 
-pub use annotations::{Annotated, Layout, Subject, VisibleWires};
+pub use annotations::{
+    Annotated, FindItems, FoundItems, IsoOptions, Layout, MapOptions, Quantity, Scale, Subject, VisibleWires,
+};
 pub use background::{Backdrop, Background};
 pub use canvas::{Canvas, Drawn, DrawnContent};
 pub use channel::{Channel, channel_planes};

@@ -7,6 +7,7 @@ use ugimage::{Compression, Development, Filter, Format, LinearFrame, Tone, auto_
 use ugphysics::Hsv;
 use ugscene::CameraOptions;
 
+use crate::annotations::{IsoOptions, MapOptions};
 use crate::background::Background;
 use crate::channel::Channel;
 use crate::error::Error;
@@ -125,6 +126,10 @@ impl PictureOptions {
                 LIGHT + surface + 4 * (channels + self.channels.len() as u64)
             }
             Output::Color(Format::Png16) => LIGHT + 2 * channels,
+            // A surface and a value at each sample.
+            _ if self.annotations.map.is_some() => {
+                LIGHT + COLOR + 20 * u64::from(self.samples * self.samples)
+            }
             _ if self.keeps_light() => LIGHT + COLOR,
             _ => COLOR,
         }
@@ -176,6 +181,9 @@ impl PictureOptions {
     }
 
     fn check_vectors(&self, format: Format) -> Result<(), Error> {
+        if self.annotations.map.is_some() {
+            return Err(Error::MapVectors);
+        }
         if !format.has_vectors() {
             return Err(Error::NoVectors);
         }
@@ -190,7 +198,7 @@ impl PictureOptions {
 }
 
 /// Which annotations a picture has.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnnotationOptions {
     /// Text below the picture; none if it is blank.
     pub caption: String,
@@ -201,6 +209,10 @@ pub struct AnnotationOptions {
     pub outline: bool,
     /// Over the picture: a coordinate grid on the ground.
     pub grid: bool,
+    /// Instead of light, a quantity in false colours, with its scale below the picture.
+    pub map: Option<MapOptions>,
+    /// Over the picture: lines of equal values of a quantity.
+    pub iso: Option<IsoOptions>,
 }
 
 impl AnnotationOptions {

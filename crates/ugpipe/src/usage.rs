@@ -210,7 +210,7 @@ fn long_names(arg: &Arg) -> impl Iterator<Item = &str> {
 }
 
 /// Options of other programs, the one of ours that does the same, and what it is.
-const ANSWERS: [(&str, &str, &str); 21] = [
+const ANSWERS: [(&str, &str, &str); 25] = [
     ("width", "sz", "the size of the picture is"),
     ("height", "sz", "the size of the picture is"),
     ("w", "sz", "the size of the picture is"),
@@ -231,6 +231,10 @@ const ANSWERS: [(&str, &str, &str); 21] = [
     ("silent", "qt", "to print only errors, use"),
     ("debug", "vb", "to print what is done, use"),
     ("gamma", "ex", "brightness is set by"),
+    ("gamma", "vel", "the velocity along x, y and z is"),
+    ("cam-vel", "cv", "the velocity of the camera is"),
+    ("duration", "frames", "the number of frames is"),
+    ("seconds", "frames", "the number of frames is"),
     ("bgcolor", "bg", "the background is"),
 ];
 

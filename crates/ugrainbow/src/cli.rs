@@ -9,8 +9,8 @@ use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_part, kind_named, kinds, picture_format,
-    pixel, refuse_terminal, report_format, with_format, write_picture, write_report,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kind_named, kinds, picture_format, pixel,
+    refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
@@ -95,11 +95,10 @@ pub struct Args {
     #[arg(long, visible_alias = "edges", help_heading = LINES)]
     ed: bool,
 
-    /// Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces
-    /// with -wf, black with -ed]
+    /// Colour of the edges, as for -bg [default: colours of the faces with -wf, black with -ed]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
-          value_parser = color_part, visible_alias = "line-color", help_heading = LINES)]
-    lc: Option<Vec<f64>>,
+          visible_alias = "line-color", help_heading = LINES)]
+    lc: Option<Vec<String>>,
 
     /// Width of edges and wires in pixels
     #[arg(long, value_name = "W", default_value_t = LINE_WIDTH, value_parser = number(line_width),
@@ -202,7 +201,7 @@ impl Args {
         Ok(Config {
             picture: PictureOptions {
                 text: if self.txt { TextForm::Text } else { TextForm::Outlines },
-                ..self.picture.options(self.output(output)?, self.annotations.options())?
+                ..self.picture.options(self.output(output)?, self.annotations.options()?)?
             },
             interpolation: if self.iw { Interpolation::Wavelength } else { Interpolation::Hue },
             hue_scale: if self.wi { HueScale::Wavelengths } else { HueScale::Degrees },
@@ -222,7 +221,7 @@ impl Args {
     }
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {
-        let given = self.lc.as_deref().map(|numbers| color("lines -lc", numbers)).transpose()?;
+        let given = self.lc.as_deref().map(|words| color("lines -lc", words)).transpose()?;
         if !self.wf && !self.ed {
             return match given {
                 Some(_) => {

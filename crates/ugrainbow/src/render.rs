@@ -2,11 +2,11 @@
 
 use ugimage::LinearFrame;
 use ugparse::{Diagnostics, Parsed, Source};
-use ugpicture::{Annotated, Canvas, Drawn, Output, PictureFile, Rendering, Subject, metadata};
+use ugpicture::{Annotated, Canvas, Drawn, FoundItems, Output, PictureFile, Rendering, Subject, metadata};
 use ugpipe::Progress;
 use ugscene::{Provenance, Scene};
 
-use crate::annotate::{seen_items, visible_wires};
+use crate::annotate::{find_items, visible_wires};
 use crate::config::Config;
 use crate::depth_cue::prepare;
 use crate::drawn_scene::DrawnScene;
@@ -98,7 +98,9 @@ fn draw(
     };
     let notes = notes(&drawn, config);
     let DrawnScene { setup, stats, content, .. } = drawn;
-    let items = || seen_items(setup.scene(), config);
+    let items = |each_sample: bool, found: &mut dyn FnMut(&FoundItems<'_>)| {
+        find_items(setup.scene(), config, each_sample, found)
+    };
     let wires = |scene: &_, camera: &_| visible_wires(scene, camera, config);
     let is_shifted = match config.exact {
         Some(shift) => shift.shifts_wavelengths(),

@@ -4,8 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{ArgAction, Parser, ValueEnum};
-use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header};
-use ugphysics::Hsv;
+use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header, spelled_color};
 use ugpipe::{
     CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
 };
@@ -54,10 +53,10 @@ pub struct Args {
           value_parser = whole(0..=10_000))]
     gap: Option<Vec<u32>>,
 
-    /// Background colour: lightness, hue in degrees, saturation [default: white]
+    /// Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: white]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
-          value_parser = finite, visible_alias = "background")]
-    bg: Option<Vec<f64>>,
+          visible_alias = "background")]
+    bg: Option<Vec<String>>,
 
     /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
     #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(FORMATS, format_named))]
@@ -152,17 +151,11 @@ impl Args {
         })
     }
 
-    /// The background colour. As in `ugrainbow`, the saturation is 0 if only the lightness is
-    /// given, and 1 if a hue is given without saturation.
+    /// The background colour.
     fn background(&self) -> Result<[u8; 3], Failure> {
-        let numbers = self.bg.as_deref().unwrap_or(&[1.0]);
-        let hue = numbers.get(1).copied().unwrap_or(0.0);
-        let saturation = numbers.get(2).copied().unwrap_or(if numbers.len() > 1 { 1.0 } else { 0.0 });
-        let is_part = |number: f64| (0.0..=1.0).contains(&number);
-        if !is_part(numbers[0]) || !is_part(saturation) {
-            return Err(Failure::usage("lightness and saturation of the background -bg must be from 0 to 1"));
-        }
-        let color = Hsv { hue, saturation, value: numbers[0] };
+        let Some(words) = &self.bg else { return Ok([255; 3]) };
+        let color = spelled_color(words, finite)
+            .map_err(|error| Failure::usage(format!("background -bg: {error}")))?;
         Ok(color.to_rgb().map(|part| (255.0 * part).round() as u8))
     }
 

@@ -248,7 +248,7 @@ impl Args {
 
     fn picture_options(&self, output: Option<&Path>) -> Result<PictureOptions, Failure> {
         let output = Output::Color(format_for(self.dt, output)?);
-        self.picture.options(output, self.annotations.options())
+        self.picture.options(output, self.annotations.options()?)
     }
 
     /// The velocity of the camera.

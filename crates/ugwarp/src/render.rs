@@ -2,12 +2,11 @@
 
 use std::borrow::Cow;
 
-use rayon::prelude::*;
 use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
 use ugpicture::{
-    Annotated, Canvas, Drawn, DrawnContent, Note, PictureFile, Rendering, Subject, channel_planes,
+    Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, channel_planes,
 };
 use ugpipe::Progress;
 use ugscene::{Provenance, Remarks, Scene};
@@ -162,10 +161,15 @@ impl<'s> Prepared<'s> {
                 (DrawnContent::Light { frame, is_clipped: !warp.is_uncut() }, statistics)
             }
         };
-        let size = config.picture.size;
-        let n_pixels = size[0] as usize * size[1] as usize;
-        let items = || Ok((0..n_pixels).into_par_iter().map(|idx| warp.seen_item(idx)).collect());
-        let view = view(config, size)?;
+        let items = |each_sample: bool, found: &mut dyn FnMut(&FoundItems<'_>)| {
+            if each_sample {
+                found(&|idx| warp.seen_sample(idx))
+            } else {
+                found(&|idx| warp.seen_item(idx))
+            }
+            Ok(())
+        };
+        let view = view(config, config.picture.size)?;
         let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, mut notes) = (statistics.max_light, notes(config, warp, &statistics));

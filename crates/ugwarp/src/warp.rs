@@ -253,9 +253,17 @@ impl<'s> Warp<'s> {
     /// The surfaces at the middles of pixels, for channels and legends: light that was
     /// emitted far away, in the frame of the sky.
     pub(crate) fn seen_item(&self, idx: usize) -> Option<SeenItem> {
-        let n = f64::from(self.samples);
-        let width = self.size[0] as usize;
-        let place = [idx % width, idx / width].map(|at| n * (at as f64 + 0.5));
+        self.seen_at(f64::from(self.samples), self.size[0] as usize, idx)
+    }
+
+    /// What is seen at the middle of a sample, counted row after row.
+    pub(crate) fn seen_sample(&self, idx: usize) -> Option<SeenItem> {
+        self.seen_at(1.0, self.size[0] as usize * self.samples as usize, idx)
+    }
+
+    /// What is seen at the middle of a square `side` samples wide, of `width` in a row.
+    fn seen_at(&self, side: f64, width: usize, idx: usize) -> Option<SeenItem> {
+        let place = [idx % width, idx / width].map(|at| side * (at as f64 + 0.5));
         let direction = self.film.sight(place)?.direction.normalize();
         let emission = Emission {
             place: direction,

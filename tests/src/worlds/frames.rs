@@ -39,7 +39,8 @@ fn both(
 /// Both worlds have the same picture, by rays or by the whole pipe, which measures the error of
 /// light at single points: where a lamp accelerates its bound can be exceeded between them.
 pub(super) fn check_both(random: &mut Random, one: &World, other: &World) -> Outcome {
-    let [one, other] = both(random, one, other, &[Renderer::Rays, Renderer::Rays, Renderer::Pipe], LIGHT_ERROR / 5.0)?;
+    let [one, other] =
+        both(random, one, other, &[Renderer::Rays, Renderer::Rays, Renderer::Pipe], LIGHT_ERROR / 5.0)?;
     check_same(&one, &other)
 }
 

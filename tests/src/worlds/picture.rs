@@ -277,7 +277,9 @@ impl Picture {
             Renderer::Exact => format!("uglorentz -sd 1 {motion} | ugrainbow -xc {shift} {picture}"),
             Renderer::Pipe => {
                 let percent = 100.0 * self.light_error;
-                format!("uglorentz -sl {percent} {motion} | ugdoppler -li {keep}{shift} | ugrainbow {picture}")
+                format!(
+                    "uglorentz -sl {percent} {motion} | ugdoppler -li {keep}{shift} | ugrainbow {picture}"
+                )
             }
         };
         format!("{{ {command} }}\n{}", self.text)

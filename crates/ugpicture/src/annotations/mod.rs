@@ -1,22 +1,26 @@
-//! Annotations of a picture: a caption, a legend, a coordinate grid, and the outlines of
-//! undistorted bodies.
+//! Annotations of a picture: a caption, a legend, a coordinate grid, the outlines of undistorted
+//! bodies, and quantities of what is seen as false colours and lines.
 //!
 //! Caption and legend are on strips below the picture of the scene. The file keeps the requested
 //! size: the scene is drawn in the remaining rows, exactly as a picture of that size. Grid and
 //! outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]),
 //! drawn after the light of the scene has been developed.
 
+mod color_bar;
 mod composite;
 mod grid;
+mod iso;
 mod legend;
+mod map;
 mod motion;
 mod outline;
 mod seen;
 mod style;
 
-use ugimage::Development;
+use rayon::prelude::*;
 use ugimage::figure::Point;
 use ugimage::label::{DESCENT, Drawing, Line, SPACING, wrapped};
+use ugimage::{Development, Frame};
 use ugscene::{CameraOptions, Scene, View};
 
 use crate::background::Backdrop;
@@ -24,6 +28,8 @@ use crate::emission::SeenItem;
 use crate::error::Error;
 use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;
+pub use iso::IsoOptions;
+pub use map::{MapOptions, Quantity, Scale};
 use motion::MotionSummary;
 use seen::{SeenScene, velocities};
 use style::Style;
@@ -42,8 +48,8 @@ pub enum Subject<'a, E> {
     Surfaces {
         /// The camera, in any units of the picture.
         view: &'a View,
-        /// The surface at the middle of each pixel, for legends.
-        items: &'a (dyn Fn() -> Result<Vec<Option<SeenItem>>, E> + 'a),
+        /// Finds what is seen.
+        items: &'a FindItems<'a, E>,
         /// The scene, whose vertices are part of one body each, if there is one.
         scene: Option<&'a Scene>,
         /// Draws grids and outlines, if the lens is a pinhole.
@@ -52,6 +58,14 @@ pub enum Subject<'a, E> {
     /// A picture of which only the pixels are known, which captions suit.
     Pixels,
 }
+
+/// Finds the surfaces in a picture of the size of the subject: at every sample if the first argument
+/// is true, else at the middles of pixels. The second is called with a function of the place, which
+/// counts row after row.
+pub type FindItems<'a, E> = dyn Fn(bool, &mut dyn FnMut(&FoundItems<'_>)) -> Result<(), E> + 'a;
+
+/// What is seen at a place.
+pub type FoundItems<'a> = dyn Fn(usize) -> Option<SeenItem> + Sync + 'a;
 
 /// Finds the parts of the wires of a scene that its faces do not hide from a camera, in a picture
 /// of the size of the subject, in pixels.
@@ -63,7 +77,9 @@ pub struct Layout {
     size: [u32; 2],
     /// Rows of the scene, which is at the top.
     scene_rows: u32,
-    /// Rows of the legend below it.
+    /// Rows of the scale of false colours below it.
+    scale_rows: u32,
+    /// Rows of the legend below that.
     legend_rows: u32,
     caption: Vec<Line>,
 }
@@ -83,16 +99,20 @@ impl Layout {
         let [width, height] = options.size;
         let room = f64::from(width) - 2.0 * style.margin();
         let caption = wrapped(&annotations.caption, style.size, room)?;
-        let legend_rows = if annotations.legend { legend::rows(&style, width) } else { Some(0) };
-        let Some(legend_rows) = legend_rows.filter(|_| caption.iter().all(|line| line.width() <= room))
-        else {
-            return Err(Error::TooNarrow);
+        let rows = |is_drawn: bool, rows: fn(&Style, u32) -> Option<u32>| {
+            if is_drawn { rows(&style, width).ok_or(Error::TooNarrow) } else { Ok(0) }
         };
-        let strips = legend_rows.saturating_add(caption_rows(&style, caption.len()));
+        let scale_rows = rows(annotations.map.is_some(), color_bar::rows)?;
+        let legend_rows = rows(annotations.legend, legend::rows)?;
+        if caption.iter().any(|line| line.width() > room) {
+            return Err(Error::TooNarrow);
+        }
+        let below = scale_rows.saturating_add(legend_rows);
+        let strips = below.saturating_add(caption_rows(&style, caption.len()));
         // Less than a third of the height is not enough for the scene.
         match height.checked_sub(strips) {
             Some(scene_rows) if scene_rows > 0 && scene_rows >= height / 3 => {
-                Ok(Self { size: options.size, scene_rows, legend_rows, caption })
+                Ok(Self { size: options.size, scene_rows, scale_rows, legend_rows, caption })
             }
             _ => Err(Error::NoRoom),
         }
@@ -103,16 +123,39 @@ impl Layout {
         PictureOptions { size: [self.size[0], self.scene_rows], ..options.clone() }
     }
 
-    /// All annotations, and notes about them. `options`: of the picture of the scene;
-    /// `development`: of its light.
+    /// The picture of the scene in false colours with its scale, if the options ask for it.
+    /// `options`: of the picture of the scene.
     ///
     /// # Errors
-    /// Errors of [`Subject::Surfaces`]'s functions.
+    /// Errors of [`Subject::Surfaces`]'s functions; [`Error::NoSurfaces`].
+    pub fn map<E: From<Error>>(
+        &self,
+        annotated: &Annotated<'_, E>,
+        options: &PictureOptions,
+    ) -> Result<Option<(Frame, Scale)>, E> {
+        let Some(map) = &options.annotations.map else { return Ok(None) };
+        let Subject::Surfaces { items, .. } = annotated.subject else { return Err(Error::NoSurfaces.into()) };
+        let [width, height] = options.size.map(|side| side as usize * options.samples as usize);
+        let mut values = Vec::new();
+        items(true, &mut |item| {
+            let value = |idx| map::value(map.quantity, item(idx));
+            values = (0..width * height).into_par_iter().map(value).collect();
+        })?;
+        let scale = Scale::new(map, &values);
+        Ok(Some((map::picture(&scale, &values, options), scale)))
+    }
+
+    /// All annotations, and notes about them. `options`: of the picture of the scene;
+    /// `development`: of its light; `scale`: of its false colours.
+    ///
+    /// # Errors
+    /// Errors of [`Subject::Surfaces`]'s functions; [`Error::NoSurfaces`].
     pub fn annotate<E: From<Error>>(
         &self,
         annotated: &Annotated<'_, E>,
         options: &PictureOptions,
         development: Option<Development>,
+        scale: Option<&Scale>,
     ) -> Result<Annotations, E> {
         let background = Backdrop::new(options.background, options.samples).developed(development);
         let style = &Style::new(self.size, background, options.output);
@@ -125,7 +168,7 @@ impl Layout {
             text: options.text,
             notes: Vec::new(),
         };
-        let AnnotationOptions { legend, outline, grid, .. } = options.annotations;
+        let AnnotationOptions { legend, outline, grid, ref iso, .. } = options.annotations;
         if let Subject::Surfaces { view, items, scene, wires } = annotated.subject {
             if let (Some(scene), Some(wires), true) = (scene, wires, outline || grid) {
                 let seen = SeenScene::new(scene, view, options, wires)?;
@@ -136,17 +179,35 @@ impl Layout {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
             }
-            if legend {
-                let items = items()?.into_iter();
-                let motion = MotionSummary::new(
-                    view,
-                    items,
-                    || scene.map_or_else(Vec::new, velocities),
-                    annotated.is_shifted,
-                );
-                let place = [self.size[0], self.scene_rows].map(f64::from);
-                legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
+            if let Some(iso) = iso {
+                let mut drawn = Ok(());
+                items(false, &mut |item| {
+                    drawn = iso::draw(iso, options.size, scene, item, style, &mut all.over)
+                })?;
+                drawn.map_err(Error::from)?;
             }
+            if legend {
+                let mut motion = None;
+                let n_pixels = options.size[0] as usize * options.size[1] as usize;
+                items(false, &mut |item| {
+                    motion = Some(MotionSummary::new(
+                        view,
+                        (0..n_pixels).map(item),
+                        || scene.map_or_else(Vec::new, velocities),
+                        annotated.is_shifted,
+                    ));
+                })?;
+                let place = [self.size[0], self.scene_rows + self.scale_rows].map(f64::from);
+                if let Some(motion) = motion {
+                    legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
+                }
+            }
+        } else if iso.is_some() {
+            return Err(Error::NoSurfaces.into());
+        }
+        if let Some(scale) = scale {
+            let place = [self.size[0], self.scene_rows].map(f64::from);
+            color_bar::draw(scale, style, place, &mut all.strips).map_err(Error::from)?;
         }
         self.push_caption(style, &mut all.strips);
         Ok(all)
@@ -156,7 +217,8 @@ impl Layout {
     fn push_caption(&self, style: &Style, drawing: &mut Drawing) {
         let Style { size, ink, .. } = *style;
         let margin = style.margin();
-        let top = f64::from(self.scene_rows + self.legend_rows) + padding(style);
+        let above = self.scene_rows + self.scale_rows + self.legend_rows;
+        let top = f64::from(above) + padding(style);
         for (idx, line) in self.caption.iter().enumerate() {
             let left = match self.caption.len() {
                 1 => (0.5 * (f64::from(self.size[0]) - line.width())).max(margin),

@@ -16,7 +16,11 @@ impl Words for Error {
             Self::NotPng => "{}: leave out -pz, or write -dt png or png16",
             Self::NotExr => "{}: with -ch write -dt exr",
             Self::NotDeveloped => "{}: leave out -ex and -tc, or write -dt png16",
-            Self::NotAnnotated => "{}: leave out -cap, -lg, -dl and -gr, or write -dt png16",
+            Self::NotAnnotated => {
+                "{}: leave out -cap, -lg, -dl, -gr, -map and -iso, or write -dt png16; -ch adds channels to EXR"
+            }
+            Self::MapVectors => "{}: leave out -vec, or -map",
+            Self::NoSurfaces => "{}: leave out -map and -iso, or -cube",
             Self::NotTransparent => "{}: leave out -tb, or write -dt exr",
             Self::NoVectors => "{}: with -vec write -dt eps, ps, pdf or svg",
             Self::NoSamples => "vector graphics (-vec) have no samples to filter: leave out -fl or -vec",
@@ -25,7 +29,7 @@ impl Words for Error {
                     "vector graphics (-vec) are at most {MAX_VECTOR_SIDE} points along a side: give a smaller -sz"
                 );
             }
-            Self::TooNarrow => "{}: give a wider -sz, or leave out -cap and -lg",
+            Self::TooNarrow => "{}: give a wider -sz, or leave out -cap, -lg and -map",
             Self::NoRoom => "{}: give a larger -sz, or a shorter -cap",
             Self::Pixel { pixel: [x, y], size: [width, height] } => {
                 return format!(

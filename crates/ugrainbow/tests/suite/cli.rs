@@ -98,7 +98,7 @@ fn bad_usage_ends_with_2() {
     check("-va nan", "not a finite number");
     check("-ep 1 2", "takes three values, not two");
     check("-ud 0 0 0", "-ud 0 0 0 has no direction; give one, such as -ud 0 0 1");
-    check("-bg 1.5", "lightness and saturation of the background -bg are from 0 to 1");
+    check("-bg 1.5", "background -bg: lightness and saturation are from 0 to 1");
     check("-vec", "this format has only pixels: with -vec write -dt eps, ps, pdf or svg");
     check("-zz", "there is no option");
     for both in ["-bg .5 -tb", "-ih -wi"] {

@@ -1,0 +1,240 @@
+//! False colours: a quantity of what is seen, by a colour map with its scale.
+
+use rayon::prelude::*;
+use ugimage::figure::Rgb;
+use ugimage::label::number::significant;
+use ugimage::{Frame, LinearFrame};
+use ugphysics::{length, srgb_decode};
+
+use crate::background::Backdrop;
+use crate::emission::{Emission, SeenItem};
+use crate::options::PictureOptions;
+
+/// A quantity of the light that is seen, in the frame of the camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// The Doppler factor.  Eq. (P10)
+    Doppler,
+    /// When the light was emitted; the picture is taken at 0.
+    Time,
+    /// From the eye to where the light was emitted.
+    Distance,
+    /// The speed of the body, in units of c.
+    Speed,
+    /// Depth along the view of where the light was emitted.
+    Depth,
+}
+
+impl Quantity {
+    /// All quantities.
+    pub const ALL: [Self; 5] = [Self::Doppler, Self::Time, Self::Distance, Self::Speed, Self::Depth];
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Doppler => "D",
+            Self::Time => "time",
+            Self::Distance => "distance",
+            Self::Speed => "speed",
+            Self::Depth => "z",
+        }
+    }
+
+    /// The quantity called `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|quantity| quantity.name() == name)
+    }
+
+    /// The words beside its scale.
+    pub(super) fn label(self) -> &'static str {
+        match self {
+            Self::Doppler => "Doppler factor D",
+            Self::Time => "time of emission",
+            Self::Distance => "distance at emission",
+            Self::Speed => "speed β",
+            Self::Depth => "depth at emission",
+        }
+    }
+
+    pub(super) fn of(self, emission: &Emission) -> f64 {
+        match self {
+            Self::Doppler => emission.doppler(),
+            Self::Time => emission.time,
+            Self::Distance => length(emission.place),
+            Self::Speed => emission.velocity.speed(),
+            Self::Depth => emission.depth,
+        }
+    }
+}
+
+/// A quantity to show, and the values at the ends of its scale; without them the least and the
+/// greatest that are seen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapOptions {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The least and the greatest value of the scale.
+    pub range: Option<[f64; 2]>,
+}
+
+/// From values of a quantity to colours and to places on a scale.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scale {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// The values at the ends, the least first.
+    pub range: [f64; 2],
+}
+
+/// The ends of a scale of Doppler factors are at least this far from 1.
+const LEAST_SHIFT: f64 = 1.05;
+
+impl Scale {
+    /// The scale for some values, of which those that are not finite are left out. The scale of
+    /// Doppler factors has 1 in its middle, unless the options say otherwise.
+    pub fn new(options: &MapOptions, values: &[f32]) -> Self {
+        let quantity = options.quantity;
+        let finite = values.par_iter().filter(|value| value.is_finite()).map(|&value| [f64::from(value); 2]);
+        let ends = finite.reduce_with(|[a, b], [c, d]| [a.min(c), b.max(d)]).unwrap_or([0.0, 1.0]);
+        let range = options.range.unwrap_or_else(|| match quantity {
+            Quantity::Doppler => {
+                let most = (1.0 / ends[0].max(f64::MIN_POSITIVE)).max(ends[1]).max(LEAST_SHIFT);
+                [1.0 / most, most]
+            }
+            _ if ends[0] < ends[1] => ends,
+            _ => {
+                let apart = 0.01 * ends[0].abs().max(1e-3);
+                [ends[0] - apart, ends[1] + apart]
+            }
+        });
+        Self { quantity, range }
+    }
+
+    /// The place of a value, from 0 to 1. Doppler factors are on a logarithmic scale, 1 in its
+    /// middle if both ends are on different sides of it.
+    pub fn place(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        let part = match self.quantity {
+            Quantity::Doppler => {
+                let [low, value, high] = [low, value, high].map(libm::log);
+                match (low < 0.0, high > 0.0) {
+                    (true, true) => 0.5 + 0.5 * value / if value > 0.0 { high } else { -low },
+                    _ => (value - low) / (high - low),
+                }
+            }
+            _ => (value - low) / (high - low),
+        };
+        part.clamp(0.0, 1.0)
+    }
+
+    /// The colour of a place: from red over white to blue for Doppler factors, else Viridis, which
+    /// is perceptually uniform.
+    pub fn color(&self, place: f64) -> Rgb {
+        let map = if self.quantity == Quantity::Doppler { colorous::RED_BLUE } else { colorous::VIRIDIS };
+        map.eval_continuous(place).as_array()
+    }
+
+    /// Round values between the ends, and how they are written.
+    pub fn ticks(&self) -> Vec<(f64, String)> {
+        let [low, high] = self.range;
+        let powers = |mantissas: &'static [f64]| -> Vec<f64> {
+            let (first, last) = (libm::floor(libm::log10(low)) as i32, libm::log10(high) as i32);
+            let decade = |power| mantissas.iter().map(move |part| part * libm::exp10(f64::from(power)));
+            (first..=last).flat_map(decade).filter(|tick| (low..=high).contains(tick)).collect()
+        };
+        let mut ticks = match self.quantity {
+            Quantity::Doppler if high > 4.0 * low => powers(&[1.0, 2.0, 5.0]),
+            _ => Vec::new(),
+        };
+        if ticks.len() > 10 {
+            ticks = powers(&[1.0]);
+        }
+        if ticks.len() < 2 {
+            let raw = (high - low) / 5.0;
+            let power = libm::exp10(libm::floor(libm::log10(raw)));
+            let step =
+                power * [1.0, 2.0, 5.0, 10.0].into_iter().find(|part| part * power >= raw).unwrap_or(1.0);
+            let (first, n) = (libm::ceil(low / step), ((high - low) / step) as u32);
+            ticks = (0..=n).map(|idx| step * (first + f64::from(idx))).filter(|tick| *tick <= high).collect();
+        }
+        ticks.into_iter().map(|tick| (tick, significant(tick, 4))).collect()
+    }
+}
+
+/// The picture of a quantity, whose value is NaN in samples that show nothing. `values`: for each
+/// sample, row after row.
+pub fn picture(scale: &Scale, values: &[f32], options: &PictureOptions) -> Frame {
+    let [width, height] = options.size;
+    let n = options.samples as usize;
+    let backdrop = Backdrop::new(options.background, options.samples);
+    let across = width as usize * n;
+    let pixel = |idx: usize| {
+        let (column, row) = (idx % width as usize, idx / width as usize);
+        let (mut sum, mut covered) = ([0.0_f32; 3], 0.0);
+        for below in 0..n {
+            let start = (row * n + below) * across + column * n;
+            for value in values[start..start + n].iter().filter(|value| !value.is_nan()) {
+                let color = scale.color(scale.place(f64::from(*value)));
+                (0..3).for_each(|i| sum[i] += srgb_decode(f64::from(color[i]) / 255.0) as f32);
+                covered += 1.0;
+            }
+        }
+        backdrop.pixel(sum, covered)
+    };
+    let pixels = (0..width as usize * height as usize).into_par_iter().map(pixel).collect();
+    LinearFrame::new(options.size, backdrop.is_opaque(), pixels).to_display()
+}
+
+/// The value of a quantity at a place of the picture; NaN where nothing is seen.
+pub fn value(quantity: Quantity, item: Option<SeenItem>) -> f32 {
+    item.map_or(f32::NAN, |(_, emission)| quantity.of(&emission) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scale(quantity: Quantity, range: [f64; 2]) -> Scale {
+        Scale { quantity, range }
+    }
+
+    /// Factors that are inverse to each other are as far from the middle, which is white.
+    #[test]
+    fn doppler_factors_are_symmetrical_about_one() {
+        let free = MapOptions { quantity: Quantity::Doppler, range: None };
+        let automatic = Scale::new(&free, &[0.5, f32::NAN, 1.5]);
+        assert_eq!(automatic.range, [0.5, 2.0]);
+        assert_eq!([0.5, 1.0, 2.0, 9.0].map(|value| automatic.place(value)), [0.0, 0.5, 1.0, 1.0]);
+        let uneven = scale(Quantity::Doppler, [0.5, 8.0]);
+        assert_eq!(uneven.place(1.0), 0.5);
+        assert!((uneven.place(2.0) - (0.5 + 0.5 / 3.0)).abs() < 1e-12);
+        let [red, _, blue] = automatic.color(0.0);
+        assert!(red > 80 && blue < 60, "{red} {blue}");
+        let [red, _, blue] = automatic.color(1.0);
+        assert!(red < 30 && blue > 80, "{red} {blue}");
+        assert!(automatic.color(0.5).iter().all(|&part| part > 240));
+    }
+
+    #[test]
+    fn ticks_are_round() {
+        let of = |quantity, range| {
+            scale(quantity, range).ticks().into_iter().map(|(_, text)| text).collect::<Vec<_>>()
+        };
+        assert_eq!(of(Quantity::Doppler, [0.23, 4.36]), ["0.5", "1", "2"]);
+        assert_eq!(of(Quantity::Doppler, [0.9, 1.1]), ["0.9", "0.95", "1", "1.05", "1.1"]);
+        assert_eq!(of(Quantity::Doppler, [1e-6, 1e6]).len(), 13);
+        assert_eq!(of(Quantity::Time, [-15.3, -9.8]), ["−14", "−12", "−10"]);
+        assert_eq!(of(Quantity::Speed, [0.0, 1.0]), ["0", "0.2", "0.4", "0.6", "0.8", "1"]);
+    }
+
+    #[test]
+    fn a_single_value_has_a_scale() {
+        for quantity in Quantity::ALL {
+            for values in [vec![], vec![0.0], vec![3.0; 4], vec![f32::INFINITY]] {
+                let scale = Scale::new(&MapOptions { quantity, range: None }, &values);
+                assert!(scale.range[0] < scale.range[1], "{quantity:?} {values:?} {scale:?}");
+                assert!(!scale.ticks().is_empty(), "{scale:?}");
+            }
+        }
+    }
+}
