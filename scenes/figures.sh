@@ -68,7 +68,8 @@ sheet() {
         label=$(basename "$picture" .png)
         number=${label#*-}
         number=${number%%-*}
-        if [[ $number == [0-9]* ]]; then
+        # A speed is no number of a figure.
+        if [[ $number == [0-9]* && $number != *.*c ]]; then
             label=${label#*-"$number"-}
             label="Figure ${number#0}: ${label//-/ }"
         else
@@ -312,5 +313,5 @@ sheet howard 'A. Howard, S. Dance and L. Kitchen 1995' \
     howard-0{2,3,4,5,6,7,8}{[a-z]-,-}*.png howard-shutter-*.png
 sheet weiskopf 'D. Weiskopf 2000' weiskopf-0{1,3}{[a-z]-[0-9r],[a-z]-w,-}*.png
 sheet li 'J. Li, H. Shum and Q. Peng 2001' li-0{5,6}{[a-z]-,-}*.png
-sheet ours 'Other figures' {stars,lattice,halves,dice,traffic,lamp,glass,water}*.png
+sheet ours 'Other figures' stars-{0.0,0.5,0.9,0.99}c.png stars-dome-{0.0,0.5,0.9,0.99}c.png {lattice,halves,dice,traffic,lamp,glass,water}*.png
 printf 'The pictures are in %s, those of each paper on one sheet, %s/sheet-*.png\n' "$out" "$out"

@@ -54,9 +54,8 @@ fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
         let velocity = picture.motion.velocity.filter(|velocity| !velocity.is_zero());
         velocity.map(|velocity| format!("β = {}", speed(velocity)))
     };
-    let time_of = |picture: &Picture| picture.motion.time.map(|time| significant(time, 6));
     let speeds: Vec<Option<String>> = pictures.iter().map(speed_of).collect();
-    let times: Vec<Option<String>> = pictures.iter().map(time_of).collect();
+    let times = times(pictures);
     let has_speeds = speeds.iter().any(Option::is_some) && differ(&speeds);
     let has_times = times.iter().any(Option::is_some) && differ(&times);
     let label = |(speed, time): (&Option<String>, &Option<String>)| {
@@ -69,9 +68,22 @@ fn by_motion(pictures: &[Picture]) -> Option<Vec<String>> {
         }
     };
     let labels: Vec<String> = speeds.iter().zip(&times).map(label).collect();
-    // If two pictures had the same label, the labels would not show how the pictures differ.
-    let are_distinct = (1..labels.len()).all(|idx| !labels[..idx].contains(&labels[idx]));
+    // If neighbours had the same label, the labels would not show how they differ.
+    let are_distinct = labels.windows(2).all(|pair| pair[0] != pair[1]);
     ((has_speeds || has_times) && are_distinct).then_some(labels)
+}
+
+/// The times of pictures, with three digits, or as many more as distinguish them.
+fn times(pictures: &[Picture]) -> Vec<Option<String>> {
+    let with = |digits: usize| -> Vec<Option<String>> {
+        pictures.iter().map(|picture| picture.motion.time.map(|time| significant(time, digits))).collect()
+    };
+    let are_distinct = |texts: &Vec<Option<String>>| {
+        let differ =
+            |[a, b]: [usize; 2]| pictures[a].motion.time == pictures[b].motion.time || texts[a] != texts[b];
+        (1..texts.len()).all(|idx| (0..idx).all(|other| differ([other, idx])))
+    };
+    (3..6).map(with).find(are_distinct).unwrap_or_else(|| with(6))
 }
 
 fn differ(texts: &[Option<String>]) -> bool {
@@ -125,10 +137,16 @@ mod tests {
 
     #[test]
     fn labels_show_what_differs() {
-        let rows: [(&[&str], &[&str]); 7] = [
+        let rows: [(&[&str], &[&str]); 10] = [
             (&["uglorentz", "uglorentz -vel .9 0 0 -in"], &["at rest", "β = 0.9"]),
             (&["uglorentz -vel 0 -.3 .4", "uglorentz -cv .999 0 0\nugdoppler"], &["β = 0.5", "β = 0.999"]),
             (&["uglorentz -vel .9 0 0 -ti -7", "uglorentz -vel .9 0 0 -ti 12"], &["t = −7", "t = 12"]),
+            (&["uglorentz -ti -5.55102", "uglorentz -ti 1.23456"], &["t = −5.55", "t = 1.23"]),
+            (&["uglorentz -ti 5.55102", "uglorentz -ti 5.55201"], &["t = 5.551", "t = 5.552"]),
+            (
+                &["ugphoton -cv 0 .5 0", "ugphoton -cv 0 .9 0", "ugphoton -cv 0 .5 0"],
+                &["β = 0.5", "β = 0.9", "β = 0.5"],
+            ),
             (
                 &["uglorentz -vel .9 0 0", "uglorentz -ti 2.5 -vel .5 0 0"],
                 &["β = 0.9, t = 0", "β = 0.5, t = 2.5"],
