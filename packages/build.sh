@@ -16,32 +16,32 @@ export SOURCE_DATE_EPOCH
 export RUSTFLAGS="-C target-feature=+crt-static --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
 cargo build --quiet --release --target "$host" --target-dir "$out/build"
 
-root=$out/root
-rm -rf "$root" "$out"/ugtools*
-cargo xtask install --prefix "$root/usr" --programs "$out/build/$host/release" >/dev/null
-doc=$root/usr/share/doc/ugtools
+tree=$out/tree
+rm -rf "$tree" "$out"/ugtools*
+cargo xtask install --prefix "$tree/usr" --programs "$out/build/$host/release" >/dev/null
+doc=$tree/usr/share/doc/ugtools
 rm "$doc/installed.txt"
 cp -r scenes "$doc/examples"
-find "$root" -type d -exec chmod 755 {} + -o -type f -exec chmod 644 {} +
-chmod 755 "$root"/usr/bin/*
+find "$tree" -type d -exec chmod 755 {} + -o -type f -exec chmod 644 {} +
+chmod 755 "$tree"/usr/bin/*
 
 # name.tar.gz with the files of a folder under this name
 archive() {
     tar --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner \
         --transform="s,^\.,$1," -C "$2" -cf - . | gzip -9n > "$out/$1.tar.gz"
 }
-archive "ugtools-$version-$(uname -m)-linux" "$root/usr"
+archive "ugtools-$version-$(uname -m)-linux" "$tree/usr"
 
 if command -v dpkg-deb >/dev/null; then
-    gzip -9n "$root"/usr/share/man/man*/*
+    gzip -9n "$tree"/usr/share/man/man*/*
     cat LICENSE LICENSE-MIT > "$doc/copyright"
     gzip -9nc CHANGELOG.md > "$doc/changelog.gz"
-    mkdir "$root/DEBIAN"
-    size=$(find "$root/usr" -type f -printf '%s\n' | awk '{ kib += int(($1 + 1023) / 1024) } END { print kib }')
+    mkdir "$tree/DEBIAN"
+    size=$(find "$tree/usr" -type f -printf '%s\n' | awk '{ kib += int(($1 + 1023) / 1024) } END { print kib }')
     architecture=$(dpkg --print-architecture)
     sed "s/@VERSION@/$version/; s/@ARCHITECTURE@/$architecture/; s/@SIZE@/$size/" packages/control \
-        > "$root/DEBIAN/control"
-    (cd "$root" && find usr -type f | LC_ALL=C sort | xargs -d '\n' md5sum > DEBIAN/md5sums)
-    dpkg-deb --root-owner-group -Zxz --build "$root" "$out/ugtools_${version}_$architecture.deb" >/dev/null
+        > "$tree/DEBIAN/control"
+    (cd "$tree" && find usr -type f | LC_ALL=C sort | xargs -d '\n' md5sum > DEBIAN/md5sums)
+    dpkg-deb --root-owner-group -Zxz --build "$tree" "$out/ugtools_${version}_$architecture.deb" >/dev/null
 fi
 (cd "$out" && sha256sum ugtools* > SHA256SUMS && cat SHA256SUMS)

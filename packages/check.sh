@@ -33,7 +33,7 @@ chroot "$debian" sh -c "mkdir /tmp/drawn && cd /tmp/drawn && $commands"
 chroot "$debian" man -w ugrainbow 5 unigrafix >/dev/null
 chroot "$debian" sh -c 'zcat /usr/share/man/man1/ugrainbow.1.gz | grep -q NAME'
 mkdir "$place/drawn"
-(cd "$place/drawn" && export PATH="$out/root/usr/bin:$PATH" && bash -c "$commands")
+(cd "$place/drawn" && export PATH="$out/tree/usr/bin:$PATH" && bash -c "$commands")
 diff -r "$place/drawn" "$debian/tmp/drawn"
 chroot "$debian" dpkg --purge ugtools >/dev/null
 rm -r "$debian/tmp/drawn" "$debian/tmp/ugtools.deb"

@@ -146,7 +146,7 @@ fn mistakes_are_answered() {
     check("ugrainbow -ch D ship.ug", "write -dt exr");
     check("ugrainbow -ex 1 -dt exr ship.ug", "leave out -ex and -tc");
     check("ugrainbow -tc filmic -dt hdr ship.ug", "leave out -ex and -tc");
-    check("ugrainbow -lg -dt pfm ship.ug", "leave out -cap, -lg, -dl and -gr");
+    check("ugrainbow -lg -dt pfm ship.ug", "leave out -cap, -lg, -dl, -gr, -map and -iso");
     check("ugrainbow -tb -dt pfm ship.ug", "leave out -tb");
     check("ugrainbow -vec -dt pdf -fl triangle ship.ug", "leave out -fl");
     check("ugrainbow -lc 1 ship.ug", "add -wf or -ed, or leave it out");

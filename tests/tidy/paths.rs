@@ -27,7 +27,8 @@ pub fn code(text: &str) -> String {
 pub fn from_root(module: &[String], path: &[String]) -> Vec<String> {
     let n_up = path.iter().take_while(|name| *name == "super").count();
     let n_begin = path.iter().take_while(|name| ["crate", "self", "super"].contains(&name.as_str())).count();
-    let base = if path[0] == "crate" { &[] } else { &module[..module.len().saturating_sub(n_up)] };
+    let is_whole = path.first().is_some_and(|name| name == "crate");
+    let base = if is_whole { &[] } else { &module[..module.len().saturating_sub(n_up)] };
     [base, &path[n_begin..]].concat()
 }
 

@@ -15,7 +15,6 @@ use ugphysics::Hsv;
 use ugpipe::{Context, Failure, Preset, Words, finite, number, one_of, whole};
 use ugscene::cli::CameraArgs;
 
-use crate::annotations::{IsoOptions, MapOptions, Quantity};
 use crate::background::Background;
 use crate::channel::Channel;
 use crate::explain::{Explanation, WriteSample};
@@ -24,6 +23,7 @@ use crate::lens::Lens;
 use crate::options::{AnnotationOptions, PictureOptions};
 use crate::output::Output;
 use crate::picture_file::PictureFile;
+use crate::quantity::{IsoOptions, MapOptions, Quantity};
 
 /// Heading of the options of a picture in `--help`.
 pub const PICTURE: &str = "Picture";
@@ -237,6 +237,15 @@ pub struct AnnotationArgs {
     #[arg(long, num_args = 1..=33, value_names = ["QUANTITY", "VALUE"], action = ArgAction::Set,
           value_parser = quantity_word, help_heading = ANNOTATIONS)]
     iso: Option<Vec<QuantityWord>>,
+
+    /// Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of -sz]
+    #[arg(long, value_name = "PIXELS", visible_alias = "text-size", value_parser = number(text_size),
+          help_heading = ANNOTATIONS)]
+    ts: Option<f64>,
+}
+
+fn text_size(pixels: f64) -> Result<f64, String> {
+    if (4.0..=200.0).contains(&pixels) { Ok(pixels) } else { Err("text is 4 to 200 pixels large".to_owned()) }
 }
 
 /// A word of -map or -iso.
@@ -298,6 +307,7 @@ impl AnnotationArgs {
             grid: self.gr,
             map: self.map.as_ref().map(map).transpose()?,
             iso: self.iso.as_ref().map(iso).transpose()?,
+            text_size: self.ts,
         })
     }
 }

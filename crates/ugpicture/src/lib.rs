@@ -62,12 +62,11 @@ mod options;
 pub mod outlines;
 mod output;
 mod picture_file;
+mod quantity;
 pub mod rays;
 mod rendering;
 
-pub use annotations::{
-    Annotated, FindItems, FoundItems, IsoOptions, Layout, MapOptions, Quantity, Scale, Subject, VisibleWires,
-};
+pub use annotations::{Annotated, FindItems, FoundItems, Layout, Scale, Subject, VisibleWires};
 pub use background::{Backdrop, Background};
 pub use canvas::{Canvas, Drawn, DrawnContent};
 pub use channel::{Channel, channel_planes};
@@ -82,6 +81,7 @@ pub use note::Note;
 pub use options::{AnnotationOptions, PictureOptions};
 pub use output::Output;
 pub use picture_file::PictureFile;
+pub use quantity::{IsoOptions, MapOptions, Quantity};
 pub use rendering::{Rendering, VectorFigure};
 pub use ugimage::label::TextForm;
 pub use ugimage::{Filter, Tone};

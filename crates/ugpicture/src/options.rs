@@ -7,13 +7,13 @@ use ugimage::{Compression, Development, Filter, Format, LinearFrame, Tone, auto_
 use ugphysics::Hsv;
 use ugscene::CameraOptions;
 
-use crate::annotations::{IsoOptions, MapOptions};
 use crate::background::Background;
 use crate::channel::Channel;
 use crate::error::Error;
 use crate::exposure::Exposure;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 use crate::output::Output;
+use crate::quantity::{IsoOptions, MapOptions};
 
 /// The options of a picture, the same for every renderer.
 #[derive(Clone, Debug, PartialEq)]
@@ -213,6 +213,8 @@ pub struct AnnotationOptions {
     pub map: Option<MapOptions>,
     /// Over the picture: lines of equal values of a quantity.
     pub iso: Option<IsoOptions>,
+    /// Em size of text in pixels; without it a fortieth of the geometric mean of the sides.
+    pub text_size: Option<f64>,
 }
 
 impl AnnotationOptions {

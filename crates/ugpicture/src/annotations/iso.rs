@@ -6,18 +6,10 @@ use ugimage::label::{Drawing, Line, MissingCharacter};
 use ugphysics::length;
 use ugscene::{BodyId, Scene};
 
-use super::map::{MapOptions, Quantity, Scale};
+use super::map::Scale;
 use super::style::Style;
 use crate::emission::SeenItem;
-
-/// A quantity and its values on lines; round values that are seen, if there are none.
-#[derive(Clone, Debug, PartialEq)]
-pub struct IsoOptions {
-    /// The quantity.
-    pub quantity: Quantity,
-    /// The values.
-    pub values: Vec<f64>,
-}
+use crate::quantity::{IsoOptions, MapOptions};
 
 /// Between neighbouring pixels whose distances differ by more than this part there is an edge,
 /// which is no place for a line.

@@ -4,78 +4,12 @@ use rayon::prelude::*;
 use ugimage::figure::Rgb;
 use ugimage::label::number::significant;
 use ugimage::{Frame, LinearFrame};
-use ugphysics::{length, srgb_decode};
+use ugphysics::srgb_decode;
 
 use crate::background::Backdrop;
-use crate::emission::{Emission, SeenItem};
+use crate::emission::SeenItem;
 use crate::options::PictureOptions;
-
-/// A quantity of the light that is seen, in the frame of the camera.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// The Doppler factor.  Eq. (P10)
-    Doppler,
-    /// When the light was emitted; the picture is taken at 0.
-    Time,
-    /// From the eye to where the light was emitted.
-    Distance,
-    /// The speed of the body, in units of c.
-    Speed,
-    /// Depth along the view of where the light was emitted.
-    Depth,
-}
-
-impl Quantity {
-    /// All quantities.
-    pub const ALL: [Self; 5] = [Self::Doppler, Self::Time, Self::Distance, Self::Speed, Self::Depth];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Doppler => "D",
-            Self::Time => "time",
-            Self::Distance => "distance",
-            Self::Speed => "speed",
-            Self::Depth => "z",
-        }
-    }
-
-    /// The quantity called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|quantity| quantity.name() == name)
-    }
-
-    /// The words beside its scale.
-    pub(super) fn label(self) -> &'static str {
-        match self {
-            Self::Doppler => "Doppler factor D",
-            Self::Time => "time of emission",
-            Self::Distance => "distance at emission",
-            Self::Speed => "speed β",
-            Self::Depth => "depth at emission",
-        }
-    }
-
-    pub(super) fn of(self, emission: &Emission) -> f64 {
-        match self {
-            Self::Doppler => emission.doppler(),
-            Self::Time => emission.time,
-            Self::Distance => length(emission.place),
-            Self::Speed => emission.velocity.speed(),
-            Self::Depth => emission.depth,
-        }
-    }
-}
-
-/// A quantity to show, and the values at the ends of its scale; without them the least and the
-/// greatest that are seen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MapOptions {
-    /// The quantity.
-    pub quantity: Quantity,
-    /// The least and the greatest value of the scale.
-    pub range: Option<[f64; 2]>,
-}
+use crate::quantity::{MapOptions, Quantity};
 
 /// From values of a quantity to colours and to places on a scale.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -28,8 +28,7 @@ use crate::emission::SeenItem;
 use crate::error::Error;
 use crate::options::{AnnotationOptions, PictureOptions};
 pub use composite::Annotations;
-pub use iso::IsoOptions;
-pub use map::{MapOptions, Quantity, Scale};
+pub use map::Scale;
 use motion::MotionSummary;
 use seen::{SeenScene, velocities};
 use style::Style;
@@ -95,7 +94,7 @@ impl Layout {
         if annotations.is_any() && options.output.format().is_linear() {
             return Err(Error::NotAnnotated);
         }
-        let style = Style::new(options.size, None, options.output);
+        let style = Style::new(options.size, annotations.text_size, None, options.output);
         let [width, height] = options.size;
         let room = f64::from(width) - 2.0 * style.margin();
         let caption = wrapped(&annotations.caption, style.size, room)?;
@@ -158,7 +157,7 @@ impl Layout {
         scale: Option<&Scale>,
     ) -> Result<Annotations, E> {
         let background = Backdrop::new(options.background, options.samples).developed(development);
-        let style = &Style::new(self.size, background, options.output);
+        let style = &Style::new(self.size, options.annotations.text_size, background, options.output);
         let mut all = Annotations {
             size: self.size,
             scene_rows: self.scene_rows,

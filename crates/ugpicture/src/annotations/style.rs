@@ -15,7 +15,7 @@ const PER_SIZE: f64 = 40.0;
 /// Size and colours of text and lines.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
-    /// Em size of text in pixels, a whole number.
+    /// Em size of text in pixels.
     pub size: f64,
     /// Black or white, whichever contrasts more with the background.
     pub ink: Rgb,
@@ -30,9 +30,10 @@ pub struct Style {
 impl Style {
     /// The style of a picture. `background`: light as displayed; on a transparent background the
     /// ink suits white paper.
-    pub fn new(size: [u32; 2], background: Option<[f32; 3]>, output: Output) -> Self {
+    /// `size`: columns and rows of the picture; `text_size`: see [`crate::AnnotationOptions::text_size`].
+    pub fn new(size: [u32; 2], text_size: Option<f64>, background: Option<[f32; 3]>, output: Output) -> Self {
         let [width, height] = size.map(f64::from);
-        let size = (libm::sqrt(width * height) / PER_SIZE).round().max(LEAST);
+        let size = text_size.unwrap_or_else(|| (libm::sqrt(width * height) / PER_SIZE).round().max(LEAST));
         let byte = |part: f64| (255.0 * srgb_encode(part.clamp(0.0, 1.0))).round() as u8;
         let background = background.map_or([255; 3], |light| light.map(|part| byte(f64::from(part))));
         let ink = ink_on(background);

@@ -65,6 +65,18 @@ fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
     }
 }
 
+/// Twice the size of text takes twice the rows.
+#[test]
+fn strips_grow_with_the_size_of_text() {
+    let plain = with(&Config::default(), |picture| (picture.size, picture.samples) = ([480, 300], 1));
+    let rows = |text_size| {
+        let annotations = AnnotationOptions { text_size, legend: true, ..AnnotationOptions::default() };
+        300 - scene_rows(&with(&plain, |picture| picture.annotations = annotations))
+    };
+    let [small, large] = [rows(Some(6.0)), rows(Some(12.0))];
+    assert!((2 * small).abs_diff(large) <= 2, "{small} {large}");
+}
+
 #[test]
 fn the_caption_keeps_within_its_strip() {
     for text in
@@ -243,7 +255,7 @@ fn what_cannot_be_is_refused() {
     check(annotated(AnnotationOptions { caption: "光速".into(), ..AnnotationOptions::default() }), "the font has no `光` (U+5149)");
     check(with(&annotated(strips()), |picture| picture.output = Output::Color(Format::Exr)), "leave out -cap");
     check(with(&annotated(strips()), |picture| picture.size = [100, 30]), "give a larger -sz");
-    let narrow = "too narrow for a caption or legend: give a wider -sz";
+    let narrow = "too narrow for a caption, legend or scale: give a wider -sz";
     check(with(&annotated(strips()), |picture| picture.size = [30, 30]), narrow);
     check(
         {
