@@ -1,5 +1,7 @@
 //! Lines along which a quantity of what is seen has the same value.
 
+use std::ops::Range;
+
 use ugimage::figure::Point;
 use ugimage::label::number::significant;
 use ugimage::label::{Drawing, Line, MissingCharacter};
@@ -75,10 +77,10 @@ pub fn draw(
             continue;
         }
         let line = Line::new(&significant(value, 4), TEXT * style.size)?;
-        let label = middle(&lines);
+        let half = [0.5 * line.width() + 0.15 * style.size, 0.45 * style.size];
+        let label = middle(&lines, [0, 1].map(|axis| half[axis]..f64::from(size[axis]) - half[axis]));
         drawing.lines(lines.clone(), 3.0 * style.hairline, style.background);
         drawing.lines(lines, 1.2 * style.hairline, style.ink);
-        let half = [0.5 * line.width() + 0.15 * style.size, 0.45 * style.size];
         drawing.rectangle(
             [label[0] - half[0], label[1] - half[1]],
             [label[0] + half[0], label[1] + half[1]],
@@ -115,13 +117,15 @@ fn push_lines(values: [f64; 4], [left, top]: Point, lines: &mut Vec<[Point; 2]>)
     }
 }
 
-/// The middle of the line that is nearest to the mean of all.
-fn middle(lines: &[[Point; 2]]) -> Point {
+/// The middle of the line that is nearest to the mean of all, of those in an area if there are some.
+fn middle(lines: &[[Point; 2]], area: [Range<f64>; 2]) -> Point {
     let middle = |[a, b]: &[Point; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     let n = lines.len() as f64;
     let mean = lines.iter().map(middle).fold([0.0; 2], |sum, at| [sum[0] + at[0] / n, sum[1] + at[1] / n]);
     let apart = |at: &Point| (at[0] - mean[0]) * (at[0] - mean[0]) + (at[1] - mean[1]) * (at[1] - mean[1]);
-    lines.iter().map(middle).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(mean)
+    let is_outside = |at: &Point| !(area[0].contains(&at[0]) && area[1].contains(&at[1]));
+    let order = |a: &Point, b: &Point| is_outside(a).cmp(&is_outside(b)).then(apart(a).total_cmp(&apart(b)));
+    lines.iter().map(middle).min_by(order).unwrap_or(mean)
 }
 
 #[cfg(test)]
