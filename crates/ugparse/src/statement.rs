@@ -154,6 +154,7 @@ pub(crate) struct TableStatement {
     pub color: Span,
     pub is_stepped: bool,
     pub period: Option<f64>,
+    pub shift: f64,
     pub rows: Vec<(f64, Span)>,
 }
 

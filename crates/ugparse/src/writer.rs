@@ -330,8 +330,7 @@ impl<'s> Writer<'s> {
     /// Writes ` <x y z …>`. `at`: the reference point, if none is written; `None` if it has no
     /// meaning.
     fn frame(&mut self, frame: &InertialFrame, at: Option<DVec3>) {
-        push_velocity(&mut self.out, &mut self.numbers, frame.velocity);
-        self.out.pop();
+        push_velocity(&mut self.out, &mut self.numbers, " <", frame.velocity);
         if at.is_some_and(|at| frame.at != at) {
             self.text(" -at");
             self.point(frame.at);
@@ -376,6 +375,10 @@ impl<'s> Writer<'s> {
         if let Some(period) = table.period {
             self.text(" -period");
             self.number(period);
+        }
+        if table.shift != 0.0 {
+            self.text(" -shift");
+            self.number(table.shift);
         }
         for &(time, color) in &table.rows {
             self.number(time);
@@ -453,8 +456,7 @@ impl<'s> Writer<'s> {
         match path {
             MotionPath::Free { velocity, accelerations } => {
                 if !velocity.is_zero() {
-                    self.text(" -vel");
-                    self.point(velocity.beta());
+                    push_velocity(&mut self.out, &mut self.numbers, " -vel ", *velocity);
                 }
                 accelerations.iter().for_each(|piece| self.piece(" -acc", piece, 0.0));
             }
@@ -549,7 +551,8 @@ impl<'s> Writer<'s> {
         if let Some(body) = camera.carrier {
             push_motion_name(&mut self.out, self.scene, body);
         } else if let Some(velocity) = camera.velocity {
-            push_velocity(&mut self.out, &mut self.numbers, velocity);
+            push_velocity(&mut self.out, &mut self.numbers, " <", velocity);
+            self.out.push(b'>');
         }
         self.text(";");
     }
