@@ -100,6 +100,8 @@ pub(crate) enum PathStatement {
         /// The name without quotes.
         name: Span,
     },
+    /// `-path < NAME >`: that of another motion.
+    Of(Span),
     /// `-path (t x y z …)`
     Events {
         /// Between the parentheses.

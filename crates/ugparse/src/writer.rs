@@ -4,6 +4,7 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
     BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Item, Light,
@@ -144,11 +145,12 @@ impl<'s> Tables<'s, '_> {
         self.comments = rest;
         self.chunked_writer.append(|out| {
             Writer::on(out, self.scene, comments, |w| {
+                let mut along = FxHashMap::default();
                 for (row, body) in w.scene.bodies.stated_by_name().enumerate() {
                     // Bodies have 32-bit ids.
                     let item = Item::Motion(row as u32);
                     w.comments_at(item, false);
-                    w.motion(body);
+                    w.motion(body, &mut along);
                     w.comments_at(item, true);
                     w.out.push(b'\n');
                 }
@@ -443,7 +445,8 @@ impl<'s> Writer<'s> {
         }
     }
 
-    fn motion(&mut self, body: BodyId) {
+    /// `along`: the first motion along each path.
+    fn motion(&mut self, body: BodyId, along: &mut FxHashMap<usize, BodyId>) {
         let bodies = &self.scene.bodies;
         let Some(motion) = bodies.statement(body) else { return };
         self.text("motion");
@@ -466,7 +469,12 @@ impl<'s> Writer<'s> {
                 self.point(*axis);
                 self.number(*rate);
             }
+            MotionPath::Along(path) if along.contains_key(&path.address()) => {
+                self.text(" -path");
+                push_motion_name(&mut self.out, self.scene, along[&path.address()]);
+            }
             MotionPath::Along(path) => {
+                along.insert(path.address(), body);
                 self.text(" -path (");
                 let mut behind = "";
                 for Event { t, x } in path.events() {

@@ -209,6 +209,12 @@ impl Velocity {
         }
         let axis = direction / power_of_two_below(direction);
         let direction = axis / axis.length();
+        // Along a coordinate axis, `split` is exact with a unit vector.
+        let axis = if direction.abs().max_element() == 1.0 && direction.abs().element_sum() == 1.0 {
+            direction
+        } else {
+            axis
+        };
         Ok(Velocity { axis, direction, beta: direction * (proper_speed / gamma), gamma, proper_speed })
     }
 
