@@ -69,6 +69,7 @@ pub fn apply_with(
         Pieces::PerEdge(1) => {}
         Pieces::PerEdge(_) => n_open_junctions = junctions::find(&scene, &mesh.points, motions).len(),
     }
+    mesh.tables = clocks::tables_of_vertices(&scene, &mesh);
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
     let evenness = Evenness::new(is_apart);

@@ -245,7 +245,12 @@ impl<'t, 'f> Reader<'t, 'f> {
             && let Some(PathStatement::File { span, name }) = motion.path
         {
             let motion = Some(motion.name);
-            self.document.requests.push(RequestStatement { kind: RequestKind::Path, span, file: name, motion });
+            self.document.requests.push(RequestStatement {
+                kind: RequestKind::Path,
+                span,
+                file: name,
+                motion,
+            });
         }
         self.document.first_statement.get_or_insert(span.start);
         self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
@@ -293,7 +298,12 @@ impl<'t, 'f> Reader<'t, 'f> {
         let end = self.grammar.position(rest) - quotes as u32;
         let file = Span { start: end - name.len() as u32, end };
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
-        self.document.requests.push(RequestStatement { kind, span: self.span(input, rest), file, motion: None });
+        self.document.requests.push(RequestStatement {
+            kind,
+            span: self.span(input, rest),
+            file,
+            motion: None,
+        });
         Ok(rest)
     }
 
