@@ -25,6 +25,10 @@ const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 /// The factor on sampled errors.
 const MARGIN: f64 = 1.5;
 
+/// At an edge where more tables meet, as many are tested: so work is not quadratic in faces of one
+/// place. Edges and points inside faces are tested with the table of their face alone.
+const MOST_TABLES: usize = 64;
+
 /// The prefix of the names of new colours.
 const PREFIX: &str = "t#";
 
@@ -118,7 +122,7 @@ impl Clocks {
     }
 
     fn lights(&self, tables: &[u32]) -> impl Iterator<Item = &Lights> {
-        tables.iter().filter_map(|&row| self.lights[row as usize].as_ref())
+        tables.iter().take(MOST_TABLES).filter_map(|&row| self.lights[row as usize].as_ref())
     }
 }
 
@@ -129,6 +133,11 @@ fn table_row(scene: &Scene, color: Option<ColorId>) -> Option<usize> {
 /// The tables that all of several vertices have: those of the faces and wires that an edge or a
 /// piece between them may belong to.
 pub(crate) fn common(tables: &[&Tables]) -> Tables {
+    if let [first, rest @ ..] = tables
+        && rest.iter().all(|other| Arc::ptr_eq(first, other))
+    {
+        return Tables::clone(first);
+    }
     let Some(fewest) = tables.iter().min_by_key(|tables| tables.len()) else { return Tables::default() };
     let is_common = |row: &&u32| tables.iter().all(|tables| tables.binary_search(row).is_ok());
     fewest.iter().filter(is_common).copied().collect()
@@ -165,6 +174,14 @@ pub(crate) fn tables_of_vertices(scene: &Scene, mesh: &RefinedMesh) -> Vec<Table
         on_edge.clone().for_each(|place| all.extend_from_slice(&tables[place]));
         for place in on_edge.chain([a, b]) {
             tables[place] = in_order([&all[..], &tables[place]].concat());
+        }
+    }
+    // Equal ones are shared, for `common`.
+    let mut known: FxHashSet<Tables> = FxHashSet::default();
+    for tables in &mut tables {
+        match known.get(tables) {
+            Some(same) => *tables = same.clone(),
+            None => drop(known.insert(tables.clone())),
         }
     }
     places.into_iter().map(|place| tables[place].clone()).collect()
