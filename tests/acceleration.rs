@@ -138,7 +138,7 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
 #[test]
 fn a_flight_of_many_years_shows_aberration_and_doppler() {
     const DEG: f64 = std::f64::consts::PI / 180.0;
-    for years in [10.0, 19.0, 25.0, 28.0, 60.0] {
+    for years in [10.0, 19.0, 28.0, 48.0] {
         let eta = PER_YEAR * years;
         let shrink = libm::exp(-eta);
         let ahead = (libm::cosh(eta) - 1.0) / PER_YEAR;
@@ -147,7 +147,8 @@ fn a_flight_of_many_years_shows_aberration_and_doppler() {
             let seen = [0.8, 1.0, 1.2].map(|part| part * middle);
             // ½(π − θ), and the places of the corners behind the start.
             let half = seen.map(|angle| libm::atan(shrink / libm::tan(0.5 * angle)));
-            let doppler = libm::exp(eta) * libm::sin(half[1]).powi(2) + shrink * libm::cos(half[1]).powi(2);
+            let (sin, cos) = libm::sincos(half[1]);
+            let doppler = libm::exp(eta) * sin * sin + shrink * cos * cos;
             let behind = 100.0 * ahead;
             let across = half.map(|half| (behind + ahead) * libm::tan(2.0 * half));
             let corner = |row: usize| format!("v p{row} {:e} {:e} 0", across[row], -behind);
@@ -177,7 +178,8 @@ fn a_flight_of_many_years_shows_aberration_and_doppler() {
                 let found = libm::atan2(place.x, place.y);
                 assert!((found / angle - 1.0).abs() < 1e-9, "{years}: {found}, not {angle}");
             }
-            if (doppler - 1.0).abs() > 0.5 {
+            // The ring of D = 1 is 4·10⁻¹¹ wide after 48 years.
+            if (doppler - 1.0).abs() > 0.5 || years > 30.0 {
                 continue;
             }
             let shifted = ugdoppler::Config { shift: ColorShift::SPECTRA, keep: true, ..Default::default() };
