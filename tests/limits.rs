@@ -252,6 +252,12 @@ fn tables_of_motions_and_corners_of_figures_take_memory_in_proportion() {
     );
     check(&shell, LITTLE, "ugparse in/none.ug", 1, "motion `m1` states no table of a path");
 
+    let fan: String =
+        (0..1500).map(|k| format!("c k{k} .5 {k}; v c{k} 1 .5 {k}; f (a b c{k}) k{k};\n")).collect();
+    shell.write("in/fan.ug", format!("v a 0 0 0; v b 1 0 0; cam -ep 0 -12 3 -vc 0 0 0;\n{fan}"));
+    let refused = "mix more than 4194304 colours of faces that meet: give faces vertices of their own";
+    check(&shell, 4 * LITTLE, "uglorentz -nt 1 -vel .5 0 0 in/fan.ug", 1, refused);
+
     let corner = |k: usize| {
         let (angle, radius) = (k as f64 * std::f64::consts::TAU / 8000.0, (1 + k % 2) as f64);
         format!("v a{k} {} 0 {};\n", radius * libm::cos(angle), radius * libm::sin(angle))

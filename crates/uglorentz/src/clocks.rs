@@ -7,7 +7,6 @@
 //! had when its light left.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -15,8 +14,8 @@ use uglight::{RestColor, mean_color};
 use ugscene::{BodyId, Color, ColorId, ColorTable, FaceOrWire, Mix, Scene};
 
 use crate::attributes::free_prefix;
-use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::tables::{Tables, common, table_row};
 use crate::world_line::is_short;
 
 /// Where an edge is sampled.
@@ -31,9 +30,6 @@ const MOST_TABLES: usize = 64;
 
 /// The prefix of the names of new colours.
 const PREFIX: &str = "t#";
-
-/// Tables of colours that change, by their rows in the scene, ascending.
-pub(crate) type Tables = Arc<[u32]>;
 
 /// The tables of the faces and wires.
 #[derive(Clone, Debug, Default)]
@@ -124,73 +120,6 @@ impl Clocks {
     fn lights(&self, tables: &[u32]) -> impl Iterator<Item = &Lights> {
         tables.iter().take(MOST_TABLES).filter_map(|&row| self.lights[row as usize].as_ref())
     }
-}
-
-fn table_row(scene: &Scene, color: Option<ColorId>) -> Option<usize> {
-    scene.color_tables.binary_search_by_key(&color?, |table| table.color).ok()
-}
-
-/// The tables that all of several vertices have: those of the faces and wires that an edge or a
-/// piece between them may belong to.
-pub(crate) fn common(tables: &[&Tables]) -> Tables {
-    if let [first, rest @ ..] = tables
-        && rest.iter().all(|other| Arc::ptr_eq(first, other))
-    {
-        return Tables::clone(first);
-    }
-    let Some(fewest) = tables.iter().min_by_key(|tables| tables.len()) else { return Tables::default() };
-    let is_common = |row: &&u32| tables.iter().all(|tables| tables.binary_search(row).is_ok());
-    fewest.iter().filter(is_common).copied().collect()
-}
-
-/// The tables of the faces and wires that meet at each vertex of the scene, so that an edge is
-/// halved alike in all of them; empty if no colour changes. Vertices of one place are one.
-pub(crate) fn tables_of_vertices(scene: &Scene, mesh: &RefinedMesh) -> Vec<Tables> {
-    if !scene.has_changing_surfaces() {
-        return Vec::new();
-    }
-    let mut places = FxHashMap::default();
-    let place = |point: &Point| {
-        let n_places = places.len();
-        *places
-            .entry((point.body, (point.rest + DVec3::ZERO).to_array().map(f64::to_bits)))
-            .or_insert(n_places)
-    };
-    let places: Vec<usize> = mesh.points.iter().map(place).collect();
-    let mut tables: Vec<Vec<u32>> = vec![Vec::new(); mesh.points.len()];
-    for FaceOrWire { contours, color, .. } in scene.drawn() {
-        let Some(row) = table_row(scene, color) else { continue };
-        for corner in scene.contours.corners(contours) {
-            tables[places[corner.index()]].push(row as u32);
-        }
-    }
-    let mut tables: Vec<Tables> = tables.into_iter().map(in_order).collect();
-    let mut junctions: Vec<_> = mesh.junctions.iter().collect();
-    junctions.sort_unstable();
-    for (&(a, b), on_edge) in junctions {
-        let [a, b] = [a, b].map(|end| places[end as usize]);
-        let on_edge = on_edge.iter().map(|&row| places[row as usize]);
-        let mut all = common(&[&tables[a], &tables[b]]).to_vec();
-        on_edge.clone().for_each(|place| all.extend_from_slice(&tables[place]));
-        for place in on_edge.chain([a, b]) {
-            tables[place] = in_order([&all[..], &tables[place]].concat());
-        }
-    }
-    // Equal ones are shared, for `common`.
-    let mut known: FxHashSet<Tables> = FxHashSet::default();
-    for tables in &mut tables {
-        match known.get(tables) {
-            Some(same) => *tables = same.clone(),
-            None => drop(known.insert(tables.clone())),
-        }
-    }
-    places.into_iter().map(|place| tables[place].clone()).collect()
-}
-
-fn in_order(mut rows: Vec<u32>) -> Tables {
-    rows.sort_unstable();
-    rows.dedup();
-    rows.into()
 }
 
 impl Lights {

@@ -4,8 +4,8 @@ use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugscene::BodyId;
 
-use crate::clocks::{self, Tables};
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::tables::{self, Tables};
 
 /// New vertices are at least this fraction of the size of what is subdivided away from the eye,
 /// where their direction would be undefined.
@@ -41,7 +41,7 @@ pub(crate) struct RefinedMesh<'a> {
     /// Vertices on edges, from the first of their ordered ends to the second, see
     /// [`crate::junctions`].
     pub junctions: FxHashMap<(u32, u32), Vec<u32>>,
-    /// Of each vertex, see [`clocks::tables_of_vertices`]; empty if no colour changes.
+    /// Of each vertex, see [`tables::tables_of_vertices`]; empty if no colour changes.
     pub tables: Vec<Tables>,
 }
 
@@ -161,7 +161,7 @@ impl<'a> RefinedMesh<'a> {
         self.points.push(Point { generation, ..point });
         if !self.tables.is_empty() {
             let parents: Vec<&Tables> = used().map(|(parent, _)| &self.tables[parent as usize]).collect();
-            self.tables.push(clocks::common(&parents));
+            self.tables.push(tables::common(&parents));
         }
         self.recipes.push(recipe);
         row
