@@ -15,8 +15,14 @@ use crate::{instructions, programs};
 const MOST: f64 = 1.3;
 
 /// Counts whose work grows faster, and why: part of the name, program, reason.
-const STATED: [(&str, &str, &str); 1] =
-    [("colours at one vertex", "uglorentz", "mixtures of n colours at n new vertices, with a limit")];
+const STATED: [(&str, &str, &str); 2] = [
+    ("colours at one vertex", "uglorentz", "mixtures of n colours at n new vertices, with a limit"),
+    (
+        "",
+        "ugrainbow -vec",
+        "pairs of areas that overlap, with a limit; edges that a row of a polygon crosses",
+    ),
+];
 
 /// What reads each scene.
 const COMMANDS: [&str; 7] = [
@@ -53,8 +59,9 @@ pub fn write(out: &mut impl Write, args: &Args) -> Outcome<()> {
                 continue;
             }
             let [a, b, c] = counts(&programs, command, name, [n, 2 * n, 4 * n].map(|n| (n, scene(n))))?;
+            let growth = if b > a { (c - b) / (b - a) } else { c / b };
             // Differences within the noise of the count have no exponent.
-            let exponent = if c - b < 0.02 * b { 0.0 } else { libm::log2((c - b) / (b - a).max(1e-3)) };
+            let exponent = if c - b < 0.02 * b { 0.0 } else { libm::log2(growth) };
             let stated = STATED.iter().find(|row| name.contains(row.0) && command.starts_with(row.1));
             let why = stated.map_or("", |row| row.2);
             writeln!(out, "| {n} {name} | {command} | {a:.1}, {b:.1}, {c:.1} | {exponent:.2} {why} |")?;

@@ -337,9 +337,9 @@ impl<'t> Words<'t> {
             None
         };
         Velocity::from_stated(vector, gamma).map_err(|error| {
-            Diagnostic::error(word.span, error.to_string()).label("here").help(
-                "give three numbers whose length is below 1, or a direction, `gamma` and the Lorentz factor",
-            )
+            Diagnostic::error(word.span, error.to_string())
+                .label("here")
+                .help("give three numbers whose length is below 1")
         })
     }
 
