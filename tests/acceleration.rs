@@ -3,9 +3,10 @@
 use std::process::Command;
 
 use glam::DVec3;
-use uglight::{ScatteringTime, SurfaceElement};
-use ugscene::{Anchor, CameraOptions, MotionOptions, PlacedBodies, RestFrames};
-use ugtests::{programs, scenes};
+use uglight::{ColorShift, ScatteringTime, SurfaceElement};
+use ugscene::{Anchor, CameraOptions, ColorValue, MotionOptions, PlacedBodies, RestFrames};
+use ugtests::worlds::picture::{Picture, Renderer};
+use ugtests::{pipe, programs, scenes};
 
 /// Velocities of 1 g, 9.80665 m/s², in light years and Julian years.
 const PER_YEAR: f64 = 9.806_65 * 31_557_600.0 / 299_792_458.0;
@@ -129,4 +130,110 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
         // The sky is integrated to 3·10⁻³.
         assert!(skies.iter().all(|sky| (sky - skies[0]).abs() < 3e-3), "{skies:?}");
     }
+}
+
+/// From about 18 years on, β of a camera at 1 g rounds to 1. A body at rest at the angle θ from the
+/// motion is seen at tan ½θ' = e^{−η} tan ½θ, with D = e^η cos² ½θ + e^{−η} sin² ½θ. A black body of
+/// 5800 K/D has the chromaticity of one of 5800 K, and rays draw what the pipe draws.
+#[test]
+fn a_flight_of_many_years_shows_aberration_and_doppler() {
+    const DEG: f64 = std::f64::consts::PI / 180.0;
+    for years in [10.0, 19.0, 28.0, 48.0] {
+        let eta = PER_YEAR * years;
+        let shrink = libm::exp(-eta);
+        let ahead = (libm::cosh(eta) - 1.0) / PER_YEAR;
+        // θ' of the corners, and of the point where D = 1.
+        for middle in [20.0 * DEG, 90.0 * DEG, 2.0 * shrink.sqrt()] {
+            let seen = [0.8, 1.0, 1.2].map(|part| part * middle);
+            // ½(π − θ), and the places of the corners behind the start.
+            let half = seen.map(|angle| libm::atan(shrink / libm::tan(0.5 * angle)));
+            let (sin, cos) = libm::sincos(half[1]);
+            let doppler = libm::exp(eta) * sin * sin + shrink * cos * cos;
+            let behind = 100.0 * ahead;
+            let across = half.map(|half| (behind + ahead) * libm::tan(2.0 * half));
+            let corner = |row: usize| format!("v p{row} {:e} {:e} 0", across[row], -behind);
+            let text = format!(
+                "motion ship -acc 0 {PER_YEAR} 0; c_bb star {}; {}; {}; {};
+                 v up {:e} {:e} {:e}; f (p0 p1 p2 up) star;
+                 l 1; cam -ep 0 0 0 -vc 0 1 0 -va {} <ship>;",
+                5800.0 / doppler,
+                corner(0),
+                corner(1),
+                corner(2),
+                across[1],
+                -behind,
+                0.3 * across[1],
+                (2.8 * middle / DEG).min(150.0),
+            );
+            let config = uglorentz::Config {
+                time: years,
+                pieces: uglorentz::Pieces::PerEdge(1),
+                ..Default::default()
+            };
+            let lorentz = pipe::lorentz(text.as_bytes(), &config);
+            let scene = scenes::parse(&lorentz);
+            assert_eq!(ugparse::write(&scene), lorentz, "the text reads back to itself");
+            for (row, angle) in seen.into_iter().enumerate() {
+                let place = scene.vertices[row].position;
+                let found = libm::atan2(place.x, place.y);
+                assert!((found / angle - 1.0).abs() < 1e-9, "{years}: {found}, not {angle}");
+            }
+            // The ring of D = 1 is 4·10⁻¹¹ wide after 48 years.
+            if (doppler - 1.0).abs() > 0.5 || years > 30.0 {
+                continue;
+            }
+            let shifted = ugdoppler::Config { shift: ColorShift::SPECTRA, keep: true, ..Default::default() };
+            let colored = scenes::parse(&pipe::doppler(&lorentz, &shifted));
+            let xyz = |color: ugscene::ColorId| match colored.colors[color.index()].value {
+                ColorValue::Xyz(xyz) => DVec3::from_array(xyz),
+                other => panic!("{other:?}"),
+            };
+            let light = xyz(colored.vertices[1].color.unwrap());
+            // CIE 1931, of 5800 K.
+            let chromaticity = light / light.element_sum();
+            assert!(
+                (chromaticity - DVec3::new(0.3260, 0.3354, 0.3386)).length() < 1e-3,
+                "{years}: {chromaticity}"
+            );
+            let motion = MotionOptions { time: years, ..MotionOptions::default() };
+            let picture = Picture {
+                motion,
+                size: [80, 60],
+                ..Picture::of_scene(text, ColorShift::SPECTRA).like_pipe()
+            };
+            let [pipe, rays] =
+                [Renderer::Pipe, Renderer::Rays].map(|by| picture.clone().by(by).draw().unwrap().light());
+            let n_lit = rays.iter().filter(|pixel| pixel[0] > 0.0).count();
+            let is_off =
+                |(a, b): &(&[f32; 3], &[f32; 3])| (0..3).any(|k| (a[k] - b[k]).abs() > 0.02 * b[k].max(0.1));
+            let n_off = pipe.iter().zip(&rays).filter(is_off).count();
+            assert!(n_lit > 30 && n_off < 16, "{years}: {n_off} of {n_lit}");
+        }
+    }
+}
+
+/// The cockpit of such a flight is events near one that is γ² times as far away in the scene: it is
+/// drawn while that is precise, and refused from then on.
+#[test]
+fn a_cockpit_is_seen_at_rest_or_refused() {
+    let cockpit = "motion ship -acc 0 1 0; v a -.5 1 -.5; v b .5 1 -.5; v c 0 1 .5; f (a b c) <ship>;
+                   cam -ep 0 0 0 -vc 0 1 0 <ship>;";
+    let mut last = Vec::new();
+    for years in [0.0, 5.0, 10.0, 12.0, 13.0, 14.0, 16.0, 19.0] {
+        let mut scene = scenes::parse(cockpit.as_bytes());
+        let config =
+            uglorentz::Config { time: years, pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+        match uglorentz::apply(std::mem::take(&mut scene), &config) {
+            Ok((scene, _)) => last.push(scene.vertices.iter().map(|v| v.position).collect::<Vec<_>>()),
+            Err(error) => {
+                assert!(years > 12.0 && error.to_string().contains("rounding moves it"), "{years}: {error}");
+                continue;
+            }
+        }
+        let [_, first, .., now] = &last[..] else { continue };
+        for (a, b) in first.iter().zip(now) {
+            assert!(a.distance(*b) < 1e-3, "{years}: {a} {b}");
+        }
+    }
+    assert!((4..7).contains(&last.len()));
 }

@@ -229,3 +229,42 @@ fn large_panoramas_are_bounded() {
     write("huge.png", [32_768, 16_384]);
     check(&shell, LITTLE, "ugwarp huge.png", 1, "32768 x 16384 pixels exceed the limit of 268435456");
 }
+
+/// Motions along one table keep it once, in text as well; what is kept counts as memory. One face
+/// of many corners is a figure with memory in proportion to them.
+#[test]
+fn tables_of_motions_and_corners_of_figures_take_memory_in_proportion() {
+    let shell = folder();
+    let rows: String = (0..20_000).map(|t| format!("{t},0,0,0\n")).collect();
+    shell.write("in/p.csv", format!("t,x,y,z\n{rows}"));
+    let motions: String = (0..1000).map(|k| format!("motion m{k} -path p.csv;\n")).collect();
+    let face = "v a 0 0 0; v b 1 0 0; v c 0 0 1; f (a b c) <m7>; cam -ep 0 -9 0 -vc 0 0 0;";
+    shell.write("in/m.ug", format!("{motions}{face}"));
+    let flat = check(&shell, LITTLE, "ugparse flatten in/m.ug", 0, "");
+    assert!(flat.contains("motion m999 -path <m0>;") && flat.len() < 500_000, "{}", flat.len());
+    shell.write("in/flat.ug", &flat);
+    let again = check(&shell, LITTLE, "ugparse flatten in/flat.ug", 0, "");
+    assert_eq!(again, flat);
+    check(&shell, LITTLE, "ugparse --limit memory=1000000 in/m.ug", 1, "--limit memory=N");
+    shell.write(
+        "in/none.ug",
+        format!("motion m0 -path <m1>; motion m1 -vel .1 0 0; {face}").replace("m7", "m0"),
+    );
+    check(&shell, LITTLE, "ugparse in/none.ug", 1, "motion `m1` states no table of a path");
+
+    let fan: String =
+        (0..1500).map(|k| format!("c k{k} .5 {k}; v c{k} 1 .5 {k}; f (a b c{k}) k{k};\n")).collect();
+    shell.write("in/fan.ug", format!("v a 0 0 0; v b 1 0 0; cam -ep 0 -12 3 -vc 0 0 0;\n{fan}"));
+    let refused = "mix more than 4194304 colours of faces that meet: give faces vertices of their own";
+    check(&shell, 4 * LITTLE, "uglorentz -nt 1 -vel .5 0 0 in/fan.ug", 1, refused);
+
+    let corner = |k: usize| {
+        let (angle, radius) = (k as f64 * std::f64::consts::TAU / 8000.0, (1 + k % 2) as f64);
+        format!("v a{k} {} 0 {};\n", radius * libm::cos(angle), radius * libm::sin(angle))
+    };
+    let corners: String = (0..8000).map(corner).collect();
+    let names: String = (0..8000).map(|k| format!("a{k} ")).collect();
+    shell.write("in/star.ug", format!("{corners}f ({names}); cam -ep 0 -12 0 -vc 0 0 0;"));
+    let figure = check(&shell, LITTLE, "ugrainbow -nt 1 -vec -dt svg -sz 64 48 in/star.ug", 0, "");
+    assert!(figure.contains("<svg"));
+}

@@ -249,6 +249,66 @@ fn lamps_light_with_the_colour_they_had() {
     }
 }
 
+/// A flash of 10⁻¹⁰, seen a day later: the rows of the table stay apart in the text, and the next
+/// program reads the times that were stated. Rays draw the same.
+#[test]
+fn a_short_flash_seen_a_day_later_keeps_its_rows() {
+    const DAY: f64 = 86400.0;
+    let text = "c_rgb on 1 .9 .7; c_rgb off 0 0 0; c_time flash -step -period 60 0 on 1e-10 off;
+         v a 0 0 0; v b 1 0 0; v c 0 0 1; f (a b c); l 1 0 -1 0 0 flash <0 0 0>; l 1 .5 -1 0 0 on <.1 0 0>;
+         cam -ep 0 -12 3 -vc 0 0 0;";
+    let seen = pipe::lorentz(text.as_bytes(), &uglorentz::Config { time: DAY, ..Default::default() });
+    let scene = parse(&seen);
+    let table = scene.table_of(scene.lights[0].color.unwrap()).unwrap();
+    assert_eq!(
+        (table.rows.iter().map(|row| row.0).collect::<Vec<_>>(), table.shift),
+        (vec![0.0, 1e-10], -DAY)
+    );
+    assert_eq!(ugparse::write(&scene), seen);
+    pipe::doppler(&seen, &ugdoppler::Config { light: true, ..Default::default() });
+    for (time, expected) in [(0.0, 0), (5e-11, 0), (2e-10, 1), (-1.0, 1), (59.0, 1), (60.0, 0)] {
+        assert_eq!(table.at(table.shift + time).row, expected, "{time}");
+    }
+    let [pipe, rays] = [Renderer::Pipe, Renderer::Rays].map(|by| {
+        let motion = MotionOptions { time: DAY, ..MotionOptions::default() };
+        let picture = Picture { motion, ..Picture::of_scene(text.to_owned(), ColorShift::NONE).like_pipe() };
+        picture.by(by).draw().unwrap().light()
+    });
+    let n_off = pipe.iter().zip(&rays).filter(|(a, b)| (a[0] - b[0]).abs() > 4e-3).count();
+    assert!(n_off < 20, "{n_off}");
+}
+
+/// Faces with colours of their own are cut as each of them alone, even where thousands meet at one
+/// edge, and vertices of two faces at one place are cut alike.
+#[test]
+fn many_colours_over_time_are_cut_as_each_alone() {
+    let face = |k: usize| {
+        let z = k as f64 * 1e-3;
+        format!(
+            "c_time t{k} -step -period 2 0 r {} z; v a{k} 0 {z} 2; v b{k} 4 0 0; v c{k} -4 0 0; f (a{k} b{k} c{k}) t{k};\n",
+            0.5 + z
+        )
+    };
+    let config = uglorentz::Config { time: 6.0, size: [64, 48], ..Default::default() };
+    let n_faces = |rows: std::ops::Range<usize>| {
+        let faces: String = rows.map(face).collect();
+        let text = format!("c_rgb r 1 0 0; c_rgb z 0 0 0; cam -ep 0 -6 0 -vc 0 0 0;\n{faces}");
+        parse(&pipe::lorentz(text.as_bytes(), &config)).faces.len()
+    };
+    let (one, both) = (n_faces(0..1), n_faces(0..2));
+    assert!(one > 30 && both >= 2 * one, "{one} {both}");
+    let still = |n: usize| {
+        let face = |k: usize| face(k).replace("-step -period 2 0 r", "0 r");
+        let faces: String = (0..n).map(face).collect();
+        let text = format!("c_rgb r 1 0 0; c_rgb z 0 0 0; cam -ep 0 -6 0 -vc 0 0 0;\n{faces}");
+        let scene =
+            parse(&pipe::lorentz(text.as_bytes(), &uglorentz::Config { time: -9.0, ..config.clone() }));
+        scene.faces.len()
+    };
+    // Before the first row nothing changes. It took minutes when every edge tested every table.
+    assert_eq!(still(3000), 3000);
+}
+
 /// The light of the pipe, and that by rays.
 fn pictures(text: &str, shift: ColorShift) -> [Vec<[f32; 3]>; 2] {
     let motion = MotionOptions { time: 6.0, anchor: Some(Anchor::Origin), ..MotionOptions::default() };

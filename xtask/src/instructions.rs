@@ -76,7 +76,7 @@ fn cells(row: &str) -> Option<[&str; 4]> {
 }
 
 /// Millions of instructions of a command.
-fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
+pub fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
     let mut words = command.split(' ');
     let output = Command::new("valgrind")
         .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])

@@ -6,6 +6,7 @@
 //! cargo xtask bench
 //! cargo xtask bench photon --against ../before/target/release
 //! cargo xtask instructions
+//! cargo xtask scaling
 //! cargo xtask gallery
 //! cargo xtask plots figures
 //! cargo xtask directions > scenes/directions.ug
@@ -32,6 +33,7 @@ mod plot;
 mod plots;
 mod programs;
 mod rays;
+mod scaling;
 mod scripts;
 mod short;
 mod site;
@@ -96,6 +98,9 @@ enum Task {
     ///
     /// Requires valgrind, the Debian package valgrind.
     Instructions(instructions::Args),
+    /// Count how the instructions of the programs grow with the parts of a scene, and fail where
+    /// they grow faster than n^1.3, as Markdown
+    Scaling(scaling::Args),
     /// Draw the plots of the papers, as SVG and PNG
     Plots {
         /// Folder of the files
@@ -168,6 +173,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Bench(args) => bench::write(&mut out, args)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
         Task::Instructions(args) => instructions::write(&mut out, args)?,
+        Task::Scaling(args) => scaling::write(&mut out, args)?,
         Task::Gallery(args) => gallery::write(&mut out, args)?,
         Task::Plots { folder } => plots::write(folder)?,
         Task::Hostile(args) => hostile::write(&mut out, args)?,

@@ -15,7 +15,7 @@ use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
     Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies,
-    junctions, remaining_errors, uniform, viewpoint,
+    junctions, remaining_errors, tables, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -69,6 +69,7 @@ pub fn apply_with(
         Pieces::PerEdge(1) => {}
         Pieces::PerEdge(_) => n_open_junctions = junctions::find(&scene, &mesh.points, motions).len(),
     }
+    mesh.tables = tables::tables_of_vertices(&scene, &mesh.points, &mesh.junctions);
     // Colours that change are not mixed with others.
     let is_apart = config.repeat || scene.has_changing_surfaces();
     let evenness = Evenness::new(is_apart);
@@ -81,7 +82,8 @@ pub fn apply_with(
     let has_new = !mesh.recipes.is_empty();
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
     put_pieces(&mut scene, &outcome);
-    let inherits = attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart);
+    let inherits =
+        attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart).ok_or(Error::TooManyParts)?;
     let n_placed = mesh.points.len() - mesh.recipes.len();
     let shown: Vec<_> = mesh.points.par_iter().map(Point::shown).collect();
     if let Some(row) = placed.show(&mut scene, &shown, n_placed) {

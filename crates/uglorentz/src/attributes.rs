@@ -16,21 +16,30 @@ use crate::relative_motion::{Point, RelativeMotion};
 /// Prefix of the names of new vertices and colours; a number follows.
 const PREFIX: &str = "s#";
 
+/// The most colours in the mixtures of new vertices, beyond [`FREE_PARTS`] in each: where n faces
+/// of n colours meet, they are about n².
+pub(crate) const MOST_PARTS: usize = 1 << 22;
+
+/// Colours of a mixture that do not count: so many meet in ordinary meshes.
+const FREE_PARTS: usize = 16;
+
 /// Adds the vertices of `recipes`, in order, without their positions.
 ///
 /// `shades`: of the vertices of the scene, see [`shades`]. With `is_apart`, new vertices have no
 /// mixtures of the colours of several faces.
 ///
-/// Returns which vertices have a colour that depends on those of faces, by row.
+/// Returns which vertices have a colour that depends on those of faces, by row; `None` if
+/// mixtures have more than [`MOST_PARTS`].
 pub(crate) fn add_vertices(
     scene: &mut Scene,
     recipes: &[Recipe],
     mut shades: Option<Vec<(Shade, ColorMix)>>,
     is_apart: bool,
-) -> Vec<bool> {
+) -> Option<Vec<bool>> {
     if recipes.is_empty() {
-        return Vec::new();
+        return Some(Vec::new());
     }
+    let mut n_parts = 0;
     let prefix = free_prefix(PREFIX, scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)));
     let n_vertices = scene.vertices.len() + recipes.len();
     let is_used = shades.is_some().then(|| face_vertices(scene, n_vertices));
@@ -45,13 +54,19 @@ pub(crate) fn add_vertices(
                 color = mixer.statement(scene, &shade, &shares);
                 inherits[row] = color.is_some();
             }
+            if let ColorMix::Mixed(parts) = &shares {
+                n_parts += parts.len().saturating_sub(FREE_PARTS);
+            }
+            if n_parts > MOST_PARTS {
+                return None;
+            }
             shades.push((shade, shares));
         }
         let normal = mean_normal(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
         scene.add_vertex(Vertex { name, position: DVec3::ZERO, color, normal });
     }
-    inherits
+    Some(inherits)
 }
 
 /// The shades of the vertices of a scene, and the colours in them, from which those of new vertices

@@ -15,6 +15,7 @@ use ugscene::{BodyId, Color, ColorId, ColorTable, FaceOrWire, Mix, Scene};
 
 use crate::attributes::free_prefix;
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::tables::{Tables, common, table_row};
 use crate::world_line::is_short;
 
 /// Where an edge is sampled.
@@ -23,14 +24,20 @@ const SAMPLES: [f64; 3] = [0.25, 0.5, 0.75];
 /// The factor on sampled errors.
 const MARGIN: f64 = 1.5;
 
+/// At an edge where more tables meet, as many are tested: so work is not quadratic in faces of one
+/// place. Edges and points inside faces are tested with the table of their face alone.
+const MOST_TABLES: usize = 64;
+
 /// The prefix of the names of new colours.
 const PREFIX: &str = "t#";
 
-/// The tables of the faces and wires of each body.
+/// The tables of the faces and wires.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Clocks {
-    /// Empty if no colour changes.
-    of_body: Vec<Vec<Lights>>,
+    /// By row in the scene; `None` for those of one colour.
+    lights: Vec<Option<Lights>>,
+    /// Of each body, whether a colour changes; empty if none does.
+    changes: Vec<bool>,
     /// The bound of the error of the light, as a part of the brightest of a table; infinite for
     /// none.
     bound: f64,
@@ -51,49 +58,54 @@ impl Clocks {
         if !scene.has_changing_surfaces() {
             return Self::default();
         }
-        let mut tables: Vec<Vec<ColorId>> = vec![Vec::new(); scene.bodies.len()];
+        let lights: Vec<_> = scene.color_tables.iter().map(|table| Lights::new(scene, table)).collect();
+        let mut changes = vec![false; scene.bodies.len()];
         for FaceOrWire { body, color, .. } in scene.drawn() {
-            tables[body.index()].extend(color.filter(|&color| scene.table_of(color).is_some()));
+            changes[body.index()] |= table_row(scene, color).is_some_and(|row| lights[row].is_some());
         }
-        let lights = |mut colors: Vec<ColorId>| {
-            colors.sort_unstable();
-            colors.dedup();
-            colors.into_iter().filter_map(|color| Lights::new(scene, scene.table_of(color)?)).collect()
-        };
-        Self { of_body: tables.into_iter().map(lights).collect(), bound }
-    }
-
-    fn of(&self, body: BodyId) -> &[Lights] {
-        self.of_body.get(body.index()).map_or(&[], Vec::as_slice)
+        Self { lights, changes, bound }
     }
 
     /// True if no colour of this body changes.
     pub(crate) fn are_still(&self, body: BodyId) -> bool {
-        self.of(body).is_empty()
+        !self.changes.get(body.index()).is_some_and(|&changes| changes)
     }
 
-    /// Is the colour wrong, interpolated along an edge? The ends must always be given in the same
-    /// order. `tan_half`: of the bound of the outline.
-    pub(crate) fn is_off(&self, a: &Point, b: &Point, motion: &RelativeMotion, tan_half: f64) -> bool {
-        let lights = self.of(a.body);
-        if lights.is_empty() || self.bound == f64::INFINITY || is_short(a, b, tan_half) {
+    /// Is the colour of a table wrong, interpolated along an edge? The ends must always be given in
+    /// the same order. `tables`: of the ends. `tan_half`: of the bound of the outline.
+    pub(crate) fn is_off(
+        &self,
+        [a, b]: [&Point; 2],
+        tables: [&Tables; 2],
+        motion: &RelativeMotion,
+        tan_half: f64,
+    ) -> bool {
+        if self.are_still(a.body) || self.bound == f64::INFINITY || is_short(a, b, tan_half) {
             return false;
         }
         let ends = [a, b].map(|end| end.own_time);
+        let tables = common(&tables);
         SAMPLES.into_iter().any(|s| {
             let point = Point::between(motion, a, b, s);
             let chord = b.seen - a.seen;
             let along = (point.seen - a.seen).dot(chord) / chord.length_squared();
             let along = if along.is_finite() { along.clamp(0.0, 1.0) } else { s };
-            lights.iter().any(|lights| lights.is_off(ends, [1.0 - along, along], point.own_time, self.bound))
+            let is_off =
+                |lights: &Lights| lights.is_off(ends, [1.0 - along, along], point.own_time, self.bound);
+            self.lights(&tables).any(is_off)
         })
     }
 
     /// Is the colour at the middle of a triangle wrong?
-    pub(crate) fn is_off_inside(&self, corners: [&Point; 3], motion: &RelativeMotion, tan_half: f64) -> bool {
+    pub(crate) fn is_off_inside(
+        &self,
+        corners: [&Point; 3],
+        tables: [&Tables; 3],
+        motion: &RelativeMotion,
+        tan_half: f64,
+    ) -> bool {
         let [a, b, c] = corners;
-        let lights = self.of(a.body);
-        if lights.is_empty() || self.bound == f64::INFINITY {
+        if self.are_still(a.body) || self.bound == f64::INFINITY {
             return false;
         }
         if [(a, b), (b, c), (c, a)].into_iter().all(|(a, b)| is_short(a, b, tan_half)) {
@@ -101,7 +113,12 @@ impl Clocks {
         }
         let point = Point::middle(motion, corners);
         let (ends, weights) = (corners.map(|corner| corner.own_time), [1.0 / 3.0; 3]);
-        lights.iter().any(|lights| lights.is_off(ends, weights, point.own_time, self.bound))
+        let is_off = |lights: &Lights| lights.is_off(ends, weights, point.own_time, self.bound);
+        self.lights(&common(&tables)).any(is_off)
+    }
+
+    fn lights(&self, tables: &[u32]) -> impl Iterator<Item = &Lights> {
+        tables.iter().take(MOST_TABLES).filter_map(|&row| self.lights[row as usize].as_ref())
     }
 }
 

@@ -54,10 +54,6 @@ impl Bounds {
         &self.tolerances[point.body.index()]
     }
 
-    fn is_color_off(&self, a: &Point, b: &Point, motion: &RelativeMotion) -> bool {
-        self.clocks.is_off(a, b, motion, self.tolerance(a).tan_half)
-    }
-
     /// True only if a flat piece is outside the view.
     pub(crate) fn is_outside(&self, motion: &RelativeMotion, corners: &[&Point]) -> bool {
         self.view_volume.is_outside(motion, corners)
@@ -140,7 +136,14 @@ impl Criterion<'_, '_> {
         let (from, to, motion) = (mesh.point(low), mesh.point(high), mesh.motion(low));
         edge::bends(from, to, motion, self.bounds.tolerance(from))
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
-            || self.bounds.is_color_off(from, to, motion)
+            || self.is_color_off(low, high)
+    }
+
+    fn is_color_off(&self, low: u32, high: u32) -> bool {
+        let Self { mesh, bounds } = self;
+        let Some(tables) = mesh.tables_of([low, high]) else { return false };
+        let (ends, motion) = ([low, high].map(|row| mesh.point(row)), mesh.motion(low));
+        bounds.clocks.is_off(ends, tables, motion, bounds.tolerance(ends[0]).tan_half)
     }
 
     /// The largest error of an edge relative to its bound, without light. New edges inside a face
@@ -259,7 +262,7 @@ impl Criterion<'_, '_> {
         let (from, to, motion) = (self.mesh.point(low), self.mesh.point(high), self.mesh.motion(low));
         edge::shows(from, to, motion, self.bounds.tolerance(from), shown())
             || self.bounds.near_lamps.is_nonlinear(from, to, motion)
-            || self.bounds.is_color_off(from, to, motion)
+            || self.is_color_off(low, high)
     }
 
     /// Assumes that no edge bends visibly.
@@ -287,6 +290,8 @@ impl Criterion<'_, '_> {
         !is_deep
             && (motion.has_flight_time() && offset() > tolerance.offset
                 || self.bounds.near_lamps.jumps_inside(points, motion)
-                || self.bounds.clocks.is_off_inside(points, motion, tolerance.tan_half))
+                || self.mesh.tables_of(corners).is_some_and(|tables| {
+                    self.bounds.clocks.is_off_inside(points, tables, motion, tolerance.tan_half)
+                }))
     }
 }

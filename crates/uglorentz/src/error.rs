@@ -5,6 +5,7 @@ use ugpipe::Stopped;
 use ugscene::{CameraError, MotionError};
 
 use crate::adaptive::MAX_PIECES;
+use crate::attributes::MOST_PARTS;
 
 /// Why a scene cannot be mapped to the scene as seen.
 #[derive(Clone, Debug, Error)]
@@ -46,6 +47,9 @@ pub enum Error {
         /// The number of pieces it would make.
         n_pieces: usize,
     },
+    /// So many colours meet at vertices that the mixtures of new ones would have too many parts.
+    #[error("the colours of new vertices would mix more than {MOST_PARTS} colours of faces that meet")]
+    TooManyParts,
     /// A vertex of a moving body is exactly at the eye.
     #[error("vertex `{name}` lies at the eye, where no direction to it exists")]
     VertexAtEye {

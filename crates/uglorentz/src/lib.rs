@@ -90,6 +90,7 @@ mod relative_motion;
 mod remaining_errors;
 mod report;
 mod split;
+mod tables;
 mod uniform;
 mod viewpoint;
 mod world_line;

@@ -5,6 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use ugscene::BodyId;
 
 use crate::relative_motion::{Point, RelativeMotion};
+use crate::tables::{self, Tables};
 
 /// New vertices are at least this fraction of the size of what is subdivided away from the eye,
 /// where their direction would be undefined.
@@ -40,6 +41,8 @@ pub(crate) struct RefinedMesh<'a> {
     /// Vertices on edges, from the first of their ordered ends to the second, see
     /// [`crate::junctions`].
     pub junctions: FxHashMap<(u32, u32), Vec<u32>>,
+    /// Of each vertex, see [`tables::tables_of_vertices`]; empty if no colour changes.
+    pub tables: Vec<Tables>,
 }
 
 impl<'a> RefinedMesh<'a> {
@@ -51,11 +54,17 @@ impl<'a> RefinedMesh<'a> {
             middles: FxHashMap::default(),
             rims: FxHashSet::default(),
             junctions: FxHashMap::default(),
+            tables: Vec::new(),
         }
     }
 
     pub(crate) fn point(&self, row: u32) -> &Point {
         &self.points[row as usize]
+    }
+
+    /// `None` if no colour changes.
+    pub(crate) fn tables_of<const N: usize>(&self, rows: [u32; N]) -> Option<[&Tables; N]> {
+        (!self.tables.is_empty()).then(|| rows.map(|row| &self.tables[row as usize]))
     }
 
     pub(crate) fn motion(&self, row: u32) -> &RelativeMotion {
@@ -150,6 +159,10 @@ impl<'a> RefinedMesh<'a> {
         let row = u32::try_from(self.points.len()).expect("subdivision stops long before 2^32 vertices");
         let point = Point::new(self.motion_of(body), body, rest);
         self.points.push(Point { generation, ..point });
+        if !self.tables.is_empty() {
+            let parents: Vec<&Tables> = used().map(|(parent, _)| &self.tables[parent as usize]).collect();
+            self.tables.push(tables::common(&parents));
+        }
         self.recipes.push(recipe);
         row
     }

@@ -39,6 +39,7 @@ impl PolygonMesh {
         if !has_camera {
             note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
         }
+        leave_out_wires(&mut scene);
         separate_colors(&mut scene);
         let colors = vertex_colors(&scene, &mut notes);
         let (polygons, faces) = polygons(&scene, kind, &mut notes);
@@ -119,6 +120,38 @@ fn note_count(notes: &mut Vec<String>, count: usize, one: &str, many: &str) {
         1 => notes.push(format!("1 {one}")),
         _ => notes.push(format!("{count} {many}")),
     }
+}
+
+/// Removes the wires, and the vertices that only they used, which would be outside the box that
+/// `-fit` and `--center` measure. Vertices that nothing uses stay.
+fn leave_out_wires(scene: &mut Scene) {
+    if scene.wires.is_empty() {
+        return;
+    }
+    let mut keeps = vec![true; scene.vertices.len()];
+    for wire in scene.wires.drain(..) {
+        scene.contours.corners(wire.contours).iter().for_each(|corner| keeps[corner.index()] = false);
+    }
+    let of_faces = ugscene::face_vertices(scene, keeps.len());
+    keeps.iter_mut().zip(of_faces).for_each(|(keeps, is_used)| *keeps |= is_used);
+    let rows = keeps.iter().scan(0, |next, &is_kept| {
+        let row = *next;
+        *next += u32::from(is_kept);
+        Some(row)
+    });
+    let rows: Vec<u32> = rows.collect();
+    for face in &scene.faces {
+        let corners = scene.contours.corners_mut(face.contours.clone());
+        corners.iter_mut().for_each(|corner| corner.0 = rows[corner.index()]);
+    }
+    retain(&mut scene.vertices, &keeps);
+    retain(&mut scene.rest, &keeps);
+    retain(&mut scene.own_times, &keeps);
+}
+
+fn retain<T>(rows: &mut Vec<T>, keeps: &[bool]) {
+    let mut keeps = keeps.iter();
+    rows.retain(|_| keeps.next() == Some(&true));
 }
 
 /// Duplicates vertices where faces of different colours meet, so that each vertex has one colour.

@@ -7,6 +7,8 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use rustc_hash::FxHashMap;
+
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
@@ -65,6 +67,7 @@ pub fn include(
         n_bytes: first.source.text.len() as u64,
         open: vec![(path, first)],
         n_files: 0,
+        tables: FxHashMap::default(),
         out: Vec::new(),
     };
     inclusion.run()?;
@@ -75,7 +78,7 @@ pub fn include(
 fn may_have_requests(text: &[u8]) -> bool {
     let has_word = |word: &str| memchr::memmem::find(text, word.as_bytes()).is_some();
     // Programs write the events of a path in parentheses.
-    let names_a_file = |at: usize| !text[at + PATH.len()..].trim_ascii_start().starts_with(b"(");
+    let names_a_file = |at: usize| !matches!(text[at + PATH.len()..].trim_ascii_start(), [b'(' | b'<', ..]);
     ["include", "execute"].into_iter().any(has_word)
         || memchr::memmem::find_iter(text, PATH).any(names_a_file)
 }
@@ -121,6 +124,8 @@ struct Inclusion<'i> {
     /// The open texts and their files, from the scene itself inwards.
     open: Vec<(PathBuf, Text)>,
     n_files: u64,
+    /// The name of the first motion along each table of events. Others name that motion.
+    tables: FxHashMap<PathBuf, Vec<u8>>,
     /// Bytes of all texts so far, open ones included.
     n_bytes: u64,
     out: Vec<u8>,
@@ -153,6 +158,15 @@ impl Inclusion<'_> {
     /// Writes the events of a table, in parentheses and on one line, so that the numbers of the
     /// lines that follow stay the same.
     fn events(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
+        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
+        let path = relative_to(&source.name, &source.slice(statement.file));
+        if let Some(motion) = self.tables.get(&path) {
+            self.out.push(b'<');
+            self.out.extend_from_slice(motion);
+            self.out.push(b'>');
+            return Ok(());
+        }
+        let motion = statement.motion.map_or(Vec::new(), |motion| motion.of(&source.text).to_vec());
         let (path, text) = self.fetch(statement)?;
         let table = Source { mesh: Some(Box::new(None)), ..Source::new(path.display().to_string(), text) };
         let Some(events) = event_table::events(&table)? else {
@@ -163,6 +177,7 @@ impl Inclusion<'_> {
             return Err(Diagnostics::one(source, finding.help(help)));
         };
         self.out.extend_from_slice(&events);
+        self.tables.insert(path, motion);
         Ok(())
     }
 

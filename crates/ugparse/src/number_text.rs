@@ -2,15 +2,20 @@
 
 use ugphysics::Velocity;
 
-/// Writes ` <x y z>` in units of c.
-pub(crate) fn push_velocity(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, velocity: Velocity) {
-    let mut mark: &[u8] = b" <";
-    for part in velocity.beta().to_array() {
-        out.extend_from_slice(mark);
+/// Writes `x y z`, or `x y z -gamma γ`, after `mark`.
+pub(crate) fn push_velocity(
+    out: &mut Vec<u8>,
+    numbers: &mut zmij::Buffer,
+    mut mark: &'static str,
+    velocity: Velocity,
+) {
+    let (vector, gamma) = velocity.stated();
+    let parts = vector.to_array().map(|part| (" ", part));
+    for (between, part) in parts.into_iter().chain(gamma.map(|gamma| (" -gamma ", gamma))) {
+        out.extend_from_slice(if mark.is_empty() { between } else { mark }.as_bytes());
         push_number(out, numbers, part);
-        mark = b" ";
+        mark = "";
     }
-    out.push(b'>');
 }
 
 /// Writes the shortest decimal that reads back to the same bits.

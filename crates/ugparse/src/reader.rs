@@ -50,6 +50,8 @@ pub(crate) struct RequestStatement {
     pub span: Span,
     /// The file name without quotes.
     pub file: Span,
+    /// Of a path, the name of its motion.
+    pub motion: Option<Span>,
 }
 
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
@@ -242,7 +244,13 @@ impl<'t, 'f> Reader<'t, 'f> {
         if let Statement::Motion(motion) = &statement
             && let Some(PathStatement::File { span, name }) = motion.path
         {
-            self.document.requests.push(RequestStatement { kind: RequestKind::Path, span, file: name });
+            let motion = Some(motion.name);
+            self.document.requests.push(RequestStatement {
+                kind: RequestKind::Path,
+                span,
+                file: name,
+                motion,
+            });
         }
         self.document.first_statement.get_or_insert(span.start);
         self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
@@ -290,7 +298,12 @@ impl<'t, 'f> Reader<'t, 'f> {
         let end = self.grammar.position(rest) - quotes as u32;
         let file = Span { start: end - name.len() as u32, end };
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
-        self.document.requests.push(RequestStatement { kind, span: self.span(input, rest), file });
+        self.document.requests.push(RequestStatement {
+            kind,
+            span: self.span(input, rest),
+            file,
+            motion: None,
+        });
         Ok(rest)
     }
 

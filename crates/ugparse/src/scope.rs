@@ -302,6 +302,7 @@ impl<'t> Scope<'t> {
             rows: table.rows.iter().map(|&(time, name)| (time, color(name))).collect(),
             is_stepped: table.is_stepped,
             period: table.period,
+            shift: table.shift,
         };
         self.color_tables.push(row, span);
     }
@@ -491,8 +492,8 @@ pub(crate) struct BodyTable<'t> {
     named: FxHashMap<&'t [u8], (BodyId, Span)>,
 }
 
-/// The bits of velocity, reference point, turn and displacement.
-type FrameBits = ([[u64; 3]; 4], u64);
+/// The bits of velocity, reference point, turn and displacement, and of its time and a stated γ.
+type FrameBits = ([[u64; 3]; 4], [u64; 2]);
 
 impl<'t> BodyTable<'t> {
     /// The body of a face or wire with this motion, if it has one.
@@ -536,7 +537,9 @@ impl<'t> BodyTable<'t> {
     /// The body without a name in this frame; adds it if it is new.
     pub fn moving_with(&mut self, frame: InertialFrame) -> BodyId {
         let InertialFrame { velocity, at, turn, shift } = frame;
-        let key = ([velocity.beta(), at, turn, shift.x].map(bits), (shift.t + 0.0).to_bits());
+        let (vector, gamma) = velocity.stated();
+        let times = [shift.t + 0.0, gamma.unwrap_or(0.0)].map(f64::to_bits);
+        let key = ([vector, at, turn, shift.x].map(bits), times);
         let bodies = &mut self.bodies;
         *self.rows.entry(key).or_insert_with(|| bodies.push(None, WorldLine::inertial(frame)))
     }

@@ -33,6 +33,7 @@ const MIXTURES: &str = "mixtures";
 const EYE: &str = "eye";
 const TIME: &str = "time";
 const CAMERA_VELOCITY: &str = "camera-velocity";
+const GAMMA: &str = "gamma";
 const NO_CONTRACTION: &str = "no-contraction";
 const NO_FLIGHT_TIME: &str = "no-flight-time";
 const HUES: &str = "hues";
@@ -327,7 +328,15 @@ impl<'t> Words<'t> {
 
     /// The velocity after `word`.
     fn velocity(&mut self, word: Word<'t>) -> Result<Velocity, Diagnostic> {
-        Velocity::from_beta(self.point()?).map_err(|error| {
+        let vector = self.point()?;
+        let behind = self.rest;
+        let gamma = if self.next().is_some_and(|word| word.as_str() == GAMMA) {
+            Some(self.number()?)
+        } else {
+            self.rest = behind;
+            None
+        };
+        Velocity::from_stated(vector, gamma).map_err(|error| {
             Diagnostic::error(word.span, error.to_string())
                 .label("here")
                 .help("give three numbers whose length is below 1")
@@ -369,7 +378,9 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
             add(TIME, &[seen.time]);
         }
         if !seen.camera_velocity.is_zero() {
-            add(CAMERA_VELOCITY, &seen.camera_velocity.beta().to_array());
+            let (vector, gamma) = seen.camera_velocity.stated();
+            add(CAMERA_VELOCITY, &vector.to_array());
+            gamma.into_iter().for_each(|gamma| add(GAMMA, &[gamma]));
         }
         if !seen.contraction {
             add(NO_CONTRACTION, &[]);

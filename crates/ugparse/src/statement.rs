@@ -100,6 +100,8 @@ pub(crate) enum PathStatement {
         /// The name without quotes.
         name: Span,
     },
+    /// `-path < NAME >`: that of another motion.
+    Of(Span),
     /// `-path (t x y z …)`
     Events {
         /// Between the parentheses.
@@ -154,6 +156,7 @@ pub(crate) struct TableStatement {
     pub color: Span,
     pub is_stepped: bool,
     pub period: Option<f64>,
+    pub shift: f64,
     pub rows: Vec<(f64, Span)>,
 }
 

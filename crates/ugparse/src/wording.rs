@@ -93,7 +93,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"c_bb" => "c_bb [ID] kelvin [scale] ;",
         b"c_spd" => "c_spd [ID] nm value [nm value] … ;",
         b"c_mix" => "c_mix ID color share [color share] … ;",
-        b"c_time" => "c_time ID [-step] [-period T] time color [time color] … ;",
+        b"c_time" => "c_time ID [-step] [-period T] [-shift T] time color [time color] … ;",
         b"surf" => "surf ID kd ks kt [n [exponent [absorption]]] ;",
         b"l" => "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",

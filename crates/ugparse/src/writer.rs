@@ -4,6 +4,7 @@
 use std::io::{self, Write};
 
 use glam::DVec3;
+use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
     BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Item, Light,
@@ -144,11 +145,12 @@ impl<'s> Tables<'s, '_> {
         self.comments = rest;
         self.chunked_writer.append(|out| {
             Writer::on(out, self.scene, comments, |w| {
+                let mut along = FxHashMap::default();
                 for (row, body) in w.scene.bodies.stated_by_name().enumerate() {
                     // Bodies have 32-bit ids.
                     let item = Item::Motion(row as u32);
                     w.comments_at(item, false);
-                    w.motion(body);
+                    w.motion(body, &mut along);
                     w.comments_at(item, true);
                     w.out.push(b'\n');
                 }
@@ -330,8 +332,7 @@ impl<'s> Writer<'s> {
     /// Writes ` <x y z …>`. `at`: the reference point, if none is written; `None` if it has no
     /// meaning.
     fn frame(&mut self, frame: &InertialFrame, at: Option<DVec3>) {
-        push_velocity(&mut self.out, &mut self.numbers, frame.velocity);
-        self.out.pop();
+        push_velocity(&mut self.out, &mut self.numbers, " <", frame.velocity);
         if at.is_some_and(|at| frame.at != at) {
             self.text(" -at");
             self.point(frame.at);
@@ -376,6 +377,10 @@ impl<'s> Writer<'s> {
         if let Some(period) = table.period {
             self.text(" -period");
             self.number(period);
+        }
+        if table.shift != 0.0 {
+            self.text(" -shift");
+            self.number(table.shift);
         }
         for &(time, color) in &table.rows {
             self.number(time);
@@ -440,7 +445,8 @@ impl<'s> Writer<'s> {
         }
     }
 
-    fn motion(&mut self, body: BodyId) {
+    /// `along`: the first motion along each path.
+    fn motion(&mut self, body: BodyId, along: &mut FxHashMap<usize, BodyId>) {
         let bodies = &self.scene.bodies;
         let Some(motion) = bodies.statement(body) else { return };
         self.text("motion");
@@ -453,8 +459,7 @@ impl<'s> Writer<'s> {
         match path {
             MotionPath::Free { velocity, accelerations } => {
                 if !velocity.is_zero() {
-                    self.text(" -vel");
-                    self.point(velocity.beta());
+                    push_velocity(&mut self.out, &mut self.numbers, " -vel ", *velocity);
                 }
                 accelerations.iter().for_each(|piece| self.piece(" -acc", piece, 0.0));
             }
@@ -464,7 +469,12 @@ impl<'s> Writer<'s> {
                 self.point(*axis);
                 self.number(*rate);
             }
+            MotionPath::Along(path) if along.contains_key(&path.address()) => {
+                self.text(" -path");
+                push_motion_name(&mut self.out, self.scene, along[&path.address()]);
+            }
             MotionPath::Along(path) => {
+                along.insert(path.address(), body);
                 self.text(" -path (");
                 let mut behind = "";
                 for Event { t, x } in path.events() {
@@ -549,7 +559,8 @@ impl<'s> Writer<'s> {
         if let Some(body) = camera.carrier {
             push_motion_name(&mut self.out, self.scene, body);
         } else if let Some(velocity) = camera.velocity {
-            push_velocity(&mut self.out, &mut self.numbers, velocity);
+            push_velocity(&mut self.out, &mut self.numbers, " <", velocity);
+            self.out.push(b'>');
         }
         self.text(";");
     }

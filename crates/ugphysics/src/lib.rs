@@ -87,7 +87,7 @@ pub use hyperbolic::HyperbolicMotion;
 pub use illumination::{
     IncidentLight, illumination, illumination_along, illumination_at, illumination_from_afar,
 };
-pub use lorentz::{Lorentz, compose, wigner_rotation};
+pub use lorentz::{Lorentz, compose, compose_rounded, wigner_rotation};
 pub use medium::{Medium, WaveVector};
 pub use rest_frame::RestFrame;
 pub use retarded_position::{

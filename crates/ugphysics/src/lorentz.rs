@@ -124,6 +124,24 @@ impl Mul for Lorentz {
 /// ```
 #[must_use]
 pub fn compose(u: Velocity, v: Velocity) -> Velocity {
+    let proper = composed(u, v);
+    // Both γ are bounded, so the sum is finite. The only possible error is a rapidity above the
+    // limit, and then the direction is not zero.
+    Velocity::from_proper(proper)
+        .or_else(|_| Velocity::from_rapidity(proper, Velocity::MAX_RAPIDITY))
+        .unwrap_or_default()
+}
+
+/// Like [`compose`], rounded to what the text of a scene states, see [`Velocity::rounded`].
+///
+/// # Errors
+/// [`VelocityError::RapidityTooLarge`].
+pub fn compose_rounded(u: Velocity, v: Velocity) -> Result<Velocity, VelocityError> {
+    Velocity::from_proper(composed(u, v)).map(Velocity::rounded)
+}
+
+/// γ**β** of [`compose`].
+fn composed(u: Velocity, v: Velocity) -> DVec3 {
     let part = v.split(u.proper());
     let (object, frame) = (part.along, v.proper_speed());
     let along = if object < 0.0 {
@@ -135,12 +153,7 @@ pub fn compose(u: Velocity, v: Velocity) -> Velocity {
     } else {
         frame * u.gamma() + v.gamma() * object
     };
-    let proper = part.across + along * v.direction();
-    // Both γ are bounded, so the sum is finite. The only possible error is a rapidity above the
-    // limit, and then the direction is not zero.
-    Velocity::from_proper(proper)
-        .or_else(|_| Velocity::from_rapidity(proper, Velocity::MAX_RAPIDITY))
-        .unwrap_or_default()
+    part.across + along * v.direction()
 }
 
 /// The Wigner rotation W of two motions: Λ(v)Λ(u) = Λ(w)W with w = [`compose`]`(u, v)`.  Eq. (P25)

@@ -113,6 +113,69 @@ impl Velocity {
         Velocity::along(direction, libm::cosh(rapidity), libm::sinh(rapidity.abs()))
     }
 
+    /// The velocity that the text of a scene states: **β** = `vector`, or, with a Lorentz factor,
+    /// the one of that factor along `vector`, rounded as by [`Velocity::rounded`].
+    ///
+    /// # Errors
+    /// Those of [`Velocity::from_beta`]; [`VelocityError::NotFinite`],
+    /// [`VelocityError::NoDirection`], [`VelocityError::GammaBelowOne`], or
+    /// [`VelocityError::RapidityTooLarge`] above γ = 1.3·10⁴³.
+    pub fn from_stated(vector: DVec3, gamma: Option<f64>) -> Result<Velocity, VelocityError> {
+        match gamma {
+            None => Velocity::from_beta(vector),
+            Some(gamma) => Velocity::from_gamma(vector, gamma).map(Velocity::rounded),
+        }
+    }
+
+    fn from_gamma(direction: DVec3, gamma: f64) -> Result<Velocity, VelocityError> {
+        if !gamma.is_finite() {
+            return Err(VelocityError::NotFinite);
+        }
+        if gamma < 1.0 {
+            return Err(VelocityError::GammaBelowOne { gamma });
+        }
+        if gamma > libm::cosh(Velocity::MAX_RAPIDITY) {
+            return Err(VelocityError::RapidityTooLarge { rapidity: libm::acosh(gamma) });
+        }
+        Velocity::along(direction, gamma, (gamma - 1.0).sqrt() * (gamma + 1.0).sqrt())
+    }
+
+    /// The velocity rounded to three numbers **β**, or, where they change γ by more than 10⁻¹² of
+    /// it, to its direction and γ. Idempotent.
+    #[must_use]
+    pub fn rounded(self) -> Velocity {
+        let by_beta = |velocity: Velocity| {
+            let rounded = Velocity::from_beta(velocity.beta).ok();
+            rounded.filter(|rounded| (rounded.gamma - velocity.gamma).abs() <= 1e-12 * velocity.gamma)
+        };
+        let by_gamma = || {
+            let velocity = Velocity::from_gamma(self.axis, self.gamma).ok()?;
+            Some(by_beta(velocity).unwrap_or(velocity))
+        };
+        by_beta(self).or_else(by_gamma).unwrap_or(self)
+    }
+
+    /// The arguments of [`Velocity::from_stated`] for the rounded velocity.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ugphysics::Velocity;
+    ///
+    /// let v = Velocity::from_stated(DVec3::Y, Some(3e8))?;
+    /// assert_eq!(v.speed(), 1.0); // rounded: 1 − β is 6e-18
+    /// assert_eq!((v.gamma(), v.stated()), (3e8, (DVec3::Y, Some(3e8))));
+    /// # Ok::<(), ugphysics::VelocityError>(())
+    /// ```
+    #[must_use]
+    pub fn stated(self) -> (DVec3, Option<f64>) {
+        let rounded = self.rounded();
+        if Velocity::from_beta(rounded.beta) == Ok(rounded) {
+            (rounded.beta, None)
+        } else {
+            (rounded.axis, Some(rounded.gamma))
+        }
+    }
+
     /// The velocity whose proper velocity is `proper` = γ**β**.
     ///
     /// # Errors
@@ -146,6 +209,12 @@ impl Velocity {
         }
         let axis = direction / power_of_two_below(direction);
         let direction = axis / axis.length();
+        // Along a coordinate axis, `split` is exact with a unit vector.
+        let axis = if direction.abs().max_element() == 1.0 && direction.abs().element_sum() == 1.0 {
+            direction
+        } else {
+            axis
+        };
         Ok(Velocity { axis, direction, beta: direction * (proper_speed / gamma), gamma, proper_speed })
     }
 
@@ -263,6 +332,11 @@ pub enum VelocityError {
     },
     /// The direction is the zero vector, and the speed is not 0.
     NoDirection,
+    /// The Lorentz factor is below 1.
+    GammaBelowOne {
+        /// The given factor.
+        gamma: f64,
+    },
     /// The rapidity is above [`Velocity::MAX_RAPIDITY`] in absolute value.
     RapidityTooLarge {
         /// The given rapidity.
@@ -282,6 +356,9 @@ impl fmt::Display for VelocityError {
             ),
             VelocityError::NoDirection => {
                 write!(f, "direction is the zero vector: give a nonzero direction, or speed 0")
+            }
+            VelocityError::GammaBelowOne { gamma } => {
+                write!(f, "the Lorentz factor is {gamma}: it must be at least 1")
             }
             VelocityError::RapidityTooLarge { rapidity } => {
                 write!(f, "rapidity is {rapidity}: it must be at most {}", Velocity::MAX_RAPIDITY)

@@ -31,6 +31,7 @@ impl Words for Error {
                 format!("the bound of -sl is {} percent: give a number above 0, or off", error * 1e2)
             }
             Self::NoPieces => "-sd 0 would make no pieces: give 1 or more".to_owned(),
+            Self::TooManyParts => format!("{self}: give faces vertices of their own, or use -sd 1"),
             Self::TooManyPieces { n_pieces } => format!(
                 "-sd would make {n_pieces} pieces, more than the limit of {MAX_PIECES}: give fewer, or use -se, \
                  which subdivides only where it is visible"

@@ -342,12 +342,12 @@ fn a_local_light_moves_with_the_only_body() {
 
 #[test]
 fn what_meets_too_fast_is_refused() {
-    let text = "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0 0.9999999999 0>;";
-    let config = Config { camera_velocity: Some(DVec3::Y * -0.999_999_999_9), ..Config::default() };
-    let error = uglorentz::apply(parse(text), &config).unwrap_err();
+    let text = "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0 1 0 -gamma 1e40>;
+                cam -ep 5 5 5 -vc 0 0 0 <0 -1 0 -gamma 1e40>;";
+    let error = uglorentz::apply(parse(text), &Config::default()).unwrap_err();
     assert_eq!(
         error.words(),
-        "the body with velocity 0 0.9999999999 0 in the scene moves too close to the speed of light relative \
+        "the body with velocity 0 1 0 in the scene moves too close to the speed of light relative \
          to the camera (-cv): make one of them slower"
     );
     assert!(!error.is_usage());
@@ -359,6 +359,7 @@ fn what_meets_too_fast_is_refused() {
         "-cv: speed is 1 c: it must be below 1 (velocities are fractions of the speed of light)"
     );
     // Together they are slow enough.
+    let text = "v a 1 2 3; v b 2 0 3; v c 1 1 1; f (a b c) <0 0.9999999999 0>;";
     let config = Config { camera_velocity: Some(DVec3::Y * 0.999_999_999_8), ..Config::default() };
     let scene = seen(text, &config);
     // (b − c)/(1 − bc), whose rounding is 10⁻¹⁶ over 3·10⁻¹⁰.

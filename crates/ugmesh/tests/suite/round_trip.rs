@@ -1,6 +1,7 @@
 //! Round trips from a scene to a mesh and back.
 
-use ugmesh::{Axis, Config, MeshFile, PROVENANCE, Target};
+use glam::DVec3;
+use ugmesh::{Axis, Config, MeshFile, PROVENANCE, Size, Target};
 use ugpipe::Words;
 use ugscene::{ColorValue, Provenance};
 
@@ -187,6 +188,21 @@ fn unsupported_parts_are_noted() {
             "1 colour brighter than 1 is clipped"
         ]
     );
+}
+
+/// The box that `-fit` and `--center` measure is that of the vertices written.
+#[test]
+fn vertices_of_wires_are_left_out_with_them() {
+    let text = "v far 9 9 9; v a 0 0 0; v b 2 0 0; v on 5 5 5; v c 0 1 0; w (far a on); f (c b a);";
+    for target in [Target::Obj, Target::Ply { is_ascii: true }, Target::Gltf] {
+        let config = Config { target, size: Size::Fit(1.0), is_centered: true, ..Config::default() };
+        let mesh = convert(&config, "a.ug", text).unwrap().bytes;
+        let back = to_scene(&Config::default(), "<stdin>", mesh);
+        assert_eq!(back.vertices.len(), 3, "{target:?}");
+        let (low, high) = back.bounds().unwrap();
+        assert!((high - low).abs_diff_eq(DVec3::new(1.0, 0.5, 0.0), 1e-6), "{target:?} {low} {high}");
+        assert!((high + low).abs_diff_eq(DVec3::ZERO, 1e-6), "{target:?} {low} {high}");
+    }
 }
 
 /// Cameras of glTF have single precision. Its JSON has no infinite numbers, and clipping distances

@@ -56,7 +56,8 @@ impl Expander<'_, '_> {
 
     fn composed(&self, frame: InertialFrame, inherited: &Inherited) -> Result<InertialFrame, Nesting> {
         let turned = |vector| inherited.transform.turned(vector).ok_or(Nesting::Collapsed);
-        let velocity = Velocity::from_beta(turned(frame.velocity.beta())?);
+        let (vector, gamma) = frame.velocity.stated();
+        let velocity = Velocity::from_stated(turned(vector)?, gamma);
         let velocity = velocity.map_err(|error| Nesting::TooFast(error.into()))?;
         let mut shift = frame.shift;
         shift.x = inherited.transform.direction(shift.x);

@@ -58,7 +58,7 @@ impl Expander<'_, '_> {
             findings.extend(self.too_many_pieces(&motions, &names));
         }
         if findings.is_empty() {
-            match statements.rows.iter().map(|motion| self.path(motion)).collect() {
+            match self.paths(&motions) {
                 Ok(paths) => motions.paths = paths,
                 Err(error) => findings.push(error),
             }
@@ -127,12 +127,29 @@ impl Expander<'_, '_> {
         inner.map(error).into_iter().collect()
     }
 
-    /// The path of a motion through events.
-    fn path(&self, motion: &MotionStatement) -> Result<Option<SampledPath>, Diagnostic> {
-        let Some(PathStatement::Events { span, events }) = &motion.path else { return Ok(None) };
-        let path = SampledPath::new(events)
-            .map_err(|error| impossible_path(&error, |row| event_span(self.text, *span, row)))?;
-        Ok(Some(path))
+    /// The path of each motion through events.
+    fn paths(&mut self, motions: &Motions<'_>) -> Result<Vec<Option<SampledPath>>, Diagnostic> {
+        let statements = &motions.statements.rows;
+        let own = |motion: &MotionStatement| {
+            let Some(PathStatement::Events { span, events }) = &motion.path else { return Ok(None) };
+            let path = SampledPath::new(events);
+            let spans = |row| event_span(self.text, *span, row);
+            path.map(Some).map_err(|error| impossible_path(&error, spans))
+        };
+        let mut paths: Vec<_> = statements.iter().map(own).collect::<Result<_, _>>()?;
+        for (row, motion) in statements.iter().enumerate() {
+            let Some(PathStatement::Of(name)) = motion.path else { continue };
+            let other = self.bodies.named(self.text, name);
+            let path = motions.rows.get(&other).map(|&other| &statements[other].path);
+            if !matches!(path, Some(Some(PathStatement::Events { .. }))) {
+                let shown = String::from_utf8_lossy(name.of(self.text)).into_owned();
+                return Err(Diagnostic::error(name, format!("motion `{shown}` states no table of a path"))
+                    .label("used here")
+                    .help("name a motion that has `-path` with a file or with events"));
+            }
+            paths[row] = paths[motions.rows[&other]].clone();
+        }
+        Ok(paths)
     }
 
     fn note_motions(&mut self, motions: &Motions<'_>) {

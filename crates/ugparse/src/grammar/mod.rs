@@ -14,7 +14,7 @@ use motions::frame_options;
 use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
-use ugphysics::Velocity;
+use ugphysics::{Velocity, VelocityError};
 use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
@@ -87,7 +87,7 @@ impl<'t> Grammar<'t> {
         })
     }
 
-    /// `< x y z [-at x y z] [-turn x y z] [-shift t x y z] >` or `< NAME >`
+    /// `< x y z [-gamma γ] [-at x y z] [-turn x y z] [-shift t x y z] >` or `< NAME >`
     fn motion_reference<'a>(&self, input: Input<'a>) -> Parsed<'a, MotionReference> {
         let (input, ()) = mark(b'<', "`<` and a velocity or the name of a motion")(input)?;
         let (input, motion) = match self.name(input) {
@@ -365,12 +365,21 @@ fn number_from<'a>(
     }
 }
 
-/// A velocity, in fractions of c.
+/// `x y z`, a velocity in fractions of c, or `x y z -gamma γ`, its direction and Lorentz factor.
 fn velocity(input: Input<'_>) -> Parsed<'_, Velocity> {
     let at = blank(input)?.0;
-    let (input, beta) = require(point(input))?;
-    match Velocity::from_beta(beta) {
+    let (input, vector) = require(point(input))?;
+    let (input, gamma) = match option_word(input) {
+        Ok((rest, b"gamma")) => {
+            let gamma = number_from(1.0, 1e43, "a Lorentz factor is from 1 to 1e43");
+            let (rest, gamma) = require(gamma(rest))?;
+            (rest, Some(gamma))
+        }
+        _ => (input, None),
+    };
+    match Velocity::from_stated(vector, gamma) {
         Ok(velocity) => Ok((input, velocity)),
+        Err(VelocityError::NoDirection) => fail(at, zero_vector(3)),
         Err(_) => fail(
             at,
             Reason::Impossible(

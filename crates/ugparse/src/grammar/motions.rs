@@ -106,8 +106,12 @@ impl Grammar<'_> {
         Ok((rest, ()))
     }
 
-    /// `FILE` or `(t x y z …)`
+    /// `FILE`, `(t x y z …)` or `< NAME >`, the path of another motion
     fn path<'a>(&self, input: Input<'a>) -> Parsed<'a, PathStatement> {
+        if let Ok((rest, ())) = mark(b'<', "`<`")(input) {
+            let (rest, name) = require(wanted(self.name(rest), "the name of a motion with a path"))?;
+            return Ok((require(mark(b'>', "`>`")(rest))?.0, PathStatement::Of(name)));
+        }
         let Ok((list, ())) = mark(b'(', "`(`")(input) else {
             let at = blank(input)?.0;
             let (rest, name) = require(wanted(file_name(input), "a file name, or `(` and a list of events"))?;

@@ -5,13 +5,13 @@ use nom::combinator::opt;
 
 use super::{Grammar, NAME, number_from, option_word};
 use crate::statement::{Statement, TableStatement};
-use crate::token::{Input, Parsed, Reason, blank, fail, require, wanted};
+use crate::token::{Input, Parsed, Reason, blank, fail, number, require, wanted};
 
 impl Grammar<'_> {
-    /// `c_time ID [-step] [-period T] { time color }`
+    /// `c_time ID [-step] [-period T] [-shift T] { time color }`
     pub(super) fn table<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (mut input, color) = wanted(self.name(input), NAME)?;
-        let (mut is_stepped, mut period) = (false, None);
+        let (mut is_stepped, mut period, mut shift) = (false, None, 0.0);
         let mut period_at = input;
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
             match word {
@@ -22,8 +22,9 @@ impl Grammar<'_> {
                     let (rest, time) = require(positive(rest))?;
                     (input, period) = (rest, Some(time));
                 }
+                b"shift" => (input, shift) = require(number(rest))?,
                 _ => {
-                    let expected = "an own time or an option of a colour over time (-step -period)";
+                    let expected = "an own time or an option of a colour over time (-step -period -shift)";
                     return fail(blank(input)?.0, Reason::Expected(expected));
                 }
             }
@@ -46,6 +47,6 @@ impl Grammar<'_> {
             let remedy = "give a longer one: after it the first row follows the last";
             return fail(period_at, Reason::Impossible(1, "the period is not longer than its rows", remedy));
         }
-        Ok((input, Statement::Table(TableStatement { color, is_stepped, period, rows })))
+        Ok((input, Statement::Table(TableStatement { color, is_stepped, period, shift, rows })))
     }
 }

@@ -1,6 +1,7 @@
 //! Computes the size of the expanded scene before expansion.
 
 use rustc_hash::FxHashSet;
+use ugphysics::SampledPath;
 use ugscene::Body;
 
 use super::Links;
@@ -9,7 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::options::{Limit, Limits};
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{CallStatement, Repeat};
+use crate::statement::{CallStatement, MotionStatement, PathStatement, Repeat};
 
 /// Memory for an entry of a hash table of names, without their text: the string with the overhead
 /// of its allocation, and the free places of the table.
@@ -186,7 +187,12 @@ impl Scope<'_> {
     pub(super) fn own_size(&self) -> Size {
         let (corners, names) = (self.contours.corner_count() as u64, self.names.len() as u64);
         let name_bytes = self.names.len_bytes() as u64;
-        let bytes = self.table_bytes() as u64;
+        let n_events = |motion: &MotionStatement| match &motion.path {
+            Some(PathStatement::Events { events, .. }) => events.len(),
+            _ => 0,
+        };
+        let paths = self.motions.rows.iter().map(n_events).sum::<usize>() * SampledPath::BYTES_PER_EVENT;
+        let bytes = (self.table_bytes() + paths) as u64;
         Size { statements: self.n_statements, corners, names, name_bytes, bytes, ..Size::default() }
     }
 }

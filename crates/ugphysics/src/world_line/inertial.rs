@@ -5,7 +5,7 @@ use glam::{DQuat, DVec3};
 use super::moving::{Moving, Path};
 use super::pieces::{Acceleration, rotation};
 use super::{Pose, WorldLineError};
-use crate::{Event, Lorentz, Velocity, compose, wigner_rotation};
+use crate::{Event, Lorentz, Velocity, compose_rounded, wigner_rotation};
 
 /// The rest frame of a body of constant velocity, and where in space and time the body is in it.
 ///
@@ -74,7 +74,7 @@ impl InertialFrame {
         let relative =
             if is_turned { Velocity::from_proper(turn * inner.velocity.proper())? } else { inner.velocity };
         // Rounded to what texts express, before anything follows from it.
-        let velocity = Velocity::from_beta(compose(relative, self.velocity).beta())?;
+        let velocity = compose_rounded(relative, self.velocity)?;
         let turn = wigner_rotation(relative, self.velocity) * turn * inner.rotation();
         let start = self.start() + self.axes().apply(inner.start() - Event { t: 0.0, x: self.at });
         Ok(Self {

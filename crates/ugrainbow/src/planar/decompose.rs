@@ -1,5 +1,7 @@
 //! Polygons in the picture plane cut to the picture, and into convex flat parts.
 
+use std::collections::BTreeMap;
+
 use ugpicture::DepthPoint;
 
 use super::convex::{Convex, clip, doubled_area, sides};
@@ -54,33 +56,51 @@ fn is_convex(contour: &[DepthPoint]) -> bool {
     !turns_back && n_tops <= 1
 }
 
-/// Cuts a polygon along the rows of its corners into trapezoids, by the even-odd rule.
+/// Cuts a polygon along the rows of its corners into trapezoids, by the even-odd rule. One between
+/// the same two edges in several rows is not cut, so there are about as many as corners.
 fn trapezoids(outline: &[Vec<DepthPoint>]) -> Vec<Vec<DepthPoint>> {
     let mut rows: Vec<f64> = outline.iter().flatten().map(|place| place[1]).collect();
     rows.sort_by(f64::total_cmp);
     rows.dedup();
-    let edges: Vec<(DepthPoint, DepthPoint)> = outline.iter().flat_map(|contour| sides(contour)).collect();
+    // From the upper end, so that the trapezoids on both sides of an edge share its points exactly.
+    let down = |(a, b): (DepthPoint, DepthPoint)| if a[1] < b[1] { (a, b) } else { (b, a) };
+    let mut edges: Vec<_> = outline.iter().flat_map(|contour| sides(contour)).map(down).collect();
+    edges.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]));
+    let at = |edge: usize, y: f64| {
+        let (a, b) = edges[edge];
+        let part = (y - a[1]) / (b[1] - a[1]);
+        [a[0] + (b[0] - a[0]) * part, y, a[2] + (b[2] - a[2]) * part]
+    };
     let mut trapezoids = Vec::new();
+    let mut close = |[left, right]: [usize; 2], top: f64, bottom: f64| {
+        trapezoids.push(vec![at(left, top), at(right, top), at(right, bottom), at(left, bottom)]);
+    };
+    let (mut crossed, mut n_begun) = (Vec::new(), 0);
+    // The row at which the trapezoid between two edges begins.
+    let mut open: BTreeMap<[usize; 2], f64> = BTreeMap::new();
     for pair in rows.windows(2) {
         let [top, bottom] = [pair[0], pair[1]];
-        let at = |(a, b): (DepthPoint, DepthPoint), y: f64| {
-            // From the upper end, so that the trapezoids on both sides of an edge share the point
-            // exactly.
-            let (a, b) = if a[1] < b[1] { (a, b) } else { (b, a) };
-            let part = (y - a[1]) / (b[1] - a[1]);
-            [a[0] + (b[0] - a[0]) * part, y, a[2] + (b[2] - a[2]) * part]
-        };
-        let spans = |(a, b): &(DepthPoint, DepthPoint)| a[1].min(b[1]) <= top && a[1].max(b[1]) >= bottom;
-        let mut crossings: Vec<[DepthPoint; 2]> = edges
-            .iter()
-            .filter(|edge| spans(edge))
-            .map(|&edge| [top, bottom].map(|row| at(edge, row)))
-            .collect();
-        crossings.sort_by(|a, b| (a[0][0] + a[1][0]).total_cmp(&(b[0][0] + b[1][0])));
-        for pair in crossings.chunks_exact(2) {
-            let ([a, d], [b, c]) = (pair[0], pair[1]);
-            trapezoids.push(vec![a, b, c, d]);
+        let begun = edges[n_begun..].partition_point(|edge| edge.0[1] <= top);
+        crossed.extend(n_begun..n_begun + begun);
+        n_begun += begun;
+        crossed.retain(|&edge: &usize| edges[edge].1[1] >= bottom);
+        let doubled_middle = |edge: usize| at(edge, top)[0] + at(edge, bottom)[0];
+        let mut crossings: Vec<_> = crossed.iter().map(|&edge| (doubled_middle(edge), edge)).collect();
+        crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let between: BTreeMap<_, _> =
+            crossings.chunks_exact(2).map(|pair| ([pair[0].1, pair[1].1], top)).collect();
+        open.retain(|&edges, &mut begin| {
+            let stays = between.contains_key(&edges);
+            if !stays {
+                close(edges, begin, top);
+            }
+            stays
+        });
+        for (edges, top) in between {
+            open.entry(edges).or_insert(top);
         }
     }
+    let end = rows.last().copied().unwrap_or(0.0);
+    open.into_iter().for_each(|(edges, begin)| close(edges, begin, end));
     trapezoids
 }

@@ -65,6 +65,7 @@ impl Words for MotionError {
             Self::Camera(error) => error.words(),
             Self::Eye { .. } => format!("{self}: move it nearer to the point -at of that motion"),
             Self::WorldLine { .. } => self.to_string(),
+            Self::Rounded { .. } => format!("{self}: leave it out, or choose an earlier -ti"),
             Self::PartialGeometry | Self::PartialTimes => {
                 format!("{self}: leave out -nc and --no-flight-time")
             }

@@ -15,6 +15,9 @@ pub struct ColorTable {
     /// The rows repeat after this time, which is longer than from the first to the last of them; if
     /// not, the first and the last colour last for ever.
     pub period: Option<f64>,
+    /// Is added to all times of rows. It is separate from them, because rows that are close
+    /// together would become one if it were large.
+    pub shift: f64,
 }
 
 /// A place in a [`ColorTable`].
@@ -33,6 +36,7 @@ impl ColorTable {
     /// The colours in effect at an own time.
     #[must_use]
     pub fn at(&self, own_time: f64) -> TablePlace {
+        let own_time = own_time - self.shift;
         let [(first, first_color), .., (last, last_color)] = self.rows[..] else {
             let color = self.rows.first().map_or(self.color, |row| row.1);
             return TablePlace { cycle: 0.0, row: 0, parts: [(color, 1.0), (color, 0.0)] };
@@ -60,7 +64,6 @@ impl ColorTable {
     /// The same table for times that count from `zero`.
     #[must_use]
     pub fn counted_from(&self, zero: f64) -> Self {
-        let rows = self.rows.iter().map(|&(time, color)| (time - zero, color)).collect();
-        Self { rows, ..self.clone() }
+        Self { shift: self.shift - zero, ..self.clone() }
     }
 }

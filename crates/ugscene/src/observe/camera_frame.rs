@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::{InertialFrame, Velocity, WorldLine, compose};
+use ugphysics::{InertialFrame, Velocity, WorldLine, compose_rounded};
 
 use super::MotionError;
 use crate::{BodyId, RelativeMotion, Scene};
@@ -62,7 +62,7 @@ pub(super) fn in_camera_frame(body: Velocity, camera: Velocity) -> Result<Veloci
     if body == camera {
         return Ok(Velocity::ZERO);
     }
-    Velocity::from_beta(compose(body, -camera).beta()).map_err(|_| MotionError::TooFast { beta: body.beta() })
+    compose_rounded(body, -camera).map_err(|_| MotionError::TooFast { beta: body.beta() })
 }
 
 /// Gives inertial bodies their motions relative to the camera, and other cameras theirs. `motions`:

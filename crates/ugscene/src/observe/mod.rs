@@ -39,6 +39,9 @@ use crate::{
     SeenGeometry, StageError,
 };
 
+/// The largest part of its size by which rounding may move a body on a world line.
+pub const MOST_ROUNDED: f64 = 1e-3;
+
 /// How bodies, camera and lights move, and when the picture is taken.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MotionOptions {
@@ -99,6 +102,13 @@ pub enum MotionError {
         /// Why.
         error: WorldLineError,
     },
+    /// Rounding moves a body on a world line by more than [`MOST_ROUNDED`] of its size.
+    Rounded {
+        /// The name of the motion.
+        name: String,
+        /// By how much, in the frame of the camera.
+        error: f64,
+    },
     /// A single effect is asked for, and a body accelerates or turns.
     PartialGeometry,
     /// A single effect is asked for, and a colour changes with own time.
@@ -132,6 +142,11 @@ impl fmt::Display for MotionError {
             Self::Camera(error) => error.fmt(f),
             Self::Eye { error } => write!(f, "the eye cannot move with the motion of the camera: {error}"),
             Self::WorldLine { name, error } => write!(f, "motion `{name}`: {error}"),
+            Self::Rounded { name, error } => write!(
+                f,
+                "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of \
+                 its size"
+            ),
             Self::PartialGeometry => f.write_str(
                 "bodies that accelerate or turn are seen with contraction and flight time together",
             ),
@@ -205,6 +220,7 @@ impl PlacedBodies {
         let frames = placement.frames(scene);
         camera_frame::state_relative_motions(scene, &motions, of_camera)?;
         world_lines::place(scene, &mut motions, &placement)?;
+        world_lines::check_rounding(scene, &bodies, &placement)?;
         let has_motion = !velocity.is_zero()
             || !of_camera.is_zero()
             || observer.has_left()

@@ -4,9 +4,9 @@
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
-use super::MotionError;
 use super::placement::Placement;
 use super::seen_event::eye_event;
+use super::{MOST_ROUNDED, MotionError};
 use crate::{BodyId, Carrier, RelativeMotion, Scene, StatedMotion};
 
 /// Places all bodies on world lines, and puts their motions relative to the camera into `motions`.
@@ -70,6 +70,33 @@ pub(super) fn place(
         motions[body.index()] = RelativeMotion::on_world_line(line);
     }
     Ok(())
+}
+
+/// Refuses bodies that rounding garbles: events on world lines are numbers in the frame of the
+/// scene, so far from its origin their rounding is γ times as much for a fast camera. `bodies`: of
+/// each vertex.
+pub(super) fn check_rounding(
+    scene: &Scene,
+    bodies: &[BodyId],
+    placement: &Placement<'_>,
+) -> Result<(), MotionError> {
+    let &Placement { options, observer, eye, .. } = placement;
+    let error =
+        f64::EPSILON * observer.velocity.gamma() * eye_event(eye, options.time, observer.velocity).t.abs();
+    let mut sizes = vec![0.0_f64; scene.bodies.len()];
+    for (vertex, body) in scene.vertices.iter().zip(bodies) {
+        let at = scene.bodies.statement(*body).map_or(DVec3::ZERO, |motion| motion.at);
+        let size = &mut sizes[body.index()];
+        *size = size.max(vertex.position.distance(at));
+    }
+    let garbled = |&body: &BodyId| {
+        let size = sizes[body.index()];
+        scene.bodies.is_on_world_line(body) && size > 0.0 && error > MOST_ROUNDED * size
+    };
+    scene.bodies.ids().find(garbled).map_or(Ok(()), |body| {
+        let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
+        Err(MotionError::Rounded { name: name.to_string(), error })
+    })
 }
 
 /// States for what rides on inertial bodies their frames in the scene instead. Inertial bodies of a
