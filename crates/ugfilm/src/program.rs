@@ -63,8 +63,11 @@ programs! {
 
 /// The data between two programs.
 pub enum Item<'s> {
+    /// A scene.
     Scene(Box<Scene>),
+    /// A panorama.
     Panorama(&'s ugwarp::Opened),
+    /// The picture.
     Picture(Rendering),
 }
 
