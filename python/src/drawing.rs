@@ -9,6 +9,7 @@ use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{FilmSubject, Note, Pipe, Program};
 use ugimage::{LinearFrame, Samples};
 use ugpicture::Rendering;
+use ugscene::{BodyBoxes, TimesInView};
 
 use crate::call::{self, Call};
 use crate::error::{Refused, wrong};
@@ -123,6 +124,13 @@ fn array<'py, 'p, T: numpy::Element + Copy + 'p>(
     Ok(array.into_pyarray(py))
 }
 
+/// When bodies are in a picture in which nothing is, of a program that moves them.
+fn when_in_view(pipe: &Pipe, subject: FilmSubject<'_>) -> Option<TimesInView> {
+    let (FilmSubject::Scene(scene), [program]) = (subject, pipe.programs()) else { return None };
+    let boxes = BodyBoxes::new(scene);
+    boxes.times_in_view(&program.motion()?, &pipe.picture.camera, pipe.picture.size).ok()?
+}
+
 impl Drawing {
     fn draw(subject: &Subject, words: &[String], call: &Arc<Call>) -> Result<Self, Refused> {
         let (program, line) = Program::from_words(words)?;
@@ -133,7 +141,11 @@ impl Drawing {
             Subject::Sky(opened, origin) => FilmSubject::Panorama(opened, origin),
         };
         let (rendering, notes) = pipe.draw_with(subject, &**call).map_err(Refused::of)?;
-        Ok(Self { rendering, notes: notes.iter().flat_map(Note::words).collect(), line })
+        let mut words: Vec<String> = notes.iter().flat_map(Note::words).collect();
+        if notes.iter().filter_map(Note::of_picture).any(ugpicture::Note::is_of_empty) {
+            words.extend(when_in_view(&pipe, subject).map(|when| format!("what moves is in it with -ti {when}")));
+        }
+        Ok(Self { rendering, notes: words, line })
     }
 
     fn linear(&self) -> PyResult<LinearFrame> {

@@ -49,10 +49,17 @@ impl Refused {
 }
 
 fn of_system(py: Python<'_>, name: &str, error: &io::Error) -> PyErr {
-    // Of the arguments the class makes a `FileNotFoundError` and the like.
+    // Of the number the class makes a `FileNotFoundError` and the like.
+    let number = error.raw_os_error().or(match error.kind() {
+        io::ErrorKind::NotFound => Some(2),
+        io::ErrorKind::PermissionDenied => Some(13),
+        io::ErrorKind::IsADirectory => Some(21),
+        io::ErrorKind::StorageFull => Some(28),
+        _ => None,
+    });
     let text = error.to_string();
     let text = text.split(" (os error ").next().unwrap_or_default();
-    let made = py.get_type::<PyOSError>().call1((error.raw_os_error(), text, name));
+    let made = py.get_type::<PyOSError>().call1((number, text, name));
     made.map_or_else(|error| error, PyErr::from_value)
 }
 

@@ -24,8 +24,8 @@ pub struct Scene {
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
     origins: Arc<Origins>,
-    /// The time of the picture, of a scene as seen.
-    time: f64,
+    /// The time of the picture, of a scene whose positions are as seen, even if nothing moves.
+    time: Option<f64>,
     /// What was noticed when it was made.
     #[pyo3(get)]
     notes: Vec<String>,
@@ -104,10 +104,10 @@ impl Scene {
         [self.scene.vertices.len(), self.scene.faces.len(), self.scene.wires.len()]
     }
 
-    /// The name of the file, and what was done to positions and colours: `at rest`, `as seen`.
-    fn description(&self) -> (&str, bool, bool) {
+    /// True for positions as seen, and for colours as seen.
+    fn stage(&self) -> [bool; 2] {
         let stage = &self.scene.stage;
-        (&self.source.name, stage.seen_geometry().is_some(), stage.seen_colors().is_some())
+        [self.time.is_some() || stage.seen_geometry().is_some(), stage.seen_colors().is_some()]
     }
 
     /// The names of the cameras.
@@ -144,8 +144,8 @@ impl Scene {
 
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let Self { scene, time, .. } = self;
-        let rows = call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), *time))?;
+        let (scene, time) = (&self.scene, self.time.unwrap_or(0.0));
+        let rows = call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
         let measured = PyDict::new(py);
         measured.set_item("position", self.vertices(py)?)?;
         let velocities = rows.iter().flat_map(|row| row.velocity.to_array()).collect();
@@ -180,7 +180,7 @@ impl Scene {
             scene: Arc::new(scene),
             source: Arc::new(source),
             origins: Arc::new(origins),
-            time: 0.0,
+            time: None,
             notes,
         })
     }
@@ -210,7 +210,7 @@ impl Scene {
         let mut notes: Vec<String> = told.iter().flat_map(Note::words).collect();
         let mut time = self.time;
         if let Program::Lorentz(config) = &program {
-            time = config.time;
+            time = Some(config.time);
             if ugscene::may_miss_motion(&scene, &config.camera, config.size) {
                 let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
                 let note = BodyBoxes::new(&at_rest).note(&scene, &config.motion(), &camera, config.size);

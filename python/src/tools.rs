@@ -30,6 +30,7 @@ fn described<'py>(py: Python<'py>, manual: &Manual) -> PyResult<Vec<Bound<'py, P
         option.set_item("names", &entry.names)?;
         option.set_item("values", values)?;
         option.set_item("n_needed", n_needed)?;
+        option.set_item("is_repeated", entry.is_repeated)?;
         option.set_item("words", words)?;
         option.set_item("about", &entry.about)?;
         option.set_item("details", &entry.details)?;

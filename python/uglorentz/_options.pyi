@@ -170,7 +170,7 @@ class Render(TypedDict, total=False):
     wi: bool | None
     """The same as wavelengths."""
     format: Text | None
-    """FMT. Format of the picture [default: by the ending of -fo, else png]"""
+    """FMT. Format of the picture [default: by the ending of output, else png]"""
     dt: Text | None
     """The same as format."""
     vector: bool | None
@@ -392,7 +392,7 @@ class Photon(TypedDict, total=False):
     crop: Vector | None
     """X Y W H. Draw only a part of the picture: column, row, width, height"""
     format: Text | None
-    """FMT. Format of the picture [default: by the ending of -fo, else png]"""
+    """FMT. Format of the picture [default: by the ending of output, else png]"""
     dt: Text | None
     """The same as format."""
     size: Vector | None
@@ -558,7 +558,7 @@ class Warp(TypedDict, total=False):
     cube: bool | None
     """The same as cube_map."""
     format: Text | None
-    """FMT. Format of the picture [default: by the ending of -fo, else png]"""
+    """FMT. Format of the picture [default: by the ending of output, else png]"""
     dt: Text | None
     """The same as format."""
     size: Vector | None
@@ -644,7 +644,7 @@ class Film(TypedDict, total=False):
     sheet: float | str | bool | None
     """N. Draw N frames spread over the film, or those of only=, on one sheet"""
     format: Text | None
-    """FMT. Format of the film [default: by the ending of -fo]"""
+    """FMT. Format of the film [default: by the ending of output]"""
     dt: Text | None
     """The same as format."""
     look: Text | None

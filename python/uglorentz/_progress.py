@@ -18,7 +18,7 @@ def shown(progress: Any) -> Iterator[Callable[[str, int, int], None] | None]:
     if progress is not True:
         yield progress
         return
-    from tqdm.auto import tqdm
+    from tqdm.auto import tqdm  # type: ignore[import-untyped, unused-ignore]
 
     with tqdm(unit="part", leave=False) as bar:
 

@@ -160,7 +160,7 @@ class Scene:
         D (P10). distance: (n,), from the eye. emission_angle_deg, rest_emission_angle_deg: (n,),
         between velocity and light, in the frame of the camera and of the body, NaN at rest.
         """
-        if not self._scene.description()[1]:
+        if not self._scene.stage()[0]:
             raise Error("the scene is at rest: call lorentz() first")
         return dict(self._scene.measurements())
 
@@ -198,7 +198,7 @@ class Scene:
 
     def __repr__(self) -> str:
         n_vertices, n_faces, _ = self._scene.counts()
-        _, is_seen, is_coloured = self._scene.description()
+        is_seen, is_coloured = self._scene.stage()
         stage = "as seen" if is_seen else "at rest"
         stage += ", colours as seen" if is_coloured else ""
         return f"<Scene: {_count(n_vertices, 'vertices', 'vertex')}, {_count(n_faces, 'faces', 'face')}, {stage}>"

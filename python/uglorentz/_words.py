@@ -41,6 +41,8 @@ class Option(NamedTuple):
     values: tuple[str, ...]
     #: How many of them are needed.
     n_needed: int
+    #: True if the last value may be repeated.
+    is_repeated: bool
     #: The words that are valid.
     choices: tuple[str, ...]
     default: str
@@ -77,6 +79,7 @@ def options(program: str) -> tuple[Option, ...]:
                 tuple(ordered),
                 tuple(entry["values"]),
                 entry["n_needed"],
+                entry["is_repeated"],
                 tuple(entry["words"]),
                 entry["default"],
                 entry["about"],
@@ -130,7 +133,12 @@ def words_of(option: Option, value: Any) -> list[str]:
             raise TypeError(f"{option.keyword}= needs {' '.join(option.values)}, not True")
         return [dashed]
     words = list(flat(value))
-    if len(option.values) > 1:
+    if len(option.values) > 1 or option.is_repeated:
+        if len(words) > len(option.values) and not option.is_repeated:
+            raise TypeError(f"{option.keyword}= is {' '.join(option.values)}, not {len(words)} values")
+        options_among = [word for word in words if re.match(r"--?[a-zA-Z]", word)]
+        if options_among:
+            raise TypeError(f"{option.keyword}= has the value {options_among[0]!r}")
         return [dashed, *words]
     if option.keyword == "limit":
         return [f"{dashed}={word}" for word in words]
@@ -196,8 +204,18 @@ def in_python(text: str) -> str:
             return f'{option.keyword}="{match["word"]}"'
         return f"{option.keyword}={rest}"
 
+    if "`" in text:
+        # Statements of a scene are quoted; options are, too, and begin with a dash.
+        parts = text.split("`")
+        parts = [in_python(part) if row % 2 == 0 or part[:1] == "-" else part for row, part in enumerate(parts)]
+        return "`".join(parts)
+    text = re.sub(r"(?<![\w-])-fo\b", "output", text)
     value = r"(?: (?:-?\d*\.?\d+(?:e-?\d+)?)(?![\w.]*\w))*"
-    value = rf"{value}(?: (?P<word>auto|off|light|shape|filmic|center|exr|png|svg|strip|cross)\b)?"
+    value = rf"{value}(?: (?P<word>auto|off|light|shape|filmic|center|exr|png|svg|strip|cross|[a-z]+=N)\b)?"
+    if "\n" in text:
+        # Lines of a scene are shown as they are.
+        is_code = re.compile(r"\s*\d*\s*\||\s*-->")
+        return "\n".join(line if is_code.match(line) else in_python(line) for line in text.split("\n"))
     text = re.sub(rf"(?<![\w/.<-])--?(?P<name>[a-z][a-z0-9-]*[a-z0-9]|w)(?P<rest>{value})", keyword_of, text)
     for program, method in METHODS.items():
         text = re.sub(rf"\b{program}\b(?!\.)", f"{method}()", text)
