@@ -13,8 +13,8 @@ use ugscene::{BodyBoxes, TimesInView};
 
 use crate::call::{self, Call};
 use crate::error::{Refused, wrong};
-use crate::scene::Scene;
-use crate::sky::Sky;
+use crate::scene::PyScene;
+use crate::sky::PySky;
 
 /// A picture that was drawn with the words of one command line.
 #[pyclass(frozen, module = "uglorentz._core")]
@@ -46,13 +46,13 @@ impl Drawing {
         camera: Option<&str>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let subject = match subject.cast::<Scene>() {
+        let subject = match subject.cast::<PyScene>() {
             Ok(scene) => {
                 let chosen = scene.get().with_camera(camera);
                 Subject::Scene(chosen.map_err(|refused| refused.exception(py))?)
             }
             Err(_) => {
-                let (opened, origin) = subject.cast::<Sky>()?.get().subject();
+                let (opened, origin) = subject.cast::<PySky>()?.get().subject();
                 Subject::Sky(opened, origin)
             }
         };
@@ -143,7 +143,9 @@ impl Drawing {
         let (rendering, notes) = pipe.draw_with(subject, &**call).map_err(Refused::of)?;
         let mut words: Vec<String> = notes.iter().flat_map(Note::words).collect();
         if notes.iter().filter_map(Note::of_picture).any(ugpicture::Note::is_of_empty) {
-            words.extend(when_in_view(&pipe, subject).map(|when| format!("what moves is in it with -ti {when}")));
+            words.extend(
+                when_in_view(&pipe, subject).map(|when| format!("what moves is in it with -ti {when}")),
+            );
         }
         Ok(Self { rendering, notes: words, line })
     }

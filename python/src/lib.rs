@@ -36,9 +36,9 @@ mod _core {
     #[pymodule_export]
     use super::physics::physics;
     #[pymodule_export]
-    use super::scene::{Scene, text_from_arrays};
+    use super::scene::{PyScene, text_from_arrays};
     #[pymodule_export]
-    use super::sky::Sky;
+    use super::sky::PySky;
     #[pymodule_export]
     use super::tools::{channels, formats, options};
     use super::*;

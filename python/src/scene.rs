@@ -18,8 +18,8 @@ use crate::call::{self, Call};
 use crate::error::{Refused, wrong};
 
 /// A scene, and what its errors are about.
-#[pyclass(frozen, module = "uglorentz._core")]
-pub struct Scene {
+#[pyclass(frozen, module = "uglorentz._core", name = "Scene")]
+pub struct PyScene {
     scene: Arc<ugscene::Scene>,
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
@@ -65,7 +65,7 @@ fn notes_on(findings: Diagnostics) -> Vec<String> {
 }
 
 #[pymethods]
-impl Scene {
+impl PyScene {
     /// Reads a file, or the text of one. `words`: options of reading.
     #[staticmethod]
     #[pyo3(signature = (words, path=None, text=None))]
@@ -166,7 +166,7 @@ fn table(py: Python<'_>, numbers: Vec<f64>, n_columns: usize) -> PyResult<Bound<
     PyArray1::from_vec(py, numbers).reshape([n_rows, n_columns])
 }
 
-impl Scene {
+impl PyScene {
     fn open(words: Vec<OsString>, given: Option<Input>, call: &Arc<Call>) -> Result<Self, Refused> {
         let Reading { common } = parse_words(words)?;
         let options = pipe::options(&common)?;
@@ -239,7 +239,7 @@ impl Scene {
 }
 
 /// The text of a scene of arrays: positions (n, 3); the corners of all faces, and the number of
-/// corners of each; for each face a colour, in linear sRGB, and a velocity; for each vertex a
+/// corners of each; for each face a colour, display-encoded, and a velocity; for each vertex a
 /// colour. The shapes have been checked.
 #[pyfunction]
 #[pyo3(signature = (vertices, corners, sizes, colors=None, velocities=None, vertex_colors=None))]

@@ -11,8 +11,8 @@ use crate::error::Refused;
 use crate::scene::{input, words_of_system};
 
 /// A sky that was read, with the words for its origin in the record of a picture.
-#[pyclass(frozen, module = "uglorentz._core")]
-pub struct Sky {
+#[pyclass(frozen, module = "uglorentz._core", name = "Sky")]
+pub struct PySky {
     opened: Arc<ugwarp::Opened>,
     origin: String,
     /// What was noticed when it was read.
@@ -21,7 +21,7 @@ pub struct Sky {
 }
 
 #[pymethods]
-impl Sky {
+impl PySky {
     /// Reads a picture or a list of stars from files, of which the first may be in memory.
     /// `words`: those of the program that draws it, whose options say how it is read.
     #[staticmethod]
@@ -37,7 +37,7 @@ impl Sky {
     }
 }
 
-impl Sky {
+impl PySky {
     fn open(
         words: &[String],
         paths: Vec<PathBuf>,

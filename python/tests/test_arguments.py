@@ -234,7 +234,10 @@ def test_a_forked_process_draws(scene):
 
 
 SLOW = """
-import uglorentz as ug, sys
+import signal
+import uglorentz as ug
+# A job in the background inherits that interrupts are ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 scene = ug.Scene.parse({text!r})
 print("begun", flush=True)
 try:

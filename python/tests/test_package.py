@@ -40,9 +40,6 @@ def test_everything_public_is_documented():
         for name, value in inspect.getmembers(holder):
             if not name.startswith("_") and callable(value):
                 assert inspect.getdoc(value), name
-    assert set(ug.physics.__all__) == {
-        name for name, value in vars(ug.physics).items() if inspect.isfunction(value) and not name.startswith("_")
-    }
 
 
 def test_types_of_keywords_are_current():

@@ -18,37 +18,6 @@ import numpy as np
 from . import _core
 from ._error import Error
 
-__all__ = [
-    "aberrate",
-    "attenuation",
-    "blackbody_xyz",
-    "boost",
-    "brightness",
-    "compose",
-    "contracted",
-    "daylight",
-    "doppler_at",
-    "doppler_factor",
-    "emission_time",
-    "from_rapidity",
-    "gamma",
-    "hue_to_wavelength",
-    "hyperbolic_event",
-    "hyperbolic_velocity",
-    "linear_srgb_to_xyz",
-    "observer",
-    "planck",
-    "rapidity",
-    "rest_position",
-    "seen_position",
-    "srgb_decode",
-    "srgb_encode",
-    "surface_xyz",
-    "wavelength_to_hue",
-    "wigner_rotation",
-    "xyz_to_linear_srgb",
-]
-
 
 def _of(name: str, vectors: tuple[Any, ...] = (), numbers: tuple[Any, ...] = ()) -> Any:
     """A formula of vectors and then numbers, broadcast."""

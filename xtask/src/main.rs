@@ -12,6 +12,7 @@
 //! cargo xtask hostile 50000
 //! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
+//! cargo xtask python
 //! cargo xtask install --prefix ~/.local
 //! cargo xtask uninstall --prefix ~/.local
 //! ```
@@ -30,6 +31,7 @@ mod mesh;
 mod plot;
 mod plots;
 mod programs;
+mod python;
 mod rays;
 mod short;
 mod sphere;
@@ -109,6 +111,14 @@ enum Task {
     /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
     /// missing, and Snakemake in the cache folder of the user.
     Cluster,
+    /// Build the wheel of the Python package and test it in a clean environment
+    ///
+    /// Requires Python 3.9 or later with its module venv; the rest is installed in target/python.
+    Python {
+        /// Also build the wheel for Linux since 2014 (manylinux2014), with the linker of Zig
+        #[arg(long)]
+        manylinux: bool,
+    },
     /// Install the programs, their man pages and documentation, and completions for bash, zsh and
     /// fish
     Install(install::Args),
@@ -161,6 +171,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => cluster::check()?,
+        Task::Python { manylinux } => python::check(*manylinux)?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }
