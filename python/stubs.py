@@ -58,7 +58,8 @@ def stub() -> str:
     parts.append(f"class Reading(TypedDict, total=False):\n{keys('uglorentz', common)}\n")
     for program, method in METHODS.items():
         own = [option for option in options(program) if not option.is_common]
-        parts.append(f"class {method.capitalize()}(TypedDict, total=False):\n{keys(program, own)}\n")
+        base = "Reading" if program in ("ugwarp", "ugfilm") else "TypedDict"
+        parts.append(f"class {method.capitalize()}({base}, total=False):\n{keys(program, own)}\n")
     return "\n".join(parts)
 
 

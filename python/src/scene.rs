@@ -29,6 +29,9 @@ pub struct PyScene {
     /// What was noticed when it was made.
     #[pyo3(get)]
     notes: Vec<String>,
+    /// The warning for a picture of it in which moving bodies have their shapes at rest.
+    #[pyo3(get)]
+    warning: Option<String>,
 }
 
 /// The options of reading.
@@ -173,7 +176,9 @@ impl PyScene {
         let mut context = Context::hosted(&common, "read", String::new(), given, call.clone());
         let input = pipe::input(&mut context, &options)?;
         let source = pipe::follow(input, &options, &context)?;
-        let Parsed { scene, origins, warnings, .. } = ugparse::read(&source, &options, None)?;
+        let parsed = ugparse::read(&source, &options, None)?;
+        let warning = ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
+        let Parsed { scene, origins, warnings, .. } = parsed;
         let mut notes = call.take_notes();
         notes.extend(notes_on(warnings));
         Ok(Self {
@@ -182,6 +187,7 @@ impl PyScene {
             origins: Arc::new(origins),
             time: None,
             notes,
+            warning: warning.map(|found| found.worded().render(false)),
         })
     }
 
@@ -223,6 +229,7 @@ impl PyScene {
             origins: Arc::default(),
             time,
             notes,
+            warning: None,
         })
     }
 

@@ -187,6 +187,13 @@ def test_notes_are_collected(scene, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+def test_moving_bodies_at_rest_are_told():
+    scene = ug.Scene.from_arrays(*TILE, velocities=(0.5, 0, 0))
+    (note, *_) = scene.render(size=(20, 10)).notes
+    assert "drawn with their shapes at rest" in note and "lorentz()" in note
+    assert not any("at rest" in note for note in scene.lorentz().render(size=(20, 10)).notes)
+
+
 def test_what_is_out_of_view_is_told(scene):
     passed = ug.Scene.parse(TRIANGLE).photon(velocity=(0.9, 0, 0), time=100, size=(20, 10))
     assert any("time=" in note for note in passed.notes), passed.notes

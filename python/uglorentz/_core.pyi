@@ -8,6 +8,7 @@ _Report = Callable[[str, int, int], object]
 
 class Scene:
     notes: list[str]
+    warning: str | None
     @staticmethod
     def read(words: list[str], path: str | None = None, text: bytes | None = None) -> Scene: ...
     def filtered(

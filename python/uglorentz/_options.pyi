@@ -472,7 +472,7 @@ class Photon(TypedDict, total=False):
     gr: bool | None
     """The same as grid."""
 
-class Warp(TypedDict, total=False):
+class Warp(Reading, total=False):
     velocity: Vector | None
     """X Y Z. Velocity of the surroundings, fraction of c"""
     vel: Vector | None
@@ -616,7 +616,7 @@ class Warp(TypedDict, total=False):
     gr: bool | None
     """The same as grid."""
 
-class Film(TypedDict, total=False):
+class Film(Reading, total=False):
     frames: float | str | None
     """N. Number of frames [default: 100]"""
     fps: float | str | None

@@ -120,7 +120,10 @@ class Scene:
             return Scene._of(self._scene.filtered(line, camera_of(options), report))
 
     def _drawn(self, program: str, progress: Any, options: Mapping[str, Any]) -> Picture:
-        return Picture._drawn(self._scene, program, options, progress)
+        picture = Picture._drawn(self._scene, program, options, progress)
+        if program == "ugrainbow" and self._scene.warning is not None:
+            picture.notes.insert(0, in_python(self._scene.warning))
+        return picture
 
     @documented("uglorentz")
     def lorentz(self, *, progress: bool = False, **options: Unpack[Lorentz]) -> Scene:
@@ -146,7 +149,7 @@ class Scene:
     def film(
         self, output: str | os.PathLike[str], *, progress: bool = False, **options: Unpack[Film]
     ) -> list[str]:
-        """Draws a film of the scene at rest: see `uglorentz.film`."""
+        """Draws a film of the scene at rest, whose file is read again: see `uglorentz.film`."""
         if self._from is None:
             raise Error("a film begins with a scene at rest: use the one that was read")
         path, text, reading = self._from

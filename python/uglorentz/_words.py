@@ -26,9 +26,6 @@ METHODS = {
 #: Options that write files or reports, choose threads, or have no effect.
 LEFT_OUT = {"fi", "fo", "fm", "qt", "vb", "nt", "at", "explain", "pv", "cn", "print", "help", "version"}
 
-#: Common options, which say how a scene is read.
-READING = {"lax", "allow_execute", "allow_outside", "limit"}
-
 
 class Option(NamedTuple):
     """An option of a program."""
@@ -92,8 +89,9 @@ def options(program: str) -> tuple[Option, ...]:
 
 @lru_cache(maxsize=None)
 def by_name(program: str, is_common: bool) -> dict[str, Option]:
-    """The options of a program by their keywords."""
-    chosen = (option for option in options(program) if option.is_common == is_common)
+    """The options of a program by their keywords. Those that read files have the ones of reading, too."""
+    reads = program in ("ugwarp", "ugfilm")
+    chosen = (option for option in options(program) if option.is_common == is_common or reads)
     return {name: option for option in chosen for name in option.names}
 
 

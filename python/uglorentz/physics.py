@@ -3,7 +3,8 @@
 c = 1: velocities are fractions of c, and times and lengths share a unit. Positions are relative to
 the eye. A body rests in a frame S' that moves with `velocity` in the frame S of the eye; the axes
 are parallel, and the origins coincide at time 0, when the picture is taken. Equation numbers are
-those of docs/physics.md. Every function is exact to a few units in the last place for all speeds.
+those of docs/physics.md. For the velocity that is given, as rounded, every function is exact to a few
+units in the last place; near c that rounding changes γ by about γ² units.
 
 Vectors are arrays (…, 3), numbers arrays (…); leading axes are broadcast against each other, and
 the result is a float64 array of their shape. A velocity of c or above raises `uglorentz.Error`.
