@@ -9,6 +9,9 @@ use ugpipe::{CommonArgs, Failure, Look, Manual, ToolArgs, parse_command};
 
 use crate::program::Program;
 
+/// A program with its options, and its line for the history of a picture.
+type Called = (Program, String);
+
 /// The command line of a program that makes frames.
 pub struct Tool {
     /// The contents of its help.
@@ -17,8 +20,8 @@ pub struct Tool {
     heading: &'static str,
     command: fn() -> Command,
     look: Look,
-    /// Parses its words, of which the first is its name. The line is that of a history.
-    parse: fn(&[String]) -> Result<(Program, String), Failure>,
+    /// Parses its words, of which the first is its name.
+    parse: fn(&[String]) -> Result<Called, Failure>,
 }
 
 /// The command line of the program of a crate, a variant of [`Program`] with these options.
