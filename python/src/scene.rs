@@ -9,7 +9,7 @@ use clap::Parser;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use ugfilm::{Error, Item, Note, Program, ProgramError};
+use ugfilm::{Error, FilmItem, Note, Program, ProgramError};
 use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, Words, parse_words};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
@@ -209,9 +209,9 @@ impl PyScene {
     fn filter(&self, words: &[String], camera: Option<&str>, call: &Arc<Call>) -> Result<Self, Refused> {
         let (program, line) = Program::from_words(words)?;
         let at_rest = self.with_camera(camera)?;
-        let item = Item::Scene(Box::new((*at_rest).clone()));
+        let item = FilmItem::Scene(Box::new((*at_rest).clone()));
         let made = program.run(item, &**call).map_err(|error| self.refused(error))?;
-        let Some((Item::Scene(mut scene), told)) = made else { return Err(Refused::of(Error::Subject)) };
+        let Some((FilmItem::Scene(mut scene), told)) = made else { return Err(Refused::of(Error::Subject)) };
         scene.remarks.record(Provenance { command: Some(&line), ..program.provenance() });
         let mut notes: Vec<String> = told.iter().flat_map(Note::words).collect();
         let mut time = self.time;

@@ -95,4 +95,4 @@ pub use note::Note;
 #[cfg(feature = "cli")]
 pub use options::{TOOLS, Tool};
 pub use pipe::{FilmSubject, Pipe};
-pub use program::{Item, Program, ProgramError};
+pub use program::{FilmItem, Program, ProgramError};

@@ -106,7 +106,14 @@ struct Bare {
 
 impl Program {
     /// The program that some words call, and its line for the history of a picture. The first word
-    /// is the name of the program, and options have dashes: `uglorentz`, `-vel`, `0.9`, `0`, `0`.
+    /// is the name of the program, and options have dashes.
+    ///
+    /// ```
+    /// let words = ["uglorentz", "--velocity", "0.9", "0", "0"].map(str::to_owned);
+    /// let (program, line) = ugfilm::Program::from_words(&words).expect("the words are right");
+    /// assert!(matches!(program, ugfilm::Program::Lorentz(_)));
+    /// assert_eq!(line, "uglorentz -vel 0.9 0 0");
+    /// ```
     ///
     /// # Errors
     /// The first word names no program that makes frames; an option is wrong.
