@@ -79,7 +79,8 @@ def test_messages_have_the_names_of_python(text, expected):
 
 
 def mypy(*words: str) -> None:
-    ran = subprocess.run([sys.executable, "-m", "mypy", *words], capture_output=True, text=True, cwd=FOLDER / "examples")
+    command = [sys.executable, "-m", "mypy", *words]
+    ran = subprocess.run(command, capture_output=True, text=True, cwd=FOLDER / "examples")
     assert ran.returncode == 0, ran.stdout + ran.stderr
 
 
@@ -126,7 +127,8 @@ def test_notebooks(notebook, tmp_path):
     cells = json.loads(notebook.read_text())["cells"]
     assert not any(cell.get("outputs") for cell in cells), "notebooks are stored without outputs"
     ran = subprocess.run(
-        [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", str(tmp_path), str(notebook)],
+        [sys.executable, "-m", "nbconvert", "--to", "notebook", "--execute", "--output-dir", str(tmp_path),
+         str(notebook)],
         capture_output=True, text=True,
     )
     assert ran.returncode == 0, ran.stderr[-3000:]

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 from . import physics, plot
 from ._error import Error
 from ._picture import Picture, warp
+from ._progress import Report
 from ._scene import Scene, _film
 from ._words import METHODS, documented
 from ._words import options as _options
@@ -38,7 +39,7 @@ def film(
     subject: Scene | str | os.PathLike[str],
     output: str | os.PathLike[str],
     *,
-    progress: bool = False,
+    progress: bool | Report = False,
     **options: Unpack[Film],
 ) -> list[str]:
     """Draws a film of a scene at rest, or with `warp=True` of a panorama. Returns the notes.

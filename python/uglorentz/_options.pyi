@@ -632,7 +632,7 @@ class Film(Reading, total=False):
     follow: bool | None
     """True. Turn the camera in every frame toward what moves"""
     keys: Text | None
-    """FILE. Read values at single frames from FILE: lines such as 120 time=0 eye=(0, -5, 2)"""
+    """FILE. Read values at single frames from FILE: lines such as 120 -ti 0 -ep 0 -5 2"""
     only: Text | None
     """LIST. Draw only these frames: 40..59, or 1,5,9..12"""
     keep: Text | None

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._error import Error
-from ._progress import shown
+from ._progress import Report, shown
 from ._words import by_name, camera_of, documented, in_python, words
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Picture:
         raise TypeError("use Scene.render(), Scene.photon() or warp()")
 
     @classmethod
-    def _drawn(cls, subject: Any, program: str, given: Mapping[str, Any], progress: Any = None) -> Picture:
+    def _drawn(cls, subject: Any, program: str, given: Mapping[str, Any], progress: bool | Report = False) -> Picture:
         line = words(program, given)
         known = by_name(program, False)
         options = {known[name].keyword: value for name, value in given.items()}
@@ -164,7 +164,7 @@ def _channel(planes: Any, name: str) -> Any:
 
 @documented("ugwarp")
 def warp(
-    sky: Any, *more: str | os.PathLike[str], progress: bool = False, **options: Unpack[Warp]
+    sky: Any, *more: str | os.PathLike[str], progress: bool | Report = False, **options: Unpack[Warp]
 ) -> Picture:
     """The sky as an observer in motion sees it.
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+__all__ = ["Report", "shown"]
 
-__all__ = ["shown"]
+#: A function that is called with the step, the parts that are done, and all parts, 0 if not known.
+Report = Callable[[str, int, int], object]
 
 
 @contextmanager
-def shown(progress: Any) -> Iterator[Callable[[str, int, int], None] | None]:
+def shown(progress: bool | Report) -> Iterator[Report | None]:
     """The function to report to: none, the caller's own, or one that moves a bar of tqdm."""
-    if progress is None or progress is False:
+    if progress is False:
         yield None
         return
     if progress is not True:

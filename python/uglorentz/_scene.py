@@ -11,7 +11,7 @@ import numpy as np
 from . import _core
 from ._error import Error
 from ._picture import Picture
-from ._progress import shown
+from ._progress import Report, shown
 from ._words import camera_of, documented, in_python, words
 
 if TYPE_CHECKING:
@@ -114,40 +114,40 @@ class Scene:
         text = _core.text_from_arrays(points, corners, sizes, colors, velocities, own)
         return cls.parse(text + extra.encode())
 
-    def _filtered(self, program: str, progress: Any, options: Mapping[str, Any]) -> Scene:
+    def _filtered(self, program: str, progress: bool | Report, options: Mapping[str, Any]) -> Scene:
         line = words(program, options)
         with shown(progress) as report:
             return Scene._of(self._scene.filtered(line, camera_of(options), report))
 
-    def _drawn(self, program: str, progress: Any, options: Mapping[str, Any]) -> Picture:
+    def _drawn(self, program: str, progress: bool | Report, options: Mapping[str, Any]) -> Picture:
         picture = Picture._drawn(self._scene, program, options, progress)
         if program == "ugrainbow" and self._scene.warning is not None:
             picture.notes.insert(0, in_python(self._scene.warning))
         return picture
 
     @documented("uglorentz")
-    def lorentz(self, *, progress: bool = False, **options: Unpack[Lorentz]) -> Scene:
+    def lorentz(self, *, progress: bool | Report = False, **options: Unpack[Lorentz]) -> Scene:
         """The scene with its vertices where they are seen: equation (P3)."""
         return self._filtered("uglorentz", progress, options)
 
     @documented("ugdoppler")
-    def doppler(self, *, progress: bool = False, **options: Unpack[Doppler]) -> Scene:
+    def doppler(self, *, progress: bool | Report = False, **options: Unpack[Doppler]) -> Scene:
         """The scene with its colours as they are seen: equations (P10) to (P12)."""
         return self._filtered("ugdoppler", progress, options)
 
     @documented("ugrainbow")
-    def render(self, *, progress: bool = False, **options: Unpack[Render]) -> Picture:
+    def render(self, *, progress: bool | Report = False, **options: Unpack[Render]) -> Picture:
         """A picture of the scene, usually of one as seen."""
         return self._drawn("ugrainbow", progress, options)
 
     @documented("ugphoton")
-    def photon(self, *, progress: bool = False, **options: Unpack[Photon]) -> Picture:
+    def photon(self, *, progress: bool | Report = False, **options: Unpack[Photon]) -> Picture:
         """A picture of a scene at rest by tracing rays, with mirrors, glass and shadows."""
         return self._drawn("ugphoton", progress, options)
 
     @documented("ugfilm")
     def film(
-        self, output: str | os.PathLike[str], *, progress: bool = False, **options: Unpack[Film]
+        self, output: str | os.PathLike[str], *, progress: bool | Report = False, **options: Unpack[Film]
     ) -> list[str]:
         """Draws a film of the scene at rest, whose file is read again: see `uglorentz.film`."""
         if self._from is None:
@@ -257,7 +257,7 @@ def _film(
     path: str | None,
     text: bytes | None,
     reading: list[str],
-    progress: Any,
+    progress: bool | Report,
     options: Mapping[str, Any],
 ) -> list[str]:
     program, *line = words("ugfilm", options)

@@ -243,4 +243,6 @@ def summary(option: Option) -> str:
     """What an option does, in one line."""
     values = " ".join(option.values) or "True"
     default = f" [default: {in_python(option.default)}]" if option.default else ""
-    return f"{values}. {in_python(option.about)}{default}"
+    # Lines of a file have options as in a shell.
+    about = option.about if option.values == ("FILE",) else in_python(option.about)
+    return f"{values}. {about}{default}"
