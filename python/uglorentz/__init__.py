@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 from . import physics, plot
 from ._error import Error
 from ._picture import Picture, warp
-from ._progress import Report
 from ._scene import Scene, _film
 from ._words import METHODS, documented
 from ._words import options as _options
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import Film
+    from ._progress import Report
 
 __all__ = ["Error", "Picture", "Scene", "film", "options", "physics", "plot", "warp"]
 __version__ = "0.1.0"

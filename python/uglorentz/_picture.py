@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._error import Error
-from ._progress import Report, shown
+from ._progress import shown
 from ._words import by_name, camera_of, documented, in_python, words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import Warp
+    from ._progress import Report
 
 __all__ = ["Picture", "warp"]
 

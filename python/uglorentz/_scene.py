@@ -11,13 +11,14 @@ import numpy as np
 from . import _core
 from ._error import Error
 from ._picture import Picture
-from ._progress import Report, shown
+from ._progress import shown
 from ._words import camera_of, documented, in_python, words
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
     from ._options import Doppler, Film, Lorentz, Photon, Reading, Render
+    from ._progress import Report
 
 __all__ = ["Scene"]
 
