@@ -34,7 +34,8 @@ printf 'tests: %s s\n' $((SECONDS - begun))
 
 if [ "${2:-}" = --manylinux ]; then
     "$target/tools/bin/pip" install --quiet --disable-pip-version-check ziglang
-    "$target/tools/bin/maturin" build --release --quiet --manifest-path Cargo.toml --zig \
+    # Zig is found in the path alone.
+    PATH=$target/tools/bin:$PATH maturin build --release --quiet --manifest-path Cargo.toml --zig \
         --compatibility manylinux2014 --out "$target/manylinux"
     ls -l "$target/manylinux"
 fi
