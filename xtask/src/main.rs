@@ -15,6 +15,7 @@
 //! cargo xtask cluster
 //! cargo xtask package --check
 //! cargo xtask site
+//! cargo xtask python
 //! cargo xtask install --prefix ~/.local
 //! cargo xtask uninstall --prefix ~/.local
 //! ```
@@ -126,6 +127,14 @@ enum Task {
         #[arg(long)]
         check: bool,
     },
+    /// Build the wheel of the Python package and test it in a clean environment
+    ///
+    /// Requires Python 3.9 or later with its module venv; the rest is installed in target/python.
+    Python {
+        /// Also build the wheel for Linux since 2014 (manylinux2014), with the linker of Zig
+        #[arg(long)]
+        manylinux: bool,
+    },
     /// Install the programs, their man pages and documentation, and completions for bash, zsh and
     /// fish
     Install(install::Args),
@@ -181,6 +190,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Cluster => scripts::cluster()?,
         Task::Site => site::write(&mut out)?,
         Task::Package { check } => scripts::package(*check)?,
+        Task::Python { manylinux } => scripts::python(*manylinux)?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }

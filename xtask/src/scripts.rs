@@ -1,7 +1,8 @@
-//! Runs the scripts of the repository that need other tools: packages, and workflows on a Slurm.
+//! Runs the scripts of the repository that need other tools: packages, the Python package, and
+//! workflows on a Slurm.
 
+use std::ffi::OsStr;
 use std::io;
-use std::path::Path;
 use std::process::Command;
 
 use ugtests::scenes;
@@ -10,17 +11,24 @@ use crate::programs;
 
 /// Builds the programs and runs `batch/check.sh` with them.
 pub fn cluster() -> io::Result<()> {
-    run("batch/check.sh", &programs::of_this_profile())
+    run("batch/check.sh", &[programs::of_this_profile().as_ref()])
+}
+
+/// Builds the programs, with which files are compared, and runs `python/check.sh`.
+pub fn python(is_manylinux: bool) -> io::Result<()> {
+    let programs = programs::released();
+    let option = is_manylinux.then_some(OsStr::new("--manylinux"));
+    run("python/check.sh", &[[programs.as_os_str()].as_slice(), option.as_slice()].concat())
 }
 
 /// Runs `packages/build.sh`, and `packages/check.sh` if `is_checked`.
 pub fn package(is_checked: bool) -> io::Result<()> {
     let out = scenes::target_dir().join("packages");
-    run("packages/build.sh", &out)?;
-    if is_checked { run("packages/check.sh", &out) } else { Ok(()) }
+    run("packages/build.sh", &[out.as_ref()])?;
+    if is_checked { run("packages/check.sh", &[out.as_ref()]) } else { Ok(()) }
 }
 
-fn run(name: &str, argument: &Path) -> io::Result<()> {
-    let status = Command::new(scenes::root().join(name)).arg(argument).status()?;
+fn run(name: &str, arguments: &[&OsStr]) -> io::Result<()> {
+    let status = Command::new(scenes::root().join(name)).args(arguments).status()?;
     if status.success() { Ok(()) } else { Err(io::Error::other(format!("{name}: {status}"))) }
 }

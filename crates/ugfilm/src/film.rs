@@ -188,7 +188,7 @@ impl Film<'_> {
             |row, computed| {
                 consume(frames[row], computed)?;
                 steps.done(1);
-                Ok(())
+                Ok(steps.check()?)
             },
         )
     }

@@ -5,30 +5,36 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::{CommonArgs, Failure, Look, ToolArgs, parse_words};
+use ugpipe::{CommonArgs, Failure, Look, Manual, ToolArgs, parse_command};
 
 use crate::program::Program;
 
+/// A program with its options, and its line for the history of a picture.
+type Called = (Program, String);
+
 /// The command line of a program that makes frames.
 pub struct Tool {
+    /// The contents of its help.
+    pub manual: fn() -> Manual,
     /// The heading of its options in `--help`.
     heading: &'static str,
     command: fn() -> Command,
     look: Look,
     /// Parses its words, of which the first is its name.
-    pub parse: fn(&[String]) -> Result<Program, Failure>,
+    parse: fn(&[String]) -> Result<Called, Failure>,
 }
 
 /// The command line of the program of a crate, a variant of [`Program`] with these options.
 macro_rules! tool {
     ($krate:ident, $variant:ident, $args:ident => $config:expr) => {
         &Tool {
+            manual: $krate::manual,
             heading: concat!("Options of ", stringify!($krate)),
             command: $krate::Args::command,
             look: <$krate::Args as ToolArgs>::LOOKS.default,
             parse: |words| {
-                let $args: $krate::Args = parse_words(words.iter().map(OsString::from))?;
-                Ok(Program::$variant($config?))
+                let ($args, line): ($krate::Args, _) = parse_command(words.iter().map(OsString::from))?;
+                Ok((Program::$variant($config?), line))
             },
         }
     };
@@ -96,6 +102,26 @@ pub struct ProgramOptions {
 struct Bare {
     #[command(flatten)]
     _common: CommonArgs,
+}
+
+impl Program {
+    /// The program that some words call, and its line for the history of a picture. The first word
+    /// is the name of the program, and options have dashes.
+    ///
+    /// ```
+    /// let words = ["uglorentz", "--velocity", "0.9", "0", "0"].map(str::to_owned);
+    /// let (program, line) = ugfilm::Program::from_words(&words).expect("the words are right");
+    /// assert!(matches!(program, ugfilm::Program::Lorentz(_)));
+    /// assert_eq!(line, "uglorentz -vel 0.9 0 0");
+    /// ```
+    ///
+    /// # Errors
+    /// The first word names no program that makes frames; an option is wrong.
+    pub fn from_words(words: &[String]) -> Result<(Self, String), Failure> {
+        let tool = TOOLS.iter().find(|tool| words.first().is_some_and(|name| name == tool.name()));
+        let unknown = || Failure::usage("the first word is no program that makes frames");
+        (tool.ok_or_else(unknown)?.parse)(words)
+    }
 }
 
 impl Tool {

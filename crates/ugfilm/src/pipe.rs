@@ -7,7 +7,7 @@ use ugscene::{Provenance, Remarks, Scene};
 
 use crate::error::Error;
 use crate::note::Note;
-use crate::program::{Item, Program};
+use crate::program::{FilmItem, Program};
 
 /// The subject of a film.
 #[derive(Clone, Copy)]
@@ -81,8 +81,8 @@ impl Pipe {
         progress: &dyn Progress,
     ) -> Result<(Rendering, Vec<Note>), Error> {
         let mut item = match subject {
-            FilmSubject::Scene(scene) => Item::Scene(Box::new(scene.clone())),
-            FilmSubject::Panorama(panorama, _) => Item::Panorama(panorama),
+            FilmSubject::Scene(scene) => FilmItem::Scene(Box::new(scene.clone())),
+            FilmSubject::Panorama(panorama, _) => FilmItem::Panorama(panorama),
         };
         let mut notes = Vec::new();
         for program in &self.programs {
@@ -94,7 +94,7 @@ impl Pipe {
             notes.extend(told);
             item = made;
         }
-        let Item::Picture(mut picture) = item else { return Err(Error::Subject) };
+        let FilmItem::Picture(mut picture) = item else { return Err(Error::Subject) };
         picture.metadata = self.metadata(subject);
         Ok((picture, notes))
     }

@@ -62,9 +62,12 @@ programs! {
 }
 
 /// The data between two programs.
-pub enum Item<'s> {
+pub enum FilmItem<'s> {
+    /// A scene.
     Scene(Box<Scene>),
+    /// A panorama.
     Panorama(&'s ugwarp::Opened),
+    /// The picture.
     Picture(Rendering),
 }
 
@@ -103,28 +106,32 @@ impl Program {
     /// The program fails.
     pub fn run<'s>(
         &self,
-        item: Item<'s>,
+        item: FilmItem<'s>,
         progress: &dyn Progress,
-    ) -> Result<Option<(Item<'s>, Vec<Note>)>, ProgramError> {
+    ) -> Result<Option<(FilmItem<'s>, Vec<Note>)>, ProgramError> {
         let mut picture = match (self, item) {
-            (Self::Lorentz(config), Item::Scene(scene)) => {
+            (Self::Lorentz(config), FilmItem::Scene(scene)) => {
                 let (scene, report) = uglorentz::apply_with(*scene, config, progress)?;
-                return Ok(Some((Item::Scene(scene.into()), vec![Note::Lorentz(report)])));
+                return Ok(Some((FilmItem::Scene(scene.into()), vec![Note::Lorentz(report)])));
             }
-            (Self::Doppler(config), Item::Scene(scene)) => {
+            (Self::Doppler(config), FilmItem::Scene(scene)) => {
                 let (scene, notes) = ugdoppler::apply_with(*scene, config, progress)?;
                 let notes = notes.into_iter().map(Note::Doppler).collect();
-                return Ok(Some((Item::Scene(scene.into()), notes)));
+                return Ok(Some((FilmItem::Scene(scene.into()), notes)));
             }
-            (Self::Rainbow(config), Item::Scene(scene)) => ugrainbow::render_with(&scene, config, progress)?,
-            (Self::Photon(config), Item::Scene(scene)) => ugphoton::render_with(*scene, config, progress)?,
-            (Self::Warp(config), Item::Panorama(panorama)) => {
+            (Self::Rainbow(config), FilmItem::Scene(scene)) => {
+                ugrainbow::render_with(&scene, config, progress)?
+            }
+            (Self::Photon(config), FilmItem::Scene(scene)) => {
+                ugphoton::render_with(*scene, config, progress)?
+            }
+            (Self::Warp(config), FilmItem::Panorama(panorama)) => {
                 ugwarp::render_opened(panorama, config, progress)?
             }
             _ => return Ok(None),
         };
         let notes = self.notes(&mut picture);
-        Ok(Some((Item::Picture(picture), notes)))
+        Ok(Some((FilmItem::Picture(picture), notes)))
     }
 
     /// Moves the notes on a picture that it drew.

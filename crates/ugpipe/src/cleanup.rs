@@ -187,9 +187,17 @@ impl Drop for Running {
     }
 }
 
+/// The thread that waits for signals is started, or never will be.
+static STARTED: Once = Once::new();
+
+/// Leaves all signals to the process, of which programs are functions. Call it before them: their
+/// temporary files are then removed when they return, but not when a signal ends the process.
+pub fn leave_signals() {
+    STARTED.call_once(|| ());
+}
+
 /// Starts the thread that waits for signals, once. Signals that are ignored (`nohup`) stay ignored.
 fn handle_signals() {
-    static STARTED: Once = Once::new();
     STARTED.call_once(|| {
         let (sender, receiver) = mpsc::channel();
         let work = move || {

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::args::CommonArgs;
@@ -9,7 +10,7 @@ use crate::failure::Failure;
 use crate::files::{self, Place, ProgramOutput};
 use crate::identity::folder_of;
 use crate::input::{self, Input};
-use crate::messages::Messages;
+use crate::messages::{Host, Messages};
 use crate::output::Output;
 use crate::provenance;
 use crate::steps::Steps;
@@ -43,6 +44,8 @@ fn within(limit: u64, input: Input) -> Result<Input, Failure> {
 pub struct Context {
     input: Option<PathBuf>,
     is_input_named: bool,
+    /// The input of a program that is called as a function.
+    given: Option<Input>,
     /// Where files and programs that the input names must be.
     place: Place,
     output: Output,
@@ -57,12 +60,26 @@ impl Context {
         Self {
             input: common.input().map(Path::to_owned),
             is_input_named: common.input_named().is_some(),
+            given: None,
             place: place(common),
             output: Output::new(common.output()),
             others: Vec::new(),
             messages,
             command_line,
         }
+    }
+
+    /// The interface of a program that is called as a function in another process, which receives
+    /// its messages. `command_line`: from [`crate::parse_command`]; `given`: the input, unless
+    /// `common` names a file.
+    pub fn hosted(
+        common: &CommonArgs,
+        program: &str,
+        command_line: String,
+        given: Option<Input>,
+        host: Arc<dyn Host>,
+    ) -> Self {
+        Self { given, ..Self::new(common, Messages::to_host(program, host), command_line) }
     }
 
     /// Reads the whole input: the file that the user named, or standard input. Call it only once: a
@@ -81,6 +98,9 @@ impl Context {
     /// [`Failure::Read`] if there is no such file or it cannot be read; [`Failure::Failed`] if
     /// a pipe is empty, so that a failure upstream is a failure of the whole pipe.
     pub fn input_up_to(&mut self, limit: u64) -> Result<Input, Failure> {
+        if let Some(input) = self.given.take() {
+            return Ok(input);
+        }
         if !self.is_input_named && input::stdin_is_terminal() {
             self.note("reading standard input; -h for help");
         }
@@ -311,7 +331,10 @@ impl Context {
     }
 
     /// Completes or discards the output, and prints why a run failed.
-    pub(crate) fn end(mut self, outcome: Result<(), Failure>) -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// Those of the run; an output cannot be completed.
+    pub fn end(mut self, outcome: Result<(), Failure>) -> Result<(), Failure> {
         let outcome = outcome.and_then(|()| self.others.iter_mut().try_for_each(Output::finish));
         let outcome = outcome.and_then(|()| self.output.finish());
         if let Err(failure) = &outcome

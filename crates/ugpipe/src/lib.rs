@@ -139,7 +139,7 @@ mod values;
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ToolArgs};
 #[cfg(feature = "cli")]
-pub use cleanup::{Claim, Running, is_occupied};
+pub use cleanup::{Claim, Running, is_occupied, leave_signals};
 #[cfg(feature = "cli")]
 pub use completion::{COMPLETE, completions};
 #[cfg(feature = "cli")]
@@ -156,11 +156,13 @@ pub use input::Input;
 pub use look::{Look, LookArgs, Looks, Preset, is_given};
 #[cfg(feature = "cli")]
 pub use manual::{Entry, Group, Manual, Value, manual};
+#[cfg(feature = "cli")]
+pub use messages::Host;
 pub use progress::{Progress, Stopped};
 #[cfg(feature = "cli")]
 pub use provenance::{sha256, shell_os_word, shell_word};
 #[cfg(feature = "cli")]
-pub use run::{main, parse_words};
+pub use run::{main, parse_command, parse_words};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
 pub use text::{is_printable, message, printable};

@@ -6,6 +6,7 @@
 
 use std::fs::File;
 use std::io::{self, Write};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use anstream::adapter::strip_str;
@@ -14,15 +15,25 @@ use clap::builder::styling::{AnsiColor, Style};
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
+use crate::progress::Progress;
 use crate::text::{message, printable, printable_styled};
 
 const ERROR: Style = AnsiColor::Red.on_default().bold();
 const WARNING: Style = AnsiColor::Yellow.on_default().bold();
 const NOTE: Style = AnsiColor::Cyan.on_default().bold();
 
+/// The process that calls a program as a function: it receives progress reports and messages, and
+/// may stop the program.
+pub trait Host: Progress + Send {
+    /// Receives a note or a warning, without the name of the program.
+    fn message(&self, text: &str);
+}
+
 /// Prints messages, as far as the options allow.
 pub(crate) struct Messages {
     program: String,
+    /// Receives everything instead of the terminal.
+    host: Option<Arc<dyn Host>>,
     file: Option<File>,
     is_quiet: bool,
     is_verbose: bool,
@@ -33,7 +44,16 @@ impl Messages {
     /// All messages go to standard error until [`Messages::configure`] applies the options.
     pub(crate) fn new(program: &str) -> Self {
         let program = program.to_owned();
-        Self { program, file: None, is_quiet: false, is_verbose: false, start: Instant::now() }
+        Self { program, host: None, file: None, is_quiet: false, is_verbose: false, start: Instant::now() }
+    }
+
+    /// Messages of a program that is called as a function.
+    pub(crate) fn to_host(program: &str, host: Arc<dyn Host>) -> Self {
+        Self { host: Some(host), ..Self::new(program) }
+    }
+
+    pub(crate) fn host(&self) -> Option<&dyn Host> {
+        self.host.as_deref()
     }
 
     /// Applies the options `-qt`, `-vb` and `-fm`. The file of `-fm` is truncated immediately.
@@ -88,6 +108,8 @@ impl Messages {
 
     pub(crate) fn failure(&self, failure: &Failure) {
         match failure {
+            // The caller receives it as an error.
+            _ if self.host.is_some() => {}
             Failure::Report(text) => self.report(text),
             Failure::Usage(text) => {
                 let line = self.line("error", ERROR, text);
@@ -100,11 +122,17 @@ impl Messages {
     /// Prints a report, whose messages have an empty line between them.
     fn report(&self, text: &str) {
         let text = printable_styled(text.trim_end_matches('\n'));
+        if let Some(host) = self.host() {
+            return host.message(&strip_str(&text).to_string());
+        }
         let messages = text.split("\n\n").map(|message| format!("{}: {message}", self.program));
         self.print(&messages.collect::<Vec<_>>().join("\n\n"));
     }
 
     fn headed(&self, heading: &str, style: Style, text: &str) {
+        if let Some(host) = self.host() {
+            return host.message(&message(text.trim_end_matches('\n')));
+        }
         self.print(&self.line(heading, style, text));
     }
 

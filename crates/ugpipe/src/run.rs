@@ -124,9 +124,18 @@ enum Unparsed {
 /// # Errors
 /// [`Failure::Usage`] with the message of the program.
 pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<A, Failure> {
+    parse_command(words).map(|(args, _)| args)
+}
+
+/// Like [`parse_words`], and returns the line for a history as well, see
+/// [`Context::command_line`].
+///
+/// # Errors
+/// See [`parse_words`].
+pub fn parse_command<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<(A, String), Failure> {
     let mut command = argv::prepare(A::command());
     match parse_from(&mut command, words.into_iter().collect()) {
-        Ok((args, _)) => Ok(args),
+        Ok((args, matches)) => Ok((args, provenance::command_line(&command, &matches))),
         Err(Unparsed::Usage(message)) => Err(Failure::Usage(message)),
         Err(Unparsed::Help(text)) => Err(Failure::Usage(usage::message(&command, &text, None, &[]))),
     }

@@ -28,7 +28,7 @@ struct Step {
 
 impl<'m> Steps<'m> {
     pub(crate) fn new(messages: &'m Messages) -> Self {
-        let shows_bar = !messages.is_quiet() && io::stderr().is_terminal();
+        let shows_bar = !messages.is_quiet() && messages.host().is_none() && io::stderr().is_terminal();
         Self { messages, shows_bar, current: Mutex::new(None) }
     }
 
@@ -60,6 +60,7 @@ impl<'m> Steps<'m> {
             self.messages.detail(&format!("{name} took {seconds:.3} s"));
         }
         *current = next.map(|(name, parts, template)| {
+            self.messages.host().iter().for_each(|host| host.step(name, parts));
             let bar = (self.shows_bar && parts > 0).then(|| self.bar(name, parts, template));
             Step { name, begun: Instant::now(), bar }
         });
@@ -77,12 +78,17 @@ impl Progress for Steps<'_> {
     }
 
     fn done(&self, parts: u64) {
+        self.messages.host().iter().for_each(|host| host.done(parts));
         if let Some(Step { bar: Some(bar), .. }) = &*self.lock() {
             if bar.is_hidden() && self.messages.elapsed() >= BAR_DELAY {
                 bar.set_draw_target(ProgressDrawTarget::stderr());
             }
             bar.inc(parts);
         }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.messages.host().is_some_and(|host| host.is_stopped())
     }
 }
 

@@ -1,0 +1,67 @@
+"""Writes uglorentz/_options.pyi, the types of all keyword arguments, from the options of the programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from uglorentz._words import METHODS, Option, options, summary
+
+FILE = Path(__file__).parent / "uglorentz" / "_options.pyi"
+
+HEAD = '''\
+# Written by stubs.py from the options of the programs; do not edit.
+import os
+from collections.abc import Sequence
+from typing import Any, Literal, TypedDict, Union
+
+import numpy as np
+
+Vector = Union[Sequence[float], np.ndarray[Any, Any]]
+Text = Union[str, os.PathLike[str]]
+'''
+
+#: Values that are text.
+TEXTS = {"TEXT", "NAME", "FILE", "NAMES", "LAW", "FILTER", "CURVE", "FMT", "LOOK", "WORD", "HOW", "KIND"}
+
+
+def type_of(program: str, option: Option) -> str:
+    if not option.values:
+        return "bool"
+    if option.keyword in ("channels", "limit"):
+        return "str | Sequence[str]"
+    if option.is_repeated:
+        return "Vector | str"
+    if option.values[0] in TEXTS or option.keyword == "only":
+        return "Text"
+    several = "Vector" if len(option.values) > 1 else ""
+    # Over the time of a film, numbers are texts.
+    single = "float | str" if program == "ugfilm" or option.values[0] not in ("X", "Y", "W", "H") else ""
+    if option.n_needed > 1 and program != "ugfilm":
+        single = ""
+    bare = "bool" if option.n_needed == 0 else ""
+    return " | ".join(kind for kind in (several, single, bare) if kind) or "float"
+
+
+def keys(program: str, chosen: list[Option]) -> str:
+    lines = []
+    for option in chosen:
+        text = summary(option).replace("\\", "\\\\").replace('"""', "'''")
+        first, *others = option.names
+        lines.append(f'    {first}: {type_of(program, option)} | None\n    """{text}"""')
+        lines += [f'    {name}: {type_of(program, option)} | None\n    """The same as {first}."""' for name in others]
+    return "\n".join(lines)
+
+
+def stub() -> str:
+    parts = [HEAD]
+    common = [option for option in options("uglorentz") if option.is_common]
+    parts.append(f"class Reading(TypedDict, total=False):\n{keys('uglorentz', common)}\n")
+    for program, method in METHODS.items():
+        own = [option for option in options(program) if not option.is_common]
+        base = "Reading" if program in ("ugwarp", "ugfilm") else "TypedDict"
+        parts.append(f"class {method.capitalize()}({base}, total=False):\n{keys(program, own)}\n")
+    return "\n".join(parts)
+
+
+if __name__ == "__main__":
+    FILE.write_text(stub())

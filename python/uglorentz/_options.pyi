@@ -1,0 +1,915 @@
+# Written by stubs.py from the options of the programs; do not edit.
+import os
+from collections.abc import Sequence
+from typing import Any, Literal, TypedDict, Union
+
+import numpy as np
+
+Vector = Union[Sequence[float], np.ndarray[Any, Any]]
+Text = Union[str, os.PathLike[str]]
+
+class Reading(TypedDict, total=False):
+    lax: bool | None
+    """True. Warn about unknown statements and pass them on"""
+    allow_execute: bool | None
+    """True. Run the programs that `execute` statements name"""
+    allow_outside: bool | None
+    """True. Read files that the input names outside its folder"""
+    limit: str | Sequence[str] | None
+    """NAME=N. Change a limit on the size of scenes"""
+
+class Lorentz(TypedDict, total=False):
+    velocity: Vector | None
+    """X Y Z. Velocity of all objects, fraction of c [default: the scene's, else 0]"""
+    vel: Vector | None
+    """The same as velocity."""
+    camera_velocity: Vector | None
+    """X Y Z. Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]"""
+    cv: Vector | None
+    """The same as camera_velocity."""
+    time: float | str | None
+    """T. Time of the picture on the observer's clock [default: 0]"""
+    ti: float | str | None
+    """The same as time."""
+    anchor: float | str | None
+    """POINT. Fixed point of the contraction: eye, origin, center or X Y Z"""
+    an: float | str | None
+    """The same as anchor."""
+    keep_in_view: bool | None
+    """True. Keep bodies in view: they appear where the scene has them"""
+    in_place: bool | None
+    """The same as keep_in_view."""
+    in_: bool | None
+    """The same as keep_in_view."""
+    error: float | str | None
+    """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
+    se: float | str | None
+    """The same as error."""
+    color_error: float | str | None
+    """PERCENT. Subdivide also until the interpolated Doppler factor deviates by at most PERCENT, or off [default: 0.15]"""
+    sc: float | str | None
+    """The same as color_error."""
+    light_error: float | str | None
+    """PERCENT. Subdivide also until the interpolated light of near lamps deviates by at most PERCENT [default: off]"""
+    sl: float | str | None
+    """The same as light_error."""
+    pieces: float | str | None
+    """N. Cut every edge into N equal pieces, instead of error=, color_error= and light_error="""
+    sd: float | str | None
+    """The same as pieces."""
+    smooth: bool | None
+    """True. Write vertex normals for smooth shading"""
+    sm: bool | None
+    """The same as smooth."""
+    repeat_vertices: bool | None
+    """True. Keep colours of faces apart where they share vertices"""
+    vr: bool | None
+    """The same as repeat_vertices."""
+    no_contraction: bool | None
+    """True. For teaching: omit Lorentz contraction"""
+    nc: bool | None
+    """The same as no_contraction."""
+    no_flight_time: bool | None
+    """True. For teaching: omit the light travel time"""
+    look: Text | None
+    """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    cull: bool | None
+    """True. Remove faces that are outside the view of the camera"""
+    camera: Text | None
+    """NAME. The camera of this name [default: the first without a name, else the first]"""
+    cam: Text | None
+    """The same as camera."""
+    eye: Vector | None
+    """X Y Z. Eye point [default: that of the scene's camera]"""
+    ep: Vector | None
+    """The same as eye."""
+    center: Vector | None
+    """X Y Z. View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]"""
+    vc: Vector | None
+    """The same as center."""
+    up: Vector | None
+    """X Y Z. Up direction [default: that of the scene's camera, else 0 0 1]"""
+    ud: Vector | None
+    """The same as up."""
+    view_angle: Vector | float | str | None
+    """A B. Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's camera, else 40]"""
+    va: Vector | float | str | None
+    """The same as view_angle."""
+    orthographic: bool | None
+    """True. Orthographic projection"""
+    og: bool | None
+    """The same as orthographic."""
+    size: Vector | None
+    """W H. Size of the picture in pixels, of which the aspect ratio is used [default: 1024 768]"""
+    sz: Vector | None
+    """The same as size."""
+
+class Doppler(TypedDict, total=False):
+    velocity: Vector | None
+    """X Y Z. Velocity of faces that carry none, fractions of c"""
+    vel: Vector | None
+    """The same as velocity."""
+    wavelengths: bool | None
+    """True. Write wavelengths (nm) instead of hues"""
+    gw: bool | None
+    """The same as wavelengths."""
+    brightness: Text | None
+    """LAW. Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]"""
+    br: Text | None
+    """The same as brightness."""
+    spectral: bool | None
+    """True. Shift spectra instead of hues"""
+    sp: bool | None
+    """The same as spectral."""
+    no_doppler: bool | None
+    """True. Leave wavelengths as they are"""
+    no_flux: bool | None
+    """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
+    repeat_vertices: bool | None
+    """True. Keep colours of faces apart where they share vertices"""
+    vr: bool | None
+    """The same as repeat_vertices."""
+    color_tolerance: float | str | None
+    """T. Reuse a colour that differs by at most T nm and T percent of value, or with spectral=True by T percent of X, Y and Z; 0: a colour for each vertex [default: 0.1]"""
+    ct: float | str | None
+    """The same as color_tolerance."""
+    iris: bool | None
+    """True. Iris: scale all values so that the brightest is 1"""
+    ir: bool | None
+    """The same as iris."""
+    light: bool | None
+    """True. Light the scene by its lights, moving ones included"""
+    li: bool | None
+    """The same as light."""
+    keep_intensities: bool | None
+    """True. Keep values above 1 for the exposure of the renderer"""
+    hd: bool | None
+    """The same as keep_intensities."""
+    look: Text | None
+    """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    camera: Text | None
+    """NAME. The camera of this name [default: the first without a name, else the first]"""
+    cam: Text | None
+    """The same as camera."""
+    eye: Vector | None
+    """X Y Z. Eye point [default: that of the scene's camera]"""
+    ep: Vector | None
+    """The same as eye."""
+
+class Render(TypedDict, total=False):
+    interpolate_hue: bool | None
+    """True. Interpolate hue between corners (default)"""
+    ih: bool | None
+    """The same as interpolate_hue."""
+    interpolate_wavelength: bool | None
+    """True. Interpolate wavelength between corners"""
+    iw: bool | None
+    """The same as interpolate_wavelength."""
+    wavelengths: bool | None
+    """True. Hues in colour statements are wavelengths in nm; implies interpolate_wavelength=True"""
+    wi: bool | None
+    """The same as wavelengths."""
+    format: Text | None
+    """FMT. Format of the picture [default: by the ending of output, else png]"""
+    dt: Text | None
+    """The same as format."""
+    vector: bool | None
+    """True. Vector graphics instead of pixels, for eps, ps, pdf, svg"""
+    vec: bool | None
+    """The same as vector."""
+    text: bool | None
+    """True. Text of captions, legends and grids as text in vector graphics, instead of outlines"""
+    txt: bool | None
+    """The same as text."""
+    repeat_vertices: bool | None
+    """True. Keep colours of faces apart where they share vertices"""
+    vr: bool | None
+    """The same as repeat_vertices."""
+    camera: Text | None
+    """NAME. The camera of this name [default: the first without a name, else the first]"""
+    cam: Text | None
+    """The same as camera."""
+    eye: Vector | None
+    """X Y Z. Eye point [default: that of the scene's camera]"""
+    ep: Vector | None
+    """The same as eye."""
+    center: Vector | None
+    """X Y Z. View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]"""
+    vc: Vector | None
+    """The same as center."""
+    up: Vector | None
+    """X Y Z. Up direction [default: that of the scene's camera, else 0 0 1]"""
+    ud: Vector | None
+    """The same as up."""
+    view_angle: Vector | float | str | None
+    """A B. Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's camera, else 40]"""
+    va: Vector | float | str | None
+    """The same as view_angle."""
+    orthographic: bool | None
+    """True. Orthographic projection"""
+    og: bool | None
+    """The same as orthographic."""
+    size: Vector | None
+    """W H. Size of the picture in pixels [default: 1024 768]"""
+    sz: Vector | None
+    """The same as size."""
+    samples: float | str | None
+    """N. N x N samples per pixel, 1 to 16 [default: 4]"""
+    aa: float | str | None
+    """The same as samples."""
+    filter: Text | None
+    """FILTER. Reconstruction filter from samples to pixels: box, triangle, spline [default: box]"""
+    fl: Text | None
+    """The same as filter."""
+    background: Vector | float | str | None
+    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    bg: Vector | float | str | None
+    """The same as background."""
+    transparent: bool | None
+    """True. Transparent background"""
+    tb: bool | None
+    """The same as transparent."""
+    exposure: float | str | None
+    """E|auto. Exposure in stops, or auto"""
+    ex: float | str | None
+    """The same as exposure."""
+    tone_curve: Text | None
+    """CURVE. Tone curve from light to display: clip, filmic [default: clip]"""
+    tc: Text | None
+    """The same as tone_curve."""
+    pack: bool | None
+    """True. Smaller PNG files, which take longer to compress"""
+    pz: bool | None
+    """The same as pack."""
+    channels: str | Sequence[str] | None
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    ch: str | Sequence[str] | None
+    """The same as channels."""
+    cull_back_faces: bool | None
+    """True. Cull back faces, whose corners run clockwise in the picture"""
+    cb: bool | None
+    """The same as cull_back_faces."""
+    depth_cue: Vector | float | str | bool | None
+    """NEAR FAR LEAST. Depth cueing: between the depths NEAR and FAR, light fades linearly into the background, to the fraction LEAST"""
+    dc: Vector | float | str | bool | None
+    """The same as depth_cue."""
+    wireframe: bool | None
+    """True. Wireframe: draw edges of faces as lines, instead of faces; faces still occlude them"""
+    wf: bool | None
+    """The same as wireframe."""
+    edges: bool | None
+    """True. Draw edges of faces as black lines, over the faces"""
+    ed: bool | None
+    """The same as edges."""
+    line_color: Vector | float | str | None
+    """L H S. Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces with wireframe=True, black with edges=True]"""
+    lc: Vector | float | str | None
+    """The same as line_color."""
+    line_width: float | None
+    """W. Width of edges and wires in pixels [default: 1.2]"""
+    lw: float | None
+    """The same as line_width."""
+    exact: bool | None
+    """True. Exact: a ray for every sample, instead of subdivision"""
+    xc: bool | None
+    """The same as exact."""
+    brightness: Text | None
+    """LAW. Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]"""
+    br: Text | None
+    """The same as brightness."""
+    spectral: bool | None
+    """True. Shift spectra instead of hues"""
+    sp: bool | None
+    """The same as spectral."""
+    no_doppler: bool | None
+    """True. Leave wavelengths as they are"""
+    no_flux: bool | None
+    """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
+    look: Text | None
+    """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    caption: Text | None
+    """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
+    cap: Text | None
+    """The same as caption."""
+    legend: bool | None
+    """True. Legend below the picture: spectrum, velocities, Doppler factors"""
+    lg: bool | None
+    """The same as legend."""
+    undistorted: bool | None
+    """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
+    dl: bool | None
+    """The same as undistorted."""
+    grid: bool | None
+    """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
+    gr: bool | None
+    """The same as grid."""
+
+class Photon(TypedDict, total=False):
+    velocity: Vector | None
+    """X Y Z. Velocity of all objects, fraction of c [default: the scene's, else 0]"""
+    vel: Vector | None
+    """The same as velocity."""
+    camera_velocity: Vector | None
+    """X Y Z. Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]"""
+    cv: Vector | None
+    """The same as camera_velocity."""
+    time: float | str | None
+    """T. Time of the picture on the observer's clock [default: 0]"""
+    ti: float | str | None
+    """The same as time."""
+    anchor: float | str | None
+    """POINT. Fixed point of the contraction: eye, origin, center or X Y Z"""
+    an: float | str | None
+    """The same as anchor."""
+    keep_in_view: bool | None
+    """True. Keep bodies in view: they appear where the scene has them"""
+    in_place: bool | None
+    """The same as keep_in_view."""
+    in_: bool | None
+    """The same as keep_in_view."""
+    brightness: Text | None
+    """LAW. Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]"""
+    br: Text | None
+    """The same as brightness."""
+    spectral: bool | None
+    """True. Shift spectra instead of hues"""
+    sp: bool | None
+    """The same as spectral."""
+    no_doppler: bool | None
+    """True. Leave wavelengths as they are"""
+    no_flux: bool | None
+    """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
+    interpolate_wavelength: bool | None
+    """True. Interpolate wavelengths between corners, instead of hues"""
+    iw: bool | None
+    """The same as interpolate_wavelength."""
+    wavelengths: bool | None
+    """True. Hues in colour statements are wavelengths in nm; implies interpolate_wavelength=True"""
+    wi: bool | None
+    """The same as wavelengths."""
+    repeat_vertices: bool | None
+    """True. Keep colours of faces apart where they share vertices"""
+    vr: bool | None
+    """The same as repeat_vertices."""
+    depth: float | str | None
+    """N. Most reflections and refractions along a path [default: 16]"""
+    rd: float | str | None
+    """The same as depth."""
+    cut_off: float | str | None
+    """PART. Least part of a pixel's light that is followed [default: 0.01]"""
+    rc: float | str | None
+    """The same as cut_off."""
+    no_shadows: bool | None
+    """True. Without shadows: light reaches surfaces through all others"""
+    fresnel: bool | None
+    """True. Fresnel's equations for mirrors and glass"""
+    film_shutter: float | str | None
+    """DISTANCE. Shutter at the film, at this distance behind the pinhole"""
+    panorama: bool | None
+    """True. Panorama of all directions"""
+    pan: bool | None
+    """The same as panorama."""
+    fisheye: float | str | None
+    """ANGLE. Fisheye: ANGLE degrees in a circle, as for domes"""
+    fish: float | str | None
+    """The same as fisheye."""
+    cube_map: bool | None
+    """True. Cube map: six square views from left to right"""
+    cube: bool | None
+    """The same as cube_map."""
+    stereo: float | str | None
+    """DISTANCE. A picture for each of two eyes at this distance"""
+    smooth: bool | None
+    """True. Smooth shading"""
+    sm: bool | None
+    """The same as smooth."""
+    look: Text | None
+    """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    adaptive: float | str | None
+    """CONTRAST. Adaptive samples: fewer in pixels of less contrast than this"""
+    ad: float | str | None
+    """The same as adaptive."""
+    crop: Vector | None
+    """X Y W H. Draw only a part of the picture: column, row, width, height"""
+    format: Text | None
+    """FMT. Format of the picture [default: by the ending of output, else png]"""
+    dt: Text | None
+    """The same as format."""
+    size: Vector | None
+    """W H. Size of the picture in pixels [default: 1024 768]"""
+    sz: Vector | None
+    """The same as size."""
+    samples: float | str | None
+    """N. N x N samples per pixel, 1 to 16 [default: 4]"""
+    aa: float | str | None
+    """The same as samples."""
+    filter: Text | None
+    """FILTER. Reconstruction filter from samples to pixels: box, triangle, spline [default: box]"""
+    fl: Text | None
+    """The same as filter."""
+    background: Vector | float | str | None
+    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    bg: Vector | float | str | None
+    """The same as background."""
+    transparent: bool | None
+    """True. Transparent background"""
+    tb: bool | None
+    """The same as transparent."""
+    exposure: float | str | None
+    """E|auto. Exposure in stops, or auto"""
+    ex: float | str | None
+    """The same as exposure."""
+    tone_curve: Text | None
+    """CURVE. Tone curve from light to display: clip, filmic [default: clip]"""
+    tc: Text | None
+    """The same as tone_curve."""
+    pack: bool | None
+    """True. Smaller PNG files, which take longer to compress"""
+    pz: bool | None
+    """The same as pack."""
+    channels: str | Sequence[str] | None
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    ch: str | Sequence[str] | None
+    """The same as channels."""
+    camera: Text | None
+    """NAME. The camera of this name [default: the first without a name, else the first]"""
+    cam: Text | None
+    """The same as camera."""
+    eye: Vector | None
+    """X Y Z. Eye point [default: that of the scene's camera]"""
+    ep: Vector | None
+    """The same as eye."""
+    center: Vector | None
+    """X Y Z. View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]"""
+    vc: Vector | None
+    """The same as center."""
+    up: Vector | None
+    """X Y Z. Up direction [default: that of the scene's camera, else 0 0 1]"""
+    ud: Vector | None
+    """The same as up."""
+    view_angle: Vector | float | str | None
+    """A B. Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's camera, else 40]"""
+    va: Vector | float | str | None
+    """The same as view_angle."""
+    orthographic: bool | None
+    """True. Orthographic projection"""
+    og: bool | None
+    """The same as orthographic."""
+    caption: Text | None
+    """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
+    cap: Text | None
+    """The same as caption."""
+    legend: bool | None
+    """True. Legend below the picture: spectrum, velocities, Doppler factors"""
+    lg: bool | None
+    """The same as legend."""
+    undistorted: bool | None
+    """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
+    dl: bool | None
+    """The same as undistorted."""
+    grid: bool | None
+    """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
+    gr: bool | None
+    """The same as grid."""
+
+class Warp(Reading, total=False):
+    velocity: Vector | None
+    """X Y Z. Velocity of the surroundings, fraction of c"""
+    vel: Vector | None
+    """The same as velocity."""
+    camera_velocity: Vector | None
+    """X Y Z. Velocity of the camera in the panorama, fraction of c"""
+    cv: Vector | None
+    """The same as camera_velocity."""
+    from_: Text | None
+    """KIND. Arrangement of directions: panorama, strip, cross, sides [default: panorama]"""
+    part: Vector | None
+    """WEST EAST SOUTH NORTH. Angles that the panorama shows, in degrees [default: -180 180 -90 90]"""
+    scene: Text | None
+    """FILE. Scene whose camera takes the picture"""
+    time: float | str | None
+    """T. Time of the picture on the clock of the camera of scene= [default: 0]"""
+    ti: float | str | None
+    """The same as time."""
+    camera: Text | None
+    """NAME. The camera of this name [default: the first without a name, else the first]"""
+    cam: Text | None
+    """The same as camera."""
+    eye: Vector | None
+    """X Y Z. Eye point [default: that of the scene's camera]"""
+    ep: Vector | None
+    """The same as eye."""
+    center: Vector | None
+    """X Y Z. View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]"""
+    vc: Vector | None
+    """The same as center."""
+    up: Vector | None
+    """X Y Z. Up direction [default: that of the scene's camera, else 0 0 1]"""
+    ud: Vector | None
+    """The same as up."""
+    view_angle: Vector | float | str | None
+    """A B. Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's camera, else 40]"""
+    va: Vector | float | str | None
+    """The same as view_angle."""
+    orthographic: bool | None
+    """True. Orthographic projection"""
+    og: bool | None
+    """The same as orthographic."""
+    brightness: Text | None
+    """LAW. Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]"""
+    br: Text | None
+    """The same as brightness."""
+    spectral: bool | None
+    """True. Shift spectra instead of hues"""
+    sp: bool | None
+    """The same as spectral."""
+    no_doppler: bool | None
+    """True. Leave wavelengths as they are"""
+    no_flux: bool | None
+    """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
+    basis: Vector | float | str | None
+    """BASIS T2 T3. Spectra of colours: mixture, or three temperatures [default: mixture]"""
+    highlights: float | str | None
+    """STOPS. How much brighter than white clipped highlights of a photograph are, in stops"""
+    infrared: Text | None
+    """FILE. Panorama of infrared light"""
+    infrared_to: float | str | None
+    """NM. Longest wavelength of the infrared panorama, nm [default: 1400]"""
+    ultraviolet: Text | None
+    """FILE. Panorama of ultraviolet light"""
+    ultraviolet_from: float | str | None
+    """NM. Shortest wavelength of the ultraviolet panorama, nm [default: 200]"""
+    stars: float | str | None
+    """LIST. Draw the stars of a list in front of the panorama"""
+    star_width: float | str | None
+    """PIXELS. Width of stars at half of their maximum, in pixels [default: 1.7]"""
+    white: float | str | None
+    """MAG. Magnitude of stars of which one per square degree is white [default: -2]"""
+    panorama: bool | None
+    """True. Panorama of all directions"""
+    pan: bool | None
+    """The same as panorama."""
+    fisheye: float | str | None
+    """ANGLE. Fisheye: ANGLE degrees in a circle, as for domes"""
+    fish: float | str | None
+    """The same as fisheye."""
+    cube_map: bool | None
+    """True. Cube map: six square views from left to right"""
+    cube: bool | None
+    """The same as cube_map."""
+    format: Text | None
+    """FMT. Format of the picture [default: by the ending of output, else png]"""
+    dt: Text | None
+    """The same as format."""
+    size: Vector | None
+    """W H. Size of the picture in pixels [default: 1024 768]"""
+    sz: Vector | None
+    """The same as size."""
+    filter: Text | None
+    """FILTER. Reconstruction filter from samples to pixels: box, triangle, spline [default: box]"""
+    fl: Text | None
+    """The same as filter."""
+    background: Vector | float | str | None
+    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    bg: Vector | float | str | None
+    """The same as background."""
+    transparent: bool | None
+    """True. Transparent background"""
+    tb: bool | None
+    """The same as transparent."""
+    exposure: float | str | None
+    """E|auto. Exposure in stops, or auto"""
+    ex: float | str | None
+    """The same as exposure."""
+    tone_curve: Text | None
+    """CURVE. Tone curve from light to display: clip, filmic [default: clip]"""
+    tc: Text | None
+    """The same as tone_curve."""
+    pack: bool | None
+    """True. Smaller PNG files, which take longer to compress"""
+    pz: bool | None
+    """The same as pack."""
+    channels: str | Sequence[str] | None
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    ch: str | Sequence[str] | None
+    """The same as channels."""
+    look: Text | None
+    """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    samples: float | str | None
+    """N. N x N samples per pixel, 1 to 16 [default: 1]"""
+    aa: float | str | None
+    """The same as samples."""
+    caption: Text | None
+    """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
+    cap: Text | None
+    """The same as caption."""
+    legend: bool | None
+    """True. Legend below the picture: spectrum, velocities, Doppler factors"""
+    lg: bool | None
+    """The same as legend."""
+    undistorted: bool | None
+    """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
+    dl: bool | None
+    """The same as undistorted."""
+    grid: bool | None
+    """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
+    gr: bool | None
+    """The same as grid."""
+
+class Film(Reading, total=False):
+    frames: float | str | None
+    """N. Number of frames [default: 100]"""
+    fps: float | str | None
+    """RATE. Frames a second, for films in one file [default: 25]"""
+    rays: bool | None
+    """True. Draw by tracing rays, with mirrors, glass and shadows, instead of the pipe of three programs"""
+    warp: bool | None
+    """True. Draw views of a panorama, a picture, instead of a scene"""
+    ease: Text | None
+    """WORD. How numbers change from one value to the next: linear, smooth [default: linear]"""
+    loop: bool | None
+    """True. The film repeats: the frame after the last one would be the first"""
+    follow: bool | None
+    """True. Turn the camera in every frame toward what moves"""
+    keys: Text | None
+    """FILE. Read values at single frames from FILE: lines such as 120 -ti 0 -ep 0 -5 2"""
+    only: Text | None
+    """LIST. Draw only these frames: 40..59, or 1,5,9..12"""
+    keep: Text | None
+    """NAMES. Also keep the frames of a film in these files, frame_%04d.png, and use those that are there"""
+    blur: float | str | None
+    """TIME. Motion blur: average the light of the film over TIME, in times between two frames"""
+    moments: float | str | None
+    """N. Moments that are averaged with blur= [default: 16]"""
+    sheet: float | str | bool | None
+    """N. Draw N frames spread over the film, or those of only=, on one sheet"""
+    format: Text | None
+    """FMT. Format of the film [default: by the ending of output]"""
+    dt: Text | None
+    """The same as format."""
+    look: Text | None
+    """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    velocity: Vector | float | str | None
+    """X Y Z. Velocity of all objects, fraction of c [default: the scene's, else 0]"""
+    vel: Vector | float | str | None
+    """The same as velocity."""
+    camera_velocity: Vector | float | str | None
+    """X Y Z. Velocity of the camera in the scene, fraction of c [default: the scene's, else 0]"""
+    cv: Vector | float | str | None
+    """The same as camera_velocity."""
+    time: float | str | None
+    """T. Time of the picture on the observer's clock"""
+    ti: float | str | None
+    """The same as time."""
+    anchor: float | str | None
+    """POINT. Fixed point of the contraction: eye, origin, center or X Y Z"""
+    an: float | str | None
+    """The same as anchor."""
+    keep_in_view: bool | None
+    """True. Keep bodies in view: they appear where the scene has them"""
+    in_place: bool | None
+    """The same as keep_in_view."""
+    in_: bool | None
+    """The same as keep_in_view."""
+    error: float | str | None
+    """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
+    se: float | str | None
+    """The same as error."""
+    color_error: float | str | None
+    """PERCENT. Subdivide also until the interpolated Doppler factor deviates by at most PERCENT, or off [default: 0.15]"""
+    sc: float | str | None
+    """The same as color_error."""
+    light_error: float | str | None
+    """PERCENT. Subdivide also until the interpolated light of near lamps deviates by at most PERCENT [default: off]"""
+    sl: float | str | None
+    """The same as light_error."""
+    pieces: float | str | None
+    """N. Cut every edge into N equal pieces, instead of error=, color_error= and light_error="""
+    sd: float | str | None
+    """The same as pieces."""
+    smooth: bool | None
+    """True. Write vertex normals for smooth shading"""
+    sm: bool | None
+    """The same as smooth."""
+    repeat_vertices: bool | None
+    """True. Keep colours of faces apart where they share vertices"""
+    vr: bool | None
+    """The same as repeat_vertices."""
+    no_contraction: bool | None
+    """True. For teaching: omit Lorentz contraction"""
+    nc: bool | None
+    """The same as no_contraction."""
+    no_flight_time: bool | None
+    """True. For teaching: omit the light travel time"""
+    cull: bool | None
+    """True. Remove faces that are outside the view of the camera"""
+    camera: Text | None
+    """NAME. The camera of this name [default: the first without a name, else the first]"""
+    cam: Text | None
+    """The same as camera."""
+    eye: Vector | float | str | None
+    """X Y Z. Eye point [default: that of the scene's camera]"""
+    ep: Vector | float | str | None
+    """The same as eye."""
+    center: Vector | float | str | None
+    """X Y Z. View centre, shown in the middle of the picture [default: that of the scene's camera, else the scene's middle]"""
+    vc: Vector | float | str | None
+    """The same as center."""
+    up: Vector | float | str | None
+    """X Y Z. Up direction [default: that of the scene's camera, else 0 0 1]"""
+    ud: Vector | float | str | None
+    """The same as up."""
+    view_angle: Vector | float | str | None
+    """A B. Full horizontal and, if given, vertical view angle, in degrees [default: that of the scene's camera, else 40]"""
+    va: Vector | float | str | None
+    """The same as view_angle."""
+    orthographic: bool | None
+    """True. Orthographic projection"""
+    og: bool | None
+    """The same as orthographic."""
+    wavelengths: bool | None
+    """True. Write wavelengths (nm) instead of hues"""
+    gw: bool | None
+    """The same as wavelengths."""
+    brightness: Text | None
+    """LAW. Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]"""
+    br: Text | None
+    """The same as brightness."""
+    spectral: bool | None
+    """True. Shift spectra instead of hues"""
+    sp: bool | None
+    """The same as spectral."""
+    no_doppler: bool | None
+    """True. Leave wavelengths as they are"""
+    no_flux: bool | None
+    """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
+    color_tolerance: float | str | None
+    """T. Reuse a colour that differs by at most T nm and T percent of value, or with spectral=True by T percent of X, Y and Z; 0: a colour for each vertex"""
+    ct: float | str | None
+    """The same as color_tolerance."""
+    iris: bool | None
+    """True. Iris: scale all values so that the brightest is 1"""
+    ir: bool | None
+    """The same as iris."""
+    light: bool | None
+    """True. Light the scene by its lights, moving ones included"""
+    li: bool | None
+    """The same as light."""
+    keep_intensities: bool | None
+    """True. Keep values above 1 for the exposure of the renderer"""
+    hd: bool | None
+    """The same as keep_intensities."""
+    interpolate_hue: bool | None
+    """True. Interpolate hue between corners (default)"""
+    ih: bool | None
+    """The same as interpolate_hue."""
+    interpolate_wavelength: bool | None
+    """True. Interpolate wavelength between corners"""
+    iw: bool | None
+    """The same as interpolate_wavelength."""
+    wi: bool | None
+    """True. Hues in colour statements are wavelengths in nm; implies interpolate_wavelength=True"""
+    vector: bool | None
+    """True. Vector graphics instead of pixels, for eps, ps, pdf, svg"""
+    vec: bool | None
+    """The same as vector."""
+    text: bool | None
+    """True. Text of captions, legends and grids as text in vector graphics, instead of outlines"""
+    txt: bool | None
+    """The same as text."""
+    size: Vector | float | str | None
+    """W H. Size of every frame in pixels [default: 1024 768]"""
+    sz: Vector | float | str | None
+    """The same as size."""
+    samples: float | str | None
+    """N. N x N samples per pixel, 1 to 16"""
+    aa: float | str | None
+    """The same as samples."""
+    filter: Text | None
+    """FILTER. Reconstruction filter from samples to pixels: box, triangle, spline"""
+    fl: Text | None
+    """The same as filter."""
+    background: Vector | float | str | None
+    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    bg: Vector | float | str | None
+    """The same as background."""
+    transparent: bool | None
+    """True. Transparent background"""
+    tb: bool | None
+    """The same as transparent."""
+    exposure: float | str | None
+    """E|auto. Exposure in stops, or auto"""
+    ex: float | str | None
+    """The same as exposure."""
+    tone_curve: Text | None
+    """CURVE. Tone curve from light to display: clip, filmic"""
+    tc: Text | None
+    """The same as tone_curve."""
+    pack: bool | None
+    """True. Smaller PNG files, which take longer to compress"""
+    pz: bool | None
+    """The same as pack."""
+    channels: str | Sequence[str] | None
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    ch: str | Sequence[str] | None
+    """The same as channels."""
+    cull_back_faces: bool | None
+    """True. Cull back faces, whose corners run clockwise in the picture"""
+    cb: bool | None
+    """The same as cull_back_faces."""
+    wireframe: bool | None
+    """True. Wireframe: draw edges of faces as lines, instead of faces; faces still occlude them"""
+    wf: bool | None
+    """The same as wireframe."""
+    edges: bool | None
+    """True. Draw edges of faces as black lines, over the faces"""
+    ed: bool | None
+    """The same as edges."""
+    line_color: Vector | float | str | None
+    """L H S. Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces with wireframe=True, black with edges=True]"""
+    lc: Vector | float | str | None
+    """The same as line_color."""
+    line_width: float | str | None
+    """W. Width of edges and wires in pixels"""
+    lw: float | str | None
+    """The same as line_width."""
+    depth_cue: Vector | float | str | bool | None
+    """NEAR FAR LEAST. Depth cueing: between the depths NEAR and FAR, light fades linearly into the background, to the fraction LEAST"""
+    dc: Vector | float | str | bool | None
+    """The same as depth_cue."""
+    exact: bool | None
+    """True. Exact: a ray for every sample, instead of subdivision"""
+    xc: bool | None
+    """The same as exact."""
+    caption: Text | None
+    """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
+    cap: Text | None
+    """The same as caption."""
+    legend: bool | None
+    """True. Legend below the picture: spectrum, velocities, Doppler factors"""
+    lg: bool | None
+    """The same as legend."""
+    undistorted: bool | None
+    """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
+    dl: bool | None
+    """The same as undistorted."""
+    grid: bool | None
+    """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
+    gr: bool | None
+    """The same as grid."""
+    depth: float | str | None
+    """N. Most reflections and refractions along a path"""
+    rd: float | str | None
+    """The same as depth."""
+    cut_off: float | str | None
+    """PART. Least part of a pixel's light that is followed"""
+    rc: float | str | None
+    """The same as cut_off."""
+    no_shadows: bool | None
+    """True. Without shadows: light reaches surfaces through all others"""
+    fresnel: bool | None
+    """True. Fresnel's equations for mirrors and glass"""
+    film_shutter: float | str | None
+    """DISTANCE. Shutter at the film, at this distance behind the pinhole"""
+    panorama: bool | None
+    """True. Panorama of all directions"""
+    pan: bool | None
+    """The same as panorama."""
+    fisheye: float | str | None
+    """ANGLE. Fisheye: ANGLE degrees in a circle, as for domes"""
+    fish: float | str | None
+    """The same as fisheye."""
+    cube_map: bool | None
+    """True. Cube map: six square views from left to right"""
+    cube: bool | None
+    """The same as cube_map."""
+    stereo: float | str | None
+    """DISTANCE. A picture for each of two eyes at this distance"""
+    adaptive: float | str | None
+    """CONTRAST. Adaptive samples: fewer in pixels of less contrast than this"""
+    ad: float | str | None
+    """The same as adaptive."""
+    scene: Text | None
+    """FILE. Scene whose camera takes the picture"""
+    from_: Text | None
+    """KIND. Arrangement of directions: panorama, strip, cross, sides [default: panorama]"""
+    part: Vector | float | str | None
+    """WEST EAST SOUTH NORTH. Angles that the panorama shows, in degrees [default: -180 180 -90 90]"""
+    basis: Vector | float | str | None
+    """BASIS T2 T3. Spectra of colours: mixture, or three temperatures [default: mixture]"""
+    highlights: float | str | None
+    """STOPS. How much brighter than white clipped highlights of a photograph are, in stops"""
+    infrared: Text | None
+    """FILE. Panorama of infrared light"""
+    infrared_to: float | str | None
+    """NM. Longest wavelength of the infrared panorama, nm [default: 1400]"""
+    ultraviolet: Text | None
+    """FILE. Panorama of ultraviolet light"""
+    ultraviolet_from: float | str | None
+    """NM. Shortest wavelength of the ultraviolet panorama, nm [default: 200]"""
+    stars: float | str | None
+    """LIST. Draw the stars of a list in front of the panorama"""
+    star_width: float | str | None
+    """PIXELS. Width of stars at half of their maximum, in pixels [default: 1.7]"""
+    white: float | str | None
+    """MAG. Magnitude of stars of which one per square degree is white [default: -2]"""
