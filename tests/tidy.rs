@@ -54,14 +54,14 @@ fn place(path: &Path, line: usize) -> String {
     format!("{}:{}", path.strip_prefix(root()).unwrap_or(path).display(), line + 1)
 }
 
-/// Crates and their folders: those of `crates/`, and the conformance suite.
+/// Crates and their folders: those of `crates/`, the conformance suite, and that of the page.
 fn crates() -> BTreeMap<String, PathBuf> {
     let manifests = files(&root().join("crates")).into_iter().filter(|path| path.ends_with("Cargo.toml"));
     let folders = manifests.filter_map(|path| path.parent().map(Path::to_path_buf));
     let named =
         folders.filter_map(|folder| Some((folder.file_name()?.to_string_lossy().into_owned(), folder)));
-    let suite = ("ugconformance".to_string(), root().join("conformance"));
-    named.chain([suite]).collect()
+    let others = [("ugconformance", "conformance"), ("ugweb", "web")];
+    named.chain(others.map(|(name, folder)| (name.to_string(), root().join(folder)))).collect()
 }
 
 /// The table of ARCHITECTURE.md: crate → what it may depend on.

@@ -9,6 +9,7 @@
 //! cargo xtask gallery
 //! cargo xtask plots figures
 //! cargo xtask directions > scenes/directions.ug
+//! cargo xtask page --test
 //! cargo xtask hostile 50000
 //! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
@@ -27,6 +28,7 @@ mod hostile;
 mod install;
 mod instructions;
 mod mesh;
+mod page;
 mod plot;
 mod plots;
 mod programs;
@@ -109,6 +111,8 @@ enum Task {
     /// Installs the Debian packages slurm-wlm, munge, parallel and python3-venv if they are
     /// missing, and Snakemake in the cache folder of the user.
     Cluster,
+    /// Build the page of web/, one HTML file with the programs as WebAssembly
+    Page(page::Args),
     /// Install the programs, their man pages and documentation, and completions for bash, zsh and
     /// fish
     Install(install::Args),
@@ -161,6 +165,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Hostile(args) => hostile::write(&mut out, args)?,
         Task::Worlds(args) => worlds::write(&mut out, args)?,
         Task::Cluster => cluster::check()?,
+        Task::Page(args) => page::build(&mut out, args)?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }

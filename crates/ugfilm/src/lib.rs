@@ -92,5 +92,7 @@ mod work;
 pub use cli::{Args, manual, run};
 pub use error::Error;
 pub use note::Note;
+#[cfg(feature = "cli")]
+pub use options::ParsedCommand;
 pub use pipe::{FilmSubject, Pipe};
 pub use program::{Program, ProgramError};

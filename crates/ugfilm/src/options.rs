@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::{CommonArgs, Failure, Look, ToolArgs, parse_words};
+use ugpipe::{CommonArgs, Failure, Look, ToolArgs, parse_command};
 
 use crate::program::Program;
 
@@ -16,29 +16,57 @@ pub struct Tool {
     command: fn() -> Command,
     look: Look,
     /// Parses its words, of which the first is its name.
-    pub parse: fn(&[String]) -> Result<Program, Failure>,
+    pub parse: fn(&[String]) -> Result<ParsedCommand, Failure>,
+}
+
+/// A command of a pipe, whose functions are called in this process.
+pub struct ParsedCommand {
+    /// The program with its options. The ending of its output file is the format of the picture,
+    /// unless an option gives it.
+    pub program: Program,
+    /// The command line that it records in its output.
+    pub line: String,
+    /// The options that all programs have.
+    pub common: CommonArgs,
 }
 
 /// The command line of the program of a crate, a variant of [`Program`] with these options.
 macro_rules! tool {
-    ($krate:ident, $variant:ident, $args:ident => $config:expr) => {
+    ($krate:ident, $variant:ident, $args:ident => $config:expr, $line:expr) => {
         &Tool {
             heading: concat!("Options of ", stringify!($krate)),
             command: $krate::Args::command,
             look: <$krate::Args as ToolArgs>::LOOKS.default,
             parse: |words| {
-                let $args: $krate::Args = parse_words(words.iter().map(OsString::from))?;
-                Ok(Program::$variant($config?))
+                let ($args, line): ($krate::Args, _) = parse_command(words.iter().map(OsString::from))?;
+                let config = $config?;
+                let line = $line(&$args, line, &config);
+                Ok(ParsedCommand { program: Program::$variant(config), line, common: $args.common().clone() })
             },
         }
     };
 }
 
-const LORENTZ: &Tool = tool!(uglorentz, Lorentz, args => args.config());
-const DOPPLER: &Tool = tool!(ugdoppler, Doppler, args => args.config());
-const RAINBOW: &Tool = tool!(ugrainbow, Rainbow, args => args.config(None));
-const PHOTON: &Tool = tool!(ugphoton, Photon, args => args.config(None));
-const WARP: &Tool = tool!(ugwarp, Warp, args => args.config(None));
+/// A program that writes a scene.
+macro_rules! filter {
+    ($krate:ident, $variant:ident) => {
+        tool!($krate, $variant, args => args.config(), |_, line, _| line)
+    };
+}
+
+/// A program that writes a picture.
+macro_rules! renderer {
+    ($krate:ident, $variant:ident) => {
+        tool!($krate, $variant, args => args.config(args.common().output()),
+              |args: &$krate::Args, line: String, config| args.recorded(&line, config))
+    };
+}
+
+const LORENTZ: &Tool = filter!(uglorentz, Lorentz);
+const DOPPLER: &Tool = filter!(ugdoppler, Doppler);
+const RAINBOW: &Tool = renderer!(ugrainbow, Rainbow);
+const PHOTON: &Tool = renderer!(ugphoton, Photon);
+const WARP: &Tool = renderer!(ugwarp, Warp);
 
 /// The programs whose options a film has, in the order in which they are listed.
 pub const TOOLS: [&Tool; 5] = [LORENTZ, DOPPLER, RAINBOW, PHOTON, WARP];
@@ -68,6 +96,31 @@ impl PipeArgs {
             _ if given.iter().any(|option| option.name == "xc") => &[LORENTZ, RAINBOW],
             _ => PIPE,
         }
+    }
+}
+
+impl ParsedCommand {
+    /// Parses the words of a command, of which the first is the name of the program.
+    ///
+    /// # Errors
+    /// [`Failure::Usage`]: another program, or options that are wrong.
+    pub fn from_words(words: &[String]) -> Result<Self, Failure> {
+        let name = words.first().map_or("", String::as_str);
+        let tool = TOOLS.into_iter().find(|tool| tool.name() == name).ok_or_else(|| {
+            let names = TOOLS.map(Tool::name).join(", ");
+            Failure::Usage(format!("`{name}` is none of the programs {names}"))
+        })?;
+        (tool.parse)(words)
+    }
+}
+
+impl Program {
+    /// The program of a command line with its options. `words`: the name of the program first.
+    ///
+    /// # Errors
+    /// See [`ParsedCommand::from_words`].
+    pub fn from_words(words: &[String]) -> Result<Self, Failure> {
+        Ok(ParsedCommand::from_words(words)?.program)
     }
 }
 

@@ -188,7 +188,7 @@ impl Script {
         for (row, words) in self.commands(frame, &[CAPTION])?.0.into_iter().enumerate() {
             let program = match self.parsed.get().map(|parsed| &parsed[row]) {
                 Some((earlier, program)) if *earlier == words => program.clone(),
-                _ => (self.tools[row].parse)(&words)?,
+                _ => (self.tools[row].parse)(&words)?.program,
             };
             parsed.push((words, program));
         }
