@@ -62,6 +62,23 @@ fn files_are_those_of_a_shell() {
     }
 }
 
+/// Keywords are the longest names of options; files and numbers as Python has them.
+#[test]
+fn lines_in_python_have_every_option() {
+    let check = |line: &str, expected: &str| assert_eq!(Studio::python(&commands(line)).unwrap(), expected);
+    check(
+        "uglorentz -vel .9 0 -1e-3 -in -lax a.ug | ugdoppler -look light | ugrainbow -look 1988 -sz 64 48 -cap { -fo b.png",
+        "import uglorentz as ug\n\nscene = ug.Scene.read(\"a.ug\", lax=True)\n\
+         picture = scene.lorentz(velocity=(.9, 0, -1e-3), keep_in_view=True).doppler(look=\"light\")\
+         .render(look=1988, size=(64, 48), caption=\"{\")\npicture.save(\"b.png\")",
+    );
+    check(
+        "ugwarp --camera-velocity 0 .9 0 -va 90 stars.csv -fo b.svg",
+        "import uglorentz as ug\n\npicture = ug.warp(\"stars.csv\", camera_velocity=(0, .9, 0), view_angle=90)\n\
+         picture.save(\"b.svg\")",
+    );
+}
+
 /// Options of the view leave the subject as it was read; those of reading do not.
 #[test]
 fn pixels_are_those_of_the_file() {

@@ -192,11 +192,8 @@ async function drawFull() {
   if (isPlaying) { restTimer = setTimeout(drawFull, REST_MS); return; }
   const turn = state.turn;
   const file = outputName(state.format);
-  const [line, answer] = [await attempt(full, commands({ file }), 'line'), await attempt(full, commands())];
-  if (line) {
-    $('shell').textContent = line.result;
-    $('python').textContent = `import subprocess\nsubprocess.run(${python(line.result)}, shell=True, check=True)`;
-  }
+  const [told, answer] = [await attempt(full, commands({ file }), 'lines'), await attempt(full, commands())];
+  tell(told);
   if (!answer || turn !== state.turn) return;
   show(answer, turn);
   notes(answer.result.notes);
@@ -205,8 +202,12 @@ async function drawFull() {
   state.drawn = turn;
 }
 
-/** Text as Python has it. */
-const python = text => JSON.stringify(text).replace(/[\u007f-\uffff]/g, c => `\\u${c.charCodeAt(0).toString(16).padStart(4, '0')}`);
+/** Shows the picture as a line of a shell and in Python. */
+function tell(told) {
+  if (!told) return;
+  $('shell').textContent = told.result.shell;
+  $('python').textContent = told.result.python;
+}
 
 /** The result of a task, or `undefined` after the message about why there is none. */
 async function attempt(studio, commands, task = 'draw') {
@@ -282,13 +283,12 @@ function describe({ kind, eye, center, angle, times }) {
   label();
 }
 
-/** Turns the camera by angles in degrees, and goes nearer by a factor. */
+/** Turns the camera of a sky, or moves it around a scene, by angles in degrees; and goes nearer by a factor. */
 function turnCamera(across, up, factor = 1) {
   const camera = state.camera;
   if (!camera) return;
-  const sign = state.isSky ? 1 : -1;
   camera.azimuth = ((camera.azimuth + across + 540) % 360) - 180;
-  camera.climb = Math.max(-89, Math.min(89, camera.climb + sign * up));
+  camera.climb = Math.max(-89, Math.min(89, camera.climb + up));
   if (state.isSky) camera.angle = Math.max(5, Math.min(150, camera.angle * factor));
   else camera.distance *= factor;
   camera.isMoved = true;
@@ -393,9 +393,8 @@ async function save(format) {
   const file = outputName(format);
   clearTimeout(restTimer);
   full.stop();
-  const line = await attempt(full, commands({ file }), 'line');
+  tell(await attempt(full, commands({ file }), 'lines'));
   const answer = await attempt(full, commands({ file }), 'file');
-  if (line) $('shell').textContent = line.result;
   if (!answer) return;
   const type = format === 'svg' ? 'image/svg+xml' : 'image/png';
   const link = document.createElement('a');
@@ -416,20 +415,27 @@ async function copy(id) {
   }
 }
 
-/** Calls `move` with how far a pointer is dragged on an element. */
-function onDrag(element, move) {
-  let last = null;
+/** Calls `move` with how far a pointer is dragged on an element, and `pinch` with the factor of two. */
+function onDrag(element, move, pinch = () => {}) {
+  const pointers = new Map();
+  const span = () => {
+    const [a, b] = [...pointers.values()];
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  };
   element.addEventListener('pointerdown', event => {
     element.setPointerCapture(event.pointerId);
-    last = [event.clientX, event.clientY];
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
     move(event, 0, 0);
   });
   element.addEventListener('pointermove', event => {
+    const last = pointers.get(event.pointerId);
     if (!last) return;
-    move(event, event.clientX - last[0], event.clientY - last[1]);
-    last = [event.clientX, event.clientY];
+    const before = pointers.size === 2 ? span() : 0;
+    pointers.set(event.pointerId, [event.clientX, event.clientY]);
+    if (pointers.size === 1) move(event, event.clientX - last[0], event.clientY - last[1]);
+    if (pointers.size === 2) pinch(before / Math.max(1, span()));
   });
-  ['pointerup', 'pointercancel'].forEach(kind => element.addEventListener(kind, () => { last = null; }));
+  ['pointerup', 'pointercancel'].forEach(kind => element.addEventListener(kind, event => pointers.delete(event.pointerId)));
 }
 
 /** Calls what `actions` have for a key. */
@@ -466,22 +472,23 @@ function listen() {
   $('png').addEventListener('click', () => save('png'));
   $('svg').addEventListener('click', () => save('svg'));
   $('reset').addEventListener('click', () => {
+    if (!state.camera) return;
     if (state.isSky) Object.assign(state.camera, { azimuth: state.azimuth, climb: +$('climb').value, angle: 90 });
     else state.camera.isMoved = false;
     changed();
   });
   document.querySelectorAll('[data-copy]').forEach(button => button.addEventListener('click', () => copy(button.dataset.copy)));
   onDrag(canvas, (event, x, y) => {
-    const degrees = state.isSky ? state.camera?.angle / canvas.clientWidth : -.4;
-    if (x || y) turnCamera(degrees * x, state.isSky ? degrees * y : -.4 * y);
-  });
+    const degrees = state.isSky ? state.camera?.angle / canvas.clientWidth : .4;
+    if (x || y) turnCamera((state.isSky ? degrees : -degrees) * x, degrees * y);
+  }, factor => turnCamera(0, 0, factor));
   canvas.addEventListener('wheel', event => {
     event.preventDefault();
     turnCamera(0, 0, Math.exp(Math.sign(event.deltaY) * Math.min(.3, Math.abs(event.deltaY) / 800)));
   }, { passive: false });
   onKeys(canvas, {
-    ArrowLeft: () => turnCamera(-5, 0), ArrowRight: () => turnCamera(5, 0), ArrowUp: () => turnCamera(0, -5),
-    ArrowDown: () => turnCamera(0, 5), '+': () => turnCamera(0, 0, .9), '-': () => turnCamera(0, 0, 1 / .9),
+    ArrowLeft: () => turnCamera(state.isSky ? 5 : -5, 0), ArrowRight: () => turnCamera(state.isSky ? -5 : 5, 0),
+    ArrowUp: () => turnCamera(0, 5), ArrowDown: () => turnCamera(0, -5), '+': () => turnCamera(0, 0, .9), '-': () => turnCamera(0, 0, 1 / .9),
     ' ': () => play(!isPlaying),
   });
   onDrag($('dial'), event => {

@@ -12,7 +12,7 @@ const tasks = {
     return { width, height, pixels, notes };
   },
   file: commands => studio.file(commands),
-  line: commands => wasm_bindgen.Studio.line(commands),
+  lines: commands => ({ shell: wasm_bindgen.Studio.line(commands), python: wasm_bindgen.Studio.python(commands) }),
 };
 
 onmessage = async ({ data }) => {
@@ -30,6 +30,6 @@ onmessage = async ({ data }) => {
   } catch (error) {
     // A message of the programs is text; anything else ends this worker.
     const isDead = typeof error !== 'string';
-    postMessage({ id, error: isDead ? `the programs stopped: ${error.message}` : error, isDead });
+    postMessage({ id, error: isDead ? `the programs stopped (${error.message}): the input needs more memory than a browser has, or this is a bug` : error, isDead });
   }
 };

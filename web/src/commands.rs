@@ -3,7 +3,7 @@
 use ugfilm::{ParsedCommand, Pipe, Program};
 use ugpipe::CommonArgs;
 
-use crate::printed;
+use crate::{printed, python};
 
 /// Options that decide how the input is read, or whether it suits them.
 const OF_READING: [&str; 21] = [
@@ -62,6 +62,12 @@ impl Commands {
         let mut pipe = Pipe::new(self.parsed.iter().map(|command| command.program.clone()).collect());
         pipe.lines = self.parsed.iter().map(|command| command.line.clone()).collect();
         pipe
+    }
+
+    /// The pipe in Python.
+    pub fn python(&self) -> String {
+        let manuals = self.parsed.iter().map(|command| (command.manual)());
+        python::lines(self.words.iter().map(Vec::as_slice).zip(manuals))
     }
 
     /// The words of the first command, which reads the input.

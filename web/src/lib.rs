@@ -21,6 +21,7 @@
 //! ```
 
 mod commands;
+mod python;
 mod subject;
 
 use ugfilm::Pipe;
@@ -107,6 +108,14 @@ impl Studio {
         let line =
             |words: &Vec<String>| words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ");
         Ok(commands::words(commands)?.iter().map(line).collect::<Vec<_>>().join(" | "))
+    }
+
+    /// The pipe in Python, with the package `uglorentz`.
+    ///
+    /// # Errors
+    /// The words of a command are wrong.
+    pub fn python(commands: &str) -> Result<String, String> {
+        Ok(Commands::parse(commands)?.python())
     }
 }
 

@@ -45,7 +45,7 @@
 //! script                                    the command lines and programs of every frame
 //! sight  levels                             what will be in view; frames that are nearly black
 //! animation                                 animated PNG and GIF
-//! keys  encode                              key frames; film formats
+//! keys  lesson  encode                      key frames; a page with a slider; film formats
 //! film                                      frames, in files or in a film
 //! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
@@ -66,6 +66,8 @@ mod film;
 mod frame_files;
 #[cfg(feature = "cli")]
 mod keys;
+#[cfg(feature = "cli")]
+mod lesson;
 #[cfg(feature = "cli")]
 mod levels;
 mod note;

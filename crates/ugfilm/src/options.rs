@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::{CommonArgs, Failure, Look, ToolArgs, parse_command};
+use ugpipe::{CommonArgs, Failure, Look, Manual, ToolArgs, parse_command};
 
 use crate::program::Program;
 
@@ -28,6 +28,8 @@ pub struct ParsedCommand {
     pub line: String,
     /// The options that all programs have.
     pub common: CommonArgs,
+    /// All options of the program.
+    pub manual: fn() -> Manual,
 }
 
 /// The command line of the program of a crate, a variant of [`Program`] with these options.
@@ -41,7 +43,8 @@ macro_rules! tool {
                 let ($args, line): ($krate::Args, _) = parse_command(words.iter().map(OsString::from))?;
                 let config = $config?;
                 let line = $line(&$args, line, &config);
-                Ok(ParsedCommand { program: Program::$variant(config), line, common: $args.common().clone() })
+                let (program, common) = (Program::$variant(config), $args.common().clone());
+                Ok(ParsedCommand { program, line, common, manual: $krate::manual })
             },
         }
     };

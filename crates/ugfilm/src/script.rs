@@ -217,6 +217,18 @@ impl Script {
         format!(", developed with {}", options.join(" "))
     }
 
+    /// The options that change over the film, with their values in a frame.
+    ///
+    /// # Errors
+    /// See [`Script::commands`].
+    pub fn changing(&self, frame: f64) -> Result<String, Failure> {
+        let moving = self.options.iter().filter(|setting| setting.timeline.is_moving());
+        let words = moving.map(|setting| {
+            Ok(format!("{} {}", spelling(&setting.name), self.values(setting, frame)?.join(" ")))
+        });
+        Ok(words.collect::<Result<Vec<_>, Failure>>()?.join(" "))
+    }
+
     /// The commands of a frame or moment without the options `left_out`.
     ///
     /// # Errors
