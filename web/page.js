@@ -30,7 +30,8 @@ const DEFAULTS = { moves: 'vel', beta: .9, azimuth: 0, climb: 0, in: true, time:
   lens: '', size: '640 480', dl: false, lg: false, gr: false, more: '' };
 
 const MESHES = /\.(ug|obj|ply|stl|off|gltf|glb)$/i;
-const SKIES = /\.(png|jpe?g|hdr|exr|pfm|csv)$/i;
+const PANORAMAS = /\.(png|jpe?g|hdr|exr|pfm)$/i;
+const STARS = /\.csv$/i;
 
 /** Milliseconds that a picture may take while one drags, and the least scale of its sides. */
 const DRAFT_MS = 55;
@@ -156,7 +157,11 @@ function commands({ size = sides(), file = null, isDraft = false } = {}) {
   return [['uglorentz', ...bodies, ...shape, state.name], ...tinted, ['ugrainbow', ...tint, ...output]];
 }
 
-const outputName = ending => `${state.name.replace(/^.*\//, '').replace(/\.[^.]*$/, '') || 'picture'}.${ending}`;
+/** The name of the picture: that of the subject with another ending, and never its own. */
+function outputName(ending) {
+  const name = state.name.replace(/\.[^.]*$/, '') || 'picture';
+  return `${name}.${ending}` === state.name ? `${name}-seen.${ending}` : `${name}.${ending}`;
+}
 
 // ---- Drawing --------------------------------------------------------------------------------
 
@@ -348,9 +353,10 @@ async function take(files, controls = {}) {
   play(false);
   [draft, full].forEach(studio => studio.stop());
   $('message').hidden = true;
-  const main = files.find(([name]) => MESHES.test(name)) ?? files.find(([name]) => SKIES.test(name)) ?? files[0];
+  const of = kind => files.find(([name]) => kind.test(name));
+  const main = of(MESHES) ?? of(PANORAMAS) ?? of(STARS) ?? files[0];
   if (!main) return;
-  const isSky = !MESHES.test(main[0]) && SKIES.test(main[0]);
+  const isSky = [PANORAMAS, STARS].some(kind => kind.test(main[0]));
   Object.assign(state, { files: [main, ...files.filter(file => file !== main)], name: main[0], isSky, camera: null,
     scale: .5, format: 'png', turn: state.turn + 1 });
   set(isSky ? { look: 'light', azimuth: 90, ...controls } : controls);

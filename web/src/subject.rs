@@ -114,9 +114,6 @@ impl Subject {
             "up": up,
             "angle": angle,
             "times": times.map(|times| [times.first, times.last, Some(times.best)]),
-            "velocity": own.velocity.map(|velocity| velocity.beta().to_array()),
-            "lamps": scene.lights.len(),
-            "faces": scene.faces.len(),
         })
     }
 }
