@@ -36,6 +36,8 @@ const STARS = /\.csv$/i;
 /** Milliseconds that a picture may take while one drags, and the least scale of its sides. */
 const DRAFT_MS = 55;
 const LEAST_SCALE = 1 / 8;
+/** Scales of the pictures that come before a full one that takes long. */
+const STAGES = [.25, .5];
 /** Milliseconds without a change after which the full picture is drawn. */
 const REST_MS = 180;
 
@@ -100,6 +102,7 @@ const beta = () => Math.round(1e3 * Math.tanh(+$('speed').value)) / 1e3;
 const radians = degrees => degrees * Math.PI / 180;
 const look = () => document.querySelector('[name=look]:checked').value;
 const sides = () => $('size').value.split(' ').map(Number);
+const scaled = scale => sides().map(side => Math.max(8, Math.round(side * scale)));
 
 /** The unit vector of two angles in degrees. */
 function direction(azimuth, climb) {
@@ -182,8 +185,7 @@ function changed() {
 async function drawDraft() {
   if (draft.isBusy || !state.name) return;
   const turn = state.turn;
-  const size = sides().map(side => Math.max(8, Math.round(side * state.scale)));
-  const answer = await attempt(draft, commands({ size, isDraft: true }));
+  const answer = await attempt(draft, commands({ size: scaled(state.scale), isDraft: true }));
   if (answer) {
     show(answer, turn);
     const factor = Math.sqrt(DRAFT_MS / Math.max(1, answer.ms));
@@ -197,8 +199,12 @@ async function drawFull() {
   if (isPlaying) { restTimer = setTimeout(drawFull, REST_MS); return; }
   const turn = state.turn;
   const file = outputName(state.format);
-  const [told, answer] = [await attempt(full, commands({ file }), 'lines'), await attempt(full, commands())];
-  tell(told);
+  tell(await attempt(full, commands({ file }), 'lines'));
+  for (const scale of STAGES.filter(stage => stage > state.scale)) {
+    const coarse = turn === state.turn && await attempt(full, commands({ size: scaled(scale), isDraft: true }));
+    if (coarse) show(coarse, turn);
+  }
+  const answer = turn === state.turn && await attempt(full, commands());
   if (!answer || turn !== state.turn) return;
   show(answer, turn);
   notes(answer.result.notes);

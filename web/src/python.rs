@@ -67,8 +67,13 @@ impl Call {
                 continue;
             };
             let most = if entry.is_repeated { usize::MAX } else { entry.values.len() };
+            let least = entry.values.iter().filter(|value| !value.is_optional).count();
             let mut values = Vec::new();
-            while let Some(value) = words.next_if(|next| values.len() < most && find(next).is_none()) {
+            // Beyond those that are needed only numbers are values, so that a file may follow.
+            let suits = |next: &str, count: usize| {
+                find(next).is_none() && (count < least || count < most && next.parse::<f64>().is_ok())
+            };
+            while let Some(value) = words.next_if(|next| suits(next, values.len())) {
                 values.push(value);
             }
             match (keyword(entry).as_str(), &values[..]) {

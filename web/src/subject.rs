@@ -63,7 +63,7 @@ impl Subject {
             let args: ugwarp::Args = parse_words(commands.first().iter().map(OsString::from))?;
             let input = context.input()?;
             let opened = args.open(&input, context)?;
-            let notes = opened.notes.iter().map(|note| format!("ugwarp: {note}")).collect();
+            let notes = opened.notes.iter().map(|note| format!("{}: {note}", commands.program())).collect();
             let origin = opened.origin(&input, context);
             return Ok(Self { key, kind: Kind::Sky(Box::new(opened), origin), notes });
         }
@@ -88,11 +88,12 @@ impl Subject {
     /// The notes of reading, and one if nothing that moves is in the picture, as uglorentz has it.
     pub fn notes(&self, pipe: &Pipe) -> Vec<String> {
         let mut notes = self.notes.clone();
-        if let (Kind::Scene(scene, boxes), Some(Program::Lorentz(_))) = (&self.kind, pipe.programs().first())
+        if let Kind::Scene(scene, boxes) = &self.kind
+            && let Some(first @ Program::Lorentz(_)) = pipe.programs().first()
         {
             let Seen { motion, camera, size } = Seen::new(pipe, scene);
             let note = boxes.note(scene, &motion, &camera, size);
-            notes.extend(note.map(|note| format!("uglorentz: {}", note.words())));
+            notes.extend(note.map(|note| format!("{}: {}", first.provenance().program, note.words())));
         }
         notes
     }

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use ugimage::{Format, Frame, Metadata};
+use ugimage::{Compression, Format, Frame, Metadata};
 
 /// The page around the pictures.
 const TEMPLATE: &str = include_str!("lesson.html");
@@ -42,7 +42,7 @@ impl<'w> Lesson<'w> {
     /// # Errors
     /// Writing fails.
     pub fn push(&mut self, frame: &Frame) -> io::Result<()> {
-        let png = STANDARD.encode(Format::Png.encode(frame, &Metadata::default()));
+        let png = STANDARD.encode(Format::Png.encode_with(frame, &Metadata::default(), Compression::Small));
         let (values, line) =
             self.captions.next().map_or_else(Default::default, |of| (escaped(&of.values), escaped(&of.line)));
         writeln!(
