@@ -200,7 +200,7 @@ mod tests {
         let script = format!("printf '%s\\0' {}", quoted.join(" "));
         let Ok(output) = std::process::Command::new("bash").args(["-c", &script]).output() else { return };
         let read = output.stdout.strip_suffix(b"\0").unwrap().split(|&byte| byte == 0);
-        assert!(read.eq(words.iter().map(|word| word.as_bytes())));
+        assert!(read.eq(words.iter().map(|word| word.as_encoded_bytes())));
     }
 
     #[test]
