@@ -193,6 +193,36 @@ fn films_in_one_file_have_the_pixels_of_their_frames() {
     assert_eq!(files["film.y4m"].len(), head.len() + 5 * (6 + 3 * 81 * 60));
 }
 
+/// A page has the pictures of its frames, the changing values, and the commands that draw them.
+#[test]
+fn pages_have_the_pictures_and_their_commands() {
+    use base64::Engine;
+    let shell = Shell::new(&["dice.ug"]);
+    let film = "ugfilm -frames 4 -vel 0 0..0.8 0 -in -cap '<\"{beta}\" & more' -sz 81 60 dice.ug";
+    shell.run(&format!("{film} -fo lesson.html -fps 4; {film} -fo f_%02d.png"));
+    let page = String::from_utf8(shell.read("lesson.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n") && page.contains(", 250);"));
+    let attribute = |picture: &str, name: &str| {
+        let value = picture.split_once(&format!("{name}=\"")).unwrap().1.split_once('"').unwrap().0;
+        value.replace("&quot;", "\"").replace("&lt;", "<").replace("&amp;", "&")
+    };
+    let pictures: Vec<&str> = page.lines().filter(|line| line.starts_with("<img")).collect();
+    assert_eq!(pictures.len(), 4);
+    for (row, picture) in (1..).zip(pictures) {
+        let source = attribute(picture, "src");
+        let png =
+            base64::engine::general_purpose::STANDARD.decode(source.split_once(',').unwrap().1).unwrap();
+        shell.write("shown.png", png);
+        assert!(shell.pixels("shown.png") == shell.pixels(&format!("f_{row:02}.png")), "picture {row}");
+        let line = attribute(picture, "title");
+        let drawn = format!("frame_{row:04}.png");
+        shell.run(&line);
+        assert!(shell.pixels(&drawn) == shell.pixels("shown.png"), "{line}");
+        let values = attribute(picture, "alt");
+        assert!(values.starts_with("-vel 0 ") && line.contains(&values), "{values}");
+    }
+}
+
 /// The frames of a GIF as browsers show them, each with its time in hundredths of a second.
 fn gif_frames(file: &[u8]) -> Vec<(u16, Vec<[u8; 4]>)> {
     let mut options = gif::DecodeOptions::new();
@@ -445,7 +475,7 @@ fn a_full_disk_and_a_failing_encoder_keep_what_is_done() {
     for (name, bytes) in files(&shell, "small").into_iter().filter(|(name, _)| name.starts_with('f')) {
         assert!(whole[&name] == bytes, "{name}");
     }
-    for kind in ["gif", "apng", "y4m", "ppm"] {
+    for kind in ["gif", "apng", "y4m", "ppm", "html"] {
         let (status, messages) = shell.fail(&format!("{film} -dt {kind} -fo /dev/full"));
         assert_eq!(status, Some(1), "{kind}: {messages}");
         assert!(messages.contains("cannot write `/dev/full`: No space left on device"), "{kind}: {messages}");

@@ -24,6 +24,7 @@ mod mesh;
 mod notes;
 mod oracle;
 mod own_time;
+mod page;
 mod postscript;
 mod processors;
 mod prompt;

@@ -6,7 +6,7 @@ use numpy::ndarray::Array3;
 use numpy::{IntoPyArray, PyArray3, ToPyArray};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use ugfilm::{FilmSubject, Note, Pipe, Program};
+use ugfilm::{FilmSubject, Note, ParsedCommand, Pipe};
 use ugimage::{LinearFrame, Samples};
 use ugpicture::Rendering;
 use ugscene::{BodyBoxes, TimesInView};
@@ -133,7 +133,7 @@ fn when_in_view(pipe: &Pipe, subject: FilmSubject<'_>) -> Option<TimesInView> {
 
 impl Drawing {
     fn draw(subject: &Subject, words: &[String], call: &Arc<Call>) -> Result<Self, Refused> {
-        let (program, line) = Program::from_words(words)?;
+        let ParsedCommand { program, line, .. } = ParsedCommand::from_words(words)?;
         let mut pipe = Pipe::new(vec![program]);
         pipe.lines = vec![line.clone()];
         let subject = match subject {

@@ -9,7 +9,7 @@ use clap::Parser;
 use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use ugfilm::{Error, FilmItem, Note, Program, ProgramError};
+use ugfilm::{Error, FilmItem, Note, ParsedCommand, Program, ProgramError};
 use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, Words, parse_words};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
@@ -207,7 +207,7 @@ impl PyScene {
     }
 
     fn filter(&self, words: &[String], camera: Option<&str>, call: &Arc<Call>) -> Result<Self, Refused> {
-        let (program, line) = Program::from_words(words)?;
+        let ParsedCommand { program, line, .. } = ParsedCommand::from_words(words)?;
         let at_rest = self.with_camera(camera)?;
         let item = FilmItem::Scene(Box::new((*at_rest).clone()));
         let made = program.run(item, &**call).map_err(|error| self.refused(error))?;

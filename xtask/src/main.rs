@@ -10,6 +10,7 @@
 //! cargo xtask gallery
 //! cargo xtask plots figures
 //! cargo xtask directions > scenes/directions.ug
+//! cargo xtask page --test
 //! cargo xtask hostile 50000
 //! cargo xtask worlds --from 1000000 --count 10000
 //! cargo xtask cluster
@@ -30,6 +31,7 @@ mod hostile;
 mod install;
 mod instructions;
 mod mesh;
+mod page;
 mod plot;
 mod plots;
 mod programs;
@@ -135,6 +137,8 @@ enum Task {
         #[arg(long)]
         manylinux: bool,
     },
+    /// Build the page of web/, one HTML file with the programs as WebAssembly
+    Page(page::Args),
     /// Install the programs, their man pages and documentation, and completions for bash, zsh and
     /// fish
     Install(install::Args),
@@ -191,6 +195,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Site => site::write(&mut out)?,
         Task::Package { check } => scripts::package(*check)?,
         Task::Python { manylinux } => scripts::python(*manylinux)?,
+        Task::Page(args) => page::build(&mut out, args)?,
         Task::Install(args) => install::write(&mut out, args, std::env::var_os("PATH").as_deref())?,
         Task::Uninstall(args) => install::remove(&mut out, args)?,
     }

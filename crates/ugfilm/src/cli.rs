@@ -21,6 +21,7 @@ use crate::blur::MotionBlur;
 use crate::encode::Kind;
 use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
 use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, remove_kept_exposure};
+use crate::lesson::Caption;
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
@@ -109,7 +110,7 @@ pub struct Args {
     /// Format of the film [default: by the ending of -fo]
     ///
     /// Of single frames: png, exr, pdf and all others of ugrainbow. Of films in one file: apng,
-    /// gif, y4m, ppm; mp4 and webm with ffmpeg.
+    /// gif, y4m, ppm, html, a page with a slider; mp4 and webm with ffmpeg.
     #[arg(long, value_name = "FMT", visible_alias = "format", help_heading = FILM)]
     dt: Option<String>,
 
@@ -240,7 +241,16 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             film.write_files(&frames, names, &context.steps())?
         }
         Output::Film(kind) => {
-            film.write_film(&frames, Target { kind: *kind, rate, keep: keep.as_ref() }, context)?
+            let caption = |&frame: &u32| -> Result<Caption, Failure> {
+                let input = args.common.input().map(shell_path);
+                let names = output.frame_names();
+                let line = print::script(&film, std::iter::once(frame), &names, input.as_deref())?;
+                Ok(Caption { values: script.changing(f64::from(frame))?, line })
+            };
+            let captions = frames.iter().filter(|_| *kind == Kind::Html).map(caption);
+            let captions = captions.collect::<Result<Vec<_>, _>>()?;
+            let target = Target { captions: &captions, kind: *kind, rate, keep: keep.as_ref() };
+            film.write_film(&frames, target, context)?
         }
         Output::Sheet => {
             let chosen = args.sheet.filter(|_| args.only.is_none());

@@ -9,6 +9,7 @@ use ugpipe::{Failure, Running};
 use ugscene::shorten;
 
 use crate::animation::{AnimatedPng, Gif, Shape, fraction};
+use crate::lesson::{Caption, Lesson};
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,6 +22,8 @@ pub enum Kind {
     Y4m,
     /// PPM pictures, one behind the other.
     Ppm,
+    /// A page with a slider over the pictures.
+    Html,
     /// A format that ffmpeg writes.
     Mp4,
     /// A format that ffmpeg writes.
@@ -29,7 +32,8 @@ pub enum Kind {
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 6] = [Self::Apng, Self::Gif, Self::Y4m, Self::Ppm, Self::Mp4, Self::Webm];
+    pub const ALL: [Self; 7] =
+        [Self::Apng, Self::Gif, Self::Y4m, Self::Ppm, Self::Html, Self::Mp4, Self::Webm];
 
     /// Its name, which is the ending of its files.
     pub fn name(self) -> &'static str {
@@ -38,6 +42,7 @@ impl Kind {
             Self::Gif => "gif",
             Self::Y4m => "y4m",
             Self::Ppm => "ppm",
+            Self::Html => "html",
             Self::Mp4 => "mp4",
             Self::Webm => "webm",
         }
@@ -50,7 +55,7 @@ impl Kind {
 
     /// True if a pixel can be transparent.
     pub fn has_alpha(self) -> bool {
-        matches!(self, Self::Apng | Self::Gif | Self::Webm)
+        matches!(self, Self::Apng | Self::Gif | Self::Html | Self::Webm)
     }
 
     /// True if ffmpeg writes it.
@@ -69,14 +74,16 @@ pub enum Stream<'w> {
     Y4m(&'w mut dyn Write, Vec<u8>),
     /// PPM.
     Ppm(&'w mut dyn Write),
+    /// A page.
+    Html(Lesson<'w>),
 }
 
 impl<'w> Stream<'w> {
-    /// Begins a film.
+    /// Begins a film. `captions`: of the pictures on a page.
     ///
     /// # Errors
     /// Writing fails, or the format cannot hold the film.
-    pub fn new(kind: Kind, shape: Shape, out: &'w mut dyn Write) -> io::Result<Self> {
+    pub fn new(kind: Kind, shape: Shape, captions: Vec<Caption>, out: &'w mut dyn Write) -> io::Result<Self> {
         Ok(match kind {
             Kind::Gif => Self::Gif(Gif::new(out, shape)?),
             Kind::Y4m => {
@@ -88,6 +95,7 @@ impl<'w> Stream<'w> {
                 Self::Y4m(out, Vec::new())
             }
             Kind::Ppm => Self::Ppm(out),
+            Kind::Html => Self::Html(Lesson::new(out, captions, shape.rate)?),
             Kind::Apng | Kind::Mp4 | Kind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
         })
     }
@@ -100,6 +108,7 @@ impl<'w> Stream<'w> {
         match self {
             Self::Apng(film) => film.push(frame),
             Self::Gif(film) => film.push(frame),
+            Self::Html(page) => page.push(frame),
             Self::Y4m(out, planes) => {
                 y_cb_cr(frame, planes);
                 out.write_all(b"FRAME\n")?;
@@ -120,6 +129,7 @@ impl<'w> Stream<'w> {
         match self {
             Self::Apng(film) => film.finish(),
             Self::Gif(film) => film.finish(),
+            Self::Html(page) => page.finish(),
             Self::Y4m(out, _) | Self::Ppm(out) => out.flush(),
         }
     }

@@ -14,6 +14,7 @@ use crate::blur::{MotionBlur, Shot, is_made_of_light};
 use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
 use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
+use crate::lesson::Caption;
 use crate::levels::WrongBrightness;
 use crate::note::Note;
 use crate::pipe::{DrawnLight, FilmSubject, Pipe};
@@ -373,7 +374,7 @@ impl Film<'_> {
         target: Target<'_>,
         context: &mut Context,
     ) -> Result<Summary, Failure> {
-        let Target { kind, rate, keep } = target;
+        let Target { captions, kind, rate, keep } = target;
         let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
@@ -391,7 +392,7 @@ impl Film<'_> {
             let (mut waiting, mut stream) = (Some(out), None);
             let mut push = |frame: &Frame| {
                 if let Some(out) = waiting.take() {
-                    stream = Some(Stream::new(kind, shape, out)?);
+                    stream = Some(Stream::new(kind, shape, captions.to_vec(), out)?);
                 }
                 stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
             };
@@ -453,6 +454,8 @@ fn about<T>(frame: u32, outcome: Result<T, Failure>) -> Result<T, Failure> {
 /// A film as one file.
 #[derive(Clone, Copy)]
 pub struct Target<'t> {
+    /// The captions of its frames on a page.
+    pub captions: &'t [Caption],
     /// Its kind.
     pub kind: Kind,
     /// Frames a second.

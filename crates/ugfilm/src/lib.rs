@@ -45,7 +45,7 @@
 //! script                                    the command lines and programs of every frame
 //! sight  levels                             what will be in view; frames that are nearly black
 //! animation                                 animated PNG and GIF
-//! keys  encode                              key frames; film formats
+//! keys  lesson  encode                      key frames; a page with a slider; film formats
 //! film                                      frames, in files or in a film
 //! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
@@ -66,6 +66,8 @@ mod film;
 mod frame_files;
 #[cfg(feature = "cli")]
 mod keys;
+#[cfg(feature = "cli")]
+mod lesson;
 #[cfg(feature = "cli")]
 mod levels;
 mod note;
@@ -93,6 +95,6 @@ pub use cli::{Args, manual, run};
 pub use error::Error;
 pub use note::Note;
 #[cfg(feature = "cli")]
-pub use options::{TOOLS, Tool};
+pub use options::{ParsedCommand, TOOLS, Tool};
 pub use pipe::{FilmSubject, Pipe};
 pub use program::{FilmItem, Program, ProgramError};

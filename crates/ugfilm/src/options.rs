@@ -9,9 +9,6 @@ use ugpipe::{CommonArgs, Failure, Look, Manual, ToolArgs, parse_command};
 
 use crate::program::Program;
 
-/// A program with its options, and its line for the history of a picture.
-type Called = (Program, String);
-
 /// The command line of a program that makes frames.
 pub struct Tool {
     /// The contents of its help.
@@ -21,12 +18,25 @@ pub struct Tool {
     command: fn() -> Command,
     look: Look,
     /// Parses its words, of which the first is its name.
-    parse: fn(&[String]) -> Result<Called, Failure>,
+    parse: fn(&[String]) -> Result<ParsedCommand, Failure>,
+}
+
+/// A command of a pipe, whose functions are called in this process.
+pub struct ParsedCommand {
+    /// The program with its options. The ending of its output file is the format of the picture,
+    /// unless an option gives it.
+    pub program: Program,
+    /// The command line that it records in its output.
+    pub line: String,
+    /// The options that all programs have.
+    pub common: CommonArgs,
+    /// All options of the program.
+    pub manual: fn() -> Manual,
 }
 
 /// The command line of the program of a crate, a variant of [`Program`] with these options.
 macro_rules! tool {
-    ($krate:ident, $variant:ident, $args:ident => $config:expr) => {
+    ($krate:ident, $variant:ident, $args:ident => $config:expr, $line:expr) => {
         &Tool {
             manual: $krate::manual,
             heading: concat!("Options of ", stringify!($krate)),
@@ -34,17 +44,35 @@ macro_rules! tool {
             look: <$krate::Args as ToolArgs>::LOOKS.default,
             parse: |words| {
                 let ($args, line): ($krate::Args, _) = parse_command(words.iter().map(OsString::from))?;
-                Ok((Program::$variant($config?), line))
+                let config = $config?;
+                let line = $line(&$args, line, &config);
+                let (program, common) = (Program::$variant(config), $args.common().clone());
+                Ok(ParsedCommand { program, line, common, manual: $krate::manual })
             },
         }
     };
 }
 
-const LORENTZ: &Tool = tool!(uglorentz, Lorentz, args => args.config());
-const DOPPLER: &Tool = tool!(ugdoppler, Doppler, args => args.config());
-const RAINBOW: &Tool = tool!(ugrainbow, Rainbow, args => args.config(None));
-const PHOTON: &Tool = tool!(ugphoton, Photon, args => args.config(None));
-const WARP: &Tool = tool!(ugwarp, Warp, args => args.config(None));
+/// A program that writes a scene.
+macro_rules! filter {
+    ($krate:ident, $variant:ident) => {
+        tool!($krate, $variant, args => args.config(), |_, line, _| line)
+    };
+}
+
+/// A program that writes a picture.
+macro_rules! renderer {
+    ($krate:ident, $variant:ident) => {
+        tool!($krate, $variant, args => args.config(args.common().output()),
+              |args: &$krate::Args, line: String, config| args.recorded(&line, config))
+    };
+}
+
+const LORENTZ: &Tool = filter!(uglorentz, Lorentz);
+const DOPPLER: &Tool = filter!(ugdoppler, Doppler);
+const RAINBOW: &Tool = renderer!(ugrainbow, Rainbow);
+const PHOTON: &Tool = renderer!(ugphoton, Photon);
+const WARP: &Tool = renderer!(ugwarp, Warp);
 
 /// The programs whose options a film has, in the order in which they are listed.
 pub const TOOLS: [&Tool; 5] = [LORENTZ, DOPPLER, RAINBOW, PHOTON, WARP];
@@ -77,6 +105,29 @@ impl PipeArgs {
     }
 }
 
+impl ParsedCommand {
+    /// Parses the words of a command, of which the first is the name of the program. Options have
+    /// dashes.
+    ///
+    /// ```
+    /// let words = ["uglorentz", "--velocity", "0.9", "0", "0"].map(str::to_owned);
+    /// let command = ugfilm::ParsedCommand::from_words(&words).expect("the words are right");
+    /// assert!(matches!(command.program, ugfilm::Program::Lorentz(_)));
+    /// assert_eq!(command.line, "uglorentz -vel 0.9 0 0");
+    /// ```
+    ///
+    /// # Errors
+    /// [`Failure::Usage`]: another program, or options that are wrong.
+    pub fn from_words(words: &[String]) -> Result<Self, Failure> {
+        let name = words.first().map_or("", String::as_str);
+        let tool = TOOLS.into_iter().find(|tool| tool.name() == name).ok_or_else(|| {
+            let names = TOOLS.map(Tool::name).join(", ");
+            Failure::Usage(format!("`{name}` is none of the programs {names}"))
+        })?;
+        (tool.parse)(words)
+    }
+}
+
 /// Options that a film has itself or does without, because they write something else than a
 /// picture or have no effect.
 const LEFT_OUT: [&str; 7] = ["dt", "at", "explain", "crop", "pv", "cn", "look"];
@@ -102,26 +153,6 @@ pub struct ProgramOptions {
 struct Bare {
     #[command(flatten)]
     _common: CommonArgs,
-}
-
-impl Program {
-    /// The program that some words call, and its line for the history of a picture. The first word
-    /// is the name of the program, and options have dashes.
-    ///
-    /// ```
-    /// let words = ["uglorentz", "--velocity", "0.9", "0", "0"].map(str::to_owned);
-    /// let (program, line) = ugfilm::Program::from_words(&words).expect("the words are right");
-    /// assert!(matches!(program, ugfilm::Program::Lorentz(_)));
-    /// assert_eq!(line, "uglorentz -vel 0.9 0 0");
-    /// ```
-    ///
-    /// # Errors
-    /// The first word names no program that makes frames; an option is wrong.
-    pub fn from_words(words: &[String]) -> Result<(Self, String), Failure> {
-        let tool = TOOLS.iter().find(|tool| words.first().is_some_and(|name| name == tool.name()));
-        let unknown = || Failure::usage("the first word is no program that makes frames");
-        (tool.ok_or_else(unknown)?.parse)(words)
-    }
 }
 
 impl Tool {

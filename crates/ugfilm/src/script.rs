@@ -7,7 +7,7 @@ use ugimage::Format;
 use ugpicture::Output;
 use ugpipe::{Failure, shell_word};
 
-use crate::options::{Given, TOOLS, Tool};
+use crate::options::{Given, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
 use crate::program::Program;
 use crate::timeline::{Ease, Quantity, Timeline};
@@ -188,7 +188,7 @@ impl Script {
         for (row, words) in self.commands(frame, &[CAPTION])?.0.into_iter().enumerate() {
             let program = match self.parsed.get().map(|parsed| &parsed[row]) {
                 Some((earlier, program)) if *earlier == words => program.clone(),
-                _ => Program::from_words(&words)?.0,
+                _ => ParsedCommand::from_words(&words)?.program,
             };
             parsed.push((words, program));
         }
@@ -215,6 +215,18 @@ impl Script {
         };
         let options: Vec<String> = ["ex", "tc"].into_iter().filter_map(words).collect();
         format!(", developed with {}", options.join(" "))
+    }
+
+    /// The options that change over the film, with their values in a frame.
+    ///
+    /// # Errors
+    /// See [`Script::commands`].
+    pub fn changing(&self, frame: f64) -> Result<String, Failure> {
+        let moving = self.options.iter().filter(|setting| setting.timeline.is_moving());
+        let words = moving.map(|setting| {
+            Ok(format!("{} {}", spelling(&setting.name), self.values(setting, frame)?.join(" ")))
+        });
+        Ok(words.collect::<Result<Vec<_>, Failure>>()?.join(" "))
     }
 
     /// The commands of a frame or moment without the options `left_out`.

@@ -198,6 +198,11 @@ impl ToolArgs for Args {
 }
 
 impl Args {
+    /// The command line to be recorded, which states the format of the picture.
+    pub fn recorded(&self, command_line: &str, config: &Config) -> String {
+        with_format(command_line, config.picture.output, self.dt.is_some())
+    }
+
     /// The configuration of the options. `output`: the file whose ending is the format unless an
     /// option gives it.
     ///
@@ -256,7 +261,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
-    let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
+    let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();
     let (drawing, warnings) = PreparedScene::read(&config, &source, provenance, !context.is_quiet(), &steps)

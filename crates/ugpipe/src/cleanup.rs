@@ -21,7 +21,7 @@ use signal_hook::iterator::Signals;
 use signal_hook::low_level::{emulate_default_handler, exit};
 use tempfile::NamedTempFile;
 
-use crate::identity::folder_of;
+use crate::folder::folder_of;
 use crate::stale::{self, lock};
 
 /// Signals that end a program and do not come from a fault in it. SIGKILL cannot be handled;

@@ -3,12 +3,11 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
 use crate::files::{self, Place, ProgramOutput};
-use crate::identity::folder_of;
+use crate::folder::folder_of;
 use crate::input::{self, Input};
 use crate::messages::{Host, Messages};
 use crate::output::Output;
@@ -37,6 +36,19 @@ fn within(limit: u64, input: Input) -> Result<Input, Failure> {
     Err(Failure::Failed(format!("`{name}` has more than {limit} bytes, the limit for inputs")))
 }
 
+/// A file among those in memory: the one of this path, or else of this name in any folder.
+fn in_memory<'f>(files: &'f [Input], path: &Path) -> io::Result<&'f Input> {
+    let by_name = || files.iter().find(|file| Path::new(&file.name).file_name() == path.file_name());
+    let found = files.iter().find(|file| Path::new(&file.name) == path).or_else(by_name);
+    found.ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "It is not among the given files"))
+}
+
+/// The first bytes of a file in memory.
+fn first_bytes(file: &Input, limit: u64) -> Vec<u8> {
+    let len = usize::try_from(limit).map_or(file.text.len(), |limit| limit.min(file.text.len()));
+    file.text[..len].to_vec()
+}
+
 /// The interface of a program to the system: its input, its output and its messages.
 ///
 /// A filter reads the whole input, computes, and then writes the whole output. If it fails, it has
@@ -53,6 +65,8 @@ pub struct Context {
     others: Vec<Output>,
     messages: Messages,
     command_line: String,
+    /// The only files that are read, of a program that runs in memory.
+    files: Option<Vec<Input>>,
 }
 
 impl Context {
@@ -66,6 +80,33 @@ impl Context {
             others: Vec::new(),
             messages,
             command_line,
+            files: None,
+        }
+    }
+
+    /// The context of a program that runs in memory: it reads `files` and nothing else, and prints no
+    /// messages. The input is the file that `common` names, or the first one. A file that another
+    /// one names is found by its name, in whatever folder.
+    pub fn in_memory(common: &CommonArgs, files: Vec<Input>) -> Self {
+        Self { files: Some(files), ..Self::new(common, Messages::silent(), String::new()) }
+    }
+
+    /// The files of a program that ran in memory.
+    pub fn into_files(self) -> Vec<Input> {
+        self.files.unwrap_or_default()
+    }
+
+    /// Reads the input, or another file.
+    fn read(&self, path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
+        let Some(files) = &self.files else { return input::read(path, limit) };
+        let found = match path {
+            Some(path) => in_memory(files, path),
+            None => files.first().ok_or_else(|| io::ErrorKind::NotFound.into()),
+        };
+        let name = path.map_or_else(|| "-".to_owned(), |path| path.display().to_string());
+        match found {
+            Ok(file) => Ok(Input { name: file.name.clone(), text: first_bytes(file, limit) }),
+            Err(error) => Err(Failure::Read { name, error }),
         }
     }
 
@@ -101,11 +142,11 @@ impl Context {
         if let Some(input) = self.given.take() {
             return Ok(input);
         }
-        if !self.is_input_named && input::stdin_is_terminal() {
+        if self.files.is_none() && !self.is_input_named && input::stdin_is_terminal() {
             self.note("reading standard input; -h for help");
         }
-        let input = input::read(self.input.as_deref(), limit)?;
-        if self.input.is_none() && input.text.is_empty() && input::stdin_is_pipe() {
+        let input = self.read(self.input.as_deref(), limit)?;
+        if self.files.is_none() && self.input.is_none() && input.text.is_empty() && input::stdin_is_pipe() {
             return Err(Failure::Failed(EMPTY_INPUT.to_owned()));
         }
         Ok(input)
@@ -116,7 +157,7 @@ impl Context {
     /// # Errors
     /// See [`Context::input`].
     pub fn input_file(&self, path: &Path) -> Result<Input, Failure> {
-        within(MAX_INPUT, input::read(Some(path), MAX_INPUT + 1)?)
+        within(MAX_INPUT, self.read(Some(path), MAX_INPUT + 1)?)
     }
 
     /// Reads at most `limit` bytes of a file that the input names. It has to be a regular file, in
@@ -127,7 +168,7 @@ impl Context {
     /// The file is elsewhere or of another kind, or cannot be read; the error has the system's
     /// message.
     pub fn read_named(&self, path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-        files::read_file(path, &self.place, limit)
+        self.read_at(path, &self.place, limit)
     }
 
     /// Runs a program that the input names, at the places of [`Context::read_named`], without a
@@ -137,6 +178,9 @@ impl Context {
     /// # Errors
     /// The program is elsewhere, or cannot be run; the error has the system's message.
     pub fn run_named(&self, path: &Path, limit: u64) -> io::Result<ProgramOutput> {
+        if self.files.is_some() {
+            return Err(io::Error::new(io::ErrorKind::Unsupported, "No programs are run here"));
+        }
         files::run_program(path, &self.place, limit)
     }
 
@@ -161,7 +205,14 @@ impl Context {
     /// # Errors
     /// See [`Context::read_named`].
     pub fn read_here(&self, path: &Path, limit: u64) -> io::Result<Vec<u8>> {
-        files::read_file(path, &Place::Below(PathBuf::from(".")), limit)
+        self.read_at(path, &Place::Below(PathBuf::from(".")), limit)
+    }
+
+    fn read_at(&self, path: &Path, place: &Place, limit: u64) -> io::Result<Vec<u8>> {
+        match &self.files {
+            Some(files) => in_memory(files, path).map(|file| first_bytes(file, limit)),
+            None => files::read_file(path, place, limit),
+        }
     }
 
     /// Writes the whole output. Call it once, after everything else has succeeded.
@@ -209,9 +260,9 @@ impl Context {
     /// # Errors
     /// [`Failure::Write`] with the error of `fill`.
     pub fn write_with(&mut self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), Failure> {
-        let begun = Instant::now();
+        let begun = self.messages.elapsed();
         self.output.write_with(fill)?;
-        self.detail(&format!("writing took {:.3} s", begun.elapsed().as_secs_f64()));
+        self.detail(&format!("writing took {:.3} s", (self.messages.elapsed() - begun).as_secs_f64()));
         Ok(())
     }
 

@@ -6,6 +6,8 @@ use std::os::fd::AsFd;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
+use crate::folder::folder_of;
+
 /// A regular file, existing or to be created. Devices and pipes have no identity: several streams
 /// may share them.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -38,14 +40,6 @@ impl Identity {
 
     fn of_metadata(metadata: &Metadata) -> Option<Self> {
         metadata.is_file().then(|| Self::Existing(metadata.dev(), metadata.ino()))
-    }
-}
-
-/// The folder that a file is in.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
     }
 }
 

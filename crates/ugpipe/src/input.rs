@@ -2,8 +2,6 @@
 
 use std::fs::File;
 use std::io::{self, IsTerminal};
-use std::os::fd::AsFd;
-use std::os::unix::fs::FileTypeExt;
 use std::path::Path;
 
 use crate::failure::Failure;
@@ -36,13 +34,27 @@ pub(crate) fn read(path: Option<&Path>, limit: u64) -> Result<Input, Failure> {
 
 /// Standard input as a file. `io::Stdin` reads nothing, without an error, if its descriptor is not
 /// open for reading.
+#[cfg(unix)]
 fn stdin() -> io::Result<File> {
+    use std::os::fd::AsFd;
     Ok(io::stdin().as_fd().try_clone_to_owned()?.into())
 }
 
+#[cfg(not(unix))]
+fn stdin() -> io::Result<File> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
 /// True if standard input is a pipe, so that a program upstream writes it.
+#[cfg(unix)]
 pub(crate) fn stdin_is_pipe() -> bool {
+    use std::os::unix::fs::FileTypeExt;
     stdin().and_then(|file| file.metadata()).is_ok_and(|data| data.file_type().is_fifo())
+}
+
+#[cfg(not(unix))]
+pub(crate) fn stdin_is_pipe() -> bool {
+    false
 }
 
 /// True if standard input is a terminal, so that the user may not know that the program waits for

@@ -42,6 +42,9 @@
 //!   [`Context::command_line`], which is recorded in the output, contains only the options that
 //!   affect the content, and [`Context::recorded_name`] the name of the input.
 //!
+//! Where there is no Unix system, as in a browser, command lines are parsed as everywhere, and
+//! programs run [in memory](Context::in_memory).
+//!
 //! Limitations: output is not flushed to disk (`fsync`), so a power failure may undo a finished
 //! run. A program that SIGKILL, a fault or lack of memory ends while it writes a file leaves the
 //! temporary file, `.ug-` and six letters, in the same folder; the next one that writes a file
@@ -90,11 +93,14 @@
 //!
 //! [`main`] has a whole program.
 
+// Without a system, nothing is printed.
+#![cfg_attr(not(unix), allow(dead_code))]
+
 #[cfg(feature = "cli")]
 mod args;
 #[cfg(feature = "cli")]
 mod argv;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 mod cleanup;
 #[cfg(feature = "cli")]
 mod completion;
@@ -105,8 +111,10 @@ mod failure;
 #[cfg(feature = "cli")]
 mod files;
 #[cfg(feature = "cli")]
-mod help;
+mod folder;
 #[cfg(feature = "cli")]
+mod help;
+#[cfg(all(feature = "cli", unix))]
 mod identity;
 #[cfg(feature = "cli")]
 mod input;
@@ -116,25 +124,32 @@ mod look;
 mod manual;
 #[cfg(feature = "cli")]
 mod messages;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", not(unix)))]
+mod no_system;
+#[cfg(all(feature = "cli", unix))]
 mod output;
+#[cfg(feature = "cli")]
+mod parse;
 mod progress;
 #[cfg(feature = "cli")]
 mod provenance;
 pub mod remedies;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 mod run;
 #[cfg(feature = "cli")]
 pub mod stale;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 mod steps;
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 mod streams;
 mod text;
 #[cfg(feature = "cli")]
 mod usage;
 #[cfg(feature = "cli")]
 mod values;
+
+#[cfg(all(feature = "cli", not(unix)))]
+use no_system::{cleanup, output, run, steps};
 
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ToolArgs};
@@ -158,11 +173,13 @@ pub use look::{Look, LookArgs, Looks, Preset, is_given};
 pub use manual::{Entry, Group, Manual, Value, manual};
 #[cfg(feature = "cli")]
 pub use messages::Host;
+#[cfg(feature = "cli")]
+pub use parse::{parse_command, parse_words};
 pub use progress::{Progress, Stopped};
 #[cfg(feature = "cli")]
 pub use provenance::{sha256, shell_os_word, shell_word};
 #[cfg(feature = "cli")]
-pub use run::{main, parse_command, parse_words};
+pub use run::main;
 #[cfg(feature = "cli")]
 pub use steps::Steps;
 pub use text::{is_printable, message, printable};

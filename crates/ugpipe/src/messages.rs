@@ -37,14 +37,16 @@ pub(crate) struct Messages {
     file: Option<File>,
     is_quiet: bool,
     is_verbose: bool,
-    start: Instant,
+    /// `None` where there is no clock.
+    start: Option<Instant>,
 }
 
 impl Messages {
     /// All messages go to standard error until [`Messages::configure`] applies the options.
     pub(crate) fn new(program: &str) -> Self {
         let program = program.to_owned();
-        Self { program, host: None, file: None, is_quiet: false, is_verbose: false, start: Instant::now() }
+        let start = cfg!(unix).then(Instant::now);
+        Self { program, host: None, file: None, is_quiet: false, is_verbose: false, start }
     }
 
     /// Messages of a program that is called as a function.
@@ -54,6 +56,11 @@ impl Messages {
 
     pub(crate) fn host(&self) -> Option<&dyn Host> {
         self.host.as_deref()
+    }
+
+    /// Messages that nobody reads.
+    pub(crate) fn silent() -> Self {
+        Self { is_quiet: true, ..Self::new("") }
     }
 
     /// Applies the options `-qt`, `-vb` and `-fm`. The file of `-fm` is truncated immediately.
@@ -78,7 +85,7 @@ impl Messages {
 
     /// Time since the start of the program.
     pub(crate) fn elapsed(&self) -> Duration {
-        self.start.elapsed()
+        self.start.map_or(Duration::ZERO, |start| start.elapsed())
     }
 
     pub(crate) fn note(&self, text: &str) {

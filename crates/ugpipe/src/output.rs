@@ -9,7 +9,8 @@ use std::path::{Path, PathBuf};
 
 use crate::cleanup::{PREFIX, Temporary};
 use crate::failure::Failure;
-use crate::identity::{folder_of, resolve_links};
+use crate::folder::folder_of;
+use crate::identity::resolve_links;
 
 /// An output. If it is dropped without [`Output::finish`], no file is left behind.
 pub(crate) struct Output {

@@ -2,7 +2,6 @@
 //! read.
 
 use std::ffi::OsStr;
-use std::os::unix::ffi::OsStrExt;
 use std::path::{Component, Path};
 
 use clap::parser::ValueSource;
@@ -66,7 +65,7 @@ pub(crate) fn recorded_name(path: Option<&Path>) -> String {
         Some(path) if is_below(path) => path.as_os_str(),
         Some(path) => path.file_name().unwrap_or_default(),
     };
-    if name.as_bytes().len() > 1 && name.as_bytes().starts_with(b"-") {
+    if name.as_encoded_bytes().len() > 1 && name.as_encoded_bytes().starts_with(b"-") {
         // Not an option.
         return shell_os_word(Path::new(".").join(name).as_os_str());
     }
@@ -106,7 +105,7 @@ fn is_shown(c: char) -> bool {
 /// digits differs between shells.
 fn escaped(word: &OsStr) -> String {
     let mut quoted = "$'".to_owned();
-    for chunk in word.as_bytes().utf8_chunks() {
+    for chunk in word.as_encoded_bytes().utf8_chunks() {
         for c in chunk.valid().chars() {
             match c {
                 '\t' => quoted += r"\t",
@@ -201,7 +200,7 @@ mod tests {
         let script = format!("printf '%s\\0' {}", quoted.join(" "));
         let Ok(output) = std::process::Command::new("bash").args(["-c", &script]).output() else { return };
         let read = output.stdout.strip_suffix(b"\0").unwrap().split(|&byte| byte == 0);
-        assert!(read.eq(words.iter().map(|word| word.as_bytes())));
+        assert!(read.eq(words.iter().map(|word| word.as_encoded_bytes())));
     }
 
     #[test]

@@ -1,14 +1,13 @@
 //! The `main` of every program: from the command line to the exit status.
 
 use std::env;
-use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 use std::sync::atomic::AtomicBool;
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
-use clap::{ArgMatches, Command};
+use clap::Command;
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use rustix::process::{Resource, getrlimit};
 use signal_hook::consts::{SIGABRT, SIGPIPE};
@@ -20,7 +19,8 @@ use crate::context::Context;
 use crate::failure::{Failure, reason};
 use crate::manual::manual;
 use crate::messages::Messages;
-use crate::{argv, cleanup, completion, help, look, provenance, streams, usage};
+use crate::parse::{Unparsed, parse};
+use crate::{argv, cleanup, completion, help, provenance, streams};
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;
@@ -86,11 +86,11 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
         return io::stdout().write_all(text.as_bytes()).map_or(BAD_INPUT.into(), |()| ExitCode::SUCCESS);
     }
     let mut command = argv::prepare(A::command());
-    let mut parsed = parse::<A>(&mut command);
+    let mut parsed = parse::<A>(&mut command, env::args_os());
     if let Err(Unparsed::Help(_)) = parsed {
         // Not before they are needed: making the texts takes longer than parsing.
         command = help::install(command, A::ESSENTIAL);
-        parsed = parse::<A>(&mut command);
+        parsed = parse::<A>(&mut command, env::args_os());
     }
     let (args, matches) = match parsed {
         Ok(parsed) => parsed,
@@ -108,72 +108,6 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
         Err(Failure::Usage(_)) => BAD_USAGE.into(),
         Err(_) => BAD_INPUT.into(),
     }
-}
-
-/// Why arguments were not parsed.
-enum Unparsed {
-    /// They are wrong: the message.
-    Usage(String),
-    /// A request for help or the version.
-    Help(clap::Error),
-}
-
-/// Parses the command line of a program that is not run but whose functions are called. `words`:
-/// the name of the program first.
-///
-/// # Errors
-/// [`Failure::Usage`] with the message of the program.
-pub fn parse_words<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<A, Failure> {
-    parse_command(words).map(|(args, _)| args)
-}
-
-/// Like [`parse_words`], and returns the line for a history as well, see
-/// [`Context::command_line`].
-///
-/// # Errors
-/// See [`parse_words`].
-pub fn parse_command<A: ToolArgs>(words: impl IntoIterator<Item = OsString>) -> Result<(A, String), Failure> {
-    let mut command = argv::prepare(A::command());
-    match parse_from(&mut command, words.into_iter().collect()) {
-        Ok((args, matches)) => Ok((args, provenance::command_line(&command, &matches))),
-        Err(Unparsed::Usage(message)) => Err(Failure::Usage(message)),
-        Err(Unparsed::Help(text)) => Err(Failure::Usage(usage::message(&command, &text, None, &[]))),
-    }
-}
-
-fn parse<A: ToolArgs>(command: &mut Command) -> Result<(A, ArgMatches), Unparsed> {
-    parse_from(command, env::args_os().collect())
-}
-
-fn parse_from<A: ToolArgs>(command: &mut Command, words: Vec<OsString>) -> Result<(A, ArgMatches), Unparsed> {
-    let rewritten = argv::rewrite(command, words.iter().cloned());
-    let rewritten = rewritten.map_err(|stray| Unparsed::Usage(usage::stray_number(&stray)))?;
-    match_words(command, rewritten.clone()).map_err(|error| match error.use_stderr() {
-        true => {
-            let in_need = usage::option_in_need(command, &error, &rewritten);
-            Unparsed::Usage(usage::message(command, &error, in_need, &words))
-        }
-        false => Unparsed::Help(error),
-    })
-}
-
-/// Parses words for clap. The matches are those of the words alone, the arguments have the options
-/// of a look as well.
-fn match_words<A: ToolArgs>(
-    command: &mut Command,
-    mut words: Vec<OsString>,
-) -> Result<(A, ArgMatches), clap::Error> {
-    let matches = command.try_get_matches_from_mut(&words)?;
-    let of_look = look::words(&matches, &A::LOOKS);
-    let with_look = if of_look.is_empty() {
-        None
-    } else {
-        let after_name = words.len().min(1);
-        words.splice(after_name..after_name, of_look.into_iter().map(OsString::from));
-        Some(command.try_get_matches_from_mut(&words)?)
-    };
-    let args = A::from_arg_matches(with_look.as_ref().unwrap_or(&matches));
-    Ok((args.map_err(|error| error.format(command))?, matches))
 }
 
 /// Prints help or the version to standard output.

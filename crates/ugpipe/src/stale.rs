@@ -3,8 +3,7 @@
 //! Files that a process works on are locked by it. The system removes the lock with the process,
 //! however it ends.
 
-use std::fs::{self, File, TryLockError};
-use std::os::unix::fs::MetadataExt;
+use std::fs::{self, File};
 use std::path::Path;
 
 /// Deletes the files in a folder that no process has locked, of those whose names `is_ours` admits.
@@ -23,7 +22,10 @@ pub fn remove(folder: &Path, is_ours: impl Fn(&str) -> bool) {
 
 /// Locks a file that was just created. False if it is to be created anew, since another process
 /// deletes it. Where files cannot be locked they are not deleted either.
+#[cfg(unix)]
 pub(crate) fn lock(file: &File) -> bool {
+    use std::fs::TryLockError;
+    use std::os::unix::fs::MetadataExt;
     match file.try_lock() {
         Ok(()) => file.metadata().is_ok_and(|metadata| metadata.nlink() > 0),
         Err(TryLockError::WouldBlock) => false,

@@ -2,7 +2,7 @@
 
 use std::io::{self, IsTerminal};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -21,7 +21,7 @@ pub struct Steps<'m> {
 
 struct Step {
     name: &'static str,
-    begun: Instant,
+    begun: Duration,
     /// Hidden until the program has run for [`BAR_DELAY`].
     bar: Option<ProgressBar>,
 }
@@ -56,13 +56,13 @@ impl<'m> Steps<'m> {
         let mut current = self.lock();
         if let Some(Step { name, begun, bar }) = current.take() {
             bar.iter().for_each(ProgressBar::finish_and_clear);
-            let seconds = begun.elapsed().as_secs_f64();
+            let seconds = (self.messages.elapsed() - begun).as_secs_f64();
             self.messages.detail(&format!("{name} took {seconds:.3} s"));
         }
         *current = next.map(|(name, parts, template)| {
             self.messages.host().iter().for_each(|host| host.step(name, parts));
             let bar = (self.shows_bar && parts > 0).then(|| self.bar(name, parts, template));
-            Step { name, begun: Instant::now(), bar }
+            Step { name, begun: self.messages.elapsed(), bar }
         });
     }
 

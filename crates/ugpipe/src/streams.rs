@@ -7,7 +7,8 @@ use clap::ArgMatches;
 
 use crate::args::CommonArgs;
 use crate::failure::Failure;
-use crate::identity::{Identity, folder_of};
+use crate::folder::folder_of;
+use crate::identity::Identity;
 
 /// A file that the command line names or the shell has opened.
 struct Stream {

@@ -192,6 +192,11 @@ impl ToolArgs for Args {
 }
 
 impl Args {
+    /// The command line to be recorded, which states the format of the picture.
+    pub fn recorded(&self, command_line: &str, config: &Config) -> String {
+        with_format(command_line, config.picture.output, self.dt.is_some())
+    }
+
     /// The configuration of the options. `output`: the file whose ending is the format unless an
     /// option gives it.
     ///
@@ -286,7 +291,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
         return write_report(report, &explanation, &warnings, context);
     }
-    let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
+    let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let picture = run_with(&config, &source, provenance, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)

@@ -208,6 +208,11 @@ impl ToolArgs for Args {
 }
 
 impl Args {
+    /// The command line to be recorded, which states the format of the picture.
+    pub fn recorded(&self, command_line: &str, config: &Config) -> String {
+        with_format(command_line, config.picture.output, self.dt.is_some())
+    }
+
     /// The configuration of the options. `output`: the file whose ending is the format unless an
     /// option gives it.
     ///
@@ -410,7 +415,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     refuse_terminal(config.picture.output.format(), context)?;
     let input = context.input()?;
     let opened = args.open(&input, context)?;
-    let command_line = with_format(context.command_line(), config.picture.output, args.dt.is_some());
+    let command_line = args.recorded(context.command_line(), &config);
     let origin = opened.origin(&input, context);
     let metadata = metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(Failure::of)?;

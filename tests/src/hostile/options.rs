@@ -82,7 +82,7 @@ const SIZES: [(&[&str], &[&str]); 5] = [
     (&["ugphoton", "ugwarp"], &["-sz 1 7 -aa 2", "-sz 16 10 -aa 1", "-sz 6 6 -aa 3"]),
     (&["ugfilm"], &["-rays", "-xc", "-vr"]),
     (&["ugfilm"], &["-sz 16 10 -frames 2", "-sz 1 7 -frames 1", "-sz 6 6 -frames 3"]),
-    (&["ugfilm"], &["-dt apng", "-dt gif", "-dt ppm", "-dt y4m"]),
+    (&["ugfilm"], &["-dt apng", "-dt gif", "-dt html", "-dt ppm", "-dt y4m"]),
 ];
 
 /// A program with some of its options. A picture has few pixels.

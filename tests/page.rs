@@ -1,0 +1,189 @@
+//! The page's programs beside those of a shell.
+
+use serde_json::json;
+use ugtesting::Random;
+use ugtests::hostile::damage;
+use ugtests::shell::Shell;
+use ugweb::Studio;
+
+/// The words of a shell line without quotes.
+fn commands(line: &str) -> String {
+    let words = |command: &str| command.split_whitespace().map(str::to_owned).collect::<Vec<_>>();
+    json!(line.split('|').map(words).collect::<Vec<_>>()).to_string()
+}
+
+/// A studio with the files of a shell's folder.
+fn studio(shell: &Shell, names: &[&str]) -> Studio {
+    let mut studio = Studio::new();
+    names.iter().for_each(|name| studio.add((*name).to_owned(), shell.read(name)));
+    studio
+}
+
+/// Pipes with their output files, and the files that they read, the input first.
+const PIPES: [(&str, &[&str]); 12] = [
+    ("uglorentz -vel .9 0 0 -in house.ug | ugrainbow -look shape -vr -sz 64 48 -fo out.png", &["house.ug"]),
+    (
+        "uglorentz -vel .5 .1 0 -in -ti .5 ship.ug | ugdoppler -look light | ugrainbow -look light -lg -sz 300 200 -fo out.png",
+        &["ship.ug"],
+    ),
+    ("uglorentz -cv 0 .9 0 street.ug | ugdoppler | ugrainbow -sz 64 48 -fo out.jpg -dt png", &["street.ug"]),
+    (
+        "uglorentz -in -ep 0 -20 8 -vc 0 0 1 dice.ug | ugrainbow -look shape -vec -sz 64 48 -dl -fo out.svg",
+        &["dice.ug"],
+    ),
+    ("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -look shape -sz 64 48 -fo out.png", &["globe.obj"]),
+    ("uglorentz -vel .9 0 0 -in -sd 1 house.ug | ugrainbow -xc -sp -sz 64 48 -fo out.pfm", &["house.ug"]),
+    ("uglorentz all.ug | ugdoppler | ugrainbow -iw -sz 64 48 -fo out.png", &["all.ug", "house.ug"]),
+    ("ugrainbow house.ug -sz 64 48 -fo out.ppm", &["house.ug"]),
+    ("ugphoton -in -look shape mirrors.ug -aa 1 -sz 64 48 -fo out.png", &["mirrors.ug"]),
+    ("ugphoton -pan -look light -vel .5 0 0 -in house.ug -aa 1 -sz 64 32 -fo out.svg", &["house.ug"]),
+    ("ugwarp -cv 0 .9 0 -look light -va 90 stars.csv -sz 64 48 -fo out.png", &["stars.csv"]),
+    (
+        "ugwarp -cv 0 .5 0 -vc 1 0 0 --stars stars.csv sky.png -sz 64 48 -fo out.png",
+        &["sky.png", "stars.csv"],
+    ),
+];
+
+#[test]
+fn files_are_those_of_a_shell() {
+    let shell =
+        Shell::new(&["house.ug", "ship.ug", "street.ug", "dice.ug", "globe.obj", "mirrors.ug", "stars.csv"]);
+    shell.run("ugphoton -pan -sz 80 40 -aa 1 street.ug > sky.png");
+    shell.write("all.ug", "include house.ug ;");
+    for (line, names) in PIPES {
+        let commands = commands(line);
+        assert_eq!(Studio::line(&commands).unwrap(), line);
+        shell.run(line);
+        let output = line.split_whitespace().skip_while(|word| *word != "-fo").nth(1).unwrap();
+        let mut studio = studio(&shell, names);
+        assert!(studio.file(&commands).unwrap() == shell.read(output), "{line}");
+        // Again, of the subject that was kept.
+        assert!(studio.file(&commands).unwrap() == shell.read(output), "{line}");
+    }
+}
+
+/// Keywords are the longest names of options; files and numbers as Python has them.
+#[test]
+fn lines_in_python_have_every_option() {
+    let check = |line: &str, expected: &str| assert_eq!(Studio::python(&commands(line)).unwrap(), expected);
+    check(
+        "uglorentz -vel .9 0 -1e-3 -in -lax a.ug | ugdoppler -look light | ugrainbow -look 1988 -sz 64 48 -cap { -fo b.png",
+        "import uglorentz as ug\n\nscene = ug.Scene.read(\"a.ug\", lax=True)\n\
+         picture = scene.lorentz(velocity=(.9, 0, -1e-3), keep_in_view=True).doppler(look=\"light\")\
+         .render(look=1988, size=(64, 48), caption=\"{\")\npicture.save(\"b.png\")",
+    );
+    check(
+        "ugwarp --camera-velocity 0 .9 0 -va 90 stars.csv -fo b.svg",
+        "import uglorentz as ug\n\npicture = ug.warp(\"stars.csv\", camera_velocity=(0, .9, 0), view_angle=90)\n\
+         picture.save(\"b.svg\")",
+    );
+}
+
+/// Options of the view leave the subject as it was read; those of reading do not.
+#[test]
+fn pixels_are_those_of_the_file() {
+    let shell = Shell::new(&["halves.ug", "clocks.ug"]);
+    let mut studio = studio(&shell, &["clocks.ug", "halves.ug"]);
+    for line in [
+        "uglorentz -ti 1 clocks.ug | ugrainbow -sz 60 40",
+        "uglorentz -ti -2 -ep 3 -30 5 clocks.ug | ugrainbow -sz 40 60",
+        "uglorentz -vel .5 0 0 -in halves.ug | ugdoppler | ugrainbow -sz 60 40",
+        "ugphoton -ti 1 clocks.ug -sz 60 40",
+    ] {
+        shell.run(&format!("{line} > picture.png"));
+        let shown = studio.draw(&commands(line)).unwrap();
+        assert!(shown.pixels() == shell.pixels("picture.png").as_flattened(), "{line}");
+        assert_eq!(shown.pixels().len(), 4 * (shown.width() * shown.height()) as usize);
+    }
+}
+
+/// Text without the styles of a terminal.
+fn plain(text: &str) -> String {
+    let mut parts = text.split('\u{1b}');
+    let first = parts.next().unwrap_or_default().to_owned();
+    first + &parts.filter_map(|part| Some(part.split_once('m')?.1)).collect::<String>()
+}
+
+#[test]
+fn messages_are_those_of_the_programs() {
+    let shell = Shell::new(&["house.ug"]);
+    shell.write("bad.ug", "v a 0 0 0;\nf (a b c);\n");
+    let mut studio = studio(&shell, &["house.ug", "bad.ug"]);
+    for line in [
+        "uglorentz -vel 1 0 0 house.ug | ugrainbow",
+        "uglorentz -vel .5 0 house.ug | ugrainbow",
+        "uglorentz -nonsense house.ug | ugrainbow",
+        "uglorentz bad.ug | ugrainbow",
+        "ugphoton -ep 0 0 0 -vc 0 0 0 house.ug",
+        "ugwarp house.ug",
+    ] {
+        let (_, printed) = shell.fail(line.split('|').next().unwrap());
+        let message = plain(&studio.draw(&commands(line)).err().unwrap());
+        let first = printed.lines().next().unwrap().rsplit(": ").next().unwrap();
+        assert!(message.contains(first), "{line}: {message}\n{printed}");
+    }
+    let missing = studio.draw(&commands("uglorentz missing.ug | ugrainbow")).err().unwrap();
+    assert_eq!(missing, "uglorentz: error: cannot read `missing.ug`: It is not among the given files");
+    assert!(studio.draw("[]").is_err() && studio.draw("{").is_err());
+    assert!(studio.draw(&commands("ugmesh house.ug")).err().unwrap().contains("none of the programs"));
+    // Notes, too.
+    let away = commands("uglorentz -vel .9 0 0 -ti 500 house.ug | ugrainbow -sz 40 30");
+    let (note, [_, printed]) = (
+        studio.draw(&away).unwrap().notes(),
+        shell.run("uglorentz -vel .9 0 0 -ti 500 house.ug | ugrainbow -sz 40 30 > /dev/null"),
+    );
+    let note = note.lines().next().unwrap().split_once(": ").unwrap().1.to_owned();
+    assert!(printed.contains(&note), "{note}\n{printed}");
+}
+
+/// A scene without a camera is described with the one that the programs choose for it.
+#[test]
+fn descriptions_are_of_the_picture() {
+    let shell = Shell::new(&["globe.obj", "traffic.ug"]);
+    let mut studio = studio(&shell, &["globe.obj", "traffic.ug"]);
+    let about = |text: String| serde_json::from_str::<serde_json::Value>(&text).unwrap();
+    let globe = about(
+        studio.describe(&commands("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -sz 40 30")).unwrap(),
+    );
+    let point = |name: &str| {
+        globe[name].as_array().unwrap().iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
+    };
+    let (eye, center) = (point("eye"), point("center"));
+    shell.run("uglorentz -vel .9 0 0 -in globe.obj | ugrainbow -sz 40 30 > fitted.png");
+    shell.run(&format!(
+        "uglorentz -vel .9 0 0 -in -ep {eye} -vc {center} globe.obj | ugrainbow -sz 40 30 > stated.png"
+    ));
+    assert!(shell.pixels("fitted.png") == shell.pixels("stated.png"), "eye {eye}, centre {center}");
+    let traffic = about(studio.describe(&commands("uglorentz traffic.ug | ugrainbow")).unwrap());
+    assert_eq!(traffic["eye"], json!([0.0, -9.0, 2.6]));
+    assert!(traffic["times"].is_array());
+}
+
+/// Broken files are refused with a message, or drawn.
+#[test]
+fn broken_files_are_refused() {
+    let shell = Shell::new(&["house.ug", "globe.obj", "stars.csv"]);
+    shell.run("ugphoton -pan -sz 32 16 -aa 1 house.ug > sky.png; ugmesh house.ug -dt glb > house.glb; ugmesh house.ug -dt ply > house.ply");
+    let mut random = Random(7);
+    let mut n_refused = 0;
+    for row in 0..60 {
+        let names = ["house.ug", "globe.obj", "house.glb", "house.ply", "sky.png", "stars.csv"];
+        let name = names[row % names.len()];
+        let mut bytes = shell.read(name);
+        damage(&mut random, &mut bytes);
+        let mut studio = Studio::new();
+        studio.add(name.to_owned(), bytes);
+        let line = match name {
+            "sky.png" | "stars.csv" => format!("ugwarp -cv 0 .5 0 {name} -sz 24 16"),
+            _ => format!("uglorentz -vel .5 0 0 -in --limit memory=100000000 {name} | ugrainbow -sz 24 16"),
+        };
+        match studio.draw(&commands(&line)) {
+            Ok(shown) => assert_eq!(shown.width(), 24),
+            Err(message) => {
+                assert!(message.contains("error"), "{message}");
+                n_refused += 1;
+            }
+        }
+    }
+    assert!(n_refused > 20, "{n_refused} files were refused");
+}

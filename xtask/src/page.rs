@@ -1,0 +1,169 @@
+//! Builds the page of `web/`, one HTML file with the programs as WebAssembly, and tests it.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::{Map, Value};
+use ugtests::scenes::{self, root, target_dir};
+
+use crate::programs;
+
+const TARGET: &str = "wasm32-unknown-unknown";
+
+/// What the page is built with.
+#[derive(clap::Args)]
+pub struct Args {
+    /// Folder of a Rust toolchain that has the target wasm32-unknown-unknown, or the sources of std:
+    /// bin/rustc, and bin/wasm-ld if rustc finds no linker [default: that of cargo, with rustup]
+    #[arg(long, value_name = "FOLDER")]
+    toolchain: Option<PathBuf>,
+    /// Test the page in Chromium (/usr/bin/chromium); requires node and npm
+    #[arg(long)]
+    test: bool,
+}
+
+/// Builds `target/page/uglorentz.html`.
+pub fn build(out: &mut impl io::Write, args: &Args) -> io::Result<()> {
+    let folder = target_dir().join("page");
+    let module = compile(&folder, args.toolchain.as_deref())?;
+    let glue = bind(&folder, &module)?;
+    let web = |name: &str| fs::read_to_string(root().join("web").join(name));
+    let wasm = fs::read(folder.join("ugweb_bg.wasm"))?;
+    let page = web("page.html")?
+        .replace("@MODULE@", &packed(&wasm))
+        .replace("@SCENES@", &packed(built_in()?.as_bytes()))
+        .replace("@WORKER@", &(glue + &web("worker.js")?))
+        .replace("@PAGE@", &web("page.js")?);
+    let file = folder.join("uglorentz.html");
+    fs::write(&file, &page)?;
+    let megabytes = |bytes: usize| bytes as f64 / 1e6;
+    writeln!(
+        out,
+        "{}: {:.2} MB, of which the module has {:.2} MB ({:.2} MB unpacked)",
+        file.display(),
+        megabytes(page.len()),
+        megabytes(packed(&wasm).len()),
+        megabytes(wasm.len())
+    )?;
+    if args.test { test(&folder, &file) } else { Ok(()) }
+}
+
+/// Compiles the crate `ugweb` to WebAssembly.
+fn compile(folder: &Path, toolchain: Option<&Path>) -> io::Result<PathBuf> {
+    let build = folder.join("build");
+    let mut cargo = Command::new(env!("CARGO"));
+    // Optimisation for size, or at link time, made the packed module 4 and 5 percent smaller, not
+    // faster, and took minutes.
+    cargo
+        .args(["rustc", "--release", "-p", "ugweb", "--lib", "--target", TARGET, "--target-dir"])
+        .arg(&build);
+    cargo.env("RUSTFLAGS", "-Ctarget-feature=+simd128").current_dir(root());
+    match toolchain {
+        Some(toolchain) => use_toolchain(&mut cargo, toolchain)?,
+        // Without rustup, the target may be there nevertheless; cargo says if not.
+        None => drop(Command::new("rustup").args(["target", "add", TARGET]).status()),
+    }
+    // wasm-bindgen reads a section that stripping removes.
+    run(cargo.args(["--", "-Cstrip=none"]))?;
+    Ok(build.join(TARGET).join("release/ugweb.wasm"))
+}
+
+/// Lets cargo use the compiler and the linker in a folder.
+fn use_toolchain(cargo: &mut Command, toolchain: &Path) -> io::Result<()> {
+    let has_ending = |path: &Path, part: &str| {
+        path.file_name().and_then(OsStr::to_str).is_some_and(|name| name.contains(part))
+    };
+    let entries = |folder: &Path| -> io::Result<Vec<PathBuf>> {
+        fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path())).collect()
+    };
+    let (bin, lib) = (toolchain.join("bin"), toolchain.join("lib"));
+    cargo.env("RUSTC", bin.join("rustc"));
+    if let Some(linker) = entries(&bin)?.iter().find(|path| has_ending(path, "wasm-ld")) {
+        cargo.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER", linker);
+    }
+    let below = entries(&lib)?.into_iter().flat_map(|folder| [folder.join("lib"), folder]);
+    let libraries = below
+        .filter(|folder| entries(folder).is_ok_and(|files| files.iter().any(|file| has_ending(file, ".so"))));
+    cargo.env("LD_LIBRARY_PATH", std::env::join_paths(libraries).map_err(io::Error::other)?);
+    if !lib.join("rustlib").join(TARGET).exists() {
+        cargo.arg("-Zbuild-std=std,panic_abort").env("RUSTC_BOOTSTRAP", "1");
+    }
+    Ok(())
+}
+
+/// Writes the module and its JavaScript by wasm-bindgen, which is installed if need be, and returns
+/// the JavaScript.
+fn bind(folder: &Path, module: &Path) -> io::Result<String> {
+    let lock = fs::read_to_string(root().join("Cargo.lock"))?;
+    let version =
+        lock.split("name = \"wasm-bindgen\"\nversion = \"").nth(1).and_then(|rest| rest.split('"').next());
+    let version = version.ok_or_else(|| io::Error::other("Cargo.lock has no wasm-bindgen"))?;
+    let tools = folder.join("tools");
+    let tool = tools.join("bin/wasm-bindgen");
+    let installed = Command::new(&tool).arg("--version").output();
+    if !installed.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).trim().ends_with(version)) {
+        let mut install = Command::new(env!("CARGO"));
+        install.args([
+            "install",
+            "wasm-bindgen-cli",
+            "--no-default-features",
+            "--version",
+            version,
+            "--root",
+        ]);
+        run(install.arg(&tools))?;
+    }
+    let mut bind = Command::new(&tool);
+    bind.args([
+        "--target",
+        "no-modules",
+        "--no-typescript",
+        "--remove-name-section",
+        "--remove-producers-section",
+    ]);
+    bind.args(["--out-name", "ugweb", "--out-dir"]);
+    run(bind.arg(folder).arg(module))?;
+    fs::read_to_string(folder.join("ugweb.js"))
+}
+
+/// The scenes as JSON, from their names to their text.
+fn built_in() -> io::Result<String> {
+    let mut texts = Map::new();
+    for name in scenes::names()
+        .iter()
+        .map(|name| format!("{name}.ug"))
+        .chain(["globe.obj", "stars.csv"].map(str::to_owned))
+    {
+        let text = fs::read_to_string(root().join("scenes").join(&name))?;
+        texts.insert(name, Value::String(text));
+    }
+    Ok(Value::Object(texts).to_string())
+}
+
+/// Bytes as a browser unpacks them: base64 of zlib.
+fn packed(bytes: &[u8]) -> String {
+    STANDARD.encode(miniz_oxide::deflate::compress_to_vec_zlib(bytes, 10))
+}
+
+/// Drives the page in Chromium, and compares what it saves with what the programs write.
+fn test(folder: &Path, page: &Path) -> io::Result<()> {
+    let mut npm = Command::new("npm");
+    npm.args(["install", "--no-save", "--no-fund", "--no-audit", "--prefix"])
+        .arg(folder)
+        .arg("playwright-core@1");
+    run(&mut npm)?;
+    let script = folder.join("test.mjs");
+    fs::copy(root().join("web/test.mjs"), &script)?;
+    run(Command::new("node").arg(script).arg(page).arg(programs::released()).arg(root().join("scenes")))
+}
+
+fn run(command: &mut Command) -> io::Result<()> {
+    let status = command.status()?;
+    let name = command.get_program().to_string_lossy().into_owned();
+    if status.success() { Ok(()) } else { Err(io::Error::other(format!("{name}: {status}"))) }
+}
