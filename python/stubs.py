@@ -29,6 +29,8 @@ def type_of(program: str, option: Option) -> str:
         return "bool"
     if option.keyword in ("channels", "limit"):
         return "str | Sequence[str]"
+    if option.values[0] == "QUANTITY":
+        return "str | Sequence[str | float]"
     if option.is_repeated:
         return "Vector | str"
     if option.values[0] in TEXTS or option.keyword == "only":

@@ -222,7 +222,7 @@ class Render(TypedDict, total=False):
     fl: Text | None
     """The same as filter."""
     background: Vector | float | str | None
-    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    """L H S. Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]"""
     bg: Vector | float | str | None
     """The same as background."""
     transparent: bool | None
@@ -262,7 +262,7 @@ class Render(TypedDict, total=False):
     ed: bool | None
     """The same as edges."""
     line_color: Vector | float | str | None
-    """L H S. Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces with wireframe=True, black with edges=True]"""
+    """L H S. Colour of the edges, as for background= [default: colours of the faces with wireframe=True, black with edges=True]"""
     lc: Vector | float | str | None
     """The same as line_color."""
     line_width: float | None
@@ -303,6 +303,14 @@ class Render(TypedDict, total=False):
     """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
     gr: bool | None
     """The same as grid."""
+    map: str | Sequence[str | float] | None
+    """QUANTITY LOW HIGH. Instead of light a quantity in false colours, with its scale: D, time, distance, speed, z"""
+    iso: str | Sequence[str | float] | None
+    """QUANTITY VALUE. Lines of equal values of a quantity over the picture: D, time, distance, speed, z"""
+    text_size: float | str | None
+    """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
+    ts: float | str | None
+    """The same as text_size."""
 
 class Photon(TypedDict, total=False):
     velocity: Vector | None
@@ -408,7 +416,7 @@ class Photon(TypedDict, total=False):
     fl: Text | None
     """The same as filter."""
     background: Vector | float | str | None
-    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    """L H S. Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]"""
     bg: Vector | float | str | None
     """The same as background."""
     transparent: bool | None
@@ -471,6 +479,14 @@ class Photon(TypedDict, total=False):
     """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
     gr: bool | None
     """The same as grid."""
+    map: str | Sequence[str | float] | None
+    """QUANTITY LOW HIGH. Instead of light a quantity in false colours, with its scale: D, time, distance, speed, z"""
+    iso: str | Sequence[str | float] | None
+    """QUANTITY VALUE. Lines of equal values of a quantity over the picture: D, time, distance, speed, z"""
+    text_size: float | str | None
+    """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
+    ts: float | str | None
+    """The same as text_size."""
 
 class Warp(Reading, total=False):
     velocity: Vector | None
@@ -570,7 +586,7 @@ class Warp(Reading, total=False):
     fl: Text | None
     """The same as filter."""
     background: Vector | float | str | None
-    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    """L H S. Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]"""
     bg: Vector | float | str | None
     """The same as background."""
     transparent: bool | None
@@ -615,6 +631,14 @@ class Warp(Reading, total=False):
     """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
     gr: bool | None
     """The same as grid."""
+    map: str | Sequence[str | float] | None
+    """QUANTITY LOW HIGH. Instead of light a quantity in false colours, with its scale: D, time, distance, speed, z"""
+    iso: str | Sequence[str | float] | None
+    """QUANTITY VALUE. Lines of equal values of a quantity over the picture: D, time, distance, speed, z"""
+    text_size: float | str | None
+    """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
+    ts: float | str | None
+    """The same as text_size."""
 
 class Film(Reading, total=False):
     frames: float | str | None
@@ -790,7 +814,7 @@ class Film(Reading, total=False):
     fl: Text | None
     """The same as filter."""
     background: Vector | float | str | None
-    """L H S. Background colour: lightness, hue in degrees, saturation [default: black]"""
+    """L H S. Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]"""
     bg: Vector | float | str | None
     """The same as background."""
     transparent: bool | None
@@ -826,7 +850,7 @@ class Film(Reading, total=False):
     ed: bool | None
     """The same as edges."""
     line_color: Vector | float | str | None
-    """L H S. Colour of the edges: lightness, hue in degrees, saturation [default: colours of the faces with wireframe=True, black with edges=True]"""
+    """L H S. Colour of the edges, as for background= [default: colours of the faces with wireframe=True, black with edges=True]"""
     lc: Vector | float | str | None
     """The same as line_color."""
     line_width: float | str | None
@@ -857,6 +881,14 @@ class Film(Reading, total=False):
     """True. Grid of coordinates on the ground: in the plane z = 0, or at the lowest point of the scene if that is lower"""
     gr: bool | None
     """The same as grid."""
+    map: str | Sequence[str | float] | None
+    """QUANTITY LOW HIGH. Instead of light a quantity in false colours, with its scale: D, time, distance, speed, z"""
+    iso: str | Sequence[str | float] | None
+    """QUANTITY VALUE. Lines of equal values of a quantity over the picture: D, time, distance, speed, z"""
+    text_size: float | str | None
+    """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
+    ts: float | str | None
+    """The same as text_size."""
     depth: float | str | None
     """N. Most reflections and refractions along a path"""
     rd: float | str | None
