@@ -13,8 +13,8 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 
 # Static programs run on any distribution. Panics would name the folder of the crates.
-export RUSTFLAGS="-C target-feature=+crt-static --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo"
-cargo build --quiet --release --target "$host" --target-dir "$out/build"
+RUSTFLAGS="-C target-feature=+crt-static --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo" \
+    cargo build --quiet --release --target "$host" --target-dir "$out/build"
 
 tree=$out/tree
 rm -rf "$tree" "$out"/ugtools*

@@ -103,7 +103,7 @@ fn mistakes_are_answered() {
         "ugrainbow -bg mauve ship.ug",
         "write lightness, hue in degrees and saturation, a name such as white, or #rrggbb",
     );
-    check("ugrainbow -ed -lc '#fff' ship.ug", "lightness, hue in degrees, saturation, such as `1 240 .5`");
+    check("ugrainbow -ed -lc '#ff' ship.ug", "a name such as white, or #rrggbb");
 
     // Options.
     let velocity = "there is no option `-v`; the velocity along x, y and z is `-vel`";

@@ -97,16 +97,22 @@ impl Page {
     }
 }
 
-/// The commands of a page after the prompt `$ `, each with the lines that follow it.
+/// The commands of a page after the prompt `$ `, each with the code that follows it before other text.
 #[must_use]
 pub fn transcripts(path: &str) -> Vec<(String, String)> {
     let text =
         fs::read_to_string(scenes::root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"));
     let mut transcripts: Vec<(String, String)> = Vec::new();
-    for line in text.lines().filter_map(|line| line.strip_prefix("    ")) {
+    let mut is_open = false;
+    for line in text.lines().filter(|line| !line.is_empty()) {
+        let Some(line) = line.strip_prefix("    ") else {
+            is_open = false;
+            continue;
+        };
         if let Some(command) = line.strip_prefix("$ ") {
             transcripts.push((command.to_owned(), String::new()));
-        } else if let Some((_, answer)) = transcripts.last_mut() {
+            is_open = true;
+        } else if let Some((_, answer)) = transcripts.last_mut().filter(|_| is_open) {
             answer.push_str(line);
             answer.push('\n');
         }

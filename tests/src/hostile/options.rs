@@ -51,7 +51,7 @@ const EXCLUDED: [&str; 18] = [
 ];
 
 /// Values that are possible, by the names of options, where a number between 0 and 1 is not enough.
-const VALUES: [(&str, &[&str]); 22] = [
+const VALUES: [(&str, &[&str]); 25] = [
     ("-ad", &["0.1"]),
     ("-an", &["eye", "origin", "center", "middle"]),
     ("-at", &[MEASURED]),
@@ -65,7 +65,9 @@ const VALUES: [(&str, &[&str]); 22] = [
     ("-fps", &["25"]),
     ("-gap", &["4", "0 3"]),
     ("--infrared", &["0.sky"]),
+    ("-iso", &["D", "D .5 1 2", "time", "distance 3"]),
     ("-lb", &["none", "names"]),
+    ("-map", &["D", "D .5 2", "speed", "z -1 9"]),
     ("-only", &["1", "1..2"]),
     ("-part", &["-180 180 -90 90", "-90 90 -45 45"]),
     ("-rd", &["0", "1", "9"]),
@@ -73,6 +75,7 @@ const VALUES: [(&str, &[&str]); 22] = [
     ("-sd", &["1", "3"]),
     ("-se", &["10", "100"]),
     ("--stars", &["0.sky"]),
+    ("-ts", &["6", "12"]),
     ("--ultraviolet", &["0.sky"]),
 ];
 

@@ -139,6 +139,8 @@ pub fn pages(root: &Path) -> io::Result<Vec<String>> {
         "LICENSE-APACHE",
         "LICENSE-MIT",
         "conformance/README.md",
+        "python/README.md",
+        "web/README.md",
         "crates/ugrainbow/examples/in_memory.rs",
         "scenes/README.md",
     ]
