@@ -153,8 +153,10 @@ use no_system::{cleanup, output, run, steps};
 
 #[cfg(feature = "cli")]
 pub use args::{CommonArgs, ToolArgs};
+#[cfg(all(feature = "cli", unix))]
+pub use cleanup::leave_signals;
 #[cfg(feature = "cli")]
-pub use cleanup::{Claim, Running, is_occupied, leave_signals};
+pub use cleanup::{Claim, Running, is_occupied};
 #[cfg(feature = "cli")]
 pub use completion::{COMPLETE, completions};
 #[cfg(feature = "cli")]
