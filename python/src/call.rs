@@ -89,6 +89,10 @@ pub fn run<T: Send>(
             while outcome.is_ok() && ended.recv_timeout(POLL) == Err(mpsc::RecvTimeoutError::Timeout) {
                 outcome = call.poll(progress.as_ref());
             }
+            // The last report, which is the first one of a short computation.
+            if outcome.is_ok() && progress.is_some() {
+                outcome = call.poll(progress.as_ref());
+            }
             call.is_stopped.store(outcome.is_err(), Ordering::Relaxed);
             let result = worker.join().unwrap_or_else(|panic| resume_unwind(panic));
             outcome.map(|()| result)
