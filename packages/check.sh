@@ -27,7 +27,7 @@ files > "$place/before"
 cp "$out"/ugtools_*.deb "$debian/tmp/ugtools.deb"
 chroot "$debian" dpkg --install /tmp/ugtools.deb >/dev/null
 commands='ugparse example --all
-    uglorentz -vel .9 0 0 < ship.ug | ugdoppler | ugrainbow > ship.png
+    uglorentz -vel .9 0 0 -in < ship.ug | ugdoppler | ugrainbow > ship.png
     ugphoton -cv 0 .5 0 -sz 160 120 street.ug > street.png
     ugfilm -frames 4 -ti 0..3 -sz 64 48 -fo ticks.gif ticks.ug'
 chroot "$debian" sh -c "mkdir /tmp/drawn && cd /tmp/drawn && $commands"
