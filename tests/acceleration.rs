@@ -133,8 +133,8 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
 }
 
 /// From about 18 years on, β of a camera at 1 g rounds to 1. A body at rest at the angle θ from the
-/// motion is seen at tan ½θ' = e^{−η} tan ½θ, with D = e^η cos² ½θ + e^{−η} sin² ½θ. A black body of
-/// 5800 K/D has the chromaticity of one of 5800 K, and rays draw what the pipe draws.
+/// motion is seen at tan ½θ' = e^{−η} tan ½θ, with D = e^η cos² ½θ + e^{−η} sin² ½θ. A black body
+/// of 5800 K/D has the chromaticity of one of 5800 K, and rays draw what the pipe draws.
 #[test]
 fn a_flight_of_many_years_shows_aberration_and_doppler() {
     const DEG: f64 = std::f64::consts::PI / 180.0;

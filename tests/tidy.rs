@@ -54,7 +54,8 @@ fn place(path: &Path, line: usize) -> String {
     format!("{}:{}", path.strip_prefix(root()).unwrap_or(path).display(), line + 1)
 }
 
-/// Crates and their folders: those of `crates/`, the conformance suite, the Python package and the page.
+/// Crates and their folders: those of `crates/`, the conformance suite, the Python package and the
+/// page.
 fn crates() -> BTreeMap<String, PathBuf> {
     let manifests = files(&root().join("crates")).into_iter().filter(|path| path.ends_with("Cargo.toml"));
     let folders = manifests.filter_map(|path| path.parent().map(Path::to_path_buf));

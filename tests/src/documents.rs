@@ -97,7 +97,8 @@ impl Page {
     }
 }
 
-/// The commands of a page after the prompt `$ `, each with the code that follows it before other text.
+/// The commands of a page after the prompt `$ `, each with the code that follows it before other
+/// text.
 #[must_use]
 pub fn transcripts(path: &str) -> Vec<(String, String)> {
     let text =

@@ -18,8 +18,9 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// What the page is built with.
 #[derive(clap::Args)]
 pub struct Args {
-    /// Folder of a Rust toolchain that has the target wasm32-unknown-unknown, or the sources of std:
-    /// bin/rustc, and bin/wasm-ld if rustc finds no linker [default: that of cargo, with rustup]
+    /// Folder of a Rust toolchain that has the target wasm32-unknown-unknown, or the sources of
+    /// std: bin/rustc, and bin/wasm-ld if rustc finds no linker [default: that of cargo, with
+    /// rustup]
     #[arg(long, value_name = "FOLDER")]
     toolchain: Option<PathBuf>,
     /// Test the page in Chromium (/usr/bin/chromium); requires node and npm

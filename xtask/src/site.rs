@@ -29,8 +29,8 @@ no-section-label = true
 enable = false
 ";
 
-/// Writes the site into target/site/book, with the page that runs the programs in a browser, if it is
-/// built. Prints the page to open.
+/// Writes the site into target/site/book, with the page that runs the programs in a browser, if it
+/// is built. Prints the page to open.
 pub fn write(out: &mut impl Write) -> io::Result<()> {
     let site = scenes::target_dir().join("site");
     let source = site.join("src");

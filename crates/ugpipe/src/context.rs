@@ -84,9 +84,9 @@ impl Context {
         }
     }
 
-    /// The context of a program that runs in memory: it reads `files` and nothing else, and prints no
-    /// messages. The input is the file that `common` names, or the first one. A file that another
-    /// one names is found by its name, in whatever folder.
+    /// The context of a program that runs in memory: it reads `files` and nothing else, and prints
+    /// no messages. The input is the file that `common` names, or the first one. A file that
+    /// another one names is found by its name, in whatever folder.
     pub fn in_memory(common: &CommonArgs, files: Vec<Input>) -> Self {
         Self { files: Some(files), ..Self::new(common, Messages::silent(), String::new()) }
     }

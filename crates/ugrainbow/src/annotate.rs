@@ -47,8 +47,8 @@ pub fn visible_wires(
     Ok(layers.strokes().iter().map(|stroke| stroke.ends.map(|end| [end.x, end.y])).collect())
 }
 
-/// Options for one sample a pixel, without edges of faces and depth cueing. `is_refined`: a pixel for
-/// each sample.
+/// Options for one sample a pixel, without edges of faces and depth cueing. `is_refined`: a pixel
+/// for each sample.
 fn plain(config: &Config, is_refined: bool) -> Config {
     let mut plain = Config { wireframe: None, depth_cue: None, ..config.clone() };
     if is_refined {

@@ -179,8 +179,8 @@ impl SampledPath {
     /// The most events of a path.
     pub const MOST_EVENTS: usize = 1_000_000;
 
-    /// Bytes of memory for each event while a path is computed and kept, if one piece of integration
-    /// is enough between two of them.
+    /// Bytes of memory for each event while a path is computed and kept, if one piece of
+    /// integration is enough between two of them.
     pub const BYTES_PER_EVENT: usize = size_of::<Event>() + size_of::<Row>() + size_of::<Node>() + 64;
 
     /// A number that two paths have in common if they share their memory.

@@ -117,7 +117,8 @@ fn push_lines(values: [f64; 4], [left, top]: Point, lines: &mut Vec<[Point; 2]>)
     }
 }
 
-/// The middle of the line that is nearest to the mean of all, of those in an area if there are some.
+/// The middle of the line that is nearest to the mean of all, of those in an area if there are
+/// some.
 fn middle(lines: &[[Point; 2]], area: [Range<f64>; 2]) -> Point {
     let middle = |[a, b]: &[Point; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
     let n = lines.len() as f64;

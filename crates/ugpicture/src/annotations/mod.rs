@@ -58,12 +58,12 @@ pub enum Subject<'a, E> {
     Pixels,
 }
 
-/// Finds the surfaces in a picture of the size of the subject: at every sample if the first argument
-/// is true, else at the middles of pixels. The second is called with a function of the place, which
-/// counts row after row.
+/// Finds the surfaces that are visible in the picture: at every sample if the first argument is
+/// true, else at the middles of pixels. Passes a look-up function to the second argument; its
+/// argument is the row-major index of the sample or pixel.
 pub type FindItems<'a, E> = dyn Fn(bool, &mut dyn FnMut(&FoundItems<'_>)) -> Result<(), E> + 'a;
 
-/// What is seen at a place.
+/// The surface visible at a sample or pixel, by its row-major index.
 pub type FoundItems<'a> = dyn Fn(usize) -> Option<SeenItem> + Sync + 'a;
 
 /// Finds the parts of the wires of a scene that its faces do not hide from a camera, in a picture

@@ -30,7 +30,8 @@ pub struct Style {
 impl Style {
     /// The style of a picture. `background`: light as displayed; on a transparent background the
     /// ink suits white paper.
-    /// `size`: columns and rows of the picture; `text_size`: see [`crate::AnnotationOptions::text_size`].
+    /// `size`: columns and rows of the picture; `text_size`: see
+    /// [`crate::AnnotationOptions::text_size`].
     pub fn new(size: [u32; 2], text_size: Option<f64>, background: Option<[f32; 3]>, output: Output) -> Self {
         let [width, height] = size.map(f64::from);
         let size = text_size.unwrap_or_else(|| (libm::sqrt(width * height) / PER_SIZE).round().max(LEAST));
