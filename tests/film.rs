@@ -223,6 +223,29 @@ fn pages_have_the_pictures_and_their_commands() {
     }
 }
 
+/// A second slider has the pictures of the first for each of its values.
+#[test]
+fn pages_have_a_second_slider() {
+    let shell = Shell::new(&["dice.ug"]);
+    let film = "ugfilm -frames 3 -vel 0 0..0.8 0 -va 20..40 -in -cap '{va}' -ex 0 -sz 81 60 dice.ug";
+    shell.run(&format!("{film} -across va 2 -fo lesson.html"));
+    let page = String::from_utf8(shell.read("lesson.html")).unwrap();
+    let values = page.lines().filter_map(|line| line.strip_prefix("<img hidden alt=\""));
+    let values: Vec<&str> = values.map(|rest| rest.split_once('"').unwrap().0).collect();
+    let expected: Vec<String> = [20, 40]
+        .into_iter()
+        .flat_map(|angle| [0.0, 0.5, 0.8].map(|speed| format!("-vel 0 {speed} 0 -va {angle}")))
+        .collect();
+    assert_eq!(values, expected);
+    shell.run(&format!("{film} -across va 2 --print 5 -fo lesson.html > command.sh && sh command.sh"));
+    shell.run("ugfilm -frames 1 -vel 0 0.5 0 -va 40 -in -cap 40.00 -ex 0 -sz 81 60 dice.ug -fo one_%d.png");
+    assert!(shell.pixels("frame_0005.png") == shell.pixels("one_1.png"));
+    for wrong in ["-across va 0", "-across ti 2", "-across va 2 -only 1"] {
+        shell.fail(&format!("{film} {wrong} -fo wrong.html"));
+    }
+    shell.fail(&format!("{film} -across va 2 -fo wrong.gif"));
+}
+
 /// The frames of a GIF as browsers show them, each with its time in hundredths of a second.
 fn gif_frames(file: &[u8]) -> Vec<(u16, Vec<[u8; 4]>)> {
     let mut options = gif::DecodeOptions::new();

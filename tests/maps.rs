@@ -53,7 +53,7 @@ fn false_colours_are_those_of_the_channels() {
             pipe.picture.channels = vec![channel];
             let frame = pipe.draw(FilmSubject::Scene(&scene)).unwrap().0.into_light().unwrap();
             let Samples::Float(values) = &frame.planes()[0].samples else { panic!("numbers") };
-            let scale = Scale { quantity, range };
+            let scale = Scale { quantity, range, unit: None };
             let (mut n_seen, mut n_unlike) = (0, 0);
             for (idx, &value) in values.iter().enumerate() {
                 let seen = value.is_finite() && value != 0.0;

@@ -18,6 +18,8 @@ pub struct Shape {
     pub size: [u32; 2],
     /// How many frames.
     pub n_frames: u32,
+    /// On a page, the values of a second slider: each has the same number of frames.
+    pub n_rows: u32,
     /// Frames a second.
     pub rate: f64,
 }

@@ -97,6 +97,14 @@ pub struct Args {
           help_heading = FILM)]
     moments: u32,
 
+    /// On a page (-fo FILE.html), a second slider with N values of option NAME
+    ///
+    /// The frames are those of the first slider, over all other options with several values; they
+    /// are drawn for each of the N values.
+    #[arg(long, num_args = 2, value_names = ["NAME", "N"], allow_hyphen_values = true,
+          conflicts_with_all = ["keys", "follow", "only", "blur", "sheet", "keep"], help_heading = FILM)]
+    across: Option<Vec<String>>,
+
     /// Draw N frames spread over the film, or those of -only, on one sheet
     #[arg(long, num_args = 0..=1, value_name = "N", default_missing_value = "9",
           value_parser = whole(1..=10_000), help_heading = FILM)]
@@ -181,9 +189,12 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if keep.is_some() && !matches!(output, Output::Film(_)) {
         return Err(Failure::usage("--keep is for films in one file: leave it out, or give -fo film.apng"));
     }
+    if args.across.is_some() && !matches!(output, Output::Film(Kind::Html)) && args.print.is_none() {
+        return Err(Failure::usage("-across is for pages: give -fo FILE.html"));
+    }
     let rate = args.fps.unwrap_or(25.0);
     let mut script = args.script(context)?;
-    let frames = args.numbers()?;
+    let frames = args.numbers(script.n_frames)?;
     let read = Read::new(args, &mut script, context)?;
     let mut forecast = Forecast::default();
     if let Read::Scene(scene) = &read {
@@ -505,6 +516,11 @@ impl Args {
         script.is_loop = self.is_loop;
         script.reading = self.common.reading_words();
         self.options.given.iter().try_for_each(|option| script.add(option))?;
+        if let Some([name, n_values]) = self.across.as_deref() {
+            let n_values =
+                whole(1..=1_000)(n_values).map_err(|why| Failure::Usage(format!("-across: {why}")))?;
+            script.set_across(name.trim_start_matches('-'), n_values)?;
+        }
         if let Some(path) = &self.keys {
             let file = context.input_file(path)?;
             let text = String::from_utf8_lossy(&file.text);
@@ -521,15 +537,15 @@ impl Args {
     }
 
     /// The numbers of the frames to draw.
-    fn numbers(&self) -> Result<Vec<u32>, Failure> {
-        let Some(Ranges(ranges)) = &self.only else { return Ok((1..=self.frames).collect()) };
+    fn numbers(&self, n_frames: u32) -> Result<Vec<u32>, Failure> {
+        let Some(Ranges(ranges)) = &self.only else { return Ok((1..=n_frames).collect()) };
         let mut ranges = ranges.clone();
         ranges.sort_unstable();
         // No frame twice, however often it is given.
         let mut frames: Vec<u32> = Vec::new();
         for [first, last] in ranges {
-            if last > self.frames {
-                return Err(Failure::Usage(format!("--only: the film has {} frames", self.frames)));
+            if last > n_frames {
+                return Err(Failure::Usage(format!("--only: the film has {n_frames} frames")));
             }
             let next = frames.last().map_or(1, |frame| frame + 1);
             frames.extend(first.max(next)..=last);

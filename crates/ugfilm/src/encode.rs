@@ -95,7 +95,7 @@ impl<'w> Stream<'w> {
                 Self::Y4m(out, Vec::new())
             }
             Kind::Ppm => Self::Ppm(out),
-            Kind::Html => Self::Html(Lesson::new(out, captions, shape.rate)?),
+            Kind::Html => Self::Html(Lesson::new(out, captions, shape)?),
             Kind::Apng | Kind::Mp4 | Kind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
         })
     }

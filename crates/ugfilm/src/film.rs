@@ -375,7 +375,8 @@ impl Film<'_> {
         context: &mut Context,
     ) -> Result<Summary, Failure> {
         let Target { captions, kind, rate, keep } = target;
-        let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, rate };
+        let n_rows = self.script.n_rows();
+        let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
         if kind.is_encoded() {

@@ -2,6 +2,7 @@
 
 use std::io::{self, Write};
 
+use crate::animation::Shape;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use ugimage::{Compression, Format, Frame, Metadata};
@@ -26,14 +27,16 @@ pub struct Lesson<'w> {
 }
 
 impl<'w> Lesson<'w> {
-    /// Begins the page of pictures with these captions. `rate`: pictures a second.
+    /// Begins the page of pictures with these captions.
     ///
     /// # Errors
     /// Writing fails.
-    pub fn new(out: &'w mut dyn Write, captions: Vec<Caption>, rate: f64) -> io::Result<Self> {
+    pub fn new(out: &'w mut dyn Write, captions: Vec<Caption>, shape: Shape) -> io::Result<Self> {
         let (head, tail) = TEMPLATE.split_once("@PICTURES@").unwrap_or((TEMPLATE, ""));
         out.write_all(head.as_bytes())?;
-        let tail = tail.replace("@DELAY@", &format!("{:.0}", 1e3 / rate));
+        let tail = tail
+            .replace("@DELAY@", &format!("{:.0}", 1e3 / shape.rate))
+            .replace("@ROWS@", &shape.n_rows.to_string());
         Ok(Self { out, captions: captions.into_iter(), tail })
     }
 

@@ -4,7 +4,8 @@ use std::fmt::Write;
 use std::sync::OnceLock;
 
 use ugimage::Format;
-use ugpicture::Output;
+use ugimage::label::number::significant;
+use ugpicture::{Output, Unit, Units};
 use ugpipe::{Failure, shell_word};
 
 use crate::options::{Given, ParsedCommand, TOOLS, Tool};
@@ -40,6 +41,9 @@ pub struct Script {
     options: Vec<Setting>,
     /// Least and greatest speed over the film, for captions.
     pub speeds: Option<Timeline>,
+    /// An option with a slider of its own on a page, and how many values it has there: all frames
+    /// are drawn for each.
+    across: Option<(String, u32)>,
     /// The words of the programs of some frame, and what they are.
     parsed: OnceLock<Vec<(Vec<String>, Program)>>,
 }
@@ -67,6 +71,7 @@ impl Script {
             reading: Vec::new(),
             options: Vec::new(),
             speeds: None,
+            across: None,
             parsed: OnceLock::new(),
         }
     }
@@ -122,6 +127,32 @@ impl Script {
         }
     }
 
+    /// Gives an option a slider of its own with so many values.
+    ///
+    /// # Errors
+    /// The option does not change over the film, no other does, or a caption has speeds of the
+    /// scene, which are found for films.
+    pub fn set_across(&mut self, name: &str, n_values: u32) -> Result<(), Failure> {
+        let is_moving = |setting: &&Setting| setting.timeline.is_moving();
+        let (across, along): (Vec<_>, Vec<_>) =
+            self.options.iter().filter(is_moving).partition(|setting| setting.name == name);
+        if across.is_empty() || along.is_empty() {
+            let why = format!("give two options with several values, one of them -{name}, as -{name} 0..1");
+            return Err(refused("across", &why));
+        }
+        if self.lacks_speeds() {
+            return Err(refused("across", "{beta}, {gamma} and {speed} are known only with -vel or -cv"));
+        }
+        self.across = Some((name.to_owned(), n_values));
+        self.n_frames = self.n_frames.saturating_mul(n_values);
+        Ok(())
+    }
+
+    /// The rows of frames, of which each has another value of the option with its own slider.
+    pub fn n_rows(&self) -> u32 {
+        self.across.as_ref().map_or(1, |(_, n_values)| *n_values)
+    }
+
     /// The only word of an option that does not change.
     pub fn fixed(&self, name: &str) -> Option<String> {
         match self.get(name) {
@@ -132,7 +163,8 @@ impl Script {
 
     /// True if a caption has speeds and no option gives them.
     pub fn lacks_speeds(&self) -> bool {
-        let has_place = |text: &String| text.contains("{beta}") || text.contains("{gamma}");
+        let has_place =
+            |text: &String| ["{beta}", "{gamma}", "{speed}"].iter().any(|place| text.contains(place));
         let is_given = VELOCITIES.iter().any(|name| self.get(name).is_some());
         !is_given && self.fixed(CAPTION).as_ref().is_some_and(has_place)
     }
@@ -156,10 +188,24 @@ impl Script {
     /// The time of a frame, from 0 to 1. Frames are counted from 1, and `frame` may lie between
     /// two.
     pub fn time(&self, frame: f64) -> f64 {
-        let steps = if self.is_loop { self.n_frames } else { self.n_frames - 1 };
+        let n_frames = self.n_frames / self.n_rows();
+        let frame = if self.across.is_some() { 1.0 + (frame - 1.0) % f64::from(n_frames) } else { frame };
+        let steps = if self.is_loop { n_frames } else { n_frames - 1 };
         let time = if steps == 0 { 0.0 } else { (frame - 1.0) / f64::from(steps) };
         // With motion blur, the first frame of a film that repeats begins at its end.
         if self.is_loop && time < 0.0 { time.rem_euclid(1.0) } else { time }
+    }
+
+    /// The time of an option in a frame.
+    fn time_of(&self, name: &str, frame: f64) -> f64 {
+        match &self.across {
+            Some((across, n_values)) if across == name && *n_values > 1 => {
+                let row = (frame - 1.0) / f64::from(self.n_frames / n_values);
+                row.floor() / f64::from(n_values - 1)
+            }
+            Some((across, _)) if across == name => 0.0,
+            _ => self.time(frame),
+        }
     }
 
     /// The programs of a frame or moment. Their command lines, which its file records, are without
@@ -199,10 +245,10 @@ impl Script {
 
     /// The words of the values of an option.
     fn values(&self, setting: &Setting, frame: f64) -> Result<Vec<String>, Failure> {
-        let time = self.time(frame);
+        let time = self.time_of(&setting.name, frame);
         let values = setting.timeline.at(time, self.ease);
         match setting.name.as_str() {
-            CAPTION => values.iter().map(|text| self.filled(text, frame, time)).collect(),
+            CAPTION => values.iter().map(|text| self.filled(text, frame)).collect(),
             _ => Ok(values),
         }
     }
@@ -210,7 +256,7 @@ impl Script {
     /// The options for the exposure and tone curve of a frame, in words.
     pub fn development(&self, frame: f64) -> String {
         let words = |name: &str| {
-            let values = self.get(name)?.at(self.time(frame), self.ease);
+            let values = self.get(name)?.at(self.time_of(name, frame), self.ease);
             Some(format!("{} {}", spelling(name), values.join(" ")))
         };
         let options: Vec<String> = ["ex", "tc"].into_iter().filter_map(words).collect();
@@ -253,17 +299,17 @@ impl Script {
         self.options.iter().filter(|setting| !left_out.contains(&setting.name.as_str()))
     }
 
-    /// A caption with the numbers of a frame: `{frame}`, `{beta}`, `{gamma}`, `{t}`, and the names
-    /// of options with one number.
-    fn filled(&self, text: &str, frame: f64, time: f64) -> Result<String, Failure> {
+    /// A caption with the numbers of a frame: `{frame}`, `{beta}`, `{gamma}`, `{speed}`, `{t}`, and
+    /// the names of options with one number.
+    fn filled(&self, text: &str, frame: f64) -> Result<String, Failure> {
         let mut filled = String::new();
         let mut rest = text;
         while let Some((before, after)) = rest.split_once('{') {
             let Some((name, after)) = after.split_once('}') else { break };
             filled += before;
-            filled += &self.number(name, frame, time).ok_or_else(|| {
+            filled += &self.number(name, frame).ok_or_else(|| {
                 let known =
-                    "{frame}, {beta}, {gamma}, {t}, or an option of this film with one number, as {ti}";
+                    "{frame}, {beta}, {gamma}, {speed}, {t}, or an option of this film with one number, as {ti}";
                 refused("cap", &format!("`{{{name}}}` is not one of {known}"))
             })?;
             rest = after;
@@ -271,11 +317,19 @@ impl Script {
         Ok(filled + rest)
     }
 
-    fn number(&self, name: &str, frame: f64, time: f64) -> Option<String> {
-        let numbers = |name: &str| self.get(name).map(|timeline| timeline.numbers(time, self.ease));
+    /// The units in its captions, which were checked when its programs were parsed.
+    fn units(&self) -> Units {
+        let [length, light] = ["unit", "c"].map(|name| self.fixed(name));
+        Units::new(length.as_deref(), light.as_deref()).unwrap_or_default()
+    }
+
+    fn number(&self, name: &str, frame: f64) -> Option<String> {
+        let numbers = |name: &str| {
+            self.get(name).map(|timeline| timeline.numbers(self.time_of(name, frame), self.ease))
+        };
         let speeds = |write: &dyn Fn(f64) -> String| {
             let speeds = match &self.speeds {
-                Some(speeds) => speeds.numbers(time, self.ease),
+                Some(speeds) => speeds.numbers(self.time(frame), self.ease),
                 None => {
                     let velocity = VELOCITIES.iter().rev().find_map(|name| numbers(name)).unwrap_or_default();
                     vec![velocity.iter().fold(0.0, |sum, part| libm::hypot(sum, *part))]
@@ -289,7 +343,21 @@ impl Script {
             "frame" => format!("{frame}"),
             "beta" => speeds(&|speed| format!("{speed:.3}")),
             "gamma" => speeds(&|speed| format!("{:.2}", 1.0 / ((1.0 - speed) * (1.0 + speed)).sqrt())),
-            "t" => format!("{:.2}", numbers("ti").and_then(|list| list.first().copied()).unwrap_or(0.0)),
+            "speed" => {
+                let unit = self.units().speed().unwrap_or(Unit { factor: 1.0, name: "c".to_owned() });
+                format!("{} {}", speeds(&|speed| significant(speed * unit.factor, 4)), unit.name)
+            }
+            "t" => {
+                let at = |time: f64| {
+                    let timeline = self.get("ti")?;
+                    timeline.numbers(time, self.ease).first().copied()
+                };
+                let longest = [0.0, 1.0].map(|end| at(end).unwrap_or(0.0).abs());
+                let unit = self.units().time(longest[0].max(longest[1]));
+                let (factor, name) =
+                    unit.map_or((1.0, String::new()), |unit| (unit.factor, format!(" {}", unit.name)));
+                format!("{:.2}{name}", factor * at(self.time_of("ti", frame)).unwrap_or(0.0))
+            }
             _ => match numbers(name)?[..] {
                 [number] => format!("{number:.2}"),
                 _ => return None,

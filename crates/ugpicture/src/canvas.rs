@@ -90,7 +90,7 @@ impl Canvas {
         let Drawn { content, brightest, mut notes, annotated } = drawn;
         progress.check().map_err(Error::from)?;
         let mapped = self.layout.map(&annotated, &self.options)?;
-        let scale = mapped.as_ref().map(|(_, scale)| *scale);
+        let scale = mapped.as_ref().map(|(_, scale)| scale.clone());
         let (content, development) = match mapped {
             Some((frame, _)) => (Content::Image(Image::Display(frame)), None),
             None => {

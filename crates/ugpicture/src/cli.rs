@@ -24,6 +24,7 @@ use crate::options::{AnnotationOptions, PictureOptions};
 use crate::output::Output;
 use crate::picture_file::PictureFile;
 use crate::quantity::{IsoOptions, MapOptions, Quantity};
+use crate::units::Units;
 
 /// Heading of the options of a picture in `--help`.
 pub const PICTURE: &str = "Picture";
@@ -242,6 +243,21 @@ pub struct AnnotationArgs {
     #[arg(long, value_name = "PIXELS", visible_alias = "text-size", value_parser = number(text_size),
           help_heading = ANNOTATIONS)]
     ts: Option<f64>,
+
+    /// What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'
+    ///
+    /// Legend, grid, scale and lines, and {t} and {speed} in captions of films, then have units:
+    /// speeds in km/s, times as long as light takes. Units are nm, um, mm, cm, m, km, ft, mi, au, ly,
+    /// pc, and lns, ls, lmin, lh, the way of light in such a time.
+    #[arg(long, value_name = "UNIT", help_heading = ANNOTATIONS)]
+    unit: Option<String>,
+
+    /// The speed of light in legends and captions, as 30km/h [default: as in vacuum]
+    ///
+    /// Pictures stay the same: velocities are parts of the speed of light. Units are mm/s, cm/s,
+    /// m/s, km/s, km/h, mph.
+    #[arg(long, value_name = "SPEED", visible_alias = "speed-of-light", help_heading = ANNOTATIONS)]
+    c: Option<String>,
 }
 
 fn text_size(pixels: f64) -> Result<f64, String> {
@@ -308,6 +324,8 @@ impl AnnotationArgs {
             map: self.map.as_ref().map(map).transpose()?,
             iso: self.iso.as_ref().map(iso).transpose()?,
             text_size: self.ts,
+            units: Units::new(self.unit.as_deref(), self.c.as_deref())
+                .map_err(|error| Failure::usage(format!("-unit or -c: {error}")))?,
         })
     }
 }

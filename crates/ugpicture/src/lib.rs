@@ -65,6 +65,7 @@ mod picture_file;
 mod quantity;
 pub mod rays;
 mod rendering;
+mod units;
 
 pub use annotations::{Annotated, FindItems, FoundItems, Layout, Scale, Subject, VisibleWires};
 pub use background::{Backdrop, Background};
@@ -85,3 +86,4 @@ pub use quantity::{IsoOptions, MapOptions, Quantity};
 pub use rendering::{Rendering, VectorFigure};
 pub use ugimage::label::TextForm;
 pub use ugimage::{Filter, Tone};
+pub use units::{Unit, Units};

@@ -14,6 +14,7 @@ use crate::exposure::Exposure;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 use crate::output::Output;
 use crate::quantity::{IsoOptions, MapOptions};
+use crate::units::Units;
 
 /// The options of a picture, the same for every renderer.
 #[derive(Clone, Debug, PartialEq)]
@@ -215,11 +216,13 @@ pub struct AnnotationOptions {
     pub iso: Option<IsoOptions>,
     /// Em size of text in pixels; without it a fortieth of the geometric mean of the sides.
     pub text_size: Option<f64>,
+    /// The units of numbers in legend, grid, scale and lines.
+    pub units: Units,
 }
 
 impl AnnotationOptions {
     /// True if there are some.
     pub fn is_any(&self) -> bool {
-        *self != Self::default()
+        *self != Self { units: self.units.clone(), ..Self::default() }
     }
 }

@@ -3,6 +3,7 @@
 use ugphysics::length;
 
 use crate::emission::Emission;
+use crate::units::{Unit, Units};
 
 /// A quantity of the light that is seen, in the frame of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,8 +46,18 @@ impl Quantity {
             Self::Doppler => "Doppler factor D",
             Self::Time => "time of emission",
             Self::Distance => "distance at emission",
-            Self::Speed => "speed β",
+            Self::Speed => "speed",
             Self::Depth => "depth at emission",
+        }
+    }
+
+    /// The unit of its values up to `most`; those of Doppler factors have none.
+    pub(crate) fn unit(self, units: &Units, most: f64) -> Option<Unit> {
+        match self {
+            Self::Doppler => None,
+            Self::Time => units.time(most),
+            Self::Distance | Self::Depth => units.length(),
+            Self::Speed => units.speed(),
         }
     }
 

@@ -105,8 +105,12 @@ impl<'a> LongOption<'a> {
         let name_and_value = after_dashes.unwrap_or(after_dash);
         let equals = name_and_value.iter().position(|&byte| byte == b'=');
         let name = str::from_utf8(&name_and_value[..equals.unwrap_or(name_and_value.len())]).ok()?;
-        // One letter after one dash is a short option, which clap parses itself.
-        let arg = command.get_arguments().find(|arg| name.len() > 1 && has_long_name(arg, name))?;
+        // Short options clap parses itself.
+        let is_short = |arg: &Arg| arg.get_short().is_some_and(|letter| name == letter.to_string());
+        if command.get_arguments().any(is_short) {
+            return None;
+        }
+        let arg = command.get_arguments().find(|arg| has_long_name(arg, name))?;
         Some(Self { arg, has_two_dashes: after_dashes.is_some(), has_value: equals.is_some() })
     }
 

@@ -150,7 +150,7 @@ pub(crate) fn is_short_name(name: &str) -> bool {
     /// Options that have two dashes in most programs of other families.
     const WORDS: [&str; 2] = ["all", "help"];
     !WORDS.contains(&name)
-        && (2..=LONGEST).contains(&name.len())
+        && (1..=LONGEST).contains(&name.len())
         && name.bytes().all(|byte| byte.is_ascii_lowercase())
 }
 

@@ -51,7 +51,10 @@ const EXCLUDED: [&str; 18] = [
 ];
 
 /// Values that are possible, by the names of options, where a number between 0 and 1 is not enough.
-const VALUES: [(&str, &[&str]); 25] = [
+const VALUES: [(&str, &[&str]); 28] = [
+    ("--across", &["va 2", "vel 3"]),
+    ("-c", &["30km/h", "1e-9 m/s"]),
+    ("-unit", &["m", "1e9 ly", "lns"]),
     ("-ad", &["0.1"]),
     ("-an", &["eye", "origin", "center", "middle"]),
     ("-at", &[MEASURED]),

@@ -36,7 +36,7 @@ pub fn draw(
     let left = 0.5 * (width - long);
     let column = |place: f64| left + long * place;
     let [upper, lower] = [1.6, 2.6].map(|row| (top + row * size).round());
-    let title = Line::new(scale.quantity.label(), size)?;
+    let title = Line::new(&scale.title(), size)?;
     drawing.text(&title, [0.5 * (width - title.width()), (top + 1.2 * size).round()], ink);
     for piece in 0..N_PIECES {
         let part = |at: f64| (f64::from(piece) + at) / f64::from(N_PIECES);

@@ -14,6 +14,7 @@ use super::style::Style;
 use crate::error::Error;
 use crate::line::in_picture;
 use crate::note::Note;
+use crate::units::{Unit, Units};
 
 /// Squares side by side in the picture, counted a quarter above its lower edge; decides their size.
 const SQUARES: f64 = 8.0;
@@ -27,10 +28,11 @@ const TEXT: f64 = 0.8;
 /// Draws the visible parts of the grid. Returns a note.
 pub fn draw<E: From<Error>>(
     seen: &SeenScene<'_, E>,
+    units: &Units,
     style: &Style,
     drawing: &mut Drawing,
 ) -> Result<Option<Note>, E> {
-    let Some(grid) = GroundGrid::new(seen) else { return Ok(None) };
+    let Some(grid) = GroundGrid::new(seen, units.length()) else { return Ok(None) };
     let line = |(axis, number): (usize, i64)| {
         let [low, high] = grid.ends[1 - axis];
         [low, high].map(|across| grid.point(axis, number, across) - seen.view.eye)
@@ -42,7 +44,7 @@ pub fn draw<E: From<Error>>(
     for axis in 0..2 {
         labels.draw(axis, drawing).map_err(Error::from)?;
     }
-    let (step, level) = (significant(grid.step, 4), significant(grid.level, 4));
+    let [step, level] = [grid.step, grid.level].map(|length| grid.written(length, 4));
     Ok(Some(Note::Grid { step: (!lines.is_empty()).then_some(step), level }))
 }
 
@@ -53,22 +55,30 @@ struct GroundGrid {
     level: f64,
     /// Numbers of the first and the last line, along x and along y.
     ends: [[i64; 2]; 2],
+    /// The unit of its numbers; that of the scene, if there is none.
+    unit: Option<Unit>,
 }
 
 impl GroundGrid {
     /// `None` if the scene is too far away for numbers.
-    fn new<E: From<Error>>(seen: &SeenScene<'_, E>) -> Option<Self> {
+    fn new<E: From<Error>>(seen: &SeenScene<'_, E>, unit: Option<Unit>) -> Option<Self> {
         let (low, high) = seen.scene.bounds()?;
         let longest = (high.x - low.x).max(high.y - low.y);
         let level = if low.z < -1e-9 * longest { low.z } else { 0.0 };
         let depth = depth(seen, level);
         let [left, right] = [0.0, seen.size[0]].map(|column| seen.view.point([column, 0.0], depth));
-        let step = round_step(((right - left).length() / SQUARES).max(longest / MOST));
+        let factor = unit.as_ref().map_or(1.0, |unit| unit.factor);
+        let step = round_step(factor * ((right - left).length() / SQUARES).max(longest / MOST)) / factor;
         let ends = [[low.x, high.x], [low.y, high.y]]
             .map(|[low, high]| [(low / step).floor(), (high / step).ceil()]);
         // Farther away, neighbouring lines cannot be distinguished.
         let is_near = ends.iter().flatten().all(|end| end.abs() < 1e9);
-        is_near.then(|| Self { step, level, ends: ends.map(|ends| ends.map(|end| end as i64)) })
+        is_near.then(|| Self { step, level, ends: ends.map(|ends| ends.map(|end| end as i64)), unit })
+    }
+
+    /// A length with its unit.
+    fn written(&self, length: f64, digits: usize) -> String {
+        self.unit.as_ref().map_or_else(|| significant(length, digits), |unit| unit.written(length, digits))
     }
 
     fn numbers(&self, axis: usize) -> impl Iterator<Item = i64> + use<> {
@@ -146,10 +156,15 @@ impl<E: From<Error>> Labels<'_, E> {
             if !self.visible.iter().any(|part| is_on(spot, *part)) {
                 continue;
             }
-            let text = significant(number as f64 * grid.step, 6);
+            let at = number as f64 * grid.step;
+            let factor = grid.unit.as_ref().map_or(1.0, |unit| unit.factor);
             // At the edges of the picture numbers of both axes are mixed, so they get the name of
             // the axis.
-            let text = if is_named && is_whole { text } else { format!("{name} = {text}") };
+            let text = if is_named && is_whole {
+                significant(factor * at, 6)
+            } else {
+                format!("{name} = {}", grid.written(at, 6))
+            };
             let line = Line::new(&text, TEXT * self.style.size)?;
             let outward = direction(spot, self.seen.place(end + (end - other) * 1e-3));
             // Where a line leaves the picture, its number is placed on the line.

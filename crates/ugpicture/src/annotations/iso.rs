@@ -3,7 +3,6 @@
 use std::ops::Range;
 
 use ugimage::figure::Point;
-use ugimage::label::number::significant;
 use ugimage::label::{Drawing, Line, MissingCharacter};
 use ugphysics::length;
 use ugscene::{BodyId, Scene};
@@ -12,6 +11,7 @@ use super::map::Scale;
 use super::style::Style;
 use crate::emission::SeenItem;
 use crate::quantity::{IsoOptions, MapOptions};
+use crate::units::Units;
 
 /// Between neighbouring pixels whose distances differ by more than this part there is an edge,
 /// which is no place for a line.
@@ -35,6 +35,7 @@ struct Seen {
 /// Never, because the font has all its characters.
 pub fn draw(
     options: &IsoOptions,
+    units: &Units,
     size: [u32; 2],
     scene: Option<&Scene>,
     item: &dyn Fn(usize) -> Option<SeenItem>,
@@ -50,9 +51,9 @@ pub fn draw(
     };
     let seen: Vec<Option<Seen>> = (0..width * height).map(seen).collect();
     let mut values = options.values.clone();
+    let all: Vec<f32> = seen.iter().flatten().map(|seen| seen.value as f32).collect();
+    let scale = Scale::new(&MapOptions { quantity: options.quantity, range: None }, &all, units);
     if values.is_empty() {
-        let all: Vec<f32> = seen.iter().flatten().map(|seen| seen.value as f32).collect();
-        let scale = Scale::new(&MapOptions { quantity: options.quantity, range: None }, &all);
         values = scale.ticks().into_iter().map(|(value, _)| value).collect();
     }
     for value in values {
@@ -76,7 +77,7 @@ pub fn draw(
         if lines.is_empty() {
             continue;
         }
-        let line = Line::new(&significant(value, 4), TEXT * style.size)?;
+        let line = Line::new(&scale.written(value), TEXT * style.size)?;
         let half = [0.5 * line.width() + 0.15 * style.size, 0.45 * style.size];
         let label = middle(&lines, [0, 1].map(|axis| half[axis]..f64::from(size[axis]) - half[axis]));
         drawing.lines(lines.clone(), 3.0 * style.hairline, style.background);

@@ -8,6 +8,7 @@ use ugphysics::{Hsv, attenuation, wavelength_to_hue};
 
 use super::motion::MotionSummary;
 use super::style::Style;
+use crate::units::Units;
 use ugimage::label::number::{list_or_range, range, significant, speed};
 
 /// Wavelength in nm whose shifted range the legend shows: green, the middle of the visible
@@ -57,12 +58,13 @@ pub fn rows(style: &Style, width: u32) -> Option<u32> {
 /// Never, because the font has all its characters.
 pub fn draw(
     motion: &MotionSummary,
+    units: &Units,
     style: &Style,
     [width, top]: [f64; 2],
     drawing: &mut Drawing,
 ) -> Result<(), MissingCharacter> {
     let layout = Layout::new(style, width, top);
-    let legend = Legend { motion, style, layout };
+    let legend = Legend { motion, units, style, layout };
     legend.rainbow(drawing)?;
     legend.shift(drawing)?;
     legend.arrows(drawing);
@@ -125,6 +127,7 @@ impl Layout {
 
 struct Legend<'a> {
     motion: &'a MotionSummary,
+    units: &'a Units,
     style: &'a Style,
     layout: Layout,
 }
@@ -270,9 +273,18 @@ impl Legend<'_> {
             None => "nothing is seen".to_owned(),
         };
         if let Some(ends) = self.motion.own_time {
-            doppler += &format!(",  τ = {}", between(ends));
+            let unit = self.units.time(ends[1].abs().max(ends[0].abs()));
+            let words = match unit {
+                Some(unit) => format!("{} {}", between(ends.map(|end| end * unit.factor)), unit.name),
+                None => between(ends),
+            };
+            doppler += &format!(",  τ = {words}");
         }
-        let beta = format!("β = {}", list_or_range(velocities.iter().map(|&v| speed(v)).collect()));
+        let mut beta = format!("β = {}", list_or_range(velocities.iter().map(|&v| speed(v)).collect()));
+        if let Some(unit) = self.units.speed() {
+            let speeds = velocities.iter().map(|v| significant(v.speed() * unit.factor, 6)).collect();
+            beta = format!("v = {} {},  {beta}", list_or_range(speeds), unit.name);
+        }
         let gamma =
             format!("γ = {}", list_or_range(velocities.iter().map(|v| significant(v.gamma(), 4)).collect()));
         let words = if self.motion.is_rest() {

@@ -10,14 +10,17 @@ use crate::background::Backdrop;
 use crate::emission::SeenItem;
 use crate::options::PictureOptions;
 use crate::quantity::{MapOptions, Quantity};
+use crate::units::{Unit, Units};
 
 /// From values of a quantity to colours and to places on a scale.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
     /// The quantity.
     pub quantity: Quantity,
     /// The values at the ends, the least first.
     pub range: [f64; 2],
+    /// In which ticks are round and values are written; those of the scene, if there is none.
+    pub unit: Option<Unit>,
 }
 
 /// The ends of a scale of Doppler factors are at least this far from 1.
@@ -26,7 +29,7 @@ const LEAST_SHIFT: f64 = 1.05;
 impl Scale {
     /// The scale for some values, of which those that are not finite are left out. The scale of
     /// Doppler factors has 1 in its middle, unless the options say otherwise.
-    pub fn new(options: &MapOptions, values: &[f32]) -> Self {
+    pub fn new(options: &MapOptions, values: &[f32], units: &Units) -> Self {
         let quantity = options.quantity;
         let finite = values.par_iter().filter(|value| value.is_finite()).map(|&value| [f64::from(value); 2]);
         let ends = finite.reduce_with(|[a, b], [c, d]| [a.min(c), b.max(d)]).unwrap_or([0.0, 1.0]);
@@ -41,7 +44,8 @@ impl Scale {
                 [ends[0] - apart, ends[1] + apart]
             }
         });
-        Self { quantity, range }
+        let unit = quantity.unit(units, range[0].abs().max(range[1].abs()));
+        Self { quantity, range, unit }
     }
 
     /// The place of a value, from 0 to 1. Doppler factors are on a logarithmic scale, 1 in its
@@ -70,7 +74,8 @@ impl Scale {
 
     /// Round values between the ends, and how they are written.
     pub fn ticks(&self) -> Vec<(f64, String)> {
-        let [low, high] = self.range;
+        let factor = self.unit.as_ref().map_or(1.0, |unit| unit.factor);
+        let [low, high] = self.range.map(|end| factor * end);
         let powers = |mantissas: &'static [f64]| -> Vec<f64> {
             let (first, last) = (libm::floor(libm::log10(low)) as i32, libm::log10(high) as i32);
             let decade = |power| mantissas.iter().map(move |part| part * libm::exp10(f64::from(power)));
@@ -91,7 +96,21 @@ impl Scale {
             let (first, n) = (libm::ceil(low / step), ((high - low) / step) as u32);
             ticks = (0..=n).map(|idx| step * (first + f64::from(idx))).filter(|tick| *tick <= high).collect();
         }
-        ticks.into_iter().map(|tick| (tick, significant(tick, 4))).collect()
+        ticks.into_iter().map(|tick| (tick / factor, significant(tick, 4))).collect()
+    }
+
+    /// What the scale shows, with the unit.
+    pub fn title(&self) -> String {
+        match &self.unit {
+            Some(unit) => format!("{} in {}", self.quantity.label(), unit.name),
+            None if self.quantity == Quantity::Speed => format!("{} β", self.quantity.label()),
+            None => self.quantity.label().to_owned(),
+        }
+    }
+
+    /// A value with its unit.
+    pub fn written(&self, value: f64) -> String {
+        self.unit.as_ref().map_or_else(|| significant(value, 4), |unit| unit.written(value, 4))
     }
 }
 
@@ -129,14 +148,14 @@ mod tests {
     use super::*;
 
     fn scale(quantity: Quantity, range: [f64; 2]) -> Scale {
-        Scale { quantity, range }
+        Scale { quantity, range, unit: None }
     }
 
     /// Factors that are inverse to each other are as far from the middle, which is white.
     #[test]
     fn doppler_factors_are_symmetrical_about_one() {
         let free = MapOptions { quantity: Quantity::Doppler, range: None };
-        let automatic = Scale::new(&free, &[0.5, f32::NAN, 1.5]);
+        let automatic = Scale::new(&free, &[0.5, f32::NAN, 1.5], &Units::default());
         assert_eq!(automatic.range, [0.5, 2.0]);
         assert_eq!([0.5, 1.0, 2.0, 9.0].map(|value| automatic.place(value)), [0.0, 0.5, 1.0, 1.0]);
         let uneven = scale(Quantity::Doppler, [0.5, 8.0]);
@@ -162,10 +181,21 @@ mod tests {
     }
 
     #[test]
+    fn ticks_are_round_in_their_unit() {
+        let units = Units::new(Some("m"), None).unwrap();
+        let map = MapOptions { quantity: Quantity::Time, range: Some([-6.0, 0.0]) };
+        let scale = Scale::new(&map, &[], &units);
+        assert_eq!(scale.title(), "time of emission in ns");
+        let (values, texts): (Vec<f64>, Vec<String>) = scale.ticks().into_iter().unzip();
+        assert_eq!(texts, ["−20", "−15", "−10", "−5", "0"]);
+        assert!((values[0] + 20e-9 * 299_792_458.0).abs() < 1e-12, "{values:?}");
+    }
+
+    #[test]
     fn a_single_value_has_a_scale() {
         for quantity in Quantity::ALL {
             for values in [vec![], vec![0.0], vec![3.0; 4], vec![f32::INFINITY]] {
-                let scale = Scale::new(&MapOptions { quantity, range: None }, &values);
+                let scale = Scale::new(&MapOptions { quantity, range: None }, &values, &Units::default());
                 assert!(scale.range[0] < scale.range[1], "{quantity:?} {values:?} {scale:?}");
                 assert!(!scale.ticks().is_empty(), "{scale:?}");
             }

@@ -140,7 +140,7 @@ impl Layout {
             let value = |idx| map::value(map.quantity, item(idx));
             values = (0..width * height).into_par_iter().map(value).collect();
         })?;
-        let scale = Scale::new(map, &values);
+        let scale = Scale::new(map, &values, &options.annotations.units);
         Ok(Some((map::picture(&scale, &values, options), scale)))
     }
 
@@ -167,12 +167,12 @@ impl Layout {
             text: options.text,
             notes: Vec::new(),
         };
-        let AnnotationOptions { legend, outline, grid, ref iso, .. } = options.annotations;
+        let AnnotationOptions { legend, outline, grid, ref iso, ref units, .. } = options.annotations;
         if let Subject::Surfaces { view, items, scene, wires } = annotated.subject {
             if let (Some(scene), Some(wires), true) = (scene, wires, outline || grid) {
                 let seen = SeenScene::new(scene, view, options, wires)?;
                 if grid {
-                    all.notes.extend(grid::draw(&seen, style, &mut all.over)?);
+                    all.notes.extend(grid::draw(&seen, units, style, &mut all.over)?);
                 }
                 if outline {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
@@ -181,7 +181,7 @@ impl Layout {
             if let Some(iso) = iso {
                 let mut drawn = Ok(());
                 items(false, &mut |item| {
-                    drawn = iso::draw(iso, options.size, scene, item, style, &mut all.over)
+                    drawn = iso::draw(iso, units, options.size, scene, item, style, &mut all.over)
                 })?;
                 drawn.map_err(Error::from)?;
             }
@@ -198,7 +198,7 @@ impl Layout {
                 })?;
                 let place = [self.size[0], self.scene_rows + self.scale_rows].map(f64::from);
                 if let Some(motion) = motion {
-                    legend::draw(&motion, style, place, &mut all.strips).map_err(Error::from)?;
+                    legend::draw(&motion, units, style, place, &mut all.strips).map_err(Error::from)?;
                 }
             }
         } else if iso.is_some() {
