@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 use ugphysics::Brightness;
-use ugrainbow::{Background, ColorShift, Exposure, HueScale, Interpolation, SpectralShift, Tone};
+use ugrainbow::{Background, ColorShift, Exposure, HueScale, Interpolation, Tone};
 use ugtests::picture::{self, assert_golden, decode};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::scenes;
@@ -126,7 +126,7 @@ fn a_tunnel_of_black_bodies_turns_blue_ahead() {
     let mut tunnel = Pipe::default();
     tunnel.lorentz.camera_velocity = Some(DVec3::new(0.0, 0.6, 0.0));
     tunnel.rainbow.picture.size = SIZE;
-    tunnel.doppler.shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: false });
+    tunnel.doppler.shift = ColorShift::spectra(true, false);
     check("doppler-alone-tunnel-0.6c", "tunnel", &tunnel);
 }
 

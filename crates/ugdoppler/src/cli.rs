@@ -112,12 +112,13 @@ impl Args {
         self.refuse_contradictions()?;
         let vector = |numbers: &Option<Vec<f64>>| ugpipe::vector(numbers.as_deref()).map(DVec3::from_array);
         let beta = vector(&self.vel).unwrap_or_default();
-        let ShiftArgs { sp, br, no_doppler, no_flux } = self.shift;
+        let ShiftArgs { sp, br, no_doppler, no_flux, infrared_rule } = self.shift;
         Ok(Config {
             velocity: Velocity::from_beta(beta).map_err(Failure::usage)?,
             eye: self.eye.eye(),
             wavelengths: self.gw,
-            shift: ColorShift::new(sp, !no_doppler, !no_flux, br),
+            shift: ColorShift::new(sp, !no_doppler, !no_flux, br)
+                .with_infrared(infrared_rule.unwrap_or_default()),
             repeat: self.repeat.repeats(),
             tolerance: self.ct,
             iris: self.ir,

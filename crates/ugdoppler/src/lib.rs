@@ -88,6 +88,7 @@ pub fn apply_with(
     progress: &dyn Progress,
 ) -> Result<(Scene, Vec<Note>), Error> {
     progress.step("colouring", 0);
+    scene.infrared = config.shift.infrared();
     uglight::freeze_colors_at_zero(&mut scene);
     // The light of coloured lamps multiplies spectra, which are not in the output.
     let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);

@@ -14,7 +14,7 @@ pub enum Mixing {
     /// `c_rgb`, red, green and blue of a display: as light. Light multiplies the display-encoded
     /// channels, as it does the value of a hue.
     Display,
-    /// `c_xyz`, `c_bb`, `c_spd`: as light. Light multiplies light.
+    /// `c_xyz`, `c_bb`, `c_spd`, `c_refl`: as light. Light multiplies light.
     Light,
 }
 
@@ -239,17 +239,19 @@ fn shown(xyz: [f64; 3]) -> Hsv {
 /// `c_xyz` that is more saturated than a smooth reflectance allows.
 pub fn spectrum(scene: &Scene, color: &Color) -> (Spectrum, bool) {
     let of_screen = |rgb: [f64; 3], factor: f64| {
-        (Spectrum::from_linear_srgb(rgb.map(|channel| brightest(factor * srgb_decode(channel)))), true)
+        let light = rgb.map(|channel| brightest(factor * srgb_decode(channel)));
+        (Spectrum::with_infrared(linear_srgb_to_xyz(light), scene.infrared).0, true)
     };
     match color.value {
         ColorValue::Rgb(rgb) => of_screen(rgb, 1.0),
         ColorValue::Hsv { value, tint, saturation, factor } => {
             of_screen(Hsv { hue: hue(tint), saturation, value }.to_rgb(), factor)
         }
-        ColorValue::Xyz(xyz) => Spectrum::from_xyz(xyz),
+        ColorValue::Xyz(xyz) => Spectrum::with_infrared(xyz, scene.infrared),
         ColorValue::Blackbody { kelvin, scale } => (Spectrum::blackbody(kelvin, scale), true),
-        ColorValue::Spectrum { start, end } => {
-            (Spectrum::samples(&scene.samples[start as usize..end as usize]), true)
+        ColorValue::Spectrum { reflects, start, end } => {
+            let samples = &scene.samples[start as usize..end as usize];
+            (if reflects { Spectrum::reflectance(samples) } else { Spectrum::samples(samples) }, true)
         }
     }
 }

@@ -1,6 +1,7 @@
 //! How motion changes colours, by either model of colour.
 
 use ugphysics::Brightness;
+use ugphysics::spectrum::InfraredRule;
 use ugscene::{ColorScale, HueScale, SeenColors};
 
 use crate::{HueShift, SpectralShift};
@@ -19,16 +20,40 @@ impl ColorShift {
     pub const NONE: Self = Self::Hues(HueShift::NONE);
 
     /// All that motion changes in spectra.
-    pub const SPECTRA: Self = Self::Spectra(SpectralShift { doppler: true, flux: true });
+    pub const SPECTRA: Self = Self::spectra(true, true);
 
     /// The shift of spectra, or of hues with a brightness law (by default that of 1988). `doppler`,
     /// `flux`: wavelengths and brightness change.
     #[must_use]
     pub fn new(is_spectral: bool, doppler: bool, flux: bool, law: Option<Brightness>) -> Self {
         if is_spectral {
-            return Self::Spectra(SpectralShift { doppler, flux });
+            return Self::spectra(doppler, flux);
         }
         Self::Hues(HueShift { doppler, law: if flux { law.unwrap_or_default() } else { Brightness::None } })
+    }
+
+    /// A shift of spectra. `doppler`: wavelengths are divided by D; `flux`: the factor D⁵.
+    #[must_use]
+    pub const fn spectra(doppler: bool, flux: bool) -> Self {
+        Self::Spectra(SpectralShift { doppler, flux, infrared: InfraredRule::Measured })
+    }
+
+    /// The same with a rule for what surfaces reflect in infrared.
+    #[must_use]
+    pub fn with_infrared(self, infrared: InfraredRule) -> Self {
+        match self {
+            Self::Hues(_) => self,
+            Self::Spectra(shift) => Self::Spectra(SpectralShift { infrared, ..shift }),
+        }
+    }
+
+    /// What surfaces reflect in infrared.
+    #[must_use]
+    pub fn infrared(self) -> InfraredRule {
+        match self {
+            Self::Hues(_) => InfraredRule::default(),
+            Self::Spectra(shift) => shift.infrared,
+        }
     }
 
     /// A shift of hues. `doppler`: wavelengths are divided by D. `law`: the brightness law.

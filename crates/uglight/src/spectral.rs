@@ -1,7 +1,7 @@
 //! Colours as spectra, as seen in motion.
 
 use glam::DVec3;
-use ugphysics::spectrum::{DopplerGrid, DopplerTable, LightSpectrum, SmoothCurve, Spectrum};
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, InfraredRule, LightSpectrum, SmoothCurve, Spectrum};
 use ugscene::{ColorId, Scene};
 
 use crate::{Irradiance, Lamp, spectrum};
@@ -14,11 +14,13 @@ pub struct SpectralShift {
     pub doppler: bool,
     /// The factor D⁵.
     pub flux: bool,
+    /// What surfaces reflect in infrared.  Eq. (P20)
+    pub infrared: InfraredRule,
 }
 
 impl SpectralShift {
     /// Spectra stay as they are at rest.
-    pub const NONE: Self = Self { doppler: false, flux: false };
+    pub const NONE: Self = Self { doppler: false, flux: false, infrared: InfraredRule::Measured };
 
     /// ln of the factor that wavelengths are divided by.
     #[must_use]

@@ -463,8 +463,8 @@ impl<'t> Scope<'t> {
 /// The colour with the rows of its samples, if it has any, increased by an offset.
 pub(crate) fn shifted(value: ColorValue, rows: usize) -> ColorValue {
     match value {
-        ColorValue::Spectrum { start, end } => {
-            ColorValue::Spectrum { start: start + rows as u32, end: end + rows as u32 }
+        ColorValue::Spectrum { reflects, start, end } => {
+            ColorValue::Spectrum { reflects, start: start + rows as u32, end: end + rows as u32 }
         }
         other => other,
     }

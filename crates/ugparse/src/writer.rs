@@ -418,8 +418,8 @@ impl<'s> Writer<'s> {
                 self.number(kelvin);
                 (scale != 1.0).then(|| self.number(scale));
             }
-            ColorValue::Spectrum { start, end } => {
-                self.text("c_spd");
+            ColorValue::Spectrum { reflects, start, end } => {
+                self.text(if reflects { "c_refl" } else { "c_spd" });
                 self.name(color.name);
                 self.numbers(self.scene.samples[start as usize..end as usize].as_flattened());
             }

@@ -241,8 +241,8 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        let ShiftArgs { br, sp, no_doppler, no_flux } = self.shift;
-        ColorShift::new(sp, !no_doppler, !no_flux, br)
+        let ShiftArgs { br, sp, no_doppler, no_flux, infrared_rule } = self.shift;
+        ColorShift::new(sp, !no_doppler, !no_flux, br).with_infrared(infrared_rule.unwrap_or_default())
     }
 }
 

@@ -182,6 +182,7 @@ impl PreparedScene {
 
 /// The scene with its vertices where they are seen and where they rest, and the stage that says so.
 pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
+    scene.infrared = config.shift.infrared();
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;

@@ -48,6 +48,10 @@ impl<'a> Setup<'a> {
         if config.repeat {
             ugscene::repeat_vertices(scene.to_mut(), true);
         }
+        let shift = config.exact.unwrap_or(ColorShift::NONE);
+        if scene.infrared != shift.infrared() {
+            scene.to_mut().infrared = shift.infrared();
+        }
         let PictureOptions { size: [width, height], samples, camera, .. } = &config.picture;
         let [width, height, samples] = [*width, *height, *samples];
         let view = View::new(&scene, camera, [width * samples, height * samples])?;
@@ -61,7 +65,6 @@ impl<'a> Setup<'a> {
             // With -wi, numbers in the text of a scene at rest are wavelengths.
             ugscene::read_tints_in(scene.to_mut(), hue_scale);
         }
-        let shift = config.exact.unwrap_or(ColorShift::NONE);
         let appearance = Appearance::new(&scene, view.eye, config.interpolated(hue_scale), shift, 1.0);
         let appearance = appearance.with_lamps(&scene, view.eye);
         let law = config.law(&scene);

@@ -185,6 +185,19 @@ impl SceneBuilder {
     /// # Errors
     /// See [`BuildError`].
     pub fn spectrum(&mut self, name: &str, samples: &[[f64; 2]]) -> Result<ColorId, BuildError> {
+        self.sampled(name, samples, false)
+    }
+
+    /// Adds the colour of a surface by its reflectance, in the same form; outside, the reflectance is
+    /// that of the nearer end.
+    ///
+    /// # Errors
+    /// See [`BuildError`].
+    pub fn reflectance(&mut self, name: &str, samples: &[[f64; 2]]) -> Result<ColorId, BuildError> {
+        self.sampled(name, samples, true)
+    }
+
+    fn sampled(&mut self, name: &str, samples: &[[f64; 2]], reflects: bool) -> Result<ColorId, BuildError> {
         let mut before = 0.0;
         for (row, &[wavelength, value]) in samples.iter().enumerate() {
             if !(wavelength > before && wavelength.is_finite() && (0.0..=f64::MAX).contains(&value)) {
@@ -201,7 +214,7 @@ impl SceneBuilder {
             return Err(BuildError::TooMany);
         }
         let end = (start + samples.len()) as u32;
-        let id = self.add_color(name, ColorValue::Spectrum { start: start as u32, end }, 0.0)?;
+        let id = self.add_color(name, ColorValue::Spectrum { reflects, start: start as u32, end }, 0.0)?;
         self.scene.samples.extend_from_slice(samples);
         Ok(id)
     }

@@ -5,6 +5,7 @@ mod words;
 use clap::{ArgAction, Args};
 use glam::DVec3;
 use ugphysics::Brightness;
+use ugphysics::spectrum::InfraredRule;
 use ugpipe::{Failure, Preset, finite, number, one_of, vector, view_angle};
 
 use crate::{Anchor, CameraOptions, MotionOptions, ShownEffects};
@@ -197,6 +198,14 @@ pub struct ShiftArgs {
     #[arg(long)]
     pub no_doppler: bool,
 
+    /// Infrared of surfaces of which only the colour is known: measured, constant [default: measured]
+    ///
+    /// With -sp. measured: what measured surfaces of this colour reflect. constant: the reflectance
+    /// at 780 nm goes on. Spectra that are given (c_refl) need no rule.
+    #[arg(long, value_name = "RULE",
+          value_parser = one_of(InfraredRule::ALL.map(InfraredRule::name), infrared_rule))]
+    pub infrared_rule: Option<InfraredRule>,
+
     /// Leave brightness as it is; with -sp omit the factor D^5
     #[arg(long)]
     pub no_flux: bool,
@@ -211,6 +220,12 @@ impl ShiftArgs {
 
     /// Brightness as at rest, for the looks of a program.
     pub const REST_BRIGHTNESS: Preset = Preset::new(&["no-flux"], &["br"]);
+}
+
+/// Value parser: the name of a rule for infrared.
+fn infrared_rule(word: &str) -> Result<InfraredRule, String> {
+    let rule = InfraredRule::ALL.into_iter().find(|rule| rule.name() == word);
+    rule.ok_or_else(|| "neither measured nor constant".to_owned())
 }
 
 /// Value parser: the name of a brightness law.

@@ -4,8 +4,8 @@ use std::fmt;
 use std::ops::Range;
 
 use rayon::prelude::*;
-use ugphysics::spectrum::{LightSpectrum, Spectrum, integrate};
-use ugphysics::{luminance, xyz_to_linear_srgb};
+use ugphysics::spectrum::{InfraredRule, LightSpectrum, Spectrum, integrate};
+use ugphysics::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
 /// The spectra that red, green and blue stand for. A picture determines three numbers of a
 /// spectrum, and nothing of its infrared and ultraviolet parts, which motion brings into view; each
@@ -200,8 +200,14 @@ fn colors_of<const N: usize>(
     }
 }
 
+/// The spectrum of a pure colour. Skies are no surfaces: their infrared is that of the curve of the
+/// colour.
+fn pure_light(rgb: [f64; 3]) -> Spectrum {
+    Spectrum::with_infrared(linear_srgb_to_xyz(rgb), InfraredRule::Constant).0
+}
+
 fn mixture(reach: f64, range: &Range<f64>) -> Kind {
-    let spectra = PURE.map(Spectrum::from_linear_srgb);
+    let spectra = PURE.map(pure_light);
     let colors = colors_of(&spectra, range);
     let (first, n) = range_of(reach, STEP);
     let light = |idx: usize| colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
@@ -284,12 +290,12 @@ mod tests {
         }
     }
 
-    /// White, primaries and pairs are the surfaces of scenes.
+    /// White, primaries and pairs are those of (P20).
     #[test]
-    fn mixtures_are_of_surfaces() {
+    fn mixtures_are_of_smooth_curves() {
         let table = SpectralTable::new(Basis::Mixture, true, true, 1.0, ALL_NM).unwrap();
         for pure in PURE {
-            let spectrum = Spectrum::from_linear_srgb(pure);
+            let spectrum = pure_light(pure);
             for step in -9..=9 {
                 let doppler = libm::exp(0.1037 * f64::from(step));
                 let seen = table.seen(pure.map(|part| part as f32), doppler).map(f64::from);

@@ -266,7 +266,7 @@ impl Args {
     }
 
     fn color_shift(&self) -> ColorShift {
-        let ShiftArgs { br, sp, no_doppler, no_flux } = self.shift;
+        let ShiftArgs { br, sp, no_doppler, no_flux, .. } = self.shift;
         let is_spectral = sp || self.basis.is_some() || self.bands().next().is_some();
         ColorShift::new(is_spectral, !no_doppler, !no_flux, br)
     }

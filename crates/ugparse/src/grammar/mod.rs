@@ -4,6 +4,7 @@
 //! token of look-ahead.
 
 mod cameras;
+mod known_spectra;
 mod motions;
 mod tables;
 mod transforms;
@@ -30,7 +31,7 @@ use crate::token::{
 
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str =
-    "v w f c c_rgb c_xyz c_bb c_spd c_mix c_time surf l cam motion def end i a include execute";
+    "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time surf l cam motion def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -74,7 +75,8 @@ impl<'t> Grammar<'t> {
             b"c_rgb" => self.rgb(input),
             b"c_xyz" => self.xyz(input),
             b"c_bb" => self.blackbody(input),
-            b"c_spd" => self.spectrum(input),
+            b"c_spd" => self.spectrum(input, false),
+            b"c_refl" => self.spectrum(input, true),
             b"c_mix" => self.mix(input),
             b"c_time" => self.table(input),
             b"surf" => self.surface(input),
@@ -227,9 +229,22 @@ impl<'t> Grammar<'t> {
         Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency: 0.0 })))
     }
 
-    /// `c_spd [ID] nm value …`
-    fn spectrum<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (mut input, name) = self.optional_name(input)?;
+    /// `c_spd [ID] nm value …`, `c_refl [ID] nm value …`, or a known spectrum in place of samples
+    fn spectrum<'a>(&self, input: Input<'a>, reflects: bool) -> Parsed<'a, Statement> {
+        let whole = |end: usize| ColorValue::Spectrum { reflects, start: 0, end: end as u32 };
+        let (behind_first, first) = opt(identifier).parse(input)?;
+        let (behind_second, second) = opt(identifier).parse(behind_first)?;
+        let name = first.map(|word| self.span(word, behind_first));
+        // `c_refl wood` has the name of what it is.
+        if let Some(word) = second.or(first.filter(|_| number(behind_first).is_err())) {
+            let Some(samples) = known_spectra::samples(word, reflects) else {
+                let at = if second.is_some() { behind_first } else { input };
+                return fail(blank(at)?.0, known_spectra::unknown(reflects));
+            };
+            let color = ColorStatement { name, value: whole(samples.len()), samples, translucency: 0.0 };
+            return Ok((behind_second, Statement::Color(color)));
+        }
+        let mut input = behind_first;
         let mut samples: Vec<[f64; 2]> = Vec::new();
         let mut least = f64::MIN_POSITIVE;
         loop {
@@ -243,7 +258,7 @@ impl<'t> Grammar<'t> {
             least = wavelength_nm.next_up();
             input = rest;
         }
-        let value = ColorValue::Spectrum { start: 0, end: samples.len() as u32 };
+        let value = whole(samples.len());
         Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
     }
 

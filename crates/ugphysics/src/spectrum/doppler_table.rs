@@ -11,7 +11,7 @@ use crate::spectrum::weighted_daylight::WeightedDaylight;
 /// Step of a table in ln D. A step shifts wavelengths by one percent, about 5 nm.
 ///
 /// Interpolation errors, measured on 125 surfaces from greys to the primaries and on black bodies,
-/// are below 3·10⁻⁴ of X, Y and Z: a colour difference ΔE*ab below 0.1. Half of that comes from
+/// are below 3·10⁻⁴ of the largest of X, Y and Z: a colour difference ΔE*ab below 0.1. Half of that comes from
 /// summing over whole nanometres, across the corners of the piecewise linear daylight table.
 pub const LN_STEP: f64 = 0.01;
 
@@ -25,8 +25,8 @@ pub struct DopplerGrid {
     last: i32,
     /// Weighted daylight at each factor, computed once for all surfaces.
     light: OnceLock<Vec<WeightedDaylight>>,
-    /// Quadrature weights at each factor, for [`DopplerGrid::xyz`].
-    nodes: OnceLock<Vec<Quadrature<N_NODES>>>,
+    /// Quadrature weights at each factor by each rule for infrared, for [`DopplerGrid::xyz`].
+    nodes: [OnceLock<Vec<Quadrature<N_NODES>>>; 2],
 }
 
 impl DopplerGrid {
@@ -38,7 +38,7 @@ impl DopplerGrid {
             first: row(*ln_doppler.start()).min(0) - MARGIN,
             last: row(*ln_doppler.end()).max(0) + 1 + MARGIN,
             light: OnceLock::new(),
-            nodes: OnceLock::new(),
+            nodes: [const { OnceLock::new() }; 2],
         }
     }
 
@@ -82,7 +82,9 @@ impl DopplerGrid {
         if cell.fraction == 0.0 {
             return surface.xyz_under(&self.light()[cell.idx]);
         }
-        let nodes = self.nodes.get_or_init(|| self.light().iter().map(Quadrature::new).collect());
+        let rule = surface.rule();
+        let nodes = || self.light().iter().map(|light| Quadrature::new(light, rule)).collect();
+        let nodes = self.nodes[rule as usize].get_or_init(nodes);
         cell.interpolate(ln_xyz_at_nodes(surface, &nodes[cell.idx - 1..cell.idx + 3]))
     }
 
@@ -97,10 +99,9 @@ impl DopplerGrid {
 
 /// ln X, ln Y, ln Z of a surface at four points.
 fn ln_xyz_at_nodes(surface: &Reflectance, around: &[Quadrature<N_NODES>]) -> [[f64; 3]; 4] {
-    let (factor, curve) = surface.parts();
-    let values = curve.map_or([1.0; N_NODES], |curve| around[0].curve(curve));
+    let values = surface.curve().map_or([1.0; N_NODES], |curve| around[0].curve(curve));
     // Interpolation polynomials can fall slightly below 0.
-    std::array::from_fn(|k| around[k].sums(&values).map(|sum| libm::log(factor * sum.max(0.0))))
+    std::array::from_fn(|k| surface.xyz_at_nodes(&values, &around[k]).map(|sum| libm::log(sum.max(0.0))))
 }
 
 /// A table over ln D of ln X, ln Y, ln Z of L(λ) = L'(λD), without the factor D⁵.  Eq. (P12), (P19)

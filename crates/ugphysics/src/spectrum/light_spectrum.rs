@@ -5,7 +5,7 @@ use crate::spectrum::blackbody;
 use crate::spectrum::daylight::daylight;
 use crate::spectrum::observer::integrate;
 use crate::spectrum::radiance::{Kind, Spectrum};
-use crate::spectrum::{Reflectance, SmoothCurve, planck};
+use crate::spectrum::{SmoothCurve, planck, samples};
 
 /// The spectrum of a light, in the light's rest frame.
 #[derive(Clone, Debug)]
@@ -17,7 +17,8 @@ pub struct LightSpectrum {
 
 #[derive(Clone, Debug)]
 enum Source {
-    Filtered(Reflectance),
+    /// Daylight through a filter.
+    Filtered(Spectrum),
     Blackbody(f64),
     /// A black body of so many kelvins whose visible light underflows. `ln_scale`: ln of a factor.
     ColdBody {
@@ -33,8 +34,8 @@ impl LightSpectrum {
     #[must_use]
     pub fn new(spectrum: &Spectrum) -> Self {
         match &spectrum.0 {
-            Kind::Reflected(filter) => {
-                Self { source: Source::Filtered(*filter), scale: 1.0 / integrate(daylight)[1] }
+            Kind::Reflected(_) | Kind::Measured(_) => {
+                Self { source: Source::Filtered(spectrum.clone()), scale: 1.0 / integrate(daylight)[1] }
             }
             Kind::Blackbody { kelvin, luminance } => {
                 let scale = luminance / integrate(|nm| planck(nm, *kelvin))[1];
@@ -52,7 +53,7 @@ impl LightSpectrum {
     #[must_use]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         let light = match &self.source {
-            Source::Filtered(filter) => filter.at(wavelength_nm) * daylight(wavelength_nm),
+            Source::Filtered(filter) => filter.transmittance(wavelength_nm) * daylight(wavelength_nm),
             Source::Blackbody(kelvin) => planck(wavelength_nm, *kelvin),
             Source::ColdBody { kelvin, ln_scale } => {
                 libm::exp(blackbody::ln_planck(wavelength_nm, *kelvin) + ln_scale).min(MOST_LIGHT)
@@ -70,7 +71,9 @@ impl LightSpectrum {
     #[must_use]
     pub fn seen_through(&self, curve: &SmoothCurve, doppler: f64) -> [f64; 3] {
         let xyz = match &self.source {
-            Source::Filtered(filter) => curve.times(|nm| filter.at(nm * doppler)).xyz_of_daylight(doppler),
+            Source::Filtered(filter) => {
+                curve.times(|nm| filter.transmittance(nm * doppler)).xyz_of_daylight(doppler)
+            }
             Source::Blackbody(kelvin) => curve.times(|nm| planck(nm * doppler, *kelvin)).xyz(),
             Source::ColdBody { kelvin, ln_scale } => {
                 let ln = |nm: f64| blackbody::ln_planck(nm * doppler, *kelvin) + ln_scale;
@@ -115,8 +118,10 @@ impl Spectrum {
     /// ```
     #[must_use]
     pub fn under(&self, light: &LightSpectrum, doppler: f64, light_doppler: f64) -> Option<[f64; 3]> {
-        let Kind::Reflected(surface) = &self.0 else { return None };
-        let reflected = SmoothCurve::new(|nm| surface.at(nm * doppler));
+        if !self.is_surface() {
+            return None;
+        }
+        let reflected = SmoothCurve::new(|nm| self.transmittance(nm * doppler));
         Some(light.seen_through(&reflected, doppler * light_doppler))
     }
 
@@ -126,6 +131,7 @@ impl Spectrum {
     pub fn transmittance(&self, wavelength_nm: f64) -> f64 {
         match &self.0 {
             Kind::Reflected(surface) => surface.at(wavelength_nm),
+            Kind::Measured(samples) => samples::held(samples, wavelength_nm),
             _ => 1.0,
         }
     }
@@ -133,6 +139,6 @@ impl Spectrum {
     /// True if this is the spectrum of a surface, which reflects light; false for what emits it.
     #[must_use]
     pub fn is_surface(&self) -> bool {
-        matches!(self.0, Kind::Reflected(_))
+        matches!(self.0, Kind::Reflected(_) | Kind::Measured(_))
     }
 }

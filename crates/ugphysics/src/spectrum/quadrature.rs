@@ -1,6 +1,7 @@
 //! Quadrature: integrals over a smooth reflectance from few of its values.
 
 use crate::spectrum::curve::{CURVE_NM, Coefficients};
+use crate::spectrum::infrared::{InfraredRule, N_LEVELS};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
 /// Number of nodes for colours in motion: one every 4 nm.
@@ -20,20 +21,22 @@ pub(crate) struct Quadrature<const N: usize> {
     /// The Legendre polynomial P₁ at each node, and P₂ in `quadratic`; see [`Coefficients`].
     t: [f64; N],
     quadratic: [f64; N],
-    /// The weights, by channel.
+    /// The weights, by channel, of the curve of the colour.
     pub weights: [[f64; N]; 3],
+    /// The weights of the infrared levels, by channel; 0 if the reflectance is constant there.
+    infrared: [[f64; N_LEVELS]; 3],
 }
 
 impl<const N: usize> Quadrature<N> {
-    /// The weights for the given light on the surface.
-    pub fn new(light: &WeightedDaylight) -> Self {
+    /// The weights for the given light on a surface.
+    pub fn new(light: &WeightedDaylight, rule: InfraredRule) -> Self {
         let [first, last] = CURVE_NM;
         let step_nm = (last - first) / (N - 1) as f64;
         let mut weights = [[0.0; N]; 3];
         for (channel, weights) in weights.iter_mut().enumerate() {
-            // Outside 380…780 nm the reflectance is constant.
-            weights[0] += light.outside[0][channel];
-            weights[N - 1] += light.outside[1][channel];
+            // Outside 380…780 nm the curve is constant.
+            weights[0] += light.ultraviolet[channel];
+            weights[N - 1] += light.beyond[channel];
             for (nm, weight) in light.wavelengths().zip(&light.inside[channel]) {
                 let (row, parts) = polynomial((nm - first) / step_nm, N);
                 for (node, part) in weights[row..].iter_mut().zip(parts) {
@@ -41,11 +44,20 @@ impl<const N: usize> Quadrature<N> {
                 }
             }
         }
-        let basis = |row: usize| Coefficients::basis(first + row as f64 * step_nm);
+        let nm = |row: usize| first + row as f64 * step_nm;
+        for weights in &mut weights {
+            weights.iter_mut().enumerate().for_each(|(row, weight)| *weight *= rule.visible_part(nm(row)));
+        }
+        let infrared = match rule {
+            InfraredRule::Measured => light.infrared,
+            InfraredRule::Constant => Default::default(),
+        };
+        let basis = |row: usize| Coefficients::basis(nm(row));
         Self {
             t: std::array::from_fn(|row| basis(row)[1]),
             quadratic: std::array::from_fn(|row| basis(row)[2]),
             weights,
+            infrared,
         }
     }
 
@@ -55,12 +67,21 @@ impl<const N: usize> Quadrature<N> {
             let mixed = mix(std::array::from_fn(|i| self.weights[i][row]));
             self.weights.iter_mut().zip(mixed).for_each(|(weights, mixed)| weights[row] = mixed);
         }
+        for level in 0..N_LEVELS {
+            let mixed = mix(std::array::from_fn(|i| self.infrared[i][level]));
+            self.infrared.iter_mut().zip(mixed).for_each(|(levels, mixed)| levels[level] = mixed);
+        }
         self
     }
 
     /// The integral for each channel, from the values of a curve at the nodes.
     pub fn sums(&self, values: &[f64; N]) -> [f64; 3] {
         self.weights.each_ref().map(|weights| dot(values, weights))
+    }
+
+    /// What the infrared levels add to each channel.
+    pub fn infrared(&self, levels: &[f64; N_LEVELS]) -> [f64; 3] {
+        self.infrared.each_ref().map(|weights| dot(levels, weights))
     }
 
     /// The curve at every node.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::{linear_srgb_to_xyz, luminance, xyz_to_linear_srgb};
 
+use crate::spectrum::infrared::InfraredRule;
 use crate::spectrum::reflectance::Reflectance;
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 use crate::spectrum::{blackbody, samples};
@@ -24,6 +25,8 @@ pub(crate) enum Kind {
     Blackbody { kelvin: f64, luminance: f64 },
     /// Samples (nm, radiance).
     Samples(Arc<[[f64; 2]]>),
+    /// Daylight reflected by a surface, samples (nm, reflectance).
+    Measured(Arc<[[f64; 2]]>),
 }
 
 impl Spectrum {
@@ -39,10 +42,16 @@ impl Spectrum {
     /// to the boundary of the sRGB gamut; a negative Y becomes black.  Eq. (P20)
     #[must_use]
     pub fn from_xyz(xyz: [f64; 3]) -> (Self, bool) {
+        Self::with_infrared(xyz, InfraredRule::default())
+    }
+
+    /// [`Spectrum::from_xyz`] by a rule for infrared.
+    #[must_use]
+    pub fn with_infrared(xyz: [f64; 3], rule: InfraredRule) -> (Self, bool) {
         let rgb = remove_rounding(xyz_to_linear_srgb(xyz));
-        let exact = Reflectance::from_linear_srgb(rgb);
+        let exact = Reflectance::with_infrared(rgb, rule);
         let is_exact = exact.is_some();
-        let surface = exact.or_else(|| Reflectance::from_linear_srgb(in_gamut(rgb)));
+        let surface = exact.or_else(|| Reflectance::with_infrared(in_gamut(rgb), rule));
         let black = Reflectance::default();
         (Self(Kind::Reflected(surface.unwrap_or(black))), is_exact)
     }
@@ -58,6 +67,21 @@ impl Spectrum {
     #[must_use]
     pub fn samples(samples: &[[f64; 2]]) -> Self {
         Self(Kind::Samples(samples.into()))
+    }
+
+    /// A surface under daylight by samples of its reflectance (nm, value) at increasing wavelengths,
+    /// interpolated linearly between them; outside, the value of the nearer end.
+    ///
+    /// ```
+    /// use ugphysics::spectrum::Spectrum;
+    ///
+    /// let half = Spectrum::reflectance(&[[500.0, 0.5]]);
+    /// let grey = Spectrum::from_linear_srgb([0.5; 3]);
+    /// assert!(half.seen(2.0).iter().zip(grey.seen(2.0)).all(|(a, b)| (a - b).abs() < 1e-9));
+    /// ```
+    #[must_use]
+    pub fn reflectance(samples: &[[f64; 2]]) -> Self {
+        Self(Kind::Measured(samples.into()))
     }
 
     /// X, Y, Z as seen with Doppler factor D, above 0: of L(λ) = D⁵ L'(λD).  Eq. (P12), (P19)
@@ -94,6 +118,7 @@ impl Spectrum {
             Kind::Reflected(surface) => surface.xyz_under(&daylight),
             Kind::Blackbody { .. } => spectrum.ln_shifted(doppler).map(libm::exp),
             Kind::Samples(samples) => samples::xyz(samples, doppler),
+            Kind::Measured(samples) => samples::of_daylight(|nm| samples::held(samples, nm), doppler),
         })
     }
 

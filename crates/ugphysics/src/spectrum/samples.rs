@@ -1,7 +1,9 @@
 //! Spectra given by samples, interpolated linearly between them and 0 outside.
 
 use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
-use crate::spectrum::observer::{SUM_Y, observer};
+use crate::spectrum::daylight::daylight;
+use crate::spectrum::observer::{SUM_Y, observer, weighted_sums};
+use crate::spectrum::weighted_daylight::white_luminance;
 
 /// X, Y, Z of L(λ) = L'(λD) for samples (nm, radiance) of L' at increasing wavelengths.  Eq. (P12)
 /// without D⁵, (P19)
@@ -24,6 +26,23 @@ pub(crate) fn xyz(samples: &[[f64; 2]], doppler: f64) -> [f64; 3] {
         });
     }
     sums.map(|sum| sum / SUM_Y)
+}
+
+/// X, Y, Z of what a surface of this reflectance shows of daylight, which is seen with D; without
+/// D⁵.  Eq. (P12), (P19), (P20)
+pub(crate) fn of_daylight(reflectance: impl Fn(f64) -> f64, doppler: f64) -> [f64; 3] {
+    let light = |nm: f64| reflectance(nm) * daylight(nm) / white_luminance();
+    weighted_sums(|_, nm| light(nm * doppler))
+}
+
+/// Linear interpolation of samples (nm, value); outside, the value of the nearer end.
+pub(crate) fn held(samples: &[[f64; 2]], wavelength_nm: f64) -> f64 {
+    let next = samples.partition_point(|&[nm, _]| nm <= wavelength_nm);
+    match (next.checked_sub(1).map(|row| samples[row]), samples.get(next)) {
+        (Some([low, from]), Some(&[high, to])) => from + (to - from) * ((wavelength_nm - low) / (high - low)),
+        (Some([_, end]), None) | (None, Some(&[_, end])) => end,
+        (None, None) => 0.0,
+    }
 }
 
 /// Splits the range at whole nanometres, clips it to the observer's, and calls `each` with the ends

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use crate::xyz_to_linear_srgb;
 
 use crate::spectrum::curve::Coefficients;
+use crate::spectrum::infrared::{InfraredRule, N_LEVELS};
 use crate::spectrum::quadrature::{N_NODES, Quadrature, dot};
 use crate::spectrum::weighted_daylight::WeightedDaylight;
 
@@ -24,11 +25,13 @@ const MAX_DAMPED_STEPS: usize = 200;
 /// Largest number of final Newton steps; each divides the error by about a thousand.
 const MAX_NEWTON_STEPS: usize = 4;
 
-/// The curve whose colour under daylight is this linear sRGB, by the Levenberg–Marquardt method:
-/// first on nodes every 20 nm, then every 4 nm, then on every nanometre. `None` if no curve is
-/// found.
-pub(crate) fn solve(target: [f64; 3]) -> Option<Coefficients> {
-    let (coarse, middle, fine) = grids();
+/// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB, by
+/// the Levenberg–Marquardt method: first on nodes every 20 nm, then every 4 nm, then on every
+/// nanometre. `None` if no curve is found.
+pub(crate) fn solve(color: [f64; 3], rule: InfraredRule, levels: [f64; N_LEVELS]) -> Option<Coefficients> {
+    let (coarse, middle, fine) = grids(rule);
+    let infrared = fine.infrared(&levels);
+    let target = std::array::from_fn(|i| color[i] - infrared[i]);
     let start = levenberg_marquardt(coarse, target, initial_guess(target), 1e-4, 1e-3);
     // The grids give nearly the same colours, so almost no damping is needed after the first.
     let near = levenberg_marquardt(middle, target, start.curve, ONE_STEP_ERROR, 1e-9);
@@ -87,15 +90,15 @@ type Grids = (Quadrature<21>, Quadrature<N_NODES>, Fine);
 type Fine = Quadrature<401>;
 
 /// The grids with weights for linear red, green and blue at rest.
-fn grids() -> &'static Grids {
-    static GRIDS: OnceLock<Grids> = OnceLock::new();
-    GRIDS.get_or_init(|| {
+fn grids(rule: InfraredRule) -> &'static Grids {
+    static GRIDS: [OnceLock<Grids>; 2] = [const { OnceLock::new() }; 2];
+    GRIDS[rule as usize].get_or_init(|| {
         let light = WeightedDaylight::new(1.0);
         let mix = xyz_to_linear_srgb;
         (
-            Quadrature::new(&light).mixed(mix),
-            Quadrature::new(&light).mixed(mix),
-            Quadrature::new(&light).mixed(mix),
+            Quadrature::new(&light, rule).mixed(mix),
+            Quadrature::new(&light, rule).mixed(mix),
+            Quadrature::new(&light, rule).mixed(mix),
         )
     })
 }

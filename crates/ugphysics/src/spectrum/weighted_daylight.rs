@@ -3,14 +3,19 @@
 use crate::spectrum::cie_1931::{CIE_1931, FIRST_NM};
 use crate::spectrum::curve::CURVE_NM;
 use crate::spectrum::daylight::daylight;
+use crate::spectrum::infrared::{self, N_LEVELS};
 use crate::spectrum::observer::weighted_sums;
 
 /// Daylight seen with a Doppler factor, weighted by the observer: white has Y = 1 at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct WeightedDaylight {
     doppler: f64,
-    /// X, Y, Z of the light emitted below 380 nm, and of that emitted above 780 nm.
-    pub outside: [[f64; 3]; 2],
+    /// X, Y, Z of the light emitted below 380 nm.
+    pub ultraviolet: [f64; 3],
+    /// X, Y, Z of the light emitted above 780 nm.
+    pub beyond: [f64; 3],
+    /// X, then Y, then Z of the light at each infrared level of a reflectance.
+    pub infrared: [[f64; N_LEVELS]; 3],
     /// Wavelength at the eye, nm, of the first row of `inside`.
     first_nm: f64,
     /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
@@ -20,16 +25,23 @@ pub(crate) struct WeightedDaylight {
 impl WeightedDaylight {
     pub fn new(doppler: f64) -> Self {
         let inside = [0; 3].map(|_| Vec::new());
-        let mut light = Self { doppler, outside: [[0.0; 3]; 2], first_nm: 0.0, inside };
+        let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
+        let mut light = Self { doppler, ultraviolet, beyond: [0.0; 3], infrared, first_nm: 0.0, inside };
         let scale = 1.0 / white_luminance();
         for (row, weights) in CIE_1931.iter().enumerate() {
             let seen_nm = (FIRST_NM + row) as f64;
             let level = daylight(seen_nm * doppler) * scale;
             let xyz = weights.map(|weight| weight * level);
+            if seen_nm * doppler > infrared::FIRST_NM {
+                let shares = infrared::shares(seen_nm * doppler);
+                for (levels, part) in light.infrared.iter_mut().zip(xyz) {
+                    levels.iter_mut().zip(shares).for_each(|(level, share)| *level += share * part);
+                }
+            }
             let into = if seen_nm * doppler < CURVE_NM[0] {
-                &mut light.outside[0]
+                &mut light.ultraviolet
             } else if seen_nm * doppler > CURVE_NM[1] {
-                &mut light.outside[1]
+                &mut light.beyond
             } else {
                 if light.inside[0].is_empty() {
                     light.first_nm = seen_nm;
@@ -49,7 +61,7 @@ impl WeightedDaylight {
 }
 
 /// Σ S ȳ of daylight S, computed once.
-fn white_luminance() -> f64 {
+pub(crate) fn white_luminance() -> f64 {
     static SUM: std::sync::OnceLock<f64> = std::sync::OnceLock::new();
     *SUM.get_or_init(|| weighted_sums(|_, nm| daylight(nm))[1])
 }

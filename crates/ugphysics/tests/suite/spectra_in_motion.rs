@@ -38,7 +38,7 @@ fn surfaces(n_levels: i32) -> Vec<[f64; 3]> {
 fn surfaces_have_their_colour_at_rest() {
     for rgb in surfaces(17) {
         let surface = Reflectance::from_linear_srgb(rgb).unwrap_or_else(|| panic!("{rgb:?}"));
-        let most = (340..=840).step_by(10).map(|nm| surface.at(f64::from(nm))).fold(0.0, f64::max);
+        let most = (340..=700).step_by(10).map(|nm| surface.at(f64::from(nm))).fold(0.0, f64::max);
         let brightest = rgb.into_iter().fold(0.0, f64::max);
         assert!(most <= brightest / 0.98 + 1e-12, "{rgb:?} reflects {most}");
         let seen = xyz_to_linear_srgb(Spectrum::from_linear_srgb(rgb).seen(1.0));
@@ -136,8 +136,11 @@ fn tables_approximate_the_spectra() {
             // At the middle of cells and away from it.
             let ln = -2.4 + 0.01 * (f64::from(row) + 0.5 - 0.3 * f64::from(row % 2));
             let exact = spectrum.shifted(libm::exp(ln));
-            check(table.xyz(ln), exact, tolerance);
-            check(grid.xyz(&spectrum, ln), exact, tolerance);
+            let largest = exact.into_iter().fold(0.0, f64::max);
+            for found in [table.xyz(ln), grid.xyz(&spectrum, ln)] {
+                let is_near = |(a, b): (f64, f64)| (a - b).abs() <= tolerance * largest;
+                assert!(found.into_iter().zip(exact).all(is_near), "{found:?} is not {exact:?}");
+            }
         }
     }
 }

@@ -13,7 +13,7 @@ use ugpicture::explain::{
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
-use ugscene::{ColorScale, ColorValue, RestPosition, SeenPosition, ShownEffects, VertexId};
+use ugscene::{ColorScale, RestPosition, SeenPosition, ShownEffects, VertexId};
 
 use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
@@ -281,8 +281,7 @@ impl Teller<'_> {
         let Some(face) = scene.faces.get(item as usize) else { return true };
         let is_spectral =
             scene.stage.seen_colors().is_some_and(|seen| matches!(seen.scale, ColorScale::Spectra { .. }));
-        let color = face.color.map(|color| scene.colors[color.index()].value);
-        let emits = matches!(color, Some(ColorValue::Blackbody { .. } | ColorValue::Spectrum { .. }));
+        let emits = face.color.is_some_and(|color| scene.colors[color.index()].value.emits());
         scene.light_level(face).is_none() && !(is_spectral && emits)
     }
 

@@ -13,6 +13,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::Velocity;
+use ugphysics::spectrum::InfraredRule;
 
 use super::body::Bodies;
 use super::color_table::ColorTable;
@@ -33,11 +34,13 @@ pub struct Scene {
     pub stage: Stage,
     /// Text of every name used below.
     pub names: Names,
-    /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`, `c_time`.
+    /// `c`, `c_rgb`, `c_xyz`, `c_bb`, `c_spd`, `c_refl`, `c_time`.
     pub colors: Vec<Color>,
     /// Samples of spectra: wavelength in nm, increasing within each spectrum, and value, 0 or more.
     /// Linear between samples, 0 outside.
     pub samples: Vec<[f64; 2]>,
+    /// What surfaces reflect in infrared of which only the colour is known; not part of the text.
+    pub infrared: InfraredRule,
     /// `c_mix`, by the row of the colour: see [`Scene::mix_of`].
     pub mixes: Vec<Mix>,
     /// `c_time`, by the row of the colour: see [`Scene::table_of`].
@@ -117,8 +120,10 @@ pub enum ColorValue {
         /// Factor of its light, 0 or more.
         scale: f64,
     },
-    /// `c_spd`: a sampled spectrum.
+    /// A sampled spectrum.
     Spectrum {
+        /// `c_refl`: of the reflectance of a surface; `c_spd`: of light.
+        reflects: bool,
         /// First row of [`Scene::samples`].
         start: u32,
         /// Row after the last sample.
@@ -127,6 +132,11 @@ pub enum ColorValue {
 }
 
 impl ColorValue {
+    /// True for what shines by itself where colours are spectra.
+    pub fn emits(&self) -> bool {
+        matches!(self, Self::Blackbody { .. } | Self::Spectrum { reflects: false, .. })
+    }
+
     /// The same numbers, with that of the tint in another unit.
     #[must_use]
     pub fn with_tint_in(self, unit: HueScale) -> Self {

@@ -97,7 +97,7 @@ fn names_are_unique_and_numbers_in_range() {
         (ColorValue::Rgb([0.5, 1.5, 0.0]), 0.0),
         (ColorValue::Xyz([f64::NAN, 0.0, 0.0]), 0.0),
         (ColorValue::Blackbody { kelvin: 0.0, scale: 1.0 }, 0.0),
-        (ColorValue::Spectrum { start: 0, end: 9 }, 0.0),
+        (ColorValue::Spectrum { reflects: true, start: 0, end: 9 }, 0.0),
         (grey, 1.5),
     ] {
         let error = builder.color("other", value, translucency).unwrap_err();

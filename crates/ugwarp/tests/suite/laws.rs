@@ -8,7 +8,7 @@ use ugphysics::spectrum::Spectrum;
 use ugphysics::{Brightness, Velocity, linear_srgb_to_xyz, srgb_encode, xyz_to_linear_srgb};
 use ugwarp::{
     Background, Band, Basis, CameraOptions, Channel, ColorShift, Config, Extent, Filter, HueShift, Lens,
-    Opened, Panorama, PictureOptions, Sky, SpectralShift, Texels, light, render, run,
+    Opened, Panorama, PictureOptions, Sky, Texels, light, render, run,
 };
 
 fn panorama(width: u32, color: impl Fn(DVec3) -> [f64; 3]) -> Panorama {
@@ -155,7 +155,7 @@ fn a_black_body_sky_stays_one() {
     let sky = panorama(64, |_| rgb);
     for beta in [0.1, 0.3] {
         let mut config = geometry(ahead(beta), [512, 256], Lens::Panorama);
-        config.shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+        config.shift = ColorShift::spectra(true, true);
         config.basis = Basis::Planck([3500.0, 5800.0, 10_000.0]);
         config.picture.channels = vec![Channel::Doppler];
         let frame = light(&sky, &config).unwrap();
@@ -298,7 +298,7 @@ fn the_brightest_light_is_a_number() {
         |idx: usize| if idx.is_multiple_of(3) { [f32::MAX, f32::MAX, f32::MAX, 1.0] } else { [0.0; 4] };
     let texels = Texels::Light((0..64 * 32).map(texel).collect());
     let sky = Panorama::new([64, 32], texels, Extent::FULL).unwrap();
-    let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let shift = ColorShift::spectra(true, true);
     let mut config = Config { shift, velocity: ahead(0.5), ..Config::default() };
     config.picture.size = [8, 6];
     let notes = render(&sky, &config).unwrap().notes;
@@ -312,7 +312,7 @@ fn the_brightest_light_is_a_number() {
 fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     let sky = |level: f64| panorama(256, move |_| [level; 3]);
     let band = |range_nm, level| Band { range_nm, panorama: sky(level) };
-    let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+    let shift = ColorShift::spectra(true, true);
     let config = Config { shift, ..geometry(ahead(0.6), [64, 32], Lens::Panorama) };
     let seen = |visible: f64, bands: &[Band]| {
         let (panorama, stars) = (sky(visible), &[][..]);

@@ -108,6 +108,7 @@ fn colours_may_be_physical() {
         &["c a 1;", "c d:m 0.5;", "c_mix a d:m 0.5 a 0.5;", "c_mix d:m a 1;", "v d:p 0 0 0 d:m;"],
     );
     check("c_spd s 380 0 555 1.5;c_spd t 589 1;", &["c_spd s 380 0 555 1.5;", "c_spd t 589 1;"]);
+    check("c_refl s 400 0 700 .5;", &["c_refl s 400 0 700 0.5;"]);
     // Samples of all scopes share a table.
     check(
         "def d; c_spd s 1 2 3 4; v a 0 0 0 s; end; c_spd s 5 6; i (d); v b 0 0 0 s;",
@@ -117,7 +118,10 @@ fn colours_may_be_physical() {
         ("c_xyz x 1 1;", "expected a number, found `;`"),
         ("c_bb x 0;", "the number `0` is out of range"),
         ("c_bb x 300 -1;", "the number `-1` is out of range"),
-        ("c_spd x;", "expected a number, found `;`"),
+        ("c_spd x;", "no light has this name"),
+        ("c_refl x;", "no surface has this name"),
+        ("c_refl x oak;", "no surface has this name"),
+        ("c_refl x 400;", "expected a number, found `;`"),
         ("c_mix;", "expected a name that begins with a letter, `:`, `_` or `#`, found `;`"),
         ("c_mix x;", "expected a name that begins with a letter, `:`, `_` or `#`, found `;`"),
         ("c_mix x y;", "expected a number, found `;`"),
@@ -131,6 +135,30 @@ fn colours_may_be_physical() {
     ] {
         check_error(text, message);
     }
+}
+
+/// Known spectra are written in full, and have the colours that measured ones have.
+#[test]
+fn surfaces_and_lights_have_names() {
+    let scene = crate::language::parse_with(
+        "c_refl wood; c_refl leaf foliage; c_spd sun; c_spd noon sunlight;",
+        false,
+    )
+    .scene;
+    let names: Vec<&str> = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
+    assert_eq!(names, ["wood", "leaf", "sun", "noon"]);
+    let sample = |color: usize, nm: f64| {
+        let ugscene::ColorValue::Spectrum { start, end, .. } = scene.colors[color].value else {
+            panic!("a spectrum")
+        };
+        let samples = &scene.samples[start as usize..end as usize];
+        samples.iter().find(|[at, _]| *at == nm).unwrap()[1]
+    };
+    // The red edge of leaves; water vapour takes light of the sun on its way.
+    assert!(sample(1, 800.0) > 10.0 * sample(1, 650.0));
+    assert!(sample(3, 1400.0) < 0.1 * sample(2, 1400.0));
+    let emits: Vec<bool> = scene.colors.iter().map(|color| color.value.emits()).collect();
+    assert_eq!(emits, [false, false, true, true]);
 }
 
 /// The warnings of a scene, as a person sees them.

@@ -2,9 +2,7 @@
 
 use glam::{DMat3, DMat4, DVec3, DVec4};
 use ugimage::{LinearFrame, Samples};
-use ugphoton::{
-    CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, SpectralShift, light,
-};
+use ugphoton::{CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, light};
 use ugphysics::{Brightness, srgb_encode};
 
 /// Colours, surfaces, and no light but that of faces with a level.
@@ -63,7 +61,7 @@ pub fn by_law(law: Brightness) -> Config {
 
 /// Options for spectra.
 pub fn by_spectra() -> Config {
-    Config { shift: ColorShift::Spectra(SpectralShift { doppler: true, flux: true }), ..Config::default() }
+    Config { shift: ColorShift::spectra(true, true), ..Config::default() }
 }
 
 /// The value of a grey seen in a direction: a number, of which a picture shows the light.

@@ -6,7 +6,7 @@ mod frames;
 mod report;
 
 use glam::DVec3;
-use ugphoton::{ColorShift, Config, RayOptions, SpectralShift};
+use ugphoton::{ColorShift, Config, RayOptions};
 use ugphysics::spectrum::Spectrum;
 use ugphysics::{Velocity, WaveVector, srgb_decode, xyz_to_linear_srgb};
 
@@ -239,7 +239,7 @@ fn black_bodies_in_moving_mirrors_stay_black_bodies() {
     for (beta, factor) in [(0.2, 1.5), (-0.2, 1.0 / 1.5)] {
         let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, &format!("white mirror <0 0 {beta}>"));
         let wall = square("w", DVec3::Z, DVec3::Z, 500.0, "hot 1");
-        let shift = ColorShift::Spectra(SpectralShift { doppler: true, flux: true });
+        let shift = ColorShift::spectra(true, true);
         let text = format!("{HEAD} c_bb hot 5800 0.1;{mirror}{wall}");
         let found = seen_with(&text, DVec3::NEG_Z, Config { shift, ..Config::default() });
         let expected = DVec3::from(xyz_to_linear_srgb(Spectrum::blackbody(5800.0, 0.1).seen(factor)));

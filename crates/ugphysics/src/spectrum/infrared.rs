@@ -1,0 +1,144 @@
+//! What surfaces reflect in infrared, of which only the colour is known.
+
+/// What a surface of a known colour reflects beyond the visible range.  Eq. (P20)
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum InfraredRule {
+    /// As measured surfaces of this colour do.
+    #[default]
+    Measured,
+    /// As the curve of its colour at 780 nm.
+    Constant,
+}
+
+impl InfraredRule {
+    /// Both rules.
+    pub const ALL: [Self; 2] = [Self::Measured, Self::Constant];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Measured => "measured",
+            Self::Constant => "constant",
+        }
+    }
+
+    /// The part of the curve of a colour in the reflectance: less than 1 beyond 700 nm.
+    pub(crate) fn visible_part(self, wavelength_nm: f64) -> f64 {
+        match self {
+            Self::Measured => 1.0 - smooth_step(wavelength_nm, JOINT_NM),
+            Self::Constant => 1.0,
+        }
+    }
+}
+
+/// Where the curve of the colour goes over into the infrared levels, nm.
+const JOINT_NM: [f64; 2] = [700.0, 780.0];
+
+/// Beyond this wavelength, nm, the reflectance is not that of the curve alone.
+pub(crate) const FIRST_NM: f64 = JOINT_NM[0];
+
+/// Number of infrared levels.
+pub(crate) const N_LEVELS: usize = 4;
+
+/// The wavelengths of the levels, nm: the middles of the bands that the fit used.
+const LEVELS_NM: [f64; N_LEVELS] = [845.0, 1150.0, 1640.0, 2200.0];
+
+/// For each level, the coefficients of a fit to measured surfaces of 23 kinds, docs/physics/infrared.py.
+const FIT: [[f64; 3]; N_LEVELS] =
+    [[0.9, -1.06, 1.2], [0.5, -0.12, 1.36], [-0.25, 1.32, 0.81], [0.48, 2.54, -0.3]];
+
+/// Keeps the infrared of dark surfaces in proportion to their colour.
+const SOFT: f64 = 0.03;
+
+/// The reflectances at the wavelengths of the levels of a surface with this linear red, green and
+/// blue, m the largest: m ((m + e)/(1 + e))^(p − 1) with p = 2^(−Σ k (1 − c/m)). Greys stay grey,
+/// white stays white, and no level is above 1, or m if this is more.
+pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
+    let largest = rgb[0].max(rgb[1]).max(rgb[2]);
+    if !(largest > 0.0 && largest < 1.0) {
+        return [largest.max(0.0); N_LEVELS];
+    }
+    let lacks = rgb.map(|channel| 1.0 - channel.max(0.0) / largest);
+    FIT.map(|[red, green, blue]| {
+        let exponent = libm::exp2(-(red * lacks[0] + green * lacks[1] + blue * lacks[2]));
+        largest * libm::pow((largest + SOFT) / (1.0 + SOFT), exponent - 1.0)
+    })
+}
+
+/// The share of each level in the reflectance at a wavelength, nm. Together with the visible part
+/// they add up to 1.
+pub(crate) fn shares(wavelength_nm: f64) -> [f64; N_LEVELS] {
+    let joined = smooth_step(wavelength_nm, JOINT_NM);
+    let mut shares = [0.0; N_LEVELS];
+    shares[0] = joined;
+    for next in 1..N_LEVELS {
+        // What is beyond a level goes over to the next, over the logarithm of the wavelength.
+        let ends = [LEVELS_NM[next - 1], LEVELS_NM[next]];
+        if wavelength_nm <= ends[0] {
+            break;
+        }
+        let part = smooth_step(libm::log(wavelength_nm), ends.map(libm::log));
+        shares[next] = shares[next - 1] * part;
+        shares[next - 1] *= 1.0 - part;
+    }
+    shares
+}
+
+/// 0 below a range, 1 above it, 6x⁵ − 15x⁴ + 10x³ in between.
+fn smooth_step(at: f64, [from, to]: [f64; 2]) -> f64 {
+    let x = ((at - from) / (to - from)).clamp(0.0, 1.0);
+    x * x * x * (10.0 + x * (6.0 * x - 15.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The medians of measured spectra of some surfaces in two bands, and by how much the fit may
+    /// be off: the errors of their kinds in docs/physics.md.
+    #[test]
+    fn surfaces_reflect_about_what_was_measured() {
+        // Linear red, green, blue; reflectance at 790-900 nm and 1500-1780 nm.
+        let rows = [
+            ("foliage", [0.049, 0.067, 0.017], [0.445, 0.155], 1.87),
+            ("clay tile", [0.194, 0.074, 0.046], [0.249, 0.542], 1.1),
+            ("asphalt", [0.103, 0.092, 0.077], [0.108, 0.139], 1.25),
+            ("blue paint", [0.037, 0.078, 0.141], [0.185, 0.211], 1.1),
+        ];
+        for (name, rgb, measured, most) in rows {
+            let [near, _, far, _] = levels(rgb);
+            for (found, measured) in [near, far].into_iter().zip(measured) {
+                let error = (found / measured).max(measured / found);
+                assert!(error < most, "{name}: {found} {measured}");
+            }
+        }
+    }
+
+    #[test]
+    fn greys_stay_grey_and_nothing_reflects_more_than_all() {
+        for level in [0.0, 0.02, 0.5, 1.0, 3.0] {
+            assert_eq!(levels([level; 3]), [level; N_LEVELS]);
+        }
+        for idx in 0..729 {
+            let rgb = [idx % 9, idx / 9 % 9, idx / 81].map(|step| f64::from(step) / 8.0);
+            assert!(levels(rgb).iter().all(|level| (0.0..=1.0).contains(level)), "{rgb:?}");
+        }
+        assert!(levels([-0.1, 0.5, f64::NAN]).iter().all(|level| level.is_finite()));
+    }
+
+    #[test]
+    fn shares_add_up_and_join_smoothly() {
+        let all = |nm: f64| shares(nm).iter().sum::<f64>() + InfraredRule::Measured.visible_part(nm);
+        for step in 0..4000 {
+            let nm = 600.0 + f64::from(step);
+            assert!((all(nm) - 1.0).abs() < 1e-12, "{nm}");
+            let jump =
+                (0..N_LEVELS).map(|idx| (shares(nm + 1.0)[idx] - shares(nm)[idx]).abs()).fold(0.0, f64::max);
+            assert!(jump < 0.03, "{nm} {jump}");
+        }
+        assert_eq!(shares(700.0), [0.0; N_LEVELS]);
+        assert_eq!(shares(845.0), [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(shares(9000.0), [0.0, 0.0, 0.0, 1.0]);
+    }
+}
