@@ -28,6 +28,41 @@ fn drives() -> [Vec<Program>; 3] {
     ]
 }
 
+/// The position is the eye plus the distance along the ray, which goes through the pixel.
+#[test]
+fn positions_and_rays_meet() {
+    let scene = scenes::parse(&scenes::text("street"));
+    let view = ugscene::View::new(&scene, &CameraOptions::default(), SIZE).unwrap();
+    for (drive, programs) in drives().into_iter().enumerate() {
+        let mut pipe = Pipe::new(programs);
+        let channels = vec![Channel::Position, Channel::Ray, Channel::Distance];
+        let output = Output::Color(Format::Exr);
+        pipe.picture =
+            PictureOptions { size: SIZE, samples: 1, output, channels, ..PictureOptions::default() };
+        let frame = pipe.draw(FilmSubject::Scene(&scene)).unwrap().0.into_light().unwrap();
+        let plane = |name: &str| {
+            let plane = frame.planes().iter().find(|plane| plane.name == name).unwrap();
+            let Samples::Float(values) = &plane.samples else { panic!("numbers") };
+            values
+        };
+        let vector = |name: &str, idx: usize| {
+            DVec3::from_array(["X", "Y", "Z"].map(|axis| f64::from(plane(&format!("{name}.{axis}"))[idx])))
+        };
+        let mut n_seen = 0;
+        for (idx, &distance) in plane("distance").iter().enumerate().filter(|(_, far)| far.is_finite()) {
+            let (position, ray) = (vector("position", idx), vector("ray", idx));
+            let error = (view.eye + f64::from(distance) * ray - position).length();
+            assert!(error < 1e-5 * f64::from(distance), "{drive} {idx}: {error}");
+            let place = view.place(position - view.eye);
+            let pixel = [idx as u32 % SIZE[0], idx as u32 / SIZE[0]].map(|at| f64::from(at) + 0.5);
+            let off = [place.x / place.z - pixel[0], place.y / place.z - pixel[1]];
+            assert!(off.iter().all(|off| off.abs() < 1e-3), "{drive} {idx}: {off:?}");
+            n_seen += 1;
+        }
+        assert!(n_seen > 3000, "{drive}: {n_seen}");
+    }
+}
+
 /// Each pixel has the colour of the number that a channel of EXR has there.
 #[test]
 fn false_colours_are_those_of_the_channels() {

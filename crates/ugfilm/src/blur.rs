@@ -113,15 +113,15 @@ pub fn is_made_of_light(picture: &PictureOptions) -> bool {
 /// can be run; the hash is that of the records of all moments.
 fn metadata(frame: &Pipe, moments: &[Pipe], subject: FilmSubject<'_>) -> Metadata {
     let records: Vec<String> = moments.iter().map(|pipe| pipe.metadata(subject).comment).collect();
-    let Metadata { software, comment, panorama } = frame.metadata(subject);
-    let commands = comment.lines().filter(|line| !line.contains(" # SHA-256 "));
+    let metadata = frame.metadata(subject);
+    let commands = metadata.comment.lines().filter(|line| !line.contains(" # SHA-256 "));
     let mean = format!(
         "mean light of {} moments, whose records have the SHA-256 {}",
         moments.len(),
         sha256(records.join("\n").as_bytes())
     );
     let lines: Vec<&str> = commands.chain([mean.as_str()]).collect();
-    Metadata { software, comment: lines.join("\n"), panorama }
+    Metadata { comment: lines.join("\n"), ..metadata }
 }
 
 /// A sum of pictures of one size.

@@ -95,7 +95,7 @@ impl Pipe {
             item = made;
         }
         let FilmItem::Picture(mut picture) = item else { return Err(Error::Subject) };
-        picture.metadata = self.metadata(subject);
+        picture.metadata = Metadata { camera: picture.metadata.camera, ..self.metadata(subject) };
         Ok((picture, notes))
     }
 

@@ -11,11 +11,13 @@ use ugframe::Samples;
 /// The light as an OpenEXR file: channels `R`, `G`, `B` and, unless the frame is opaque, `A`,
 /// 32-bit floating point, unclipped; then the frame's planes under their names. Colours are
 /// premultiplied by `A`, as OpenEXR requires. The chromaticities are those of sRGB; the metadata is
-/// in `software` and `comments`.
+/// in `software`, `comments`, `worldToCamera` and `worldToNDC`.
 pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     let attributes = LayerAttributes {
         software_name: text(&metadata.software),
         comments: text(&metadata.comment),
+        world_to_camera: metadata.camera.map(|[camera, _]| single(camera)),
+        world_to_normalized_device: metadata.camera.map(|[_, device]| single(device)),
         ..LayerAttributes::default()
     };
     let size = (frame.width() as usize, frame.height() as usize);
@@ -32,6 +34,10 @@ pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     let written = image.write().non_parallel().to_unbuffered(&mut file);
     written.expect("a frame with pixels is a valid image and a vector takes every write");
     file.into_inner()
+}
+
+fn single(matrix: [f64; 16]) -> [f32; 16] {
+    matrix.map(|entry| entry as f32)
 }
 
 fn channels(frame: &LinearFrame) -> Vec<AnyChannel<FlatSamples>> {
@@ -84,8 +90,12 @@ mod tests {
 
     #[test]
     fn values_round_trip() {
-        let metadata =
-            Metadata { software: "ug 1".into(), comment: "ug é\nug γ".into(), ..Metadata::default() };
+        let metadata = Metadata {
+            software: "ug 1".into(),
+            comment: "ug é\nug γ".into(),
+            camera: Some([[2.0; 16], [3.0; 16]]),
+            ..Metadata::default()
+        };
         for mut frame in linear_frames() {
             let n_pixels = frame.pixels().len() as u32;
             frame.push_plane(Plane {
@@ -99,6 +109,8 @@ mod tests {
             let read = decode(&file);
             let layer = &read.layer_data[0];
             assert_eq!(layer.attributes.comments.as_ref().unwrap().to_string(), "ug é\nug ?");
+            assert_eq!(layer.attributes.world_to_camera, Some([2.0; 16]));
+            assert_eq!(layer.attributes.world_to_normalized_device, Some([3.0; 16]));
             assert_eq!(layer.size, Vec2(frame.width() as usize, frame.height() as usize));
             let channel =
                 |name: &str| layer.channel_data.list.iter().find(|c| c.name.eq(name)).map(|c| &c.sample_data);

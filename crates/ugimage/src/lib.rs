@@ -26,7 +26,7 @@
 //! let mut frame = Frame::opaque(2, 1);
 //! frame.pixels_mut()[1] = [255, 128, 0, 255];
 //! let (software, comment) = ("demo 1.0".into(), "demo -sz 2 1".into());
-//! let metadata = Metadata { software, comment, panorama: None };
+//! let metadata = Metadata { software, comment, ..Metadata::default() };
 //! let png = Format::Png.encode(&frame, &metadata);
 //! assert!(png.starts_with(b"\x89PNG"));
 //!

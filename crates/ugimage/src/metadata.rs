@@ -3,7 +3,7 @@
 use crate::PanoramaArea;
 
 /// The record in a file of its origin.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Metadata {
     /// Name and version of the program.
     pub software: String,
@@ -11,4 +11,7 @@ pub struct Metadata {
     pub comment: String,
     /// Of a panorama, what viewers of 360° pictures read. It is written to PNG files alone.
     pub panorama: Option<PanoramaArea>,
+    /// From the scene to the axes of the camera, and to normalized device coordinates: matrices for
+    /// row vectors, row after row. They are written to EXR files alone.
+    pub camera: Option<[[f64; 16]; 2]>,
 }

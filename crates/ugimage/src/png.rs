@@ -304,7 +304,12 @@ mod tests {
     #[test]
     fn panoramas_state_their_area() {
         let area = PanoramaArea { whole: [8, 4], corner: [3, 1] };
-        let metadata = Metadata { software: "ug 1".into(), comment: "ug γ".into(), panorama: Some(area) };
+        let metadata = Metadata {
+            software: "ug 1".into(),
+            comment: "ug γ".into(),
+            panorama: Some(area),
+            ..Metadata::default()
+        };
         let frame = Frame::opaque(3, 2);
         let file = encode(&frame, &metadata, Compression::Fast);
         let (_, pixels, info) = decode(&file);

@@ -98,7 +98,7 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
     if !channels.is_empty() {
         let seen = PixelCenters::new(scenery, [left, top, width, height], *samples);
         for &channel in channels {
-            let planes = channel_planes(channel, seen.len(), &|idx| seen.item(idx));
+            let planes = channel_planes(channel, seen.len(), scenery.view.eye, &|idx| seen.item(idx));
             planes.into_iter().for_each(|plane| frame.push_plane(plane));
         }
     }

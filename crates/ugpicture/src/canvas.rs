@@ -3,7 +3,7 @@
 use ugimage::{Development, Frame, LinearFrame, Metadata, Tone};
 use ugpipe::Progress;
 
-use crate::annotations::{Annotated, Layout};
+use crate::annotations::{Annotated, Layout, Subject};
 use crate::error::Error;
 use crate::exposure::Exposure;
 use crate::image::Image;
@@ -88,6 +88,11 @@ impl Canvas {
         progress: &dyn Progress,
     ) -> Result<Rendering, E> {
         let Drawn { content, brightest, mut notes, annotated } = drawn;
+        let camera = match annotated.subject {
+            Subject::Surfaces { view, wires: Some(_), .. } => view.matrices(),
+            _ => None,
+        };
+        let metadata = Metadata { camera, ..metadata };
         progress.check().map_err(Error::from)?;
         let mapped = self.layout.map(&annotated, &self.options)?;
         let scale = mapped.as_ref().map(|(_, scale)| scale.clone());

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Plane, Samples};
-use ugphysics::length;
+use ugphysics::{length, unit_or_zero};
 
 use crate::emission::{Emission, SeenItem};
 
@@ -30,12 +30,27 @@ pub enum Channel {
     /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the rest
     /// frame of the body and the axes of the scene (P6), (P25); 0 where nothing is visible.
     Direction,
+    /// `position.X`, `position.Y`, `position.Z`: the emission event in the scene, in the frame of the
+    /// camera; 0 where nothing is visible.
+    Position,
+    /// `ray.X`, `ray.Y`, `ray.Z`: unit vector from the eye to the emission event, in the frame of the
+    /// camera and the axes of the scene; 0 where nothing is visible.
+    Ray,
 }
 
 impl Channel {
     /// All channels.
-    pub const ALL: [Self; 7] =
-        [Self::Doppler, Self::Time, Self::Distance, Self::Depth, Self::Id, Self::Velocity, Self::Direction];
+    pub const ALL: [Self; 9] = [
+        Self::Doppler,
+        Self::Time,
+        Self::Distance,
+        Self::Depth,
+        Self::Id,
+        Self::Velocity,
+        Self::Direction,
+        Self::Position,
+        Self::Ray,
+    ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
@@ -47,6 +62,8 @@ impl Channel {
             Self::Id => "id",
             Self::Velocity => "velocity",
             Self::Direction => "direction",
+            Self::Position => "position",
+            Self::Ray => "ray",
         }
     }
 
@@ -61,11 +78,12 @@ impl Channel {
     }
 }
 
-/// The planes of a channel in a picture of `n_pixels`. `seen`: what is seen at a pixel, counted row
+/// The planes of a channel in a picture of `n_pixels`. `eye`: in scene coordinates; `seen`: what is seen at a pixel, counted row
 /// after row.
 pub fn channel_planes(
     channel: Channel,
     n_pixels: usize,
+    eye: DVec3,
     seen: &(impl Fn(usize) -> Option<SeenItem> + Sync),
 ) -> Vec<Plane> {
     let of = |number: &(dyn Fn(&Emission) -> f64 + Sync), nothing: f32| {
@@ -91,6 +109,8 @@ pub fn channel_planes(
         }
         Channel::Velocity => axes(&|emission| emission.velocity.beta()),
         Channel::Direction => axes(&Emission::rest_direction),
+        Channel::Position => axes(&|emission| eye + emission.place),
+        Channel::Ray => axes(&|emission| unit_or_zero(emission.place)),
     }
 }
 

@@ -90,11 +90,12 @@ pub struct PictureArgs {
     pz: bool,
 
     /// Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id,
-    /// velocity, direction
+    /// velocity, direction, position, ray
     ///
     /// Doppler factor, emission time, distance of the emission event, depth along the view, number
     /// of the face, velocity of the body, direction of the emission event in the frame of the body
-    /// and the axes of the scene; all at the middle of the pixel.
+    /// and the axes of the scene; position of that event, and the direction to it, in the frame of the
+    /// camera; all at the middle of the pixel.
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
 }

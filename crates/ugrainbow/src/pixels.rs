@@ -175,7 +175,9 @@ fn push_channels(
     let grid = [setup.grid.width, setup.grid.samples];
     let at = |idx| emissions.at_pixel(grid, seen, idx);
     for &channel in &config.picture.channels {
-        channel_planes(channel, seen.len(), &at).into_iter().for_each(|plane| frame.push_plane(plane));
+        channel_planes(channel, seen.len(), setup.view.eye, &at)
+            .into_iter()
+            .for_each(|plane| frame.push_plane(plane));
     }
 }
 

@@ -70,6 +70,34 @@ pub struct View {
 }
 
 impl View {
+    /// From points of the scene (row vectors with a 1) to the axes of the camera, right, up and
+    /// forward, and to normalized device coordinates: -1 to 1 to the right and up, after division
+    /// by the fourth coordinate. `None` without perspective.
+    pub fn matrices(&self) -> Option<[[f64; 16]; 2]> {
+        if !self.is_perspective {
+            return None;
+        }
+        let axes = [self.right, self.up, self.forward];
+        let shift = axes.map(|axis| -axis.dot(self.eye));
+        // Columns are coordinates, and the last row is the shift.
+        let rows = |columns: [DVec3; 4], shifts: [f64; 4]| {
+            let entry = |i: usize| if i < 12 { columns[i % 4][i / 4] } else { shifts[i % 4] };
+            std::array::from_fn(entry)
+        };
+        let [right, up, forward] = axes;
+        let camera = rows([right, up, forward, DVec3::ZERO], [shift[0], shift[1], shift[2], 1.0]);
+        let part = |idx: usize, axis: DVec3, sign: f64| {
+            // Samples are counted to the right and down.
+            let [scale, middle] =
+                [2.0 * self.scale[idx] / self.size[idx], 2.0 * self.axis[idx] / self.size[idx] - 1.0];
+            let column = scale * axis + sign * middle * forward;
+            (column, -column.dot(self.eye))
+        };
+        let ((x, x_shift), (y, y_shift)) = (part(0, right, 1.0), part(1, up, -1.0));
+        let device = rows([x, y, forward, forward], [x_shift, y_shift, shift[2], shift[2]]);
+        Some([camera, device])
+    }
+
     /// Options, the scene's camera and defaults, in order of precedence. `samples`: of the picture,
     /// across and down.
     ///

@@ -133,7 +133,7 @@ pub fn history(pictures: &[Picture], command: Option<&str>) -> Metadata {
     Metadata {
         software: concat!("ugsheet ", env!("CARGO_PKG_VERSION")).to_owned(),
         comment: lines.join("\n"),
-        panorama: None,
+        ..Metadata::default()
     }
 }
 

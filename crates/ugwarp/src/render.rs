@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
@@ -74,7 +75,7 @@ fn seen(
 fn push_channels(frame: &mut LinearFrame, warp: &Warp<'_>, config: &Config) {
     for &channel in &config.picture.channels {
         let n_pixels = frame.pixels().len();
-        let planes = channel_planes(channel, n_pixels, &|idx| warp.seen_item(idx));
+        let planes = channel_planes(channel, n_pixels, DVec3::ZERO, &|idx| warp.seen_item(idx));
         planes.into_iter().for_each(|plane| frame.push_plane(plane));
     }
 }

@@ -5,6 +5,27 @@ use ugscene::{CameraOptions, CameraPoint, HalfSpace, View};
 
 use super::parse;
 
+/// By the matrices points are where the view has them.
+#[test]
+fn matrices_are_those_of_the_view() {
+    let text = "v a 1 2 3; cam -ep 1 -2 3 -vc 4 5 -1 -ud 0.2 0 1 -va 70 50 -ph 0.1 0.3 0.6 0.7;";
+    let view = View::new(&parse(text), &CameraOptions::default(), [40, 30]).unwrap();
+    let matrices = view.matrices().unwrap();
+    for point in [[4.0, 5.0, -1.0], [-7.0, 3.0, 2.5], [1e3, 0.0, 0.1]] {
+        let row = [point[0], point[1], point[2], 1.0];
+        let [camera, device] = matrices.map(|matrix| {
+            [0, 1, 2, 3].map(|column| (0..4).map(|i| row[i] * matrix[4 * i + column]).sum::<f64>())
+        });
+        let CameraPoint { x, y, z } = view.place(DVec3::from_array(point) - view.eye);
+        assert!((camera[2] - z).abs() < 1e-12 * z.abs() && camera[3] == 1.0, "{camera:?} {z}");
+        let [right, up] = [0, 1].map(|axis| device[axis] / device[3]);
+        let expected = [2.0 * x / z / 40.0 - 1.0, 1.0 - 2.0 * y / z / 30.0];
+        assert!((right - expected[0]).abs() < 1e-12 && (up - expected[1]).abs() < 1e-12, "{right} {up}");
+    }
+    let flat = View::new(&parse("v a 1 2 3; cam -og;"), &CameraOptions::default(), [40, 30]).unwrap();
+    assert_eq!(flat.matrices(), None);
+}
+
 /// A point has a sample in the picture where it lies in all half-spaces, and nowhere else.
 #[test]
 fn half_spaces_enclose_the_picture() {
