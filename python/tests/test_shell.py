@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
@@ -133,3 +135,11 @@ def test_films(shell, tmp_path):
 
 def pixels(file) -> bytes:
     return (plt.imread(file)[..., :3] * 255).round().astype(np.uint8).tobytes()
+
+
+@pytest.mark.parametrize("case", ["sphere", "panorama", "cube", "edge", "depth"])
+def test_the_renderer_of_the_conformance_suite(shell, case, tmp_path):
+    picture = tmp_path / "picture.png"
+    picture.write_bytes(shell(f"'{sys.executable}' conformance/renderer.py {case}"))
+    # Its status is 1 if a number is wrong.
+    shell(f"ugconformance score-image {case} '{picture}'")
