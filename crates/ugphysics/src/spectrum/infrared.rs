@@ -1,5 +1,7 @@
 //! What surfaces reflect in infrared, of which only the colour is known.
 
+use std::sync::LazyLock;
+
 /// What a surface of a known colour reflects beyond the visible range.  Eq. (P20)
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum InfraredRule {
@@ -26,7 +28,7 @@ impl InfraredRule {
     /// The part of the curve of a colour in the reflectance: less than 1 beyond 700 nm.
     pub(crate) fn visible_part(self, wavelength_nm: f64) -> f64 {
         match self {
-            Self::Measured => 1.0 - smooth_step(wavelength_nm, JOINT_NM),
+            Self::Measured => parts(wavelength_nm).0,
             Self::Constant => 1.0,
         }
     }
@@ -66,19 +68,29 @@ pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
     })
 }
 
-/// The share of each level in the reflectance at a wavelength, nm. Together with the visible part
-/// they add up to 1.
-pub(crate) fn shares(wavelength_nm: f64) -> [f64; N_LEVELS] {
-    let joined = smooth_step(wavelength_nm, JOINT_NM);
+/// The share of the curve of a colour in the reflectance at a wavelength, nm, and that of each level.
+/// They add up to 1. Interpolated linearly between whole nanometres.
+pub(crate) fn parts(wavelength_nm: f64) -> (f64, [f64; N_LEVELS]) {
+    static ROWS: LazyLock<Vec<[f64; N_LEVELS]>> = LazyLock::new(|| {
+        let last = LEVELS_NM[N_LEVELS - 1] as usize + 1;
+        (FIRST_NM as usize..=last).map(|nm| shares(nm as f64)).collect()
+    });
+    let at = (wavelength_nm - FIRST_NM).max(0.0);
+    let row = (at as usize).min(ROWS.len() - 2);
+    let part = (at - row as f64).min(1.0);
+    let levels: [f64; N_LEVELS] =
+        std::array::from_fn(|i| ROWS[row][i] + part * (ROWS[row + 1][i] - ROWS[row][i]));
+    (1.0 - levels.iter().sum::<f64>(), levels)
+}
+
+/// The share of each level at a wavelength, nm.
+fn shares(wavelength_nm: f64) -> [f64; N_LEVELS] {
     let mut shares = [0.0; N_LEVELS];
-    shares[0] = joined;
+    shares[0] = smooth_step(wavelength_nm, JOINT_NM);
     for next in 1..N_LEVELS {
         // What is beyond a level goes over to the next, over the logarithm of the wavelength.
-        let ends = [LEVELS_NM[next - 1], LEVELS_NM[next]];
-        if wavelength_nm <= ends[0] {
-            break;
-        }
-        let part = smooth_step(libm::log(wavelength_nm), ends.map(libm::log));
+        let ends = [LEVELS_NM[next - 1], LEVELS_NM[next]].map(libm::log);
+        let part = smooth_step(libm::log(wavelength_nm), ends);
         shares[next] = shares[next - 1] * part;
         shares[next - 1] *= 1.0 - part;
     }
@@ -129,16 +141,18 @@ mod tests {
 
     #[test]
     fn shares_add_up_and_join_smoothly() {
-        let all = |nm: f64| shares(nm).iter().sum::<f64>() + InfraredRule::Measured.visible_part(nm);
         for step in 0..4000 {
-            let nm = 600.0 + f64::from(step);
-            assert!((all(nm) - 1.0).abs() < 1e-12, "{nm}");
-            let jump =
-                (0..N_LEVELS).map(|idx| (shares(nm + 1.0)[idx] - shares(nm)[idx]).abs()).fold(0.0, f64::max);
-            assert!(jump < 0.03, "{nm} {jump}");
+            let nm = 600.0 + 0.7 * f64::from(step);
+            let (curve, levels) = parts(nm);
+            let next = parts(nm + 1.0).1;
+            let jump = (0..N_LEVELS).map(|idx| (next[idx] - levels[idx]).abs()).fold(0.0, f64::max);
+            assert!((0.0..=1.0).contains(&curve) && jump < 0.03, "{nm} {curve} {jump}");
+            let exact = shares(nm);
+            assert!((0..N_LEVELS).all(|idx| (levels[idx] - exact[idx]).abs() < 2e-4), "{nm}");
         }
-        assert_eq!(shares(700.0), [0.0; N_LEVELS]);
-        assert_eq!(shares(845.0), [1.0, 0.0, 0.0, 0.0]);
-        assert_eq!(shares(9000.0), [0.0, 0.0, 0.0, 1.0]);
+        let row = |nm: f64| parts(nm).1;
+        assert_eq!(row(700.0), [0.0; N_LEVELS]);
+        assert_eq!(row(845.0), [1.0, 0.0, 0.0, 0.0]);
+        assert_eq!(row(9000.0), [0.0, 0.0, 0.0, 1.0]);
     }
 }

@@ -71,8 +71,8 @@ impl Reflectance {
         let curve = self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)));
         match self.rule {
             InfraredRule::Measured if wavelength_nm > infrared::FIRST_NM => {
-                curve * self.rule.visible_part(wavelength_nm)
-                    + dot(&self.levels, &infrared::shares(wavelength_nm))
+                let (visible, shares) = infrared::parts(wavelength_nm);
+                curve * visible + dot(&self.levels, &shares)
             }
             _ => curve,
         }
@@ -81,16 +81,16 @@ impl Reflectance {
     /// X, Y, Z of L(λ) = L'(λD) under daylight, which is computed beforehand: (P12) without D⁵.
     pub(crate) fn xyz_under(&self, light: &WeightedDaylight) -> [f64; 3] {
         let ends = CURVE_NM.map(|nm| self.at(nm));
-        let curve = |nm: f64| self.curve.map_or(1.0, |curve| curve.at(nm));
-        let reflected: Vec<f64> =
-            light.wavelengths().map(|nm| curve(nm) * self.rule.visible_part(nm)).collect();
+        let reflected: Vec<f64> = match self.curve {
+            Some(curve) => light.wavelengths().map(|nm| curve.at(nm)).collect(),
+            None => vec![1.0; light.inside[0].len()],
+        };
         std::array::from_fn(|i| {
-            let inside = self.factor * dot(&reflected, &light.inside[i]);
-            let infrared = match self.rule {
-                InfraredRule::Measured => dot(&self.levels, &light.infrared[i]),
-                InfraredRule::Constant => ends[1] * light.beyond[i],
+            let (inside, infrared) = match self.rule {
+                InfraredRule::Measured => (&light.joined[i], dot(&self.levels, &light.infrared[i])),
+                InfraredRule::Constant => (&light.inside[i], ends[1] * light.beyond[i]),
             };
-            ends[0] * light.ultraviolet[i] + infrared + inside
+            ends[0] * light.ultraviolet[i] + infrared + self.factor * dot(&reflected, inside)
         })
     }
 

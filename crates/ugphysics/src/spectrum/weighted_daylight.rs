@@ -20,20 +20,25 @@ pub(crate) struct WeightedDaylight {
     first_nm: f64,
     /// X, then Y, then Z of each nanometre at the eye whose light was emitted at 380…780 nm.
     pub inside: [Vec<f64>; 3],
+    /// The same times the share of the curve of a colour by [`InfraredRule::Measured`].
+    ///
+    /// [`InfraredRule::Measured`]: crate::spectrum::InfraredRule::Measured
+    pub joined: [Vec<f64>; 3],
 }
 
 impl WeightedDaylight {
     pub fn new(doppler: f64) -> Self {
-        let inside = [0; 3].map(|_| Vec::new());
+        let [inside, joined] = [[0; 3]; 2].map(|channels| channels.map(|_| Vec::new()));
         let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
-        let mut light = Self { doppler, ultraviolet, beyond: [0.0; 3], infrared, first_nm: 0.0, inside };
+        let mut light =
+            Self { doppler, ultraviolet, beyond: [0.0; 3], infrared, first_nm: 0.0, inside, joined };
         let scale = 1.0 / white_luminance();
         for (row, weights) in CIE_1931.iter().enumerate() {
             let seen_nm = (FIRST_NM + row) as f64;
             let level = daylight(seen_nm * doppler) * scale;
             let xyz = weights.map(|weight| weight * level);
-            if seen_nm * doppler > infrared::FIRST_NM {
-                let shares = infrared::shares(seen_nm * doppler);
+            let (visible, shares) = infrared::parts(seen_nm * doppler);
+            if visible < 1.0 {
                 for (levels, part) in light.infrared.iter_mut().zip(xyz) {
                     levels.iter_mut().zip(shares).for_each(|(level, share)| *level += share * part);
                 }
@@ -47,6 +52,7 @@ impl WeightedDaylight {
                     light.first_nm = seen_nm;
                 }
                 light.inside.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(part));
+                light.joined.iter_mut().zip(xyz).for_each(|(channel, part)| channel.push(visible * part));
                 continue;
             };
             into.iter_mut().zip(xyz).for_each(|(sum, part)| *sum += part);
