@@ -85,7 +85,13 @@ impl Builder {
         let name = self.scene.names.add(&format!("{}v{}", self.prefix, row + 1));
         let color = color.map(|color| self.color(color));
         let normal = normal.and_then(usable_normal);
-        self.scene.vertices.push(Vertex { name, position: without_sign_of_zero(position), color, normal });
+        self.scene.vertices.push(Vertex {
+            name,
+            position: without_sign_of_zero(position),
+            color,
+            normal,
+            uv: None,
+        });
         self.lines.vertices.push(self.line);
         Ok(VertexId::from_index(row))
     }

@@ -11,6 +11,14 @@ use crate::builder::{Builder, Rgba};
 /// Largest number of bytes of a picture file.
 pub(crate) const MAX_TEXTURE_BYTES: u64 = 1 << 28;
 
+/// Checks the kind and the size of a picture file, without decoding its pixels.
+///
+/// # Errors
+/// The reason why it cannot be read.
+pub fn check_picture(file: &[u8]) -> Result<(), String> {
+    ugimage::check_picture(file, &PictureLimits::default()).map_err(|error| error.to_string())
+}
+
 /// The textures of a mesh, each of which is read once.
 #[derive(Default)]
 pub(crate) struct Textures {

@@ -60,7 +60,9 @@ pub fn follow(source: Source, options: &Options, context: &Context) -> Result<So
 
 fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
-        RequestKind::Include | RequestKind::Path => Ok(context.read_named(request.path, request.room + 1)?),
+        RequestKind::Include | RequestKind::Path | RequestKind::Image => {
+            Ok(context.read_named(request.path, request.room + 1)?)
+        }
         RequestKind::Execute => {
             let printed = context.run_named(request.path, request.room + 1)?;
             if let Some(status) = printed.failure {

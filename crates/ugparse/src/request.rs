@@ -3,13 +3,15 @@
 use std::io;
 use std::path::Path;
 
-/// The kind of a requested text.
+/// The kind of a requested text or picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequestKind {
     /// `include`: the bytes of a file.
     Include,
     /// `-path` of a motion: the bytes of a file, a table of events.
     Path,
+    /// `c_tex`: the bytes of a picture.
+    Image,
     /// `execute`: the standard output of a program.
     Execute,
 }
