@@ -5,7 +5,7 @@ use ugphysics::spectrum::Spectrum;
 use ugphysics::{Hsv, wavelength_to_hue};
 use ugscene::Scene;
 
-use crate::color::shown_light;
+use crate::color::{encoded_hsv, shown_light};
 use crate::hue_table::HueTable;
 use crate::spectra::Spectra;
 use crate::{
@@ -19,14 +19,15 @@ pub struct SurfaceColor {
     /// The colour, interpolated between the corners of its face, or that of the point itself.
     pub swatch: Swatch,
     /// Where colours are spectra, the spectrum is the mean of those of the corners of its face:
-    /// rows of the colours of vertices ([`SurfaceAttributes::row`]) with their weights.
-    pub rows: [(u32, f64); 3],
+    /// rows of the colours of vertices ([`SurfaceAttributes::row`]) with their weights. That of a
+    /// texture is a mixture, too ([`Appearance::texel`]).
+    pub rows: [(u32, f64); 4],
 }
 
 impl SurfaceColor {
     /// A colour that is the same all around. `row`: of its spectrum.
     pub fn even(swatch: Swatch, row: u32) -> Self {
-        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0)] }
+        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0), (row, 0.0)] }
     }
 }
 
@@ -119,6 +120,19 @@ impl Appearance {
     /// spectra.
     pub fn is_lit(&self, color: &SurfaceColor) -> bool {
         self.spectra.as_ref().is_none_or(|spectra| strongest(spectra, color.rows).is_surface())
+    }
+
+    /// The colour of a point of a texture with this linear red, green and blue, on a body that moves
+    /// or not. It is drawn as a `c_rgb` is: as light at rest, and as its hue or spectrum in motion.
+    pub fn texel(&self, light: DVec3, translucency: f64, is_moving: bool) -> SurfaceColor {
+        if let Some(spectra) = &self.spectra {
+            let swatch = Swatch { translucency, ..self.palette.white() };
+            return SurfaceColor { swatch, rows: spectra.texel_rows(light) };
+        }
+        let form =
+            if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
+        let swatch = Swatch { form, translucency, ..self.palette.swatch(encoded_hsv(light)) };
+        SurfaceColor::even(swatch, 0)
     }
 
     /// True if colours are spectra, under lamps whose spectra differ from daylight.
@@ -275,7 +289,8 @@ impl Appearance {
     ) -> DVec3 {
         let Some(spectra) = &self.spectra else { return DVec3::ONE };
         let ln_doppler = -libm::log(stretch);
-        parts.into_iter().map(|(row, weight)| weight * spectra.light(row, ln_doppler, place)).sum()
+        let parts = parts.into_iter().filter(|&(_, weight)| weight != 0.0);
+        parts.map(|(row, weight)| weight * spectra.light(row, ln_doppler, place)).sum()
     }
 }
 
@@ -317,13 +332,13 @@ fn spectral_light(
 }
 
 /// The weighted mean of rows. `light`: of a row.
-fn mean(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
+fn mean(rows: [(u32, f64); 4], light: impl Fn(u32) -> DVec3) -> DVec3 {
     let parts = rows.into_iter().filter(|(_, weight)| *weight != 0.0);
     parts.map(|(row, weight)| weight * light(row)).sum()
 }
 
 /// The spectrum that counts for a filter: the one of the greatest weight.
-fn strongest(spectra: &Spectra, rows: [(u32, f64); 3]) -> &Spectrum {
+fn strongest(spectra: &Spectra, rows: [(u32, f64); 4]) -> &Spectrum {
     let row = rows.into_iter().reduce(|best, row| if row.1 > best.1 { row } else { best });
     spectra.spectrum(row.map_or(0, |row| row.0))
 }

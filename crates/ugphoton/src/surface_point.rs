@@ -8,6 +8,7 @@ use ugscene::SurfaceId;
 use crate::scenery::Scenery;
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start, along};
+use ugpicture::textures::on_plane;
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.
@@ -52,11 +53,16 @@ pub struct Element {
 }
 
 impl SurfacePoint {
-    /// Where a ray meets a face.
-    pub fn new(scenery: &Scenery<'_>, ray: &PastRay, found: &Intersection) -> Self {
+    /// Where a ray meets a face. `sample`: of a ray from the eye, for the footprints of textures.
+    pub fn new(
+        scenery: &Scenery<'_>,
+        ray: &PastRay,
+        found: &Intersection,
+        sample: Option<PictureSample>,
+    ) -> Self {
         let part = &scenery.world.parts[found.part];
         if let Some(motion) = &part.motion {
-            return Self::on_line(scenery, ray, found, &motion.line);
+            return Self::on_line(scenery, (ray, sample), found, &motion.line);
         }
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
@@ -73,7 +79,15 @@ impl SurfacePoint {
         };
         let is_moving = !part.frame.velocity().is_zero();
         let own_time = || delay - ugphysics::length(place);
-        let color = color(scenery, found, is_moving, own_time);
+        let color = if scenery.textures.is_empty() {
+            color(scenery, found, is_moving, own_time)
+        } else {
+            let steps = |sample: PictureSample| {
+                sample.steps(scenery, places, (&part.frame, plane_normal, event), |step| step)
+            };
+            textured(scenery, found, is_moving, sample, steps)
+                .unwrap_or_else(|| color(scenery, found, is_moving, own_time))
+        };
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -92,7 +106,12 @@ impl SurfacePoint {
 
     /// Where a ray meets a face of a body on a world line.
     #[inline(never)] // Keeps `new` small, which is called for every ray.
-    fn on_line(scenery: &Scenery<'_>, ray: &PastRay, found: &Intersection, line: &WorldLine) -> Self {
+    fn on_line(
+        scenery: &Scenery<'_>,
+        (ray, sample): (&PastRay, Option<PictureSample>),
+        found: &Intersection,
+        line: &WorldLine,
+    ) -> Self {
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let own_time = found.own_time;
@@ -110,10 +129,19 @@ impl SurfacePoint {
         } else {
             ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift))
         };
+        let event = along(ray.origin, ray.step, found.s);
+        // The axes of the body in the frame of the element, as normals turn: exact unless it spins.
+        let axes = || DVec3::AXES.map(|axis| element.normal(axis));
+        let steps = |sample: PictureSample| {
+            sample.steps(scenery, places, (&frame, plane_normal, event), |step| {
+                DVec3::from_array(axes().map(|axis| axis.dot(step)))
+            })
+        };
+        let textured = textured(scenery, found, true, sample, steps);
         Self {
             part: found.part,
             face: found.triangle.face,
-            event: along(ray.origin, ray.step, found.s),
+            event,
             place,
             element: Some(Box::new(Element { frame, own_time, body_normal })),
             delay: 0.0,
@@ -122,7 +150,7 @@ impl SurfacePoint {
             normal: if body_normal == plane { plane_normal } else { element.normal(body_normal) },
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
-            color: color(scenery, found, true, || own_time),
+            color: textured.unwrap_or_else(|| color(scenery, found, true, || own_time)),
         }
     }
 
@@ -169,6 +197,58 @@ impl SurfacePoint {
             ugscene::Shading::Level(_) => None,
         }
     }
+}
+
+/// A sample of the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct PictureSample {
+    /// Its column and row.
+    pub place: [u32; 2],
+    /// How far it is from its neighbours, in samples.
+    pub distance: u32,
+}
+
+impl PictureSample {
+    /// The changes of the barycentric weights of a triangle to the neighbours across and down.
+    /// `plane`: rest frame, normal and event of the surface element. `to_body`: from its axes to
+    /// those of `places`.  Eq. (P50)
+    fn steps(
+        self,
+        scenery: &Scenery<'_>,
+        [a, b, c]: [DVec3; 3],
+        (frame, normal, event): (&RestFrame, DVec3, Event),
+        to_body: impl Fn(DVec3) -> DVec3,
+    ) -> [[f64; 2]; 2] {
+        let [column, row] = self.place.map(|at| f64::from(at) + 0.5);
+        let distance = f64::from(self.distance);
+        let (along, beside) = (b - a, c - a);
+        let across = along.cross(beside);
+        let scale = 1.0 / across.length_squared();
+        [[column + distance, row], [column, row + distance]].map(|place| {
+            // A lens may show nothing there; on the other side of the sample it does.
+            let mirrored = || [2.0 * column - place[0], 2.0 * row - place[1]];
+            let ray = scenery.ray_through(place).or_else(|| scenery.ray_through(mirrored()));
+            let Some(ray) = ray else { return [0.0; 2] };
+            let step = to_body(on_plane(frame, normal, event, &ray));
+            [step.cross(beside).dot(across) * scale, along.cross(step).dot(across) * scale]
+        })
+    }
+}
+
+/// The colour at rest where a ray meets a face with a texture. `steps`: of the weights of a sample.
+#[inline]
+fn textured(
+    scenery: &Scenery<'_>,
+    found: &Intersection,
+    is_moving: bool,
+    sample: Option<PictureSample>,
+    steps: impl FnOnce(PictureSample) -> [[f64; 2]; 2],
+) -> Option<SurfaceColor> {
+    let color = scenery.scene.faces[found.triangle.face as usize].color;
+    let steps = || sample.map_or([[0.0; 2]; 2], steps);
+    let texel =
+        scenery.textures.texel(&scenery.scene, color, (found.triangle.corners, found.weights()), steps)?;
+    Some(scenery.appearance.texel(texel.light, texel.translucency, is_moving))
 }
 
 /// The colour at rest where a ray meets a face. `own_time`: of the body there.

@@ -65,6 +65,7 @@ mod picture_file;
 mod quantity;
 pub mod rays;
 mod rendering;
+pub mod textures;
 
 pub use annotations::{Annotated, FindItems, FoundItems, Layout, Scale, Subject, VisibleWires};
 pub use background::{Backdrop, Background};

@@ -37,6 +37,9 @@ impl Words for Error {
                      count columns and rows from 0 at the upper left, or give -sz"
                 );
             }
+            Self::Texture(_) => {
+                "{}; save it again as PNG or JPEG, or remove its `c_tex`, and its faces have their plain colour"
+            }
             Self::Text(_) | Self::Stopped(_) => "{}",
             Self::Camera(error) => return error.words(),
         };
@@ -44,7 +47,7 @@ impl Words for Error {
     }
 
     fn is_usage(&self) -> bool {
-        !matches!(self, Self::Memory(..) | Self::Camera(_) | Self::Stopped(_))
+        !matches!(self, Self::Memory(..) | Self::Texture(_) | Self::Camera(_) | Self::Stopped(_))
             || *self == Self::Camera(CameraError::NoUp)
     }
 }

@@ -149,7 +149,10 @@ impl Look {
         let spot = (!self.triangles.is_empty()).then(|| self.spot(ray.rest));
         let mixed = spot.filter(|_| self.has_colors);
         let color = mixed.map(|(triangle, weights)| triangle.color(weights));
-        let rows = || mixed.map(|(it, weights)| std::array::from_fn(|at| (it.rows[at], weights[at])));
+        let rows = || mixed.map(|(it, weights)| {
+            let row = |at: usize| (it.rows[at], weights[at]);
+            [row(0), row(1), row(2), (it.rows[0], 0.0)]
+        });
         self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
             let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
             let normal = match spot {
@@ -169,7 +172,7 @@ impl Look {
     pub fn shaded<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
-        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<[(u32, f64); 3]>),
+        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<[(u32, f64); 4]>),
         stretch: f64,
         lit: impl Fn() -> [DVec3; 3],
     ) -> (Swatch, DVec3) {
