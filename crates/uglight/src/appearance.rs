@@ -129,8 +129,7 @@ impl Appearance {
             let swatch = Swatch { translucency, ..self.palette.white() };
             return SurfaceColor { swatch, rows: spectra.texel_rows(light) };
         }
-        let form =
-            if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
+        let form = if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
         let swatch = Swatch { form, translucency, ..self.palette.swatch(encoded_hsv(light)) };
         SurfaceColor::even(swatch, 0)
     }

@@ -55,7 +55,8 @@ mod tests {
             let light = DVec3::new(part(0.618_034), part(0.414_214), part(0.302_776));
             let parts = mixture(light);
             assert!(parts.iter().all(|&(row, share)| (row as usize) < N_CORNERS && share >= -1e-15));
-            let sum: DVec3 = parts.iter().map(|&(row, share)| share * DVec3::from(corner(row as usize))).sum();
+            let sum: DVec3 =
+                parts.iter().map(|&(row, share)| share * DVec3::from(corner(row as usize))).sum();
             assert!(sum.distance(light) < 1e-14, "{light} {sum}");
         }
     }

@@ -354,7 +354,7 @@ fn remedy(kind: RequestKind, error: &RequestError) -> String {
 }
 
 /// The path of `name`, relative to the folder of `file`.
-fn relative_to(file: &str, name: &str) -> PathBuf {
+pub(crate) fn relative_to(file: &str, name: &str) -> PathBuf {
     without_dots(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
 }
 

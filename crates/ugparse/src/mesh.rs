@@ -10,6 +10,7 @@ use ugscene::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostics::Diagnostics;
 use crate::expand::Origins;
+use crate::include::relative_to;
 use crate::options::Options;
 use crate::request::{Request, RequestError, RequestKind};
 use crate::source::{Source, Span};
@@ -62,7 +63,10 @@ fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let origins = origins(source, &mesh.lines);
     let mut findings: Vec<Diagnostic> =
         mesh.warnings.iter().map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone())).collect();
-    let scene: Scene = mesh.z_up(format.up());
+    let mut scene: Scene = mesh.z_up(format.up());
+    for file in scene.textures.iter_mut().filter_map(|texture| texture.image.file.as_mut()) {
+        *file = relative_to(&source.name, file).to_string_lossy().into_owned();
+    }
     let bent = ugscene::bent_faces(&scene);
     findings.extend(flatness::warning(source, &origins, &bent));
     Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) }

@@ -154,7 +154,8 @@ pub fn explained(scenery: &Scenery<'_>, config: &Config, pixel: [u32; 2]) -> Vec
         let ray = scenery.primary_ray(place)?;
         let first = scenery.closest(&ray, slab.near..slab.far);
         let sample = u64::from(place[1]) * u64::from(config.picture.size[0] * n) + u64::from(place[0]);
-        let (arriving, visits) = tracer.explained(&ray, first, slab.far, (sample, PictureSample { place, distance: 1 }));
+        let (arriving, visits) =
+            tracer.explained(&ray, first, slab.far, (sample, PictureSample { place, distance: 1 }));
         Some(ExplainedRay { place, ray, arriving, visits })
     };
     let places = (0..n).flat_map(|row| (0..n).map(move |column| [column, row]));
@@ -361,7 +362,12 @@ impl<'a> Painting<'a> {
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
                     let far = self.scenery.view.slab.far;
-                    let arriving = tracer.arriving(ray, *first, far, (self.number(place), PictureSample { place, distance: 1 }));
+                    let arriving = tracer.arriving(
+                        ray,
+                        *first,
+                        far,
+                        (self.number(place), PictureSample { place, distance: 1 }),
+                    );
                     let is_own = columns.contains(&(column / n)) && rows.contains(&(row / n));
                     let brightest = arriving.light.max_element();
                     if is_own && first.is_some() {

@@ -17,8 +17,8 @@ use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
 use crate::media::{Media, Solid};
 use ugpicture::rays::PastRay;
-use ugpicture::textures::Textures;
 use ugpicture::rays::{Faces, Intersection, PacketMemory, World};
+use ugpicture::textures::Textures;
 
 /// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
 /// reflections by mirrors that approach each other.

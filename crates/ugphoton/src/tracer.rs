@@ -314,8 +314,15 @@ impl<'a> Tracer<'a> {
             start: Start::Surface { part: point.part, place: point.place },
         };
         let absorption = absorption(self.scenery, media.innermost(), step);
-        let next =
-            Path { ray: &ray, media, absorption, depth: path.depth + 1, weight: path.weight * part, place: None, ..*path };
+        let next = Path {
+            ray: &ray,
+            media,
+            absorption,
+            depth: path.depth + 1,
+            weight: path.weight * part,
+            place: None,
+            ..*path
+        };
         let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
         self.seen(&next, first, f64::INFINITY)
     }

@@ -62,7 +62,9 @@ impl Levels {
                 let [red, green, blue] = [red, green, blue].map(|byte| self.decoded[usize::from(byte)]);
                 [red, green, blue, if alpha == 255 { 1.0 } else { f32::from(alpha) / 255.0 }]
             }
-            Pixels::Light(pixels) => pixels[at].map(|part| if part.is_finite() { part.max(0.0) } else { 0.0 }),
+            Pixels::Light(pixels) => {
+                pixels[at].map(|part| if part.is_finite() { part.max(0.0) } else { 0.0 })
+            }
         };
         if *is_opaque {
             return [red, green, blue, 1.0];
@@ -176,9 +178,8 @@ fn neighbours((place, side, wrap): (f64, usize, Wrap)) -> (usize, usize, f64) {
 
 /// A level of half the size: each texel is the mean of the area that it covers.
 fn halved(size: [usize; 2], half: [usize; 2], texel: impl Fn(usize) -> [f32; 4]) -> Box<[[f32; 4]]> {
-    let [columns, rows] = [0, 1].map(|axis| {
-        (0..half[axis]).map(|at| covered(at, half[axis], size[axis])).collect::<Vec<_>>()
-    });
+    let [columns, rows] =
+        [0, 1].map(|axis| (0..half[axis]).map(|at| covered(at, half[axis], size[axis])).collect::<Vec<_>>());
     let mut texels = Vec::with_capacity(half[0] * half[1]);
     for row in &rows {
         for column in &columns {

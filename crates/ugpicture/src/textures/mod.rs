@@ -169,7 +169,8 @@ impl TextureMap {
 }
 
 fn decoded(scene: &Scene, texture: &Texture, room: u64) -> Result<Arc<Levels>, TextureError> {
-    let limits = PictureLimits { bytes: room.min(PictureLimits::default().bytes), ..PictureLimits::default() };
+    let limits =
+        PictureLimits { bytes: room.min(PictureLimits::default().bytes), ..PictureLimits::default() };
     let picture = read_picture(&texture.image.bytes, &limits).map_err(|error| {
         let color = scene.names.get(scene.colors[texture.color.index()].name).to_owned();
         let file = texture.image.file.clone().unwrap_or_else(|| color.clone());

@@ -149,10 +149,12 @@ impl Look {
         let spot = (!self.triangles.is_empty()).then(|| self.spot(ray.rest));
         let mixed = spot.filter(|_| self.has_colors);
         let color = mixed.map(|(triangle, weights)| triangle.color(weights));
-        let rows = || mixed.map(|(it, weights)| {
-            let row = |at: usize| (it.rows[at], weights[at]);
-            [row(0), row(1), row(2), (it.rows[0], 0.0)]
-        });
+        let rows = || {
+            mixed.map(|(it, weights)| {
+                let row = |at: usize| (it.rows[at], weights[at]);
+                [row(0), row(1), row(2), (it.rows[0], 0.0)]
+            })
+        };
         self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
             let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
             let normal = match spot {
