@@ -8,7 +8,7 @@ use ugscene::SurfaceId;
 use crate::scenery::Scenery;
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start, along};
-use ugpicture::textures::on_plane;
+use ugpicture::textures::SurfaceElementPlane;
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.
@@ -82,9 +82,8 @@ impl SurfacePoint {
         let color = if scenery.textures.is_empty() {
             color(scenery, found, is_moving, own_time)
         } else {
-            let steps = |sample: PictureSample| {
-                sample.steps(scenery, places, (&part.frame, plane_normal, event), |step| step)
-            };
+            let plane = SurfaceElementPlane { frame: &part.frame, normal: plane_normal, event, places };
+            let steps = |neighbours| plane.steps(neighbours, |step| step);
             textured(scenery, found, is_moving, sample, steps)
                 .unwrap_or_else(|| color(scenery, found, is_moving, own_time))
         };
@@ -131,12 +130,9 @@ impl SurfacePoint {
         };
         let event = along(ray.origin, ray.step, found.s);
         // The axes of the body in the frame of the element, as normals turn: exact unless it spins.
-        let axes = || DVec3::AXES.map(|axis| element.normal(axis));
-        let steps = |sample: PictureSample| {
-            sample.steps(scenery, places, (&frame, plane_normal, event), |step| {
-                DVec3::from_array(axes().map(|axis| axis.dot(step)))
-            })
-        };
+        let to_body = |step: DVec3| DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)));
+        let triangle = SurfaceElementPlane { frame: &frame, normal: plane_normal, event, places };
+        let steps = |neighbours| triangle.steps(neighbours, to_body);
         let textured = textured(scenery, found, true, sample, steps);
         Self {
             part: found.part,
@@ -209,29 +205,16 @@ pub struct PictureSample {
 }
 
 impl PictureSample {
-    /// The changes of the barycentric weights of a triangle to the neighbours across and down.
-    /// `plane`: rest frame, normal and event of the surface element. `to_body`: from its axes to
-    /// those of `places`.  Eq. (P50)
-    fn steps(
-        self,
-        scenery: &Scenery<'_>,
-        [a, b, c]: [DVec3; 3],
-        (frame, normal, event): (&RestFrame, DVec3, Event),
-        to_body: impl Fn(DVec3) -> DVec3,
-    ) -> [[f64; 2]; 2] {
+    /// The rays of the neighbours across and down. A lens may show nothing at one; then it is on
+    /// the other side.
+    fn neighbours(self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
         let [column, row] = self.place.map(|at| f64::from(at) + 0.5);
+        let ray = |across: f64, down: f64| {
+            let through = |sign: f64| scenery.ray_through([column + sign * across, row + sign * down]);
+            through(1.0).or_else(|| through(-1.0))
+        };
         let distance = f64::from(self.distance);
-        let (along, beside) = (b - a, c - a);
-        let across = along.cross(beside);
-        let scale = 1.0 / across.length_squared();
-        [[column + distance, row], [column, row + distance]].map(|place| {
-            // A lens may show nothing there; on the other side of the sample it does.
-            let mirrored = || [2.0 * column - place[0], 2.0 * row - place[1]];
-            let ray = scenery.ray_through(place).or_else(|| scenery.ray_through(mirrored()));
-            let Some(ray) = ray else { return [0.0; 2] };
-            let step = to_body(on_plane(frame, normal, event, &ray));
-            [step.cross(beside).dot(across) * scale, along.cross(step).dot(across) * scale]
-        })
+        Some([ray(distance, 0.0)?, ray(0.0, distance)?])
     }
 }
 
@@ -242,10 +225,11 @@ fn textured(
     found: &Intersection,
     is_moving: bool,
     sample: Option<PictureSample>,
-    steps: impl FnOnce(PictureSample) -> [[f64; 2]; 2],
+    steps: impl FnOnce([PastRay; 2]) -> [[f64; 2]; 2],
 ) -> Option<SurfaceColor> {
     let color = scenery.scene.faces[found.triangle.face as usize].color;
-    let steps = || sample.map_or([[0.0; 2]; 2], steps);
+    let neighbours = || sample.and_then(|sample| sample.neighbours(scenery));
+    let steps = || neighbours().map_or([[0.0; 2]; 2], steps);
     let texel =
         scenery.textures.texel(&scenery.scene, color, (found.triangle.corners, found.weights()), steps)?;
     Some(scenery.appearance.texel(texel.light, texel.translucency, is_moving))

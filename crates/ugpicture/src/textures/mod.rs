@@ -12,7 +12,7 @@ use thiserror::Error;
 use ugimage::{PictureLimits, read_picture};
 use ugscene::{AlphaMode, ColorId, Scene, Texture, VertexId};
 
-pub use footprint::on_plane;
+pub use footprint::SurfaceElementPlane;
 use levels::Levels;
 
 /// The most bytes of texels of all textures of a scene, with their mip levels.
@@ -38,8 +38,6 @@ pub struct Textures {
     of_color: Vec<Option<u32>>,
     /// For each colour of the scene the linear light with which a vertex tints a texture.
     tints: Vec<DVec3>,
-    /// Colours whose picture is not there, because the files of the scene were not read.
-    pub n_without_picture: usize,
 }
 
 /// A texture.
@@ -68,14 +66,16 @@ impl Textures {
         if scene.textures.is_empty() {
             return Ok(Self::default());
         }
-        let is_drawn = |texture: &&Texture| scene.faces.iter().any(|face| face.color == Some(texture.color));
+        // The bytes are missing if the files of the scene were not read.
+        let is_drawn = |texture: &&Texture| {
+            let mut faces = scene.faces.iter();
+            !texture.image.bytes.is_empty() && faces.any(|face| face.color == Some(texture.color))
+        };
         let drawn: Vec<&Texture> = scene.textures.iter().filter(is_drawn).collect();
-        let (there, missing): (Vec<&Texture>, Vec<&Texture>) =
-            drawn.into_iter().partition(|texture| !texture.image.bytes.is_empty());
         // Each picture is decoded once. Texels are kept with alpha only where it counts.
         let key = |texture: &Texture| (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
         let mut pictures: Vec<&Texture> = Vec::new();
-        for texture in &there {
+        for texture in &drawn {
             if !pictures.iter().any(|known| key(known) == key(texture)) {
                 pictures.push(texture);
             }
@@ -85,7 +85,7 @@ impl Textures {
             pictures.par_iter().map(|texture| decoded(scene, texture, room)).collect::<Result<_, _>>()?;
         let mut of_color = vec![None; scene.colors.len()];
         let mut maps = Vec::new();
-        for texture in there {
+        for texture in drawn {
             let row = pictures.iter().position(|known| key(known) == key(texture)).unwrap_or_default();
             of_color[texture.color.index()] = Some(maps.len() as u32);
             maps.push(TextureMap { levels: Arc::clone(&levels[row]), texture: texture.clone() });
@@ -96,13 +96,24 @@ impl Textures {
         };
         let tint = |id: ColorId| if is_mixture(id) { DVec3::ONE } else { light(id).max(DVec3::ZERO) };
         let tints = (0..scene.colors.len()).map(ColorId::from_index).map(tint).collect();
-        Ok(Self { maps, of_color, tints, n_without_picture: missing.len() })
+        Ok(Self { maps, of_color, tints })
     }
 
     /// The texture of a colour.
     #[inline]
     fn of(&self, color: Option<ColorId>) -> Option<&TextureMap> {
         self.maps.get((*self.of_color.get(color?.index())?)? as usize)
+    }
+
+    /// True if a colour is a picture that is there.
+    #[inline]
+    pub fn has(&self, color: Option<ColorId>) -> bool {
+        self.of(color).is_some()
+    }
+
+    /// True if a texture is not opaque.
+    pub fn has_translucency(&self) -> bool {
+        self.maps.iter().any(|map| map.texture.alpha != AlphaMode::Opaque)
     }
 
     /// True if a face of this colour is not opaque everywhere, because of its texture.
