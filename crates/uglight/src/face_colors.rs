@@ -98,8 +98,7 @@ impl Appearance {
         if swatches == [first; 3] {
             return even;
         }
-        let [a, b, c] = std::array::from_fn(|at| (rows[at], weights[at]));
-        let rows = [a, b, c, (rows[0], 0.0)];
+        let rows = std::array::from_fn(|at| (rows[at], weights[at]));
         SurfaceColor { swatch: Swatch::mean(&swatches, weights), rows }
     }
 

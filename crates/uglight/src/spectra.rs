@@ -121,7 +121,7 @@ impl Spectra {
     }
 
     /// The rows of a mixture that is seen as a colour of a texture.  Eq. (P51)
-    pub fn texel_rows(&self, light: DVec3) -> [(u32, f64); 4] {
+    pub fn texel_rows(&self, light: DVec3) -> [(u32, f64); 3] {
         // Colours of vertices are not more than 2^32 with the lattice.
         let first = self.rows.len() as u32;
         mixture(light).map(|(corner, share)| (first + corner, share))

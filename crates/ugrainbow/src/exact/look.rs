@@ -174,13 +174,9 @@ impl Look {
             None => mixed.map(|(triangle, weights)| triangle.color(weights)),
         };
         let rows = || {
-            let of_texel = texel.map(|texel| texel.rows);
-            of_texel.or_else(|| {
-                mixed.map(|(it, weights)| {
-                    let row = |at: usize| (it.rows[at], weights[at]);
-                    [row(0), row(1), row(2), (it.rows[0], 0.0)]
-                })
-            })
+            let of_corners =
+                |(it, weights): (&Triangle, [f64; 3])| std::array::from_fn(|at| (it.rows[at], weights[at]));
+            texel.map(|texel| texel.rows).or_else(|| mixed.map(of_corners))
         };
         self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
             let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
@@ -224,7 +220,7 @@ impl Look {
     pub fn shaded<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
-        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<[(u32, f64); 4]>),
+        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<[(u32, f64); 3]>),
         stretch: f64,
         lit: impl Fn() -> [DVec3; 3],
     ) -> (Swatch, DVec3) {
