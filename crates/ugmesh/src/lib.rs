@@ -237,7 +237,9 @@ fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>) -> (Files, Optio
         return (pictures, Some("textures are left out: their faces have their mean colours".to_owned()));
     };
     for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
-        if *is_beside_mesh && image.file.as_ref().is_some_and(|file| !file.contains(['"', '\n'])) {
+        let is_file =
+            image.row.is_none() && image.file.as_ref().is_some_and(|file| !file.contains(['"', '\n']));
+        if *is_beside_mesh && is_file {
             continue;
         }
         let row = pictures.iter().position(|(_, bytes)| *bytes == image.bytes).unwrap_or_else(|| {
@@ -252,7 +254,7 @@ fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>) -> (Files, Optio
                 .push((format!("{stem}_texture{}.{ending}", pictures.len() + 1), Arc::clone(&image.bytes)));
             pictures.len() - 1
         });
-        image.file = Some(pictures[row].0.clone());
+        (image.file, image.row) = (Some(pictures[row].0.clone()), None);
     }
     (pictures, None)
 }

@@ -35,18 +35,29 @@ pub(crate) struct LoadedTexture {
     pub image: TextureImage,
 }
 
+/// Where a picture is from.
+pub(crate) enum TextureOrigin {
+    /// The name of its file.
+    File(String),
+    /// Its row in the mesh.
+    Within(usize),
+}
+
 impl Textures {
-    /// A texture, if it can be read. `load` returns its bytes and, unless it is within the mesh, the
-    /// name of its file.
+    /// A texture, if it can be read. `load` returns its bytes and where they are from.
     pub fn load(
         &mut self,
         name: &str,
-        load: impl FnOnce() -> Result<(Vec<u8>, Option<String>), String>,
+        load: impl FnOnce() -> Result<(Vec<u8>, TextureOrigin), String>,
     ) -> Option<LoadedTexture> {
         if !self.loaded.contains_key(name) {
-            let texture = load().and_then(|(bytes, file)| {
+            let texture = load().and_then(|(bytes, origin)| {
                 let mean = self.mean_of_file(&bytes)?;
-                Ok(LoadedTexture { mean, image: TextureImage { file, bytes: bytes.into() } })
+                let (file, row) = match origin {
+                    TextureOrigin::File(name) => (Some(name), None),
+                    TextureOrigin::Within(row) => (None, u32::try_from(row).ok()),
+                };
+                Ok(LoadedTexture { mean, image: TextureImage { file, row, bytes: bytes.into() } })
             });
             self.loaded.insert(name.to_owned(), texture);
         }

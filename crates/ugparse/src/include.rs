@@ -5,7 +5,8 @@
 //! that messages name the original file and line. The caller reads the files and runs the programs;
 //! this module does not access the system.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
@@ -17,7 +18,7 @@ use crate::options::{Limit, Options};
 use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
-use crate::request::{Request, RequestError, RequestKind};
+use crate::request::{Request, RequestError, RequestKind, relative_to, without_dots};
 use crate::source::{Images, LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
@@ -71,6 +72,7 @@ pub fn include(
         tables: FxHashMap::default(),
         images: Images::new(),
         n_image_bytes: 0,
+        mesh_files: FxHashMap::default(),
         out: Vec::new(),
     };
     inclusion.run()?;
@@ -138,6 +140,8 @@ struct Inclusion<'i> {
     n_bytes: u64,
     images: Images,
     n_image_bytes: u64,
+    /// Meshes that pictures are within.
+    mesh_files: FxHashMap<PathBuf, Arc<[u8]>>,
     out: Vec<u8>,
 }
 
@@ -203,21 +207,51 @@ impl Inclusion<'_> {
             let finding = finding(format!("the path `{name}` has a quotation mark or a line end"));
             return Err(Diagnostics::one(source, finding.help("rename its folder")));
         }
-        if !self.images.contains_key(&name) {
-            let (_, bytes) = self.fetch(statement)?;
-            #[cfg(feature = "cli")]
-            if let Err(problem) = ugmeshfile::check_picture(&bytes) {
-                let (source, finding) = self.finding(statement);
-                let finding = finding(format!("cannot read `{}`: {problem}", path.display()));
-                let help = "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels";
-                return Err(Diagnostics::one(source, finding.help(help)));
+        let key = (name, statement.row);
+        if !self.images.contains_key(&key) {
+            let file = match self.mesh_files.get(&path) {
+                Some(file) => Arc::clone(file),
+                None => self.fetch(statement)?.1.into(),
+            };
+            let picture = self.picture(statement, &file, &path)?;
+            if statement.row.is_some() {
+                self.mesh_files.insert(path, file);
             }
-            self.images.insert(name.clone(), bytes.into());
+            self.images.insert(key.clone(), picture);
         }
         self.out.push(b'"');
-        self.out.extend_from_slice(name.as_bytes());
+        self.out.extend_from_slice(key.0.as_bytes());
         self.out.push(b'"');
         Ok(())
+    }
+
+    /// The picture that a file is, or that is in a mesh.
+    #[cfg(feature = "cli")]
+    fn picture(
+        &self,
+        statement: RequestStatement,
+        file: &Arc<[u8]>,
+        path: &Path,
+    ) -> Result<Arc<[u8]>, Diagnostics> {
+        let picture = match statement.row {
+            Some(row) => ugmeshfile::picture_within(file, row as usize).map(Arc::from),
+            None => Ok(Arc::clone(file)),
+        };
+        let checked = picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
+        checked.map_err(|problem| {
+            let (source, finding) = self.finding(statement);
+            let finding = finding(format!("cannot read `{}`: {problem}", path.display()));
+            let help = match statement.row {
+                Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
+                None => "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels",
+            };
+            Diagnostics::one(source, finding.help(help))
+        })
+    }
+
+    #[cfg(not(feature = "cli"))]
+    fn picture(&self, _: RequestStatement, file: &Arc<[u8]>, _: &Path) -> Result<Arc<[u8]>, Diagnostics> {
+        Ok(Arc::clone(file))
     }
 
     /// The innermost open text, and an error at a request in it.
@@ -351,18 +385,6 @@ fn remedy(kind: RequestKind, error: &RequestError) -> String {
         (RequestError::Failed { .. }, _) => "run it separately to see the error",
     }
     .to_string()
-}
-
-/// The path of `name`, relative to the folder of `file`.
-pub(crate) fn relative_to(file: &str, name: &str) -> PathBuf {
-    without_dots(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
-}
-
-/// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the
-/// folder of the link.
-fn without_dots(path: &Path) -> PathBuf {
-    let path: PathBuf = path.components().filter(|component| *component != Component::CurDir).collect();
-    if path.as_os_str().is_empty() { ".".into() } else { path }
 }
 
 /// Is the first word after comments, escapes and line marks a keyword?

@@ -10,9 +10,8 @@ use ugscene::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::diagnostics::Diagnostics;
 use crate::expand::Origins;
-use crate::include::relative_to;
 use crate::options::Options;
-use crate::request::{Request, RequestError, RequestKind};
+use crate::request::{Request, RequestError, RequestKind, relative_to};
 use crate::source::{Source, Span};
 use crate::{Parsed, check_length, flatness};
 
@@ -64,8 +63,12 @@ fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let mut findings: Vec<Diagnostic> =
         mesh.warnings.iter().map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone())).collect();
     let mut scene: Scene = mesh.z_up(format.up());
-    for file in scene.textures.iter_mut().filter_map(|texture| texture.image.file.as_mut()) {
-        *file = relative_to(&source.name, file).to_string_lossy().into_owned();
+    let is_named = !source.name.starts_with('<');
+    for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
+        let path =
+            image.file.take().map(|file| relative_to(&source.name, &file).to_string_lossy().into_owned());
+        let path = path.or_else(|| (is_named && image.row.is_some()).then(|| source.name.clone()));
+        image.file = path.filter(|path| !path.contains(['"', '\n']));
     }
     let bent = ugscene::bent_faces(&scene);
     findings.extend(flatness::warning(source, &origins, &bent));

@@ -80,3 +80,11 @@ fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestErro
 pub fn refused(findings: Diagnostics) -> Failure {
     Failure::Report(findings.report())
 }
+
+/// The note on textures that the text of a scene leaves out, because they are within a mesh from
+/// standard input, which no file name refers to.
+pub fn unnamed_textures(scene: &ugscene::Scene) -> Option<&'static str> {
+    let is_unnamed = |texture: &ugscene::Texture| texture.image.file.is_none();
+    let note = "textures within a mesh on standard input are left out; name its file on the command line";
+    scene.textures.iter().any(is_unnamed).then_some(note)
+}

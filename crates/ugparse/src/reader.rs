@@ -52,6 +52,8 @@ pub(crate) struct RequestStatement {
     pub file: Span,
     /// Of a path, the name of its motion.
     pub motion: Option<Span>,
+    /// Of a picture within a mesh, its row.
+    pub row: Option<u32>,
 }
 
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
@@ -242,15 +244,17 @@ impl<'t, 'f> Reader<'t, 'f> {
         let span = self.span(input, rest);
         let row = self.open[self.open.len() - 1];
         let request = match &statement {
-            Statement::Texture(texture) => Some((RequestKind::Image, texture.file, None)),
+            Statement::Texture(texture) => {
+                Some((RequestKind::Image, texture.file, None, texture.texture.image.row))
+            }
             Statement::Motion(motion) => match motion.path {
-                Some(PathStatement::File(file)) => Some((RequestKind::Path, file, Some(motion.name))),
+                Some(PathStatement::File(file)) => Some((RequestKind::Path, file, Some(motion.name), None)),
                 _ => None,
             },
             _ => None,
         };
-        if let Some((kind, FileStatement { span, name: file }, motion)) = request {
-            self.document.requests.push(RequestStatement { kind, span, file, motion });
+        if let Some((kind, FileStatement { span, name: file }, motion, row)) = request {
+            self.document.requests.push(RequestStatement { kind, span, file, motion, row });
         }
         self.document.first_statement.get_or_insert(span.start);
         self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
@@ -303,6 +307,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             span: self.span(input, rest),
             file,
             motion: None,
+            row: None,
         });
         Ok(rest)
     }

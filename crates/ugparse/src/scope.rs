@@ -295,7 +295,7 @@ impl<'t> Scope<'t> {
         TextureStatement { color, file, texture }: TextureStatement,
     ) {
         let color = ColorId::from_index(self.colors.names.enter(color.of(text)));
-        let image = TextureImage { file: Some(lossy(text, file.name)), ..TextureImage::default() };
+        let image = TextureImage { file: Some(lossy(text, file.name)), ..texture.image };
         self.textures.push(Texture { color, image, ..texture }, span);
     }
 

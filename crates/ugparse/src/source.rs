@@ -24,8 +24,8 @@ pub struct Source {
     pub(crate) images: Images,
 }
 
-/// The bytes of pictures by the paths of their files.
-pub(crate) type Images = BTreeMap<String, Arc<[u8]>>;
+/// The bytes of pictures by the paths of their files, and by their rows in a mesh.
+pub(crate) type Images = BTreeMap<(String, Option<u32>), Arc<[u8]>>;
 
 impl Source {
     /// A source from a name and text.

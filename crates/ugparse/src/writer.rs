@@ -453,6 +453,10 @@ impl<'s> Writer<'s> {
         self.text(" \"");
         self.text(file);
         self.text("\"");
+        if let Some(row) = image.row {
+            self.text(" -image");
+            self.number(f64::from(row));
+        }
         if *wrap != [Wrap::Repeat; 2] {
             self.text(" -wrap");
             let n = if wrap[0] == wrap[1] { 1 } else { 2 };

@@ -17,7 +17,7 @@ use super::gltf_document::{Document, numbers, split, whole};
 use super::{Input, accessor, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
-use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, Textures};
+use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let (json, blob) = split(input.bytes)?;
@@ -58,6 +58,27 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         "sets of triangles without positions are left out",
     );
     Ok(())
+}
+
+/// The bytes of a picture within a glTF file, by its row.
+///
+/// # Errors
+/// The reason why it cannot be read.
+pub fn picture_within(bytes: &[u8], row: usize) -> Result<Vec<u8>, String> {
+    let no_files = |_: &str, _| Err(std::io::Error::other("it is in another file"));
+    let read = || {
+        let (json, blob) = split(bytes)?;
+        let document = Document::parse(json)?;
+        let image = document.row("images", row)?;
+        let input = Input { bytes, read_file: &no_files };
+        if let Some(uri) = image["uri"].as_str() {
+            return load(uri, MAX_TEXTURE_BYTES, &input);
+        }
+        let buffers = buffers(&document, blob, &input)?;
+        let view = whole(&image["bufferView"]).and_then(|view| document.view(view, &buffers));
+        view.map(<[u8]>::to_vec).ok_or_else(|| Problem::new("it is not in the buffers"))
+    };
+    read().map_err(|problem: Problem| problem.what)
 }
 
 /// Largest number of bytes of all buffers, as the mesh states them.
@@ -360,13 +381,13 @@ impl Reader<'_, '_> {
             let name = file.clone().unwrap_or(number);
             let load = || {
                 let bytes = load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what)?;
-                Ok((bytes, file))
+                Ok((bytes, file.map_or(TextureOrigin::Within(source), TextureOrigin::File)))
             };
             return self.textures.load(&name, load);
         }
         let bytes = whole(&image["bufferView"]).and_then(|view| document.view(view, buffers));
         let copied = || match bytes {
-            Some(bytes) => Ok((bytes.to_vec(), None)),
+            Some(bytes) => Ok((bytes.to_vec(), TextureOrigin::Within(source))),
             None => Err("it is not in the buffers".to_owned()),
         };
         self.textures.load(&number, copied)

@@ -18,7 +18,7 @@ use super::text::{any_number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
-use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, Textures, tinted};
+use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures, tinted};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let text = decode(input.bytes);
@@ -259,7 +259,8 @@ impl<'a> Reader<'a> {
             let loaded = file.and_then(|file| {
                 let load = || {
                     let read = read_named(self.input, &file, MAX_TEXTURE_BYTES);
-                    read.map(|(bytes, name)| (bytes, Some(name))).map_err(|error| error.to_string())
+                    read.map(|(bytes, name)| (bytes, TextureOrigin::File(name)))
+                        .map_err(|error| error.to_string())
                 };
                 let loaded = self.textures.load(&file, load);
                 // Exporters write so where the texture alone has the colour.

@@ -7,7 +7,9 @@ use ugscene::{AlphaMode, ColorId, Texture, TextureImage, Wrap};
 
 use super::{Grammar, NAME, number_from, option_word};
 use crate::statement::{Statement, TableStatement, TextureStatement};
-use crate::token::{Input, Parsed, Reason, backtrack, blank, fail, number, number32, require, wanted, word};
+use crate::token::{
+    Input, Parsed, Reason, backtrack, blank, fail, integer, number, number32, require, wanted, word,
+};
 
 impl Grammar<'_> {
     /// `c_time ID [-step] [-period T] [-shift T] { time color }`
@@ -52,7 +54,7 @@ impl Grammar<'_> {
         Ok((input, Statement::Table(TableStatement { color, is_stepped, period, shift, rows })))
     }
 
-    /// `c_tex ID FILE [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]`
+    /// `c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]`
     pub(super) fn texture<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (input, color) = wanted(self.name(input), NAME)?;
         let (mut input, file) = require(self.file(input, "the file of a picture"))?;
@@ -77,9 +79,14 @@ impl Grammar<'_> {
                     let (rest, cutoff) = opt(factor).parse(rest)?;
                     (input, texture.alpha) = (rest, AlphaMode::Mask(cutoff.unwrap_or(0.5)));
                 }
+                b"image" => {
+                    let (rest, row) = require(wanted(integer(rest), "the number of a picture, from 0"))?;
+                    // No mesh has so many; those beyond are refused with the mesh.
+                    (input, texture.image.row) = (rest, Some(u32::try_from(row).unwrap_or(u32::MAX)));
+                }
                 b"blend" => (input, texture.alpha) = (rest, AlphaMode::Blend),
                 _ => {
-                    let expected = "`;` or an option of a picture (-wrap -factor -mask -blend)";
+                    let expected = "`;` or an option of a picture (-image -wrap -factor -mask -blend)";
                     return fail(blank(input)?.0, Reason::Expected(expected));
                 }
             }

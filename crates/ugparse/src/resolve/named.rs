@@ -127,8 +127,8 @@ pub(super) fn gather_textures(
     let first = scene.textures.len();
     for mut texture in std::mem::take(&mut scope.textures.rows) {
         texture.color = ColorId::from_index(colors[texture.color.index()]?);
-        let bytes = texture.image.file.as_ref().and_then(|file| images.get(file));
-        texture.image.bytes = bytes.cloned().unwrap_or_default();
+        let key = (texture.image.file.clone().unwrap_or_default(), texture.image.row);
+        texture.image.bytes = images.get(&key).cloned().unwrap_or_default();
         scene.textures.push(texture);
     }
     let colors: Vec<ColorId> = scene.textures[first..].iter().map(|texture| texture.color).collect();

@@ -32,11 +32,13 @@ impl Texture {
     }
 }
 
-/// The file of a picture. Two of one name and the same bytes are equal.
+/// The file of a picture.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TextureImage {
-    /// Its path from the current folder; `None` of a picture within a mesh.
+    /// Its path from the current folder; `None` of a picture within a mesh whose name is not known.
     pub file: Option<String>,
+    /// The row of a picture within a mesh, which is then the file.
+    pub row: Option<u32>,
     /// Its bytes; empty if the files of the scene were not read.
     pub bytes: Arc<[u8]>,
 }
