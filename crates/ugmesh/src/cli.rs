@@ -285,7 +285,7 @@ pub fn main() -> ExitCode {
         converted.warnings.iter().for_each(|warning| context.warn(warning));
         for note in &converted.notes {
             let is_scene = config.target == Target::Ug;
-            let remedy = if is_scene { "; with -fo FILE.ug they are written beside the scene" } else { "" };
+            let remedy = if is_scene { "; name its file on the command line" } else { "" };
             context.note(&format!("{note}{remedy}"));
         }
         let folder = args.common.output().and_then(Path::parent).unwrap_or(Path::new(""));

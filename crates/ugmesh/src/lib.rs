@@ -73,7 +73,7 @@ pub struct Config {
     pub rest_normals: bool,
     /// Prefix of the names of vertices and colours that are generated.
     pub name: String,
-    /// Where a scene finds the pictures of textures; if it is not known, they are left out.
+    /// Where a scene finds the pictures of textures; by default where the mesh has them.
     pub pictures: Option<PictureFiles>,
     /// The options for reading UniGrafix.
     pub reading: Options,
@@ -188,7 +188,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     let mut pictures = Vec::new();
     let mut missing = None;
     if config.target == Target::Ug {
-        (pictures, missing) = pictures_of(&mut scene, config.pictures.as_ref());
+        (pictures, missing) = pictures_of(&mut scene, config.pictures.as_ref(), &input.name);
     }
     let (bytes, mut notes) = write::write(scene, config.target, is_placed)?;
     notes.extend(missing);
@@ -225,16 +225,14 @@ fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
 type Files = Vec<(String, Arc<[u8]>)>;
 
 /// Names the pictures of a scene by files beside it; returns those to be written. Without such
-/// files the textures are removed, with a note.
-fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>) -> (Files, Option<String>) {
+/// files they are where the mesh has them, from the current folder.
+fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>, mesh: &str) -> (Files, Option<String>) {
     let mut pictures: Files = Vec::new();
     let Some(PictureFiles { stem, is_beside_mesh }) = files else {
-        if scene.textures.is_empty() {
-            return (pictures, None);
-        }
-        scene.textures.clear();
-        scene.vertices.iter_mut().for_each(|vertex| vertex.uv = None);
-        return (pictures, Some("textures are left out: their faces have their mean colours".to_owned()));
+        ugparse::name_pictures(scene, mesh);
+        let is_unnamed = scene.textures.iter().any(|texture| texture.image.file.is_none());
+        let note = "textures within a mesh from standard input are left out".to_owned();
+        return (pictures, is_unnamed.then_some(note));
     };
     for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
         let is_file =

@@ -88,6 +88,8 @@ pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;
 pub use flatness::FLAT;
 pub use include::include;
+#[cfg(feature = "cli")]
+pub use mesh::name_pictures;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
 #[cfg(feature = "triangles")]

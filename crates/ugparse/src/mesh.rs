@@ -63,16 +63,22 @@ fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let mut findings: Vec<Diagnostic> =
         mesh.warnings.iter().map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone())).collect();
     let mut scene: Scene = mesh.z_up(format.up());
-    let is_named = !source.name.starts_with('<');
-    for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
-        let path =
-            image.file.take().map(|file| relative_to(&source.name, &file).to_string_lossy().into_owned());
-        let path = path.or_else(|| (is_named && image.row.is_some()).then(|| source.name.clone()));
-        image.file = path.filter(|path| !path.contains(['"', '\n']));
-    }
+    name_pictures(&mut scene, &source.name);
     let bent = ugscene::bent_faces(&scene);
     findings.extend(flatness::warning(source, &origins, &bent));
     Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) }
+}
+
+/// Names the pictures of a mesh, which are files beside it or within it, by paths from the current
+/// folder. Those within a mesh from standard input have no name.
+pub fn name_pictures(scene: &mut Scene, mesh: &str) {
+    let is_named = !mesh.starts_with('<');
+    for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
+        let beside = |file: String| relative_to(mesh, &file).to_string_lossy().into_owned();
+        let within = || (is_named && image.row.is_some()).then(|| mesh.to_owned());
+        let path = image.file.take().map(beside).or_else(within);
+        image.file = path.filter(|path| !path.contains(['"', '\n']));
+    }
 }
 
 fn origins(source: &Source, lines: &Lines) -> Origins {
