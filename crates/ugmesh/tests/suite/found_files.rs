@@ -109,8 +109,8 @@ fn materials_of_other_programs_are_read() {
         let mtl = format!("newmtl m\nKd 1 1 1\nmap_Kd {options}my tex.png");
         check(&mtl, "c_rgb m 1 0 0;", "");
     }
-    check("newmtl m\nKd 1 1 1\nmap_Kd deep\\tex.png", "c_rgb m 1 0 0;\nc_tex m \"deep/tex.png\";", "");
-    check("newmtl m\nKd 1 1 1\nmap_Kd D:\\x\\my tex.png", "c_rgb m 1 0 0;\nc_tex m \"my tex.png\";", "");
+    check("newmtl m\nKd 1 1 1\nmap_Kd deep\\tex.png", "c_rgb m 1 0 0; c_tex m \"deep/tex.png\";", "");
+    check("newmtl m\nKd 1 1 1\nmap_Kd D:\\x\\my tex.png", "c_rgb m 1 0 0; c_tex m \"my tex.png\";", "");
 }
 
 /// A triangle in a document with more keys: of its root, of its node and of its primitive.
