@@ -54,6 +54,10 @@ pub(crate) fn mixture(light: DVec3) -> [(u32, f64); 3] {
 
 #[cfg(test)]
 mod tests {
+    use std::cell::OnceCell;
+
+    use ugphysics::spectrum::Spectrum;
+
     use super::*;
 
     #[test]
@@ -69,43 +73,29 @@ mod tests {
         }
     }
 
+    /// The error of X, Y, Z of a mixture in motion, relative to Y of white: 0.001 in the mean; more
+    /// only in few colours far from rest, where the reflectance beyond the visible range jumps.
     #[test]
-    fn probe() {
-        use ugphysics::spectrum::Spectrum;
-        let corners: Vec<Spectrum> =
-            (0..N_CORNERS).map(|row| Spectrum::from_linear_srgb(corner(row))).collect();
-        for doppler in [0.4, 0.5, 0.7, 0.85, 1.0, 1.2, 1.5, 2.0, 2.5] {
-            let white = DVec3::from(Spectrum::from_linear_srgb([1.0; 3]).shifted(doppler));
-            let (mut worst, mut sum, mut n) = (0.0_f64, 0.0, 0);
-            let (mut at, mut encoded) = (DVec3::ZERO, 0.0_f64);
-            for seed in 1..400 {
-                let part = |factor: f64| {
-                    let x = (f64::from(seed) * factor).fract();
-                    ugphysics::srgb_decode(x)
-                };
+    fn mixtures_are_shifted_as_the_colour() {
+        let corners: Vec<OnceCell<Spectrum>> = vec![OnceCell::new(); N_CORNERS];
+        for (doppler, most) in [(0.5, 0.05), (0.85, 0.02), (1.0, 1e-12), (1.2, 0.03), (2.0, 0.3)] {
+            let [_, white, _] = Spectrum::from_linear_srgb([1.0; 3]).shifted(doppler);
+            let seen = |spectrum: &Spectrum| DVec3::from(spectrum.shifted(doppler)) / white;
+            let mut errors = Vec::new();
+            for seed in 1..200 {
+                let part = |factor: f64| ugphysics::srgb_decode((f64::from(seed) * factor).fract());
                 let light = DVec3::new(part(0.618_034), part(0.414_214), part(0.302_776));
-                let exact =
-                    DVec3::from(Spectrum::from_linear_srgb(light.to_array()).shifted(doppler)) / white.y;
-                let mixed: DVec3 = mixture(light)
-                    .iter()
-                    .filter(|p| p.1 > 0.0)
-                    .map(|&(row, share)| share * DVec3::from(corners[row as usize].shifted(doppler)))
-                    .sum::<DVec3>()
-                    / white.y;
-                let e = (exact - mixed).abs().max_element();
-                if e > worst {
-                    worst = e;
-                    at = light;
-                }
-                sum += e;
-                n += 1;
-                encoded =
-                    encoded.max((ugphysics::srgb_encode(exact.y) - ugphysics::srgb_encode(mixed.y)).abs());
+                let of_corner = |&(row, share): &(u32, f64)| {
+                    let spectrum = || Spectrum::from_linear_srgb(corner(row as usize));
+                    share * seen(corners[row as usize].get_or_init(spectrum))
+                };
+                let mixed: DVec3 = mixture(light).iter().map(of_corner).sum();
+                let exact = seen(&Spectrum::from_linear_srgb(light.to_array()));
+                errors.push((mixed - exact).abs().max_element());
             }
-            println!(
-                "D {doppler}: worst {worst:.4} at {at:.3}, mean {:.5}, encoded Y {encoded:.4}",
-                sum / f64::from(n)
-            );
+            let (mean, worst) =
+                (errors.iter().sum::<f64>() / 199.0, errors.iter().copied().fold(0.0, f64::max));
+            assert!(mean < 1e-3 && worst < most, "D = {doppler}: {mean} {worst}");
         }
     }
 }

@@ -88,28 +88,27 @@ impl Levels {
         } else if length <= 1.0 {
             self.bilinear(0, uv, wrap)
         } else {
-            let n_probes = (length / width.max(1.0)).ceil().clamp(1.0, MOST_PROBES);
+            let n_probes = (length / width.max(1.0)).round().clamp(1.0, MOST_PROBES);
             let level = libm::log2((length / n_probes).max(width).max(1.0));
             let along = long / sides;
             let mut sum = [0.0; 4];
             for probe in 0..n_probes as u32 {
                 let part = (f64::from(probe) + 0.5) / n_probes - 0.5;
                 let texel = self.trilinear(uv + part * along, level, wrap);
-                sum.iter_mut().zip(texel).for_each(|(sum, part)| *sum += part / n_probes);
+                sum.iter_mut().zip(texel).for_each(|(sum, part)| *sum += part);
             }
-            sum
+            sum.map(|part| part / n_probes as f32)
         };
-        let [red, green, blue, alpha] = texel;
-        match alpha {
-            0.0 => [0.0; 4],
-            1.0 => texel,
-            _ => [red / alpha, green / alpha, blue / alpha, alpha],
+        let [red, green, blue, alpha] = texel.map(f64::from);
+        if alpha == 0.0 {
+            return [0.0; 4];
         }
+        [red / alpha, green / alpha, blue / alpha, alpha]
     }
 
-    fn trilinear(&self, uv: DVec2, level: f64, wrap: [Wrap; 2]) -> [f64; 4] {
+    fn trilinear(&self, uv: DVec2, level: f64, wrap: [Wrap; 2]) -> [f32; 4] {
         let level = level.min(self.others.len() as f64);
-        let (whole, part) = (level.floor() as usize, level.fract());
+        let (whole, part) = (level.floor() as usize, level.fract() as f32);
         let near = self.bilinear(whole, uv, wrap);
         if part == 0.0 {
             return near;
@@ -118,7 +117,8 @@ impl Levels {
         std::array::from_fn(|at| near[at] + part * (far[at] - near[at]))
     }
 
-    fn bilinear(&self, level: usize, uv: DVec2, wrap: [Wrap; 2]) -> [f64; 4] {
+    #[inline]
+    fn bilinear(&self, level: usize, uv: DVec2, wrap: [Wrap; 2]) -> [f32; 4] {
         let other = level.checked_sub(1).map(|row| &self.others[row]);
         let [width, height] = other.map_or(self.base.size, |level| level.size);
         let [(left, right, x), (top, bottom, y)] =
@@ -129,8 +129,7 @@ impl Levels {
         };
         let [a, b, c, d] = [texel(left, top), texel(right, top), texel(left, bottom), texel(right, bottom)];
         std::array::from_fn(|at| {
-            let [a, b, c, d] = [a[at], b[at], c[at], d[at]].map(f64::from);
-            let (upper, lower) = (a + x * (b - a), c + x * (d - c));
+            let (upper, lower) = (a[at] + x * (b[at] - a[at]), c[at] + x * (d[at] - c[at]));
             upper + y * (lower - upper)
         })
     }
@@ -151,29 +150,25 @@ fn axes([a, b]: [DVec2; 2]) -> (DVec2, f64) {
 }
 
 /// The two texels beside a coordinate along one axis, and the share of the second.
-fn neighbours((place, side, wrap): (f64, usize, Wrap)) -> (usize, usize, f64) {
-    // Before the multiplication, so that far repetitions lose no more than they must.
+#[inline]
+fn neighbours((place, side, wrap): (f64, usize, Wrap)) -> (usize, usize, f32) {
     let place = match wrap {
         Wrap::Repeat => place - place.floor(),
         Wrap::Mirror => place - 2.0 * (0.5 * place).floor(),
-        Wrap::Clamp => place.clamp(-1.0, 2.0),
+        Wrap::Clamp => place.clamp(0.0, 1.0),
     };
+    // From -1/2 to side - 1/2, or to twice that; NaN becomes the first texel.
     let at = place * side as f64 - 0.5;
-    // NaN becomes 0.
-    let (first, part) = (at.floor() as i64, if at.is_finite() { at - at.floor() } else { 0.0 });
-    let side = side as i64;
-    let inside = |at: i64| {
-        let row = match wrap {
-            Wrap::Repeat => at.rem_euclid(side),
-            Wrap::Clamp => at.clamp(0, side - 1),
-            Wrap::Mirror => {
-                let row = at.rem_euclid(2 * side);
-                row.min(2 * side - 1 - row)
-            }
-        };
-        row as usize
+    let first = at.floor();
+    let part = if at.is_finite() { (at - first) as f32 } else { 0.0 };
+    let (first, side) = (first as i64, side as i64);
+    let inside = |at: i64| match wrap {
+        Wrap::Repeat if at < 0 => side - 1,
+        Wrap::Repeat if at >= side => 0,
+        Wrap::Mirror if at >= side => (2 * side - 1 - at).max(0),
+        _ => at.clamp(0, side - 1),
     };
-    (inside(first), inside(first + 1), part)
+    (inside(first) as usize, inside(first + 1) as usize, part)
 }
 
 /// A level of half the size: each texel is the mean of the area that it covers.
@@ -207,4 +202,90 @@ fn covered(at: usize, half: usize, side: usize) -> Vec<(usize, f32)> {
     };
     let texels = (start.floor() as usize)..(end.ceil() as usize).min(side);
     texels.map(share).filter(|&(_, share)| share > 0.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A grey of each pixel, as light.
+    fn grey(size: [u32; 2], light: impl Fn(u32, u32) -> f32) -> Levels {
+        let pixel = |at: u32| {
+            let light = light(at % size[0], at / size[0]);
+            [light, light, light, 1.0]
+        };
+        Levels::new(size, Pixels::Light((0..size[0] * size[1]).map(pixel).collect()), true)
+    }
+
+    fn red(levels: &Levels, [u, v]: [f64; 2], step: f64, wrap: Wrap) -> f64 {
+        let steps = [DVec2::new(step, 0.0), DVec2::new(0.0, step)];
+        levels.sample(DVec2::new(u, v), steps, [wrap; 2])[0]
+    }
+
+    /// Means of each level are that of the picture, whatever its sides.
+    #[test]
+    fn levels_keep_the_mean() {
+        for size in [[1, 1], [2, 3], [7, 5], [16, 16], [33, 1], [1, 12]] {
+            let levels = grey(size, |x, y| (1 + x * x + 3 * y) as f32);
+            let mean = |texels: &[[f32; 4]]| {
+                texels.iter().map(|it| f64::from(it[0])).sum::<f64>() / texels.len() as f64
+            };
+            let base: Vec<_> = (0..(size[0] * size[1]) as usize).map(|at| levels.base_texel(at)).collect();
+            for level in &levels.others {
+                assert!((mean(&level.texels) / mean(&base) - 1.0).abs() < 1e-6, "{size:?} {:?}", level.size);
+            }
+            // Footprints of many pictures have the mean, and so have those without an end.
+            for step in [10.0, 1e30, f64::NAN, f64::INFINITY] {
+                assert!((red(&levels, [0.3, 0.8], step, Wrap::Repeat) / mean(&base) - 1.0).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn texels_continue_beyond_the_edges() {
+        let levels = grey([4, 1], |x, _| x as f32);
+        // Middles of texels are at (k + 1/2)/4.
+        for (wrap, place, expected) in [
+            (Wrap::Repeat, 0.125, 0.0),
+            (Wrap::Repeat, 0.25, 0.5),
+            (Wrap::Repeat, 0.0, 1.5),
+            (Wrap::Repeat, -0.125, 3.0),
+            (Wrap::Repeat, 1e6 + 0.375, 1.0),
+            (Wrap::Clamp, -3.0, 0.0),
+            (Wrap::Clamp, 0.9, 3.0),
+            (Wrap::Clamp, 1e38, 3.0),
+            (Wrap::Mirror, -0.125, 0.0),
+            (Wrap::Mirror, 1.0, 3.0),
+            (Wrap::Mirror, 1.375, 2.0),
+            (Wrap::Mirror, 2.125, 0.0),
+            (Wrap::Mirror, -1.125, 3.0),
+        ] {
+            let found = red(&levels, [place, 0.5], 0.0, wrap);
+            assert!((found - expected).abs() < 1e-6, "{wrap:?} {place}: {found}, {expected}");
+        }
+        assert!(red(&levels, [f64::NAN, f64::INFINITY], 0.0, Wrap::Mirror).is_finite());
+    }
+
+    /// A long footprint along stripes is as sharp across them as a short one.
+    #[test]
+    fn probes_follow_the_long_axis() {
+        let levels = grey([64, 64], |x, _| (x % 2) as f32);
+        let sample =
+            |steps: [DVec2; 2]| levels.sample(DVec2::new(0.5 / 64.0, 0.5), steps, [Wrap::Repeat; 2])[0];
+        let short = DVec2::new(0.5 / 64.0, 0.0);
+        assert!(sample([short, DVec2::new(0.0, 12.0 / 64.0)]) < 1e-6);
+        assert!((sample([DVec2::new(12.0 / 64.0, 0.0), DVec2::new(0.0, 0.5 / 64.0)]) - 0.5).abs() < 0.1);
+        // Two nearly parallel steps are a long thin ellipse, too.
+        let slanted = [DVec2::new(0.4 / 64.0, 12.0 / 64.0), DVec2::new(-0.4 / 64.0, 12.0 / 64.0)];
+        assert!(sample(slanted) < 0.3, "{}", sample(slanted));
+    }
+
+    /// Colours of transparent pixels do not bleed into others.
+    #[test]
+    fn light_is_weighted_by_alpha() {
+        let pixels = vec![[255, 0, 0, 255], [0, 255, 0, 0]];
+        let levels = Levels::new([2, 1], Pixels::Srgb(pixels), false);
+        let found = levels.sample(DVec2::new(0.5, 0.5), [DVec2::ZERO; 2], [Wrap::Clamp; 2]);
+        assert_eq!(found, [1.0, 0.0, 0.0, 0.5]);
+    }
 }
