@@ -360,6 +360,63 @@ fn meshes_are_read_in_place_of_scenes() {
     assert!(messages.contains(missing), "{messages}");
 }
 
+/// Rays and exact pictures draw the same textures: of inertial bodies and of those that turn, from a
+/// mesh and from a scene with its picture beside it, through a pipe.
+#[test]
+fn textures_are_drawn_alike() {
+    let shell = Shell::new(&["crate.gltf"]);
+    shell.run("ugmesh crate.gltf -fo crate.ug");
+    let scene = String::from_utf8(std::fs::read(shell.path("crate.ug")).unwrap()).unwrap();
+    assert!(scene.contains("c_tex wood \"crate_texture1.png\" -wrap clamp;"), "{scene}");
+    let spinning = scene.replace(") wood;", ") wood <turn>;") + "motion turn -vel .5 .3 0 -spin 0 .2 .1;";
+    shell.write("spinning.ug", spinning.as_bytes());
+    let view = "-ep 4 -6 3 -vc 0 0 0 -va 30 -sz 60 45 -ex 1";
+    let pixels = |name: &str| {
+        let file = std::fs::read(shell.path(name)).unwrap();
+        ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap().0.into_pixels()
+    };
+    for (name, motion) in [
+        ("crate.gltf", ""),
+        ("crate.gltf", "-vel .3 .6 0 -in"),
+        ("crate.ug", "-vel .8 0 0 -in"),
+        ("spinning.ug", ""),
+    ] {
+        for look in ["light", "1988", "shape"] {
+            shell.run(&format!("ugphoton -qt -look {look} {motion} {view} {name} > rays.png"));
+            shell.run(&format!(
+                "uglorentz -qt {motion} -ep 4 -6 3 {name} | ugrainbow -qt -xc -look {look} {view} > exact.png"
+            ));
+            let (rays, exact) = (pixels("rays.png"), pixels("exact.png"));
+            let off =
+                rays.iter().zip(&exact).filter(|(a, b)| (0..3).any(|at| a[at].abs_diff(b[at]) > 2)).count();
+            assert!(off * 200 < rays.len(), "{name} {motion} {look}: {off} pixels differ");
+            let n_colours = rays.iter().collect::<std::collections::BTreeSet<_>>().len();
+            assert!(n_colours > 100, "{name} {motion} {look}: {n_colours} colours");
+        }
+    }
+    let output = shell.output("ugrainbow crate.ug");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        messages
+            .contains("textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them")
+    );
+    let output = shell.output("uglorentz -vel .5 0 0 crate.ug | ugdoppler | ugrainbow");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(messages.contains("plain colour; leave out ugdoppler and give -xc here"), "{messages}");
+    let output = shell.output("uglorentz -vel .5 0 0 < crate.gltf");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(messages.contains("textures within a mesh on standard input are left out"), "{messages}");
+    // A scene in a folder, of which programs see only that.
+    std::fs::create_dir(shell.path("sub")).unwrap();
+    shell.write("sub/a.ug", b"c w 1; c_tex w \"../crate_texture1.png\";");
+    let output = shell.output("ugparse check sub/a.ug");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        messages.contains("cannot read `sub/../crate_texture1.png`") && messages.contains("--allow-outside"),
+        "{messages}"
+    );
+}
+
 /// Values over time may have blanks around their dots.
 #[test]
 fn blanks_in_values_over_time() {

@@ -151,7 +151,7 @@ fn footprints_prevent_aliasing() {
             let view = (seen(corners[0].midpoint(corners[1])), angle);
             let [fine, coarse] = [8, 2].map(|samples| psnr(&text, view, [samples, 16]));
             assert!(fine > 38.0, "{velocity}: {fine} dB\n{scene}");
-            assert!(coarse > 30.0, "{velocity}: {coarse} dB with 2 x 2 samples\n{scene}");
+            assert!(coarse > 26.0, "{velocity}: {coarse} dB with 2 x 2 samples\n{scene}");
         }
     }
 }
