@@ -368,7 +368,7 @@ fn textures_are_drawn_alike() {
     shell.run("ugmesh crate.gltf -fo crate.ug");
     let scene = String::from_utf8(std::fs::read(shell.path("crate.ug")).unwrap()).unwrap();
     assert!(scene.contains("c_tex wood \"crate_texture1.png\" -wrap clamp;"), "{scene}");
-    let spinning = scene.replace(") wood;", ") wood <turn>;") + "motion turn -vel .5 .3 0 -spin 0 .2 .1;";
+    let spinning = scene.replace(") wood;", ") wood <turn>;") + "motion turn -acc .05 0 0 -spin 0 .2 .1;";
     shell.write("spinning.ug", spinning.as_bytes());
     let view = "-ep 4 -6 3 -vc 0 0 0 -va 30 -sz 60 45 -ex 1";
     let pixels = |name: &str| {
@@ -394,12 +394,17 @@ fn textures_are_drawn_alike() {
             assert!(n_colours > 100, "{name} {motion} {look}: {n_colours} colours");
         }
     }
-    let output = shell.output("ugrainbow crate.ug");
+    // Without -xc colours are as they are.
+    shell.run(&format!("ugphoton -qt -look shape {view} crate.ug > rays.png"));
+    shell.run(&format!("ugrainbow -qt {view} crate.ug > plain.png"));
+    assert!(pixels("rays.png") == pixels("plain.png"));
+    let output = shell.output("ugrainbow -cu crate.ug");
     let messages = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        messages
-            .contains("textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them")
-    );
+    let note = "textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them";
+    assert!(messages.contains(note), "{messages}");
+    let output = shell.output("ugrainbow --explain 30,20 -sz 60 45 crate.ug");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(messages.contains("faces with textures are drawn by rays"), "{messages}");
     let output = shell.output("uglorentz -vel .5 0 0 crate.ug | ugdoppler | ugrainbow");
     let messages = String::from_utf8(output.stderr).unwrap();
     assert!(messages.contains("plain colour; leave out ugdoppler and give -xc here"), "{messages}");
