@@ -398,7 +398,7 @@ fn textures_are_drawn_alike() {
     shell.run(&format!("ugphoton -qt -look shape {view} crate.ug > rays.png"));
     shell.run(&format!("ugrainbow -qt {view} crate.ug > plain.png"));
     assert!(pixels("rays.png") == pixels("plain.png"));
-    let output = shell.output("ugrainbow -cu crate.ug");
+    let output = shell.output("ugrainbow -cb crate.ug");
     let messages = String::from_utf8(output.stderr).unwrap();
     let note = "textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them";
     assert!(messages.contains(note), "{messages}");

@@ -4,6 +4,7 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::hsv;
+use ugphysics::{srgb_decode, srgb_encode};
 use ugscene::{ColorId, ColorValue, Contours, NameId, Scene, Texture, VertexId};
 
 /// The polygons that a format supports.
@@ -46,7 +47,8 @@ impl PolygonMesh {
         }
         leave_out_wires(&mut scene);
         separate_colors(&mut scene);
-        let colors = vertex_colors(&scene, &mut notes);
+        let mut colors = vertex_colors(&scene, &mut notes);
+        colors.iter_mut().for_each(|colors| apply_factors(&scene, colors));
         let (polygons, faces) = polygons(&scene, kind, &mut notes);
         Self { scene, colors, polygons, faces, notes }
     }
@@ -194,6 +196,23 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
     note_count(notes, n_clipped, "colour brighter than 1 is clipped", "colours brighter than 1 are clipped");
     let color = |id: Option<ColorId>| id.map_or([1.0; 4], |id| palette[id.index()]);
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
+}
+
+/// Multiplies colours that tint textures by the parts of factors above 1, which formats do not have.
+fn apply_factors(scene: &Scene, colors: &mut [[f64; 4]]) {
+    let mut is_done = vec![false; colors.len()];
+    for face in &scene.faces {
+        let Some(texture) = face.color.and_then(|color| scene.texture_of(color)) else { continue };
+        for corner in scene.contours.corners(face.contours.clone()) {
+            let row = corner.index();
+            if scene.vertices[row].color.is_some() && !std::mem::replace(&mut is_done[row], true) {
+                let factors = texture.factor.map(|part| f64::from(part).max(1.0));
+                for (channel, factor) in colors[row].iter_mut().zip(factors).take(3) {
+                    *channel = srgb_encode(srgb_decode(*channel) * factor).min(1.0);
+                }
+            }
+        }
+    }
 }
 
 /// Faces as polygons without holes, and the face of each polygon. A face that cannot be

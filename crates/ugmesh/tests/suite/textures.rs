@@ -84,6 +84,37 @@ fn textures_survive_a_round_trip() {
     }
 }
 
+/// Colours of vertices and a texture: what multiplies texels stays, though colours that are read
+/// contain the mean of the picture, for programs that draw no texels.
+#[test]
+fn tints_survive_a_round_trip() {
+    let (text, pictures) = to_text("crate.gltf", CRATE);
+    let tinted = format!("c_rgb tint .9 .5 .7;\n{text}").replace(" (", " tint (").replace("f tint (", "f (");
+    let tinted = tinted.replace("f crate tint (", "f crate (");
+    let tint = |scene: &Scene| {
+        let vertex = scene.vertices[0].color.unwrap();
+        let ugscene::ColorValue::Rgb(rgb) = scene.colors[vertex.index()].value else { panic!("no c_rgb") };
+        let [red, green, blue, _] = scene.textures[0].factor.map(f64::from);
+        let light = rgb.map(ugphysics::srgb_decode);
+        [light[0] * red, light[1] * green, light[2] * blue]
+    };
+    let first = to_mesh(Target::Glb, &tinted, &pictures);
+    let (again, pictures) = to_text("a.glb", &first);
+    let second = to_mesh(Target::Glb, &again, &pictures);
+    for mesh in [first, second] {
+        let scene = read(&mesh);
+        let off =
+            tint(&scene).into_iter().zip([0.9, 0.5, 0.7]).map(|(a, b)| (a - ugphysics::srgb_decode(b)).abs());
+        assert!(off.fold(0.0, f64::max) < 1e-6, "{:?}", tint(&scene));
+        // The plain colour is darker, as the picture is.
+        assert!(
+            scene.textures[0].factor.iter().take(3).all(|&part| part > 1.2),
+            "{:?}",
+            scene.textures[0].factor
+        );
+    }
+}
+
 /// Formats without textures, and a scene whose pictures have no place.
 #[test]
 fn what_is_lost_is_said() {
