@@ -34,7 +34,13 @@ pub(crate) fn corner(row: usize) -> [f64; 3] {
 /// Light below 0 is none.
 pub(crate) fn mixture(light: DVec3) -> [(u32, f64); 3] {
     let light = light.clamp(DVec3::ZERO, DVec3::splat(ugphysics::MOST_LIGHT));
-    let largest = if light.x >= light.y.max(light.z) { 0 } else { if light.y >= light.z { 1 } else { 2 } };
+    let largest = if light.x >= light.y.max(light.z) {
+        0
+    } else if light.y >= light.z {
+        1
+    } else {
+        2
+    };
     let brightest = light[largest];
     if brightest == 0.0 {
         return [(0, 0.0); 3];

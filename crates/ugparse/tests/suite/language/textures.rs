@@ -63,7 +63,7 @@ fn coordinates_keep_their_bits() {
         });
         let mut scene = parse(if round % 2 == 0 { "v a 0 0 0;" } else { "v a 0 0 0 0 0 1;" });
         scene.vertices[0].uv = Some(uv);
-        let again = parse(&write(&scene)).vertices[0].uv.unwrap();
+        let again = parse(write(&scene)).vertices[0].uv.unwrap();
         assert_eq!(again.map(f32::to_bits), uv.map(f32::to_bits), "{uv:?}");
     }
 }

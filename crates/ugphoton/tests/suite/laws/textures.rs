@@ -123,11 +123,11 @@ fn psnr(text: &str, (toward, angle): (DVec3, f64), samples: [u32; 2]) -> f64 {
         drawn(text, &Config { picture, ..by_shape() })
     });
     let encoded = |light: f32| srgb_encode(f64::from(light).clamp(0.0, 1.0));
-    let square = |(a, b): (&[f32; 4], &[f32; 4])| (encoded(a[1]) - encoded(b[1])).powi(2);
-    let sum: f64 = a.pixels().iter().zip(b.pixels()).map(square).sum();
+    let error = |(a, b): (&[f32; 4], &[f32; 4])| encoded(a[1]) - encoded(b[1]);
+    let sum: f64 = a.pixels().iter().zip(b.pixels()).map(error).map(|error| error * error).sum();
     let n_bright = b.pixels().iter().filter(|pixel| pixel[1] > 0.1).count();
     assert!(20 * n_bright > b.pixels().len(), "{n_bright} pixels are seen");
-    -10.0 * (sum / a.pixels().len() as f64).log10()
+    -10.0 * libm::log10(sum / a.pixels().len() as f64)
 }
 
 /// A floor of 400 x 400 checks to the horizon, and a board: 8 x 8 samples differ from 16 x 16 by no
