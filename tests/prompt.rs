@@ -411,6 +411,17 @@ fn textures_are_drawn_alike() {
     let output = shell.output("uglorentz -vel .5 0 0 < crate.gltf");
     let messages = String::from_utf8(output.stderr).unwrap();
     assert!(messages.contains("textures within a mesh on standard input are left out"), "{messages}");
+    // Films draw them by rays; what they print draws the same.
+    let film = "ugfilm -qt -frames 2 -vel 0..0.6 0 0 -in -sz 60 45";
+    shell.run(&format!("{film} -fo film_%d.png crate.gltf"));
+    let printed =
+        String::from_utf8(shell.output(&format!("{film} --print -fo shell_%d.png crate.gltf")).stdout);
+    let printed = printed.unwrap();
+    assert!(printed.contains(" -xc ") && !printed.contains("ugdoppler"), "{printed}");
+    printed.lines().for_each(|line| drop(shell.run(line)));
+    assert!(pixels("film_2.png") == pixels("shell_2.png"));
+    let plain = shell.output(&format!("{film} -li --print -fo shell_%d.png crate.gltf")).stdout;
+    assert!(String::from_utf8(plain).unwrap().contains("ugdoppler"));
     // A scene in a folder, of which programs see only that.
     std::fs::create_dir(shell.path("sub")).unwrap();
     shell.write("sub/a.ug", b"c w 1; c_tex w \"../crate_texture1.png\";");

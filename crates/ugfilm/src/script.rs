@@ -7,7 +7,7 @@ use ugimage::Format;
 use ugpicture::Output;
 use ugpipe::{Failure, shell_word};
 
-use crate::options::{Given, ParsedCommand, TOOLS, Tool};
+use crate::options::{EXACT_PIPE, Given, PIPE, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
 use crate::program::Program;
 use crate::timeline::{Ease, Quantity, Timeline};
@@ -119,6 +119,23 @@ impl Script {
             setting.timeline = timeline;
         } else {
             self.options.push(Setting { name: name.to_owned(), owners: self.owners(name), timeline });
+        }
+    }
+
+    /// Draws with a ray for every sample (`-xc`), as textures need it, in place of the pipe of three
+    /// programs, unless an option forbids it.
+    pub fn draw_exactly(&mut self) {
+        /// Options of the programs that exclude `-xc`.
+        const SCANLINE: [&str; 4] = ["cb", "og", "nc", "no-flight-time"];
+        let fits = |Setting { name, .. }: &Setting| {
+            !SCANLINE.contains(&name.as_str()) && EXACT_PIPE.iter().any(|tool| tool.has(name))
+        };
+        if self.tools.len() == PIPE.len() && self.options.iter().all(fits) {
+            self.tools = EXACT_PIPE;
+            for row in 0..self.options.len() {
+                self.options[row].owners = self.owners(&self.options[row].name);
+            }
+            self.set("xc", Vec::new());
         }
     }
 
