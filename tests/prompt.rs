@@ -352,13 +352,85 @@ fn meshes_are_read_in_place_of_scenes() {
     let (scene, messages) = run("ugparse flatten a.obj");
     let scene = String::from_utf8(scene).unwrap();
     assert!(scene.contains("c_rgb red 1 0 0;\nc_rgb tiled 0 0 0.7353"), "{scene}");
-    let lent = "textures are not drawn: faces with `tiles.png` have its mean colour";
-    assert!(messages.contains(lent) && messages.contains("--> a.obj"), "{messages}");
+    assert!(scene.contains("c_tex tiled \"tiles.png\";") && messages.is_empty(), "{scene} {messages}");
     std::fs::remove_file(shell.path("tiles.png")).unwrap();
     let (scene, messages) = run("ugparse flatten a.obj");
     assert!(String::from_utf8(scene).unwrap().contains("c_rgb tiled 1 1 1;"));
     let missing = "warning: texture `tiles.png`: No such file or directory; its faces have the colour of their material";
     assert!(messages.contains(missing), "{messages}");
+}
+
+/// Rays and exact pictures draw the same textures: of inertial bodies and of those that turn, from a
+/// mesh and from a scene with its picture beside it, through a pipe.
+#[test]
+fn textures_are_drawn_alike() {
+    let shell = Shell::new(&["crate.gltf"]);
+    shell.run("ugmesh crate.gltf -fo crate.ug");
+    let scene = String::from_utf8(std::fs::read(shell.path("crate.ug")).unwrap()).unwrap();
+    assert!(scene.contains("c_tex wood \"crate_texture1.png\" -wrap clamp;"), "{scene}");
+    let spinning = scene.replace(") wood;", ") wood <turn>;") + "motion turn -acc .05 0 0 -spin 0 .2 .1;";
+    shell.write("spinning.ug", spinning.as_bytes());
+    let view = "-ep 4 -6 3 -vc 0 0 0 -va 30 -sz 60 45 -ex 1";
+    let pixels = |name: &str| {
+        let file = std::fs::read(shell.path(name)).unwrap();
+        ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap().0.into_pixels()
+    };
+    for (name, motion) in [
+        ("crate.gltf", ""),
+        ("crate.gltf", "-vel .3 .6 0 -in"),
+        ("crate.ug", "-vel .8 0 0 -in"),
+        ("spinning.ug", ""),
+    ] {
+        for look in ["light", "1988", "shape"] {
+            shell.run(&format!("ugphoton -qt -look {look} {motion} {view} {name} > rays.png"));
+            shell.run(&format!(
+                "uglorentz -qt {motion} -ep 4 -6 3 {name} | ugrainbow -qt -xc -look {look} {view} > exact.png"
+            ));
+            let (rays, exact) = (pixels("rays.png"), pixels("exact.png"));
+            let off =
+                rays.iter().zip(&exact).filter(|(a, b)| (0..3).any(|at| a[at].abs_diff(b[at]) > 2)).count();
+            assert!(off * 200 < rays.len(), "{name} {motion} {look}: {off} pixels differ");
+            let n_colours = rays.iter().collect::<std::collections::BTreeSet<_>>().len();
+            assert!(n_colours > 100, "{name} {motion} {look}: {n_colours} colours");
+        }
+    }
+    // Without -xc colours are as they are.
+    shell.run(&format!("ugphoton -qt -look shape {view} crate.ug > rays.png"));
+    shell.run(&format!("ugrainbow -qt {view} crate.ug > plain.png"));
+    assert!(pixels("rays.png") == pixels("plain.png"));
+    let output = shell.output("ugrainbow -cb crate.ug");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    let note = "textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them";
+    assert!(messages.contains(note), "{messages}");
+    let output = shell.output("ugrainbow --explain 30,20 -sz 60 45 crate.ug");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(messages.contains("faces with textures are drawn by rays"), "{messages}");
+    let output = shell.output("uglorentz -vel .5 0 0 crate.ug | ugdoppler | ugrainbow");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(messages.contains("plain colour; leave out ugdoppler and give -xc here"), "{messages}");
+    let output = shell.output("uglorentz -vel .5 0 0 < crate.gltf");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(messages.contains("textures within a mesh on standard input are left out"), "{messages}");
+    // Films draw them by rays; what they print draws the same.
+    let film = "ugfilm -qt -frames 2 -vel 0..0.6 0 0 -in -sz 60 45";
+    shell.run(&format!("{film} -fo film_%d.png crate.gltf"));
+    let printed =
+        String::from_utf8(shell.output(&format!("{film} --print -fo shell_%d.png crate.gltf")).stdout);
+    let printed = printed.unwrap();
+    assert!(printed.contains(" -xc ") && !printed.contains("ugdoppler"), "{printed}");
+    printed.lines().for_each(|line| drop(shell.run(line)));
+    assert!(pixels("film_2.png") == pixels("shell_2.png"));
+    let plain = shell.output(&format!("{film} -li --print -fo shell_%d.png crate.gltf")).stdout;
+    assert!(String::from_utf8(plain).unwrap().contains("ugdoppler"));
+    // A scene in a folder, of which programs see only that.
+    std::fs::create_dir(shell.path("sub")).unwrap();
+    shell.write("sub/a.ug", b"c w 1; c_tex w \"../crate_texture1.png\";");
+    let output = shell.output("ugparse check sub/a.ug");
+    let messages = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        messages.contains("cannot read `sub/../crate_texture1.png`") && messages.contains("--allow-outside"),
+        "{messages}"
+    );
 }
 
 /// Values over time may have blanks around their dots.

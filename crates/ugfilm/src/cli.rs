@@ -457,6 +457,10 @@ impl Read {
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
         }
+        let colors = parsed.scene.faces.iter().filter_map(|face| face.color);
+        if colors.into_iter().any(|color| parsed.scene.texture_of(color).is_some()) {
+            script.draw_exactly();
+        }
         if let Some(camera) = default_camera(&parsed.scene, script)? {
             context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));
             let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();

@@ -80,6 +80,9 @@ pub const TOOLS: [&Tool; 5] = [LORENTZ, DOPPLER, RAINBOW, PHOTON, WARP];
 /// The pipe of three programs.
 pub const PIPE: &[&Tool] = &[LORENTZ, DOPPLER, RAINBOW];
 
+/// The pipe with rays for every sample (`-xc`).
+pub const EXACT_PIPE: &[&Tool] = &[LORENTZ, RAINBOW];
+
 /// The programs that draw a film: flatten it into its arguments.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct PipeArgs {
@@ -99,7 +102,7 @@ impl PipeArgs {
         match self {
             Self { warp: true, .. } => &[WARP],
             Self { rays: true, .. } => &[PHOTON],
-            _ if given.iter().any(|option| option.name == "xc") => &[LORENTZ, RAINBOW],
+            _ if given.iter().any(|option| option.name == "xc") => EXACT_PIPE,
             _ => PIPE,
         }
     }

@@ -8,7 +8,7 @@ use ugimage::label::number::significant;
 use ugpicture::{Output, Unit, Units};
 use ugpipe::{Failure, shell_word};
 
-use crate::options::{Given, ParsedCommand, TOOLS, Tool};
+use crate::options::{EXACT_PIPE, Given, PIPE, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
 use crate::program::Program;
 use crate::timeline::{Ease, Quantity, Timeline};
@@ -151,6 +151,23 @@ impl Script {
     /// The rows of frames, of which each has another value of the option with its own slider.
     pub fn n_rows(&self) -> u32 {
         self.across.as_ref().map_or(1, |(_, n_values)| *n_values)
+    }
+
+    /// Draws with a ray for every sample (`-xc`), as textures need it, in place of the pipe of three
+    /// programs, unless an option forbids it.
+    pub fn draw_exactly(&mut self) {
+        /// Options of the programs that exclude `-xc`.
+        const SCANLINE: [&str; 4] = ["cb", "og", "nc", "no-flight-time"];
+        let fits = |Setting { name, .. }: &Setting| {
+            !SCANLINE.contains(&name.as_str()) && EXACT_PIPE.iter().any(|tool| tool.has(name))
+        };
+        if self.tools.len() == PIPE.len() && self.options.iter().all(fits) {
+            self.tools = EXACT_PIPE;
+            for row in 0..self.options.len() {
+                self.options[row].owners = self.owners(&self.options[row].name);
+            }
+            self.set("xc", Vec::new());
+        }
     }
 
     /// The only word of an option that does not change.

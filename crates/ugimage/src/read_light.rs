@@ -59,7 +59,7 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
         [b'#', b'?', ..] => read_hdr::read(file, limits).map(light)?,
         [0x76, 0x2f, 0x31, 0x01, ..] => read_exr::read(file, limits, &mut declared, &mut notes).map(light)?,
         [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => read_pfm::read(file, limits).map(light)?,
-        _ => return Err(ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM")),
+        _ => return Err(ReadError::new(NOT_A_PICTURE)),
     };
     let pixels = match &declared.encoding {
         None => pixels,
@@ -81,6 +81,29 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
     let part = declared.xmp.as_deref().and_then(|xmp| part_of_xmp(xmp, size));
     Ok(ReadPicture { size, pixels, part, notes })
 }
+
+/// Checks the kind of a picture by the first bytes of its file and, of PNG and JPEG, its size by
+/// its header. The pixels are not decoded.
+///
+/// # Errors
+/// [`ReadError`] for files that [`read_picture`] refuses for these reasons.
+pub fn check_picture(file: &[u8], limits: &PictureLimits) -> Result<(), ReadError> {
+    match file {
+        [0x89, b'P', b'N', b'G', ..] => read::read_png_header(file).map(|_| ()),
+        [0xff, 0xd8, 0xff, ..] => {
+            let mut decoder = JpegDecoder::new(ZCursor::new(file));
+            decoder.decode_headers().map_err(|error| unreadable("JPEG", &error))?;
+            let (width, height) = decoder.dimensions().unwrap_or_default();
+            limits.check([width, height], 1).map(|_| ())
+        }
+        [b'#', b'?', ..] | [0x76, 0x2f, 0x31, 0x01, ..] | [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => {
+            Ok(())
+        }
+        _ => Err(ReadError::new(NOT_A_PICTURE)),
+    }
+}
+
+const NOT_A_PICTURE: &str = "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM";
 
 fn jpeg(
     file: &[u8],

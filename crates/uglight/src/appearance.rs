@@ -5,7 +5,7 @@ use ugphysics::spectrum::Spectrum;
 use ugphysics::{Hsv, wavelength_to_hue};
 use ugscene::Scene;
 
-use crate::color::shown_light;
+use crate::color::{encoded_hsv, shown_light};
 use crate::hue_table::HueTable;
 use crate::spectra::Spectra;
 use crate::{
@@ -19,7 +19,8 @@ pub struct SurfaceColor {
     /// The colour, interpolated between the corners of its face, or that of the point itself.
     pub swatch: Swatch,
     /// Where colours are spectra, the spectrum is the mean of those of the corners of its face:
-    /// rows of the colours of vertices ([`SurfaceAttributes::row`]) with their weights.
+    /// rows of the colours of vertices ([`SurfaceAttributes::row`]) with their weights. That of a
+    /// texture is a mixture, too ([`Appearance::texel`]).
     pub rows: [(u32, f64); 3],
 }
 
@@ -119,6 +120,18 @@ impl Appearance {
     /// spectra.
     pub fn is_lit(&self, color: &SurfaceColor) -> bool {
         self.spectra.as_ref().is_none_or(|spectra| strongest(spectra, color.rows).is_surface())
+    }
+
+    /// The colour of a point of a texture with this linear red, green and blue, on a body that moves
+    /// or not. It is drawn as a `c_rgb` is: as light at rest, and as its hue or spectrum in motion.
+    pub fn texel(&self, light: DVec3, translucency: f64, is_moving: bool) -> SurfaceColor {
+        if let Some(spectra) = &self.spectra {
+            let swatch = Swatch { translucency, ..self.palette.white() };
+            return SurfaceColor { swatch, rows: spectra.texel_rows(light) };
+        }
+        let form = if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
+        let swatch = Swatch { form, translucency, ..self.palette.swatch(encoded_hsv(light)) };
+        SurfaceColor::even(swatch, 0)
     }
 
     /// True if colours are spectra, under lamps whose spectra differ from daylight.
@@ -275,7 +288,8 @@ impl Appearance {
     ) -> DVec3 {
         let Some(spectra) = &self.spectra else { return DVec3::ONE };
         let ln_doppler = -libm::log(stretch);
-        parts.into_iter().map(|(row, weight)| weight * spectra.light(row, ln_doppler, place)).sum()
+        let parts = parts.into_iter().filter(|&(_, weight)| weight != 0.0);
+        parts.map(|(row, weight)| weight * spectra.light(row, ln_doppler, place)).sum()
     }
 }
 

@@ -39,6 +39,7 @@
 
 mod appearance;
 mod color;
+mod color_lattice;
 mod face_colors;
 mod hue;
 mod hue_table;

@@ -8,6 +8,7 @@ use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, ColorMix, Scene};
 
+use crate::color_lattice::{N_CORNERS, corner, mixture};
 use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
 
 /// The apparent light of mixtures of spectra as a function of the Doppler factor.
@@ -22,6 +23,9 @@ pub struct Spectra {
     reach: f64,
     /// The lamps of the scene; `None` if all of these are daylight.
     lamps: Option<Lamps>,
+    /// The corners of the lattice, behind the colours; made at first use, since a texture has few of
+    /// all colours. Empty without textures.
+    lattice: Vec<OnceLock<SpectralColor>>,
     /// For each colour and lamp, the colour under the lamp, tabulated.
     lit: Vec<OnceLock<DopplerTable>>,
 }
@@ -37,7 +41,9 @@ impl Spectra {
             .map(|row: usize| row.checked_sub(1).map(ColorId::from_index))
             .map(|color| SpectralColor::new(scene, color).tabulated(&grid))
             .collect();
-        Self { shift, grid, rows, colors, reach, lamps: None, lit: Vec::new() }
+        let n_corners = if scene.textures.is_empty() { 0 } else { N_CORNERS };
+        let lattice = std::iter::repeat_with(OnceLock::new).take(n_corners).collect();
+        Self { shift, grid, rows, colors, reach, lamps: None, lattice, lit: Vec::new() }
     }
 
     /// The same, with the lamps of the scene for [`Spectra::light`]. `eye`: in scene coordinates.
@@ -46,7 +52,8 @@ impl Spectra {
             return self;
         }
         let lamps = Lamps::new(scene, eye, true);
-        let lit = std::iter::repeat_with(OnceLock::new).take(self.colors.len() * lamps.len()).collect();
+        let n_colors = self.colors.len() + self.lattice.len();
+        let lit = std::iter::repeat_with(OnceLock::new).take(n_colors * lamps.len()).collect();
         Self { lamps: Some(lamps), lit, ..self }
     }
 
@@ -65,7 +72,7 @@ impl Spectra {
         let is_near = ln_doppler.abs() <= self.reach + 1e-9;
         let (ln_shift, gain) = (self.shift.ln_shift(ln_doppler), self.shift.ln_gain(ln_doppler));
         self.mean(row, |row| {
-            let color = &self.colors[row];
+            let color = self.color(row);
             if let (Some(lamps), Some(place), true) = (&self.lamps, place, color.spectrum().is_surface()) {
                 return libm::exp(gain) * self.xyz_under(lamps, row, ln_shift, place);
             }
@@ -91,7 +98,7 @@ impl Spectra {
             if level > 0.0 {
                 // Made at first use, since few colours are seen under each lamp.
                 let table = self.lit[row * lamps.len() + at].get_or_init(|| {
-                    let surface = self.colors[row].spectrum();
+                    let surface = self.color(row).spectrum();
                     let lit = |doppler: f64| surface.under(lamp.spectrum(), doppler, 1.0);
                     self.grid.table_of(|doppler| lit(doppler).unwrap_or_default())
                 });
@@ -110,21 +117,42 @@ impl Spectra {
         lamps: &[Lamp],
         filters: &[SpectralFilter<'_>],
     ) -> DVec3 {
-        self.mean(row, |row| self.shift.seen_lit(self.colors[row].spectrum(), doppler, light, lamps, filters))
+        self.mean(row, |row| self.shift.seen_lit(self.color(row).spectrum(), doppler, light, lamps, filters))
+    }
+
+    /// The rows of a mixture that is seen as a colour of a texture.  Eq. (P51)
+    pub fn texel_rows(&self, light: DVec3) -> [(u32, f64); 3] {
+        // Colours of vertices are not more than 2^32 with the lattice.
+        let first = self.rows.len() as u32;
+        mixture(light).map(|(corner, share)| (first + corner, share))
+    }
+
+    /// The colour of this row of the colours, or of the lattice behind them.
+    fn color(&self, row: usize) -> &SpectralColor {
+        match row.checked_sub(self.colors.len()) {
+            None => &self.colors[row],
+            Some(at) => self.lattice[at].get_or_init(|| SpectralColor::of(corner(at)).tabulated(&self.grid)),
+        }
+    }
+
+    /// The rows of colours in a row of colours of vertices, or of the lattice, with their shares.
+    fn parts(&self, row: u32) -> impl Iterator<Item = (usize, f64)> {
+        let mix = self.rows.get(row as usize);
+        let corner = mix.is_none().then(|| (self.colors.len() + row as usize - self.rows.len(), 1.0));
+        let parts = mix.into_iter().flat_map(|mix| mix.parts());
+        parts.map(|(color, share)| (color_row(color), share)).chain(corner)
     }
 
     /// The strongest colour of a row.
     pub fn spectrum(&self, row: u32) -> &Spectrum {
-        let parts = self.rows[row as usize].parts();
-        let strongest = parts.reduce(|best, part| if part.1 > best.1 { part } else { best });
-        self.colors[color_row(strongest.and_then(|(color, _)| color))].spectrum()
+        let strongest = self.parts(row).reduce(|best, part| if part.1 > best.1 { part } else { best });
+        self.color(strongest.map_or(0, |(color, _)| color)).spectrum()
     }
 
     /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue. `seen`: of the
     /// row of a colour.
     fn mean(&self, row: u32, seen: impl Fn(usize) -> DVec3) -> DVec3 {
-        let parts = self.rows[row as usize].parts();
-        let xyz: DVec3 = parts.map(|(color, share)| share * seen(color_row(color))).sum();
+        let xyz: DVec3 = self.parts(row).map(|(color, share)| share * seen(color)).sum();
         let limited = ugphysics::limited(xyz.to_array(), ugphysics::MOST_LIGHT);
         DVec3::from_array(xyz_to_linear_srgb(limited))
     }

@@ -97,9 +97,15 @@ impl SpectralColor {
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         let (spectrum, is_exact) = match color {
             Some(color) => spectrum(scene, &scene.colors[color.index()]),
-            None => (Spectrum::from_linear_srgb([1.0; 3]), true),
+            None => return Self::of([1.0; 3]),
         };
         Self { spectrum, is_exact, table: None }
+    }
+
+    /// The spectrum of a surface of these linear red, green and blue.
+    #[must_use]
+    pub fn of(linear: [f64; 3]) -> Self {
+        Self { spectrum: Spectrum::from_linear_srgb(linear), is_exact: true, table: None }
     }
 
     /// The same, tabulated over D: soon found for many factors.

@@ -2,7 +2,7 @@
 
 use std::borrow::Borrow;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use uglight::{Mixing, RestColor, VertexColor};
 use ugphysics::{Hsv, srgb_encode, unit_or_zero};
@@ -63,8 +63,9 @@ pub(crate) fn add_vertices(
             shades.push((shade, shares));
         }
         let normal = mean_normal(scene, recipe);
+        let uv = mean_uv(scene, recipe);
         let name = scene.names.add_parts(&[&prefix, &(idx + 1).to_string()]);
-        scene.add_vertex(Vertex { name, position: DVec3::ZERO, color, normal });
+        scene.add_vertex(Vertex { name, position: DVec3::ZERO, color, normal, uv });
     }
     Some(inherits)
 }
@@ -143,6 +144,16 @@ fn mean_normal(scene: &Scene, recipe: &Recipe) -> Option<DVec3> {
         .map(|(vertex, weight)| Some(unit_or_zero(vertex.normal?) * weight))
         .sum::<Option<DVec3>>()?
         .try_normalize()
+}
+
+/// The mean of the parents' texture coordinates, which is linear at rest; `None` if a parent has
+/// none.
+fn mean_uv(scene: &Scene, recipe: &Recipe) -> Option<[f32; 2]> {
+    let part = |(vertex, weight): (&Vertex, f64)| {
+        Some(vertex.uv?.map(f64::from)).map(|[u, v]| DVec2::new(u, v) * weight)
+    };
+    let mean = parents(scene, recipe).map(part).sum::<Option<DVec2>>()?;
+    Some([mean.x as f32, mean.y as f32])
 }
 
 /// Mixes colours. Equal mixtures share a statement.

@@ -154,6 +154,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let note = boxes.note(&scene, &config.motion(), &camera, config.size);
         note.iter().for_each(|note| context.note(&note.words()));
     }
+    pipe::unnamed_textures(&scene).into_iter().for_each(|note| context.note(note));
     report.details().iter().for_each(|detail| context.detail(detail));
     if let (Some(path), Some(table)) = (&args.attributes, table) {
         context.steps().step("measuring", 0);

@@ -10,7 +10,7 @@ use ugparse::pipe;
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words};
 use ugscene::Provenance;
 
-use crate::{Axis, Config, Error, MeshFile, MeshFormat, PROVENANCE, Size, Target};
+use crate::{Axis, Config, Error, MeshFile, MeshFormat, PROVENANCE, PictureFiles, Size, Target};
 
 /// Converts meshes of other programs to UniGrafix and back
 ///
@@ -153,6 +153,7 @@ impl Args {
             stage: self.stage,
             rest_normals: self.rest_normals,
             name: self.name.clone().unwrap_or_default(),
+            pictures: self.picture_files(),
             reading: pipe::options(&self.common)?,
         })
     }
@@ -164,6 +165,16 @@ impl Args {
             None if target != Target::Ug => format!("{command_line} -dt {}", target.name()),
             _ => command_line.to_owned(),
         }
+    }
+
+    /// Where a scene that is written to a file finds its pictures.
+    fn picture_files(&self) -> Option<PictureFiles> {
+        let output = self.common.output().filter(|path| is_file_or_new(path))?;
+        let folder = |path: &Path| fs::canonicalize(Path::new(".").join(path.parent()?)).ok();
+        Some(PictureFiles {
+            stem: output.file_stem()?.to_str()?.replace('"', "_"),
+            is_beside_mesh: self.common.input().is_some_and(|mesh| folder(mesh) == folder(output)),
+        })
     }
 
     /// The output format. An unknown extension is an error, so that no file has an extension that
@@ -272,7 +283,15 @@ pub fn main() -> ExitCode {
             context.report(&findings.report());
         }
         converted.warnings.iter().for_each(|warning| context.warn(warning));
-        converted.notes.iter().for_each(|note| context.note(note));
+        for note in &converted.notes {
+            let is_scene = config.target == Target::Ug;
+            let remedy = if is_scene { "; name its file on the command line" } else { "" };
+            context.note(&format!("{note}{remedy}"));
+        }
+        let folder = args.common.output().and_then(Path::parent).unwrap_or(Path::new(""));
+        for (name, bytes) in &converted.pictures {
+            context.write_file(&folder.join(name), bytes)?;
+        }
         context.detail(&format!("{} bytes", converted.bytes.len()));
         context.write(&converted.bytes)
     })

@@ -64,6 +64,11 @@ impl Target {
         }
     }
 
+    /// True if the format has pictures on surfaces.
+    pub(crate) fn has_textures(self) -> bool {
+        matches!(self, Self::Gltf | Self::Glb)
+    }
+
     /// True if the format has cameras.
     pub(crate) fn has_camera(self) -> bool {
         matches!(self, Self::Gltf | Self::Glb)

@@ -35,6 +35,7 @@ mod staging;
 mod write;
 
 use std::io;
+use std::sync::Arc;
 
 use ugparse::{Diagnostics, Options, Origin, Source};
 use ugscene::{Provenance, Scene};
@@ -72,8 +73,20 @@ pub struct Config {
     pub rest_normals: bool,
     /// Prefix of the names of vertices and colours that are generated.
     pub name: String,
+    /// Where a scene finds the pictures of textures; by default where the mesh has them.
+    pub pictures: Option<PictureFiles>,
     /// The options for reading UniGrafix.
     pub reading: Options,
+}
+
+/// Where a scene that is written finds the pictures of textures.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct PictureFiles {
+    /// The beginning of the names of files beside the scene, for pictures that are within the mesh.
+    pub stem: String,
+    /// The scene is in the folder of the mesh: files that the mesh names are found as they are. If
+    /// not, they are written beside the scene as well.
+    pub is_beside_mesh: bool,
 }
 
 /// Replaces the `include` statements of a scene by the files that they name.
@@ -130,6 +143,8 @@ impl<'a> MeshFile<'a> {
 pub struct Converted {
     /// The converted mesh or scene.
     pub bytes: Vec<u8>,
+    /// Pictures of textures to be written beside the scene: names and bytes.
+    pub pictures: Vec<(String, Arc<[u8]>)>,
     /// Notes for the user, such as parts that are left out.
     pub notes: Vec<String>,
     /// Warnings about possible errors in a mesh.
@@ -170,8 +185,14 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
         staging::add(&mut scene);
     }
     scene.remarks.record(input.provenance);
-    let (bytes, notes) = write::write(scene, config.target, is_placed)?;
-    Ok(Converted { bytes, notes, warnings, diagnostics })
+    let mut pictures = Vec::new();
+    let mut missing = None;
+    if config.target == Target::Ug {
+        (pictures, missing) = pictures_of(&mut scene, config.pictures.as_ref(), &input.name);
+    }
+    let (bytes, mut notes) = write::write(scene, config.target, is_placed)?;
+    notes.extend(missing);
+    Ok(Converted { bytes, pictures, notes, warnings, diagnostics })
 }
 
 struct Loaded {
@@ -198,6 +219,42 @@ fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
     let source = (input.resolve_includes)(source)?;
     let parsed = ugparse::parse(&source, &config.reading)?;
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
+}
+
+/// Names and bytes of files.
+type Files = Vec<(String, Arc<[u8]>)>;
+
+/// Names the pictures of a scene by files beside it; returns those to be written. Without such
+/// files they are where the mesh has them, from the current folder.
+fn pictures_of(scene: &mut Scene, files: Option<&PictureFiles>, mesh: &str) -> (Files, Option<String>) {
+    let mut pictures: Files = Vec::new();
+    let Some(PictureFiles { stem, is_beside_mesh }) = files else {
+        ugparse::name_pictures(scene, mesh);
+        let is_unnamed = scene.textures.iter().any(|texture| texture.image.file.is_none());
+        let note = "textures within a mesh from standard input are left out".to_owned();
+        return (pictures, is_unnamed.then_some(note));
+    };
+    for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
+        let is_file =
+            image.row.is_none() && image.file.as_ref().is_some_and(|file| !file.contains(['"', '\n']));
+        if *is_beside_mesh && is_file {
+            continue;
+        }
+        let row = pictures.iter().position(|(_, bytes)| *bytes == image.bytes).unwrap_or_else(|| {
+            let ending = match image.bytes[..] {
+                [0x89, ..] => "png",
+                [0xff, ..] => "jpg",
+                [b'#', ..] => "hdr",
+                [0x76, ..] => "exr",
+                _ => "pfm",
+            };
+            pictures
+                .push((format!("{stem}_texture{}.{ending}", pictures.len() + 1), Arc::clone(&image.bytes)));
+            pictures.len() - 1
+        });
+        (image.file, image.row) = (Some(pictures[row].0.clone()), None);
+    }
+    (pictures, None)
 }
 
 /// Turns, scales and moves the mesh. Returns false if it did nothing.

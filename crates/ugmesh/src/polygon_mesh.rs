@@ -4,7 +4,8 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use uglight::hsv;
-use ugscene::{ColorId, ColorValue, Contours, NameId, Scene, VertexId};
+use ugphysics::{srgb_decode, srgb_encode};
+use ugscene::{ColorId, ColorValue, Contours, NameId, Scene, Texture, VertexId};
 
 /// The polygons that a format supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,17 +32,23 @@ pub(crate) struct PolygonMesh {
 }
 
 impl PolygonMesh {
-    /// `has_camera`: whether the format has cameras.
-    pub fn new(mut scene: Scene, kind: Polygons, has_camera: bool) -> Self {
+    /// `has_camera`: whether the format has cameras. `has_textures`: whether it has pictures on
+    /// surfaces; in others these have their plain colour.
+    pub fn new(mut scene: Scene, kind: Polygons, has_camera: bool, has_textures: bool) -> Self {
         let mut notes = Vec::new();
         note_count(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
         note_count(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
         if !has_camera {
             note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");
         }
+        if !has_textures && !scene.textures.is_empty() {
+            notes.push("the format has no textures: their faces have a plain colour".to_string());
+            scene.textures.clear();
+        }
         leave_out_wires(&mut scene);
         separate_colors(&mut scene);
-        let colors = vertex_colors(&scene, &mut notes);
+        let mut colors = vertex_colors(&scene, &mut notes);
+        colors.iter_mut().for_each(|colors| apply_factors(&scene, colors));
         let (polygons, faces) = polygons(&scene, kind, &mut notes);
         Self { scene, colors, polygons, faces, notes }
     }
@@ -58,9 +65,10 @@ impl PolygonMesh {
         for polygon in all.clone() {
             let face = &self.scene.faces[self.faces[polygon as usize] as usize];
             let row = *rows.entry((face.name.map(text), face.color)).or_insert_with_key(|&(name, color)| {
+                let texture = color.and_then(|color| self.scene.texture_of(color)).cloned();
                 let color = color.map(|color| text(self.scene.colors[color.index()].name));
                 let [name, color] = [name, color].map(|name| name.map(str::to_string));
-                groups.push(Group { name, color, polygons: Vec::new() });
+                groups.push(Group { name, color, texture, polygons: Vec::new() });
                 groups.len() - 1
             });
             groups[row].polygons.push(polygon);
@@ -70,7 +78,7 @@ impl PolygonMesh {
         }
         let count = groups.len();
         self.notes.push(format!("names of faces and colours are left out: {count} are more than {MAX}"));
-        vec![Group { name: None, color: None, polygons: all.collect() }]
+        vec![Group { name: None, color: None, texture: None, polygons: all.collect() }]
     }
 
     /// True if any vertex is transparent.
@@ -104,6 +112,8 @@ pub(crate) struct Group {
     pub name: Option<String>,
     /// The name of their colour.
     pub color: Option<String>,
+    /// The picture that their colour is.
+    pub texture: Option<Texture>,
     /// Rows in the polygons of the mesh.
     pub polygons: Vec<u32>,
 }
@@ -160,13 +170,14 @@ fn separate_colors(scene: &mut Scene) {
     ugscene::split_vertices(scene, &users, |vertex| vertex.color.is_none());
 }
 
-/// The colour of every vertex: its own, otherwise that of its faces, otherwise white.
+/// The colour of every vertex: its own, otherwise that of its faces, otherwise white. Those of a
+/// face with a texture only multiply this.
 fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>> {
     let mut ids: Vec<Option<ColorId>> = scene.vertices.iter().map(|vertex| vertex.color).collect();
     for face in &scene.faces {
         for corner in scene.contours.corners(face.contours.clone()) {
             let id = &mut ids[corner.index()];
-            *id = id.or(face.color);
+            *id = id.or(face.color.filter(|&color| scene.texture_of(color).is_none()));
         }
     }
     let mut n_clipped = 0;
@@ -185,6 +196,23 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
     note_count(notes, n_clipped, "colour brighter than 1 is clipped", "colours brighter than 1 are clipped");
     let color = |id: Option<ColorId>| id.map_or([1.0; 4], |id| palette[id.index()]);
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
+}
+
+/// Multiplies colours that tint textures by the parts of factors above 1, which formats do not have.
+fn apply_factors(scene: &Scene, colors: &mut [[f64; 4]]) {
+    let mut is_done = vec![false; colors.len()];
+    for face in &scene.faces {
+        let Some(texture) = face.color.and_then(|color| scene.texture_of(color)) else { continue };
+        for corner in scene.contours.corners(face.contours.clone()) {
+            let row = corner.index();
+            if scene.vertices[row].color.is_some() && !std::mem::replace(&mut is_done[row], true) {
+                let factors = texture.factor.map(|part| f64::from(part).max(1.0));
+                for (channel, factor) in colors[row].iter_mut().zip(factors).take(3) {
+                    *channel = srgb_encode(srgb_decode(*channel) * factor).min(1.0);
+                }
+            }
+        }
+    }
 }
 
 /// Faces as polygons without holes, and the face of each polygon. A face that cannot be

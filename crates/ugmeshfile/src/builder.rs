@@ -3,7 +3,9 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugpipe::printable;
-use ugscene::{Color, ColorId, ColorValue, Face, NameId, Scene, UniqueNames, Vertex, VertexId, unit_normal};
+use ugscene::{
+    Color, ColorId, ColorValue, Face, NameId, Scene, Texture, UniqueNames, Vertex, VertexId, unit_normal,
+};
 
 use crate::error::Problem;
 use crate::{Lines, MeshScene};
@@ -33,8 +35,9 @@ pub(crate) struct Builder {
     scene: Scene,
     /// Prefix of names, including its `_`.
     prefix: String,
-    /// The colours so far, by their material and the bits of their clipped components.
-    colors: FxHashMap<(String, [u64; 4]), ColorId>,
+    /// The colours so far, by their material, the bits of their clipped components, and their
+    /// texture.
+    colors: FxHashMap<(String, [u64; 4], String), ColorId>,
     color_names: UniqueNames,
     /// The name of the following faces.
     face_name: Option<NameId>,
@@ -85,7 +88,13 @@ impl Builder {
         let name = self.scene.names.add(&format!("{}v{}", self.prefix, row + 1));
         let color = color.map(|color| self.color(color));
         let normal = normal.and_then(usable_normal);
-        self.scene.vertices.push(Vertex { name, position: without_sign_of_zero(position), color, normal });
+        self.scene.vertices.push(Vertex {
+            name,
+            position: without_sign_of_zero(position),
+            color,
+            normal,
+            uv: None,
+        });
         self.lines.vertices.push(self.line);
         Ok(VertexId::from_index(row))
     }
@@ -103,25 +112,40 @@ impl Builder {
         self.scene.vertices[id.index()].normal = normal.and_then(usable_normal);
     }
 
-    /// Adds a copy of a vertex with another normal.
-    pub fn copy(&mut self, id: VertexId, normal: Option<DVec3>) -> Result<VertexId, Problem> {
+    /// Texture coordinates; those that are not finite are dropped.
+    pub fn set_uv(&mut self, id: VertexId, uv: Option<[f32; 2]>) {
+        self.scene.vertices[id.index()].uv = uv.filter(|uv| uv.iter().all(|part| part.is_finite()));
+    }
+
+    /// Adds a copy of a vertex with another normal and other texture coordinates.
+    pub fn copy(
+        &mut self,
+        id: VertexId,
+        normal: Option<DVec3>,
+        uv: Option<[f32; 2]>,
+    ) -> Result<VertexId, Problem> {
         let Vertex { position, color, .. } = self.scene.vertices[id.index()];
         let copy = self.vertex(position, normal, None)?;
         self.scene.vertices[copy.index()].color = color;
+        self.set_uv(copy, uv);
         Ok(copy)
     }
 
     /// The id of a colour without a name; equal colours share one.
     pub fn color(&mut self, rgba: Rgba) -> ColorId {
-        self.material(rgba, "")
+        self.material(rgba, "", None)
     }
 
     /// The id of the colour of a material, which gets its name; materials of the same name share
-    /// one if their colours are equal.
-    pub fn material(&mut self, Rgba(rgba): Rgba, name: &str) -> ColorId {
+    /// one if their colours and textures are equal. The colour of a texture is not set.
+    pub fn material(&mut self, Rgba(rgba): Rgba, name: &str, texture: Option<Texture>) -> ColorId {
         let clipped = rgba.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) + 0.0 });
         let name = scene_name(name);
-        let key = (name, clipped.map(f64::to_bits));
+        let texture_key =
+            texture.as_ref().map_or(String::new(), |Texture { image, wrap, factor, alpha, .. }| {
+                format!("{:?} {wrap:?} {factor:?} {alpha:?}", image.bytes.as_ptr())
+            });
+        let key = (name, clipped.map(f64::to_bits), texture_key);
         if let Some(&known) = self.colors.get(&key) {
             return known;
         }
@@ -135,7 +159,13 @@ impl Builder {
         self.scene.colors.push(Color { name, value, translucency: 1.0 - alpha });
         let id = ColorId::from_index(row);
         self.colors.insert(key, id);
+        self.scene.textures.extend(texture.map(|texture| Texture { color: id, ..texture }));
         id
+    }
+
+    /// True if a colour is a picture.
+    pub fn has_texture(&self, color: ColorId) -> bool {
+        self.scene.texture_of(color).is_some()
     }
 
     /// The name of the following faces: that of their object or group. Nothing remains of a name

@@ -1,57 +1,81 @@
-//! Textures of materials, which lend their mean colour.
+//! Textures of materials, and their mean colours.
 
 use std::collections::BTreeMap;
 
 use ugimage::{PictureLimits, Pixels, read_picture};
 use ugphysics::{srgb_decode, srgb_encode};
-use ugscene::shorten;
+use ugscene::{TextureImage, shorten};
 
 use crate::builder::{Builder, Rgba};
 
 /// Largest number of bytes of a picture file.
 pub(crate) const MAX_TEXTURE_BYTES: u64 = 1 << 28;
 
+/// Checks the kind and the size of a picture file, without decoding its pixels.
+///
+/// # Errors
+/// The reason why it cannot be read.
+pub fn check_picture(file: &[u8]) -> Result<(), String> {
+    ugimage::check_picture(file, &PictureLimits::default()).map_err(|error| error.to_string())
+}
+
 /// The textures of a mesh, each of which is read once.
 #[derive(Default)]
 pub(crate) struct Textures {
-    /// Their mean linear light by name, or why there is none.
-    means: BTreeMap<String, Result<[f64; 3], String>>,
+    /// By name, or why there is none.
+    loaded: BTreeMap<String, Result<LoadedTexture, String>>,
     limits: PictureLimits,
 }
 
+/// A picture of a material.
+#[derive(Clone)]
+pub(crate) struct LoadedTexture {
+    /// Its mean linear light.
+    pub mean: [f64; 3],
+    pub image: TextureImage,
+}
+
+/// Where a picture is from.
+pub(crate) enum TextureOrigin {
+    /// The name of its file.
+    File(String),
+    /// Its row in the mesh.
+    Within(usize),
+}
+
 impl Textures {
-    /// The mean linear light of a texture, if it can be read. `load` returns its file.
-    pub fn mean(&mut self, name: &str, load: impl FnOnce() -> Result<Vec<u8>, String>) -> Option<[f64; 3]> {
-        if !self.means.contains_key(name) {
-            let mean = load().and_then(|file| self.mean_of_file(&file));
-            self.means.insert(name.to_owned(), mean);
+    /// A texture, if it can be read. `load` returns its bytes and where they are from.
+    pub fn load(
+        &mut self,
+        name: &str,
+        load: impl FnOnce() -> Result<(Vec<u8>, TextureOrigin), String>,
+    ) -> Option<LoadedTexture> {
+        if !self.loaded.contains_key(name) {
+            let texture = load().and_then(|(bytes, origin)| {
+                let mean = self.mean_of_file(&bytes)?;
+                let (file, row) = match origin {
+                    TextureOrigin::File(name) => (Some(name), None),
+                    TextureOrigin::Within(row) => (None, u32::try_from(row).ok()),
+                };
+                Ok(LoadedTexture { mean, image: TextureImage { file, row, bytes: bytes.into() } })
+            });
+            self.loaded.insert(name.to_owned(), texture);
         }
-        self.means.get(name)?.clone().ok()
+        self.loaded.get(name)?.clone().ok()
     }
 
-    /// The limit is that of all textures together.
+    /// The limit is that of all textures together, with their files.
     fn mean_of_file(&mut self, file: &[u8]) -> Result<[f64; 3], String> {
         let pixels = read_picture(file, &self.limits).map_err(|error| error.to_string())?.pixels;
-        self.limits.bytes = self.limits.bytes.saturating_sub(pixels.n_bytes());
+        let n_bytes = pixels.n_bytes().saturating_add(file.len() as u64);
+        self.limits.bytes = self.limits.bytes.saturating_sub(n_bytes);
         Ok(mean(&pixels))
     }
 
-    /// Warns of all textures.
+    /// Warns of textures that cannot be read.
     pub fn warn(&self, builder: &mut Builder) {
-        let mut lent = self.means.iter().filter(|(_, mean)| mean.is_ok()).map(|(name, _)| name);
-        if let Some(first) = lent.next() {
-            let more = match lent.count() {
-                0 => String::new(),
-                n => format!(" and {n} more"),
-            };
-            builder.warn(format!(
-                "textures are not drawn: faces with `{}`{more} have its mean colour; to keep the pattern, bake it into \
-                 colours of vertices",
-                shorten(first)
-            ));
-        }
-        for (name, reason) in self.means.iter().filter_map(|(name, mean)| Some((name, mean.as_ref().err()?)))
-        {
+        let failed = self.loaded.iter().filter_map(|(name, texture)| Some((name, texture.as_ref().err()?)));
+        for (name, reason) in failed {
             builder.warn(format!(
                 "texture `{}`: {reason}; its faces have the colour of their material",
                 shorten(name)

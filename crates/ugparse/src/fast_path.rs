@@ -4,14 +4,14 @@
 //! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
-use ugscene::{ColorId, Face, VertexId};
+use ugscene::{ColorId, Face, Vertex, VertexId};
 
 use crate::numbered::Name;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, short_decimal};
+use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, number32, short_decimal};
 
-/// Parses `v ID x y z [color] ;` or `f [ID] contours [color] [< x y z >] ;` at `start` and returns
+/// Parses `v ID x y z [color] [(u v)] ;` or `f [ID] contours [color] [< x y z >] ;` at `start` and returns
 /// the position after it; `None` for everything else.
 #[inline]
 pub(crate) fn statement<'t>(text: &'t [u8], start: usize, scope: &mut Scope<'t>) -> Option<usize> {
@@ -30,10 +30,12 @@ fn vertex<'t>(mut cursor: Cursor<'t>, scope: &mut Scope<'t>) -> Option<usize> {
     let position = cursor.point()?;
     cursor.skip_blank();
     let color = cursor.identifier();
+    cursor.skip_blank();
+    let uv = if cursor.next_is(b'(') { Some(cursor.uv()?) } else { None };
     cursor.mark(b';')?;
     let color = color.map(|color| ColorId::from_index(scope.colors.names.enter(color)));
     scope.n_statements += 1;
-    scope.push_vertex(name, span, position, color, None);
+    scope.push_vertex(name, span, Vertex { uv, ..Vertex::at(position, color) });
     Some(cursor.at)
 }
 
@@ -196,6 +198,18 @@ impl<'t> Cursor<'t> {
     #[inline(always)]
     fn point(&mut self) -> Option<DVec3> {
         Some(DVec3::new(self.number()?, self.number()?, self.number()?))
+    }
+
+    /// `(u v)`
+    fn uv(&mut self) -> Option<[f32; 2]> {
+        self.at += 1;
+        let mut uv = [0.0; 2];
+        for part in &mut uv {
+            let (behind, value) = number32(&self.text[self.at..]).ok()?;
+            (self.at, *part) = (self.text.len() - behind.len(), value);
+        }
+        self.mark(b')')?;
+        Some(uv)
     }
 
     /// `< x y z >` or `< NAME >`

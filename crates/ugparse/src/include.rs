@@ -5,7 +5,8 @@
 //! that messages name the original file and line. The caller reads the files and runs the programs;
 //! this module does not access the system.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
@@ -17,12 +18,13 @@ use crate::options::{Limit, Options};
 use crate::parallel_reader::read_document;
 use crate::reader::RequestStatement;
 use crate::refuse_errors;
-use crate::request::{Request, RequestError, RequestKind};
-use crate::source::{LineMark, Source};
+use crate::request::{Request, RequestError, RequestKind, relative_to, without_dots};
+use crate::source::{Images, LineMark, Source};
 use crate::token::{comment, escape, line_end, word};
 
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
-/// programs, and the file name after `-path` by the events in that file. With the feature
+/// programs, the file name after `-path` by the events in that file, and that of a picture by its
+/// path from the current folder; the bytes of pictures are kept for the scene. With the feature
 /// `cli` it reads a mesh of another format, with the files that it names.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
@@ -68,10 +70,14 @@ pub fn include(
         open: vec![(path, first)],
         n_files: 0,
         tables: FxHashMap::default(),
+        images: Images::new(),
+        n_image_bytes: 0,
+        mesh_files: FxHashMap::default(),
         out: Vec::new(),
     };
     inclusion.run()?;
-    Ok(Source::new(name, inclusion.out).with_origin(origin))
+    let Inclusion { out, images, .. } = inclusion;
+    Ok(Source { images, ..Source::new(name, out).with_origin(origin) })
 }
 
 /// Does one of the keywords occur anywhere in the text?
@@ -79,16 +85,20 @@ fn may_have_requests(text: &[u8]) -> bool {
     let has_word = |word: &str| memchr::memmem::find(text, word.as_bytes()).is_some();
     // Programs write the events of a path in parentheses.
     let names_a_file = |at: usize| !matches!(text[at + PATH.len()..].trim_ascii_start(), [b'(' | b'<', ..]);
-    ["include", "execute"].into_iter().any(has_word)
+    ["include", "execute", "c_tex"].into_iter().any(has_word)
         || memchr::memmem::find_iter(text, PATH).any(names_a_file)
 }
 
 const PATH: &[u8] = b"-path";
 
+/// The most bytes of the file of a picture.
+const MOST_IMAGE_BYTES: u64 = 1 << 28;
+
 /// The error for a statement in a text that was not passed through [`include`].
 pub(crate) fn not_replaced(statement: &RequestStatement) -> Diagnostic {
     let (message, label) = match statement.kind {
         RequestKind::Include => ("files are not included here", "asks for a file"),
+        RequestKind::Image => ("pictures are not read here", "asks for a file"),
         RequestKind::Path => ("tables are not read here", "asks for a file"),
         RequestKind::Execute => ("programs are not run here", "asks for a program"),
     };
@@ -128,6 +138,10 @@ struct Inclusion<'i> {
     tables: FxHashMap<PathBuf, Vec<u8>>,
     /// Bytes of all texts so far, open ones included.
     n_bytes: u64,
+    images: Images,
+    n_image_bytes: u64,
+    /// Meshes that pictures are within.
+    mesh_files: FxHashMap<PathBuf, Arc<[u8]>>,
     out: Vec<u8>,
 }
 
@@ -144,12 +158,14 @@ impl Inclusion<'_> {
             self.out.extend_from_slice(&text.source.text[text.n_done..statement.span.start as usize]);
             text.n_replaced += 1;
             text.n_done = statement.span.end as usize;
-            if statement.kind == RequestKind::Path {
-                self.events(statement)?;
-            } else {
-                let next = self.load(statement)?;
-                self.open.push(next);
-                self.mark();
+            match statement.kind {
+                RequestKind::Path => self.events(statement)?,
+                RequestKind::Image => self.image(statement)?,
+                RequestKind::Include | RequestKind::Execute => {
+                    let next = self.load(statement)?;
+                    self.open.push(next);
+                    self.mark();
+                }
             }
         }
         Ok(())
@@ -181,12 +197,69 @@ impl Inclusion<'_> {
         Ok(())
     }
 
+    /// Writes the path of a picture, whose bytes are kept.
+    fn image(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
+        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
+        let path = relative_to(&source.name, &source.slice(statement.file));
+        let name = path.to_string_lossy().into_owned();
+        if name.contains(['"', '\n']) {
+            let (source, finding) = self.finding(statement);
+            let finding = finding(format!("the path `{name}` has a quotation mark or a line end"));
+            return Err(Diagnostics::one(source, finding.help("rename its folder")));
+        }
+        let key = (name, statement.row);
+        if !self.images.contains_key(&key) {
+            let file = match self.mesh_files.get(&path) {
+                Some(file) => Arc::clone(file),
+                None => self.fetch(statement)?.1.into(),
+            };
+            let picture = self.picture(statement, &file, &path)?;
+            if statement.row.is_some() {
+                self.mesh_files.insert(path, file);
+            }
+            self.images.insert(key.clone(), picture);
+        }
+        self.out.push(b'"');
+        self.out.extend_from_slice(key.0.as_bytes());
+        self.out.push(b'"');
+        Ok(())
+    }
+
+    /// The picture that a file is, or that is in a mesh.
+    #[cfg(feature = "cli")]
+    fn picture(
+        &self,
+        statement: RequestStatement,
+        file: &Arc<[u8]>,
+        path: &Path,
+    ) -> Result<Arc<[u8]>, Diagnostics> {
+        let picture = match statement.row {
+            Some(row) => ugmeshfile::picture_within(file, row as usize).map(Arc::from),
+            None => Ok(Arc::clone(file)),
+        };
+        let checked = picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
+        checked.map_err(|problem| {
+            let (source, finding) = self.finding(statement);
+            let finding = finding(format!("cannot read `{}`: {problem}", path.display()));
+            let help = match statement.row {
+                Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
+                None => "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels",
+            };
+            Diagnostics::one(source, finding.help(help))
+        })
+    }
+
+    #[cfg(not(feature = "cli"))]
+    fn picture(&self, _: RequestStatement, file: &Arc<[u8]>, _: &Path) -> Result<Arc<[u8]>, Diagnostics> {
+        Ok(Arc::clone(file))
+    }
+
     /// The innermost open text, and an error at a request in it.
     fn finding(&self, statement: RequestStatement) -> (&Source, impl Fn(String) -> Diagnostic + use<>) {
         let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
         let label = match statement.kind {
             RequestKind::Include => "included here",
-            RequestKind::Path => "read here",
+            RequestKind::Path | RequestKind::Image => "read here",
             RequestKind::Execute => "run here",
         };
         (source, move |message: String| Diagnostic::error(statement.file, message).label(label))
@@ -226,7 +299,7 @@ impl Inclusion<'_> {
         let (source, finding) = self.finding(statement);
         let shown = source.slice(statement.file);
         let text = match statement.kind {
-            RequestKind::Include | RequestKind::Path => format!("file `{shown}`"),
+            RequestKind::Include | RequestKind::Path | RequestKind::Image => format!("file `{shown}`"),
             RequestKind::Execute => format!("the output of `{shown}`"),
         };
         let help =
@@ -247,15 +320,24 @@ impl Inclusion<'_> {
             let finding = finding("too many files are included".into());
             return Err(refuse(finding.limited(limits, Limit::Files, "include fewer")));
         }
-        let room = limits.get(Limit::Text).saturating_sub(self.n_bytes);
+        let is_image = statement.kind == RequestKind::Image;
+        let (limit, n_before) =
+            if is_image { (Limit::Memory, self.n_image_bytes) } else { (Limit::Text, self.n_bytes) };
+        let most = if is_image { MOST_IMAGE_BYTES } else { u64::MAX };
+        let room = limits.get(limit).saturating_sub(n_before).min(most);
         let text = (self.loader)(&Request { kind: statement.kind, path: &path, room }).map_err(|error| {
             refuse(finding(complaint(statement.kind, &path, &error)).help(remedy(statement.kind, &error)))
         })?;
         if text.len() as u64 > room {
-            let finding = finding(format!("with the text of `{shown}` the scene is too large"));
-            return Err(refuse(finding.limited(limits, Limit::Text, "split it")));
+            let what = if is_image { "picture" } else { "text" };
+            let finding = finding(format!("with the {what} of `{shown}` the scene is too large"));
+            if room == MOST_IMAGE_BYTES {
+                let help = format!("a file of a picture may have {MOST_IMAGE_BYTES} bytes; make it smaller");
+                return Err(refuse(finding.help(help)));
+            }
+            return Err(refuse(finding.limited(limits, limit, "split it")));
         }
-        self.n_bytes += text.len() as u64;
+        *(if is_image { &mut self.n_image_bytes } else { &mut self.n_bytes }) += text.len() as u64;
         Ok((path, text))
     }
 
@@ -272,7 +354,7 @@ impl Inclusion<'_> {
 fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
     let path = path.display();
     match (error, kind) {
-        (RequestError::System(error), RequestKind::Include | RequestKind::Path) => {
+        (RequestError::System(error), RequestKind::Include | RequestKind::Path | RequestKind::Image) => {
             format!("cannot read `{path}`: {error}")
         }
         (RequestError::System(error), RequestKind::Execute) => format!("cannot run `{path}`: {error}"),
@@ -293,6 +375,9 @@ fn beginning(text: &str) -> String {
 fn remedy(kind: RequestKind, error: &RequestError) -> String {
     match (error, kind) {
         (RequestError::System(_), RequestKind::Include) => "names are relative to the file that includes",
+        (RequestError::System(_), RequestKind::Image) => {
+            "names of pictures are relative to the file that has the statement, or to the current folder in a pipe"
+        }
         (RequestError::System(_), RequestKind::Path) => "names are relative to the file that has the motion",
         (RequestError::System(_), RequestKind::Execute) => {
             "names are relative to the file that has the statement; the file must be a program"
@@ -300,18 +385,6 @@ fn remedy(kind: RequestKind, error: &RequestError) -> String {
         (RequestError::Failed { .. }, _) => "run it separately to see the error",
     }
     .to_string()
-}
-
-/// The path of `name`, relative to the folder of `file`.
-fn relative_to(file: &str, name: &str) -> PathBuf {
-    without_dots(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
-}
-
-/// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the
-/// folder of the link.
-fn without_dots(path: &Path) -> PathBuf {
-    let path: PathBuf = path.components().filter(|component| *component != Component::CurDir).collect();
-    if path.as_os_str().is_empty() { ".".into() } else { path }
 }
 
 /// Is the first word after comments, escapes and line marks a keyword?

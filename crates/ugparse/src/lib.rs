@@ -88,6 +88,8 @@ pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;
 pub use flatness::FLAT;
 pub use include::include;
+#[cfg(feature = "cli")]
+pub use mesh::name_pictures;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
 #[cfg(feature = "triangles")]
@@ -133,7 +135,9 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let mut findings = Vec::new();
     let mut document = parallel_reader::read_document(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
-    findings.extend(document.requests.iter().map(include::not_replaced));
+    // A scene without the files of its pictures is complete.
+    let texts = document.requests.iter().filter(|request| request.kind != RequestKind::Image);
+    findings.extend(texts.map(include::not_replaced));
     refuse_errors(source, &mut findings)?;
 
     let stage = document.stage.map_or_else(Stage::default, |(stage, _)| stage);
@@ -142,7 +146,13 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
         findings.extend(rgb_as_hsv::warning(text, &document.scopes));
     }
     let mut scene = Scene { stage, ..Scene::default() };
-    let links = resolve::resolve(text, &mut document.scopes, &mut scene, &options.limits, &mut findings);
+    let links = resolve::resolve(
+        (text, &source.images),
+        &mut document.scopes,
+        &mut scene,
+        &options.limits,
+        &mut findings,
+    );
     refuse_errors(source, &mut findings)?;
 
     let (scene, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);

@@ -30,6 +30,12 @@ pub(crate) fn push_number(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, value: 
     out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
 }
 
+/// Writes the shortest decimal that reads back to the same 32 bits.
+pub(crate) fn push_number32(out: &mut Vec<u8>, numbers: &mut zmij::Buffer, value: f32) {
+    let text = numbers.format_finite(value);
+    out.extend_from_slice(text.strip_suffix(".0").unwrap_or(text).as_bytes());
+}
+
 /// Decimal digits of an integer of at most six digits.
 fn short_integer(value: i32, digits: &mut [u8; 8]) -> &[u8] {
     let mut rest = value.unsigned_abs();

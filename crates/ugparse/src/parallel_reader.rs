@@ -184,6 +184,12 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
             table.rows.iter_mut().for_each(|(_, color)| *color = offset.colors[color.index()]);
         },
     );
+    file.textures = join_tables(
+        &mut parts,
+        &offsets,
+        |part| &mut part.textures,
+        |texture, offset| texture.color = offset.colors[texture.color.index()],
+    );
     file.surfaces.table = join_tables(&mut parts, &offsets, |part| &mut part.surfaces.table, |_, _| {});
     file.escapes = join_tables(&mut parts, &offsets, |part| &mut part.escapes, |_, _| {});
     file.unknown = join_tables(&mut parts, &offsets, |part| &mut part.unknown, |_, _| {});

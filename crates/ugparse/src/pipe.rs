@@ -60,7 +60,9 @@ pub fn follow(source: Source, options: &Options, context: &Context) -> Result<So
 
 fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestError> {
     match request.kind {
-        RequestKind::Include | RequestKind::Path => Ok(context.read_named(request.path, request.room + 1)?),
+        RequestKind::Include | RequestKind::Path | RequestKind::Image => {
+            Ok(context.read_named(request.path, request.room + 1)?)
+        }
         RequestKind::Execute => {
             let printed = context.run_named(request.path, request.room + 1)?;
             if let Some(status) = printed.failure {
@@ -77,4 +79,12 @@ fn load(request: &Request<'_>, context: &Context) -> Result<Vec<u8>, RequestErro
 /// The failure of a run because of errors in the scene.
 pub fn refused(findings: Diagnostics) -> Failure {
     Failure::Report(findings.report())
+}
+
+/// The note on textures that the text of a scene leaves out, because they are within a mesh from
+/// standard input, which no file name refers to.
+pub fn unnamed_textures(scene: &ugscene::Scene) -> Option<&'static str> {
+    let is_unnamed = |texture: &ugscene::Texture| texture.image.file.is_none();
+    let note = "textures within a mesh on standard input are left out; name its file on the command line";
+    scene.textures.iter().any(is_unnamed).then_some(note)
 }

@@ -10,7 +10,7 @@ use crate::options::{Limit, Options};
 use crate::request::RequestKind;
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::statement::{PathStatement, References, Statement};
+use crate::statement::{FileStatement, PathStatement, References, Statement};
 use crate::token::{
     Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
     mark, skip_statement, syntax_error, wanted, without_mark, word,
@@ -28,7 +28,7 @@ pub(crate) struct Document<'t> {
     pub first_statement: Option<u32>,
     /// Line marks of the C preprocessor.
     pub line_marks: Vec<LineMark>,
-    /// `include` and `execute` statements, and the files of `-path`.
+    /// `include` and `execute` statements, and the files of `-path` and `c_tex`.
     pub requests: Vec<RequestStatement>,
     /// The stage of the scene and where it is stated, taken out of the escapes.
     pub stage: Option<(Stage, Span)>,
@@ -42,7 +42,7 @@ pub(crate) struct CommentSpan {
     pub trailing: bool,
 }
 
-/// `include FILE ;`, `execute FILE ;` or the file of `-path FILE`; the text that replaces it takes
+/// `include FILE ;`, `execute FILE ;`, or the file of `-path FILE` or `c_tex`; the text that replaces it takes
 /// the place of `span`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RequestStatement {
@@ -52,6 +52,8 @@ pub(crate) struct RequestStatement {
     pub file: Span,
     /// Of a path, the name of its motion.
     pub motion: Option<Span>,
+    /// Of a picture within a mesh, its row.
+    pub row: Option<u32>,
 }
 
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
@@ -241,16 +243,18 @@ impl<'t, 'f> Reader<'t, 'f> {
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         let span = self.span(input, rest);
         let row = self.open[self.open.len() - 1];
-        if let Statement::Motion(motion) = &statement
-            && let Some(PathStatement::File { span, name }) = motion.path
-        {
-            let motion = Some(motion.name);
-            self.document.requests.push(RequestStatement {
-                kind: RequestKind::Path,
-                span,
-                file: name,
-                motion,
-            });
+        let request = match &statement {
+            Statement::Texture(texture) => {
+                Some((RequestKind::Image, texture.file, None, texture.texture.image.row))
+            }
+            Statement::Motion(motion) => match motion.path {
+                Some(PathStatement::File(file)) => Some((RequestKind::Path, file, Some(motion.name), None)),
+                _ => None,
+            },
+            _ => None,
+        };
+        if let Some((kind, FileStatement { span, name: file }, motion, row)) = request {
+            self.document.requests.push(RequestStatement { kind, span, file, motion, row });
         }
         self.document.first_statement.get_or_insert(span.start);
         self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
@@ -303,6 +307,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             span: self.span(input, rest),
             file,
             motion: None,
+            row: None,
         });
         Ok(rest)
     }

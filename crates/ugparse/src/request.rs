@@ -1,15 +1,17 @@
 //! Requests of a scene for other texts, which the caller answers.
 
 use std::io;
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
-/// The kind of a requested text.
+/// The kind of a requested text or picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequestKind {
     /// `include`: the bytes of a file.
     Include,
     /// `-path` of a motion: the bytes of a file, a table of events.
     Path,
+    /// `c_tex`: the bytes of a picture.
+    Image,
     /// `execute`: the standard output of a program.
     Execute,
 }
@@ -43,4 +45,16 @@ impl From<io::Error> for RequestError {
     fn from(error: io::Error) -> Self {
         Self::System(error)
     }
+}
+
+/// The path of `name`, relative to the folder of `file`.
+pub(crate) fn relative_to(file: &str, name: &str) -> PathBuf {
+    without_dots(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
+}
+
+/// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the
+/// folder of the link.
+pub(crate) fn without_dots(path: &Path) -> PathBuf {
+    let path: PathBuf = path.components().filter(|component| *component != Component::CurDir).collect();
+    if path.as_os_str().is_empty() { ".".into() } else { path }
 }

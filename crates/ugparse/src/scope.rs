@@ -11,8 +11,8 @@ use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
     Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, LightKind,
-    LightMotion, Mix, NameId, Names, Shading, ShadingId, SurfaceId, SurfaceProperties, Tint, Vertex,
-    VertexId, Wire,
+    LightMotion, Mix, NameId, Names, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture, TextureImage,
+    Tint, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;
@@ -22,7 +22,7 @@ use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
     MotionReference, MotionStatement, References, ShadingStatement, Statement, SurfaceStatement,
-    TableStatement, VertexStatement,
+    TableStatement, TextureStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -71,6 +71,7 @@ pub(crate) struct Scope<'t> {
     pub colors: Named<'t, Color>,
     pub mixes: Rows<Mix>,
     pub color_tables: Rows<ColorTable>,
+    pub textures: Rows<Texture>,
     pub surfaces: Named<'t, SurfaceProperties>,
     /// Unnamed colours, with the first rows to which they apply.
     pub defaults: Vec<DefaultColor>,
@@ -161,6 +162,7 @@ impl<'t> Scope<'t> {
             Statement::Color(color) => self.add_color(text, span, &color),
             Statement::Mix(mix) => self.add_mix(text, span, &mix),
             Statement::Table(table) => self.add_color_table(text, span, &table),
+            Statement::Texture(texture) => self.add_texture(text, span, texture),
             Statement::Surface(surface) => self.add_surface(text, span, &surface),
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
@@ -189,17 +191,13 @@ impl<'t> Scope<'t> {
 
     fn add_vertex(&mut self, text: &'t [u8], vertex: &VertexStatement) {
         let color = self.color(text, vertex.color);
-        self.push_vertex(Name::new(vertex.name.of(text)), vertex.name, vertex.position, color, vertex.normal);
+        let &VertexStatement { name, position, normal, uv, .. } = vertex;
+        let row = Vertex { normal, uv, ..Vertex::at(position, color) };
+        self.push_vertex(Name::new(name.of(text)), name, row);
     }
 
-    pub fn push_vertex(
-        &mut self,
-        name: Name<'t>,
-        span: Span,
-        position: DVec3,
-        color: Option<ColorId>,
-        normal: Option<DVec3>,
-    ) {
+    /// Adds a vertex, whose own name is not set.
+    pub fn push_vertex(&mut self, name: Name<'t>, span: Span, vertex: Vertex) {
         let row = self.vertices.len() as u32;
         let number = self.vertex_names.enter(name) as usize;
         if number >= self.vertex_rows.len() {
@@ -211,7 +209,7 @@ impl<'t> Scope<'t> {
             self.duplicates.push(Duplicate { kind: "vertex", again: span, first });
         }
         let name = self.add_name(name.text);
-        self.vertices.push(Vertex { name, position, color, normal }, span);
+        self.vertices.push(Vertex { name, ..vertex }, span);
     }
 
     fn add_face(&mut self, text: &'t [u8], span: Span, face: &FaceStatement, references: &References) {
@@ -287,6 +285,18 @@ impl<'t> Scope<'t> {
             parts: mix.parts.iter().map(|&(name, share)| (color(name), share)).collect(),
         };
         self.mixes.push(row, span);
+    }
+
+    /// The bytes of the picture are set when the colours of all scopes are joined.
+    fn add_texture(
+        &mut self,
+        text: &'t [u8],
+        span: Span,
+        TextureStatement { color, file, texture }: TextureStatement,
+    ) {
+        let color = ColorId::from_index(self.colors.names.enter(color.of(text)));
+        let image = TextureImage { file: Some(lossy(text, file.name)), ..texture.image };
+        self.textures.push(Texture { color, image, ..texture }, span);
     }
 
     /// Adds the colour as well; its own value is set when the colours of all scopes are joined.
@@ -449,6 +459,7 @@ impl<'t> Scope<'t> {
             &self.motions.spans,
             &self.colors.table.spans,
             &self.mixes.spans,
+            &self.textures.spans,
             &self.surfaces.table.spans,
             &self.calls.spans,
             &self.escapes.spans,

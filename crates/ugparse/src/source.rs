@@ -1,5 +1,8 @@
 //! The text of a scene with its name, and positions in it.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use memchr::memchr_iter;
 
 use crate::Parsed;
@@ -17,12 +20,17 @@ pub struct Source {
     /// Of a mesh, its scene, which [`crate::include`] reads with the files that it names; `None` in
     /// it before and in messages. A mesh has no line marks.
     pub(crate) mesh: Option<Box<Option<Parsed>>>,
+    /// The pictures that it names, which [`crate::include`] reads.
+    pub(crate) images: Images,
 }
+
+/// The bytes of pictures by the paths of their files, and by their rows in a mesh.
+pub(crate) type Images = BTreeMap<(String, Option<u32>), Arc<[u8]>>;
 
 impl Source {
     /// A source from a name and text.
     pub fn new(name: impl Into<String>, text: impl Into<Vec<u8>>) -> Self {
-        Self { name: name.into(), text: text.into(), origin: None, mesh: None }
+        Self { name: name.into(), text: text.into(), origin: None, mesh: None, images: Images::new() }
     }
 
     /// The same source with an origin.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Camera, SurfaceProperties};
+use ugscene::{Camera, SurfaceProperties, Texture};
 
 use crate::source::Span;
 use crate::transform::Transform;
@@ -38,6 +38,7 @@ pub(crate) enum Statement {
     Color(ColorStatement),
     Mix(MixStatement),
     Table(TableStatement),
+    Texture(TextureStatement),
     Surface(SurfaceStatement),
     Light(LightStatement),
     Camera(CameraStatement),
@@ -94,12 +95,7 @@ pub(crate) struct MotionStatement {
 #[derive(Debug)]
 pub(crate) enum PathStatement {
     /// `-path FILE`
-    File {
-        /// With quotes, if there are any.
-        span: Span,
-        /// The name without quotes.
-        name: Span,
-    },
+    File(FileStatement),
     /// `-path < NAME >`: that of another motion.
     Of(Span),
     /// `-path (t x y z …)`
@@ -116,6 +112,7 @@ pub(crate) struct VertexStatement {
     pub position: DVec3,
     pub color: Option<Span>,
     pub normal: Option<DVec3>,
+    pub uv: Option<[f32; 2]>,
 }
 
 /// A face, or a wire (which has no shading); its contours are in [`References`].
@@ -158,6 +155,23 @@ pub(crate) struct TableStatement {
     pub period: Option<f64>,
     pub shift: f64,
     pub rows: Vec<(f64, Span)>,
+}
+
+/// A colour that is a picture; colour and bytes in `texture` are not set.
+#[derive(Debug)]
+pub(crate) struct TextureStatement {
+    pub color: Span,
+    pub file: FileStatement,
+    pub texture: Texture,
+}
+
+/// The name of a file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FileStatement {
+    /// With quotes, if there are any.
+    pub span: Span,
+    /// The name without quotes.
+    pub name: Span,
 }
 
 /// A surface; the name in `surface` is not set.

@@ -158,6 +158,7 @@ impl Layout {
     fn words<'t>(&mut self, mut input: Input<'t>, keyword: &[u8]) -> Input<'t> {
         let mut is_open = true;
         let mut names_file = matches!(keyword, b"include" | b"execute");
+        let mut n_words = 0;
         loop {
             let n_blanks = input.iter().take_while(|&&byte| is_blank(byte)).count();
             input = &input[n_blanks..];
@@ -175,6 +176,12 @@ impl Layout {
             }
             names_file = match keyword {
                 b"include" | b"execute" => true,
+                // The file follows the keyword and a name.
+                b"c_tex" if byte != b'{' => {
+                    n_words += 1;
+                    n_words == 2
+                }
+                b"c_tex" => names_file,
                 _ => keyword == b"motion" && (text == b"-path" || names_file && byte == b'{'),
             };
             input = rest;

@@ -242,6 +242,17 @@ pub(crate) fn number(input: Input<'_>) -> Parsed<'_, f64> {
     Ok((rest, value))
 }
 
+/// A number that is finite as a 32-bit float, to which it is rounded once.
+pub(crate) fn number32(input: Input<'_>) -> Parsed<'_, f32> {
+    let (rest, _) = number(input)?;
+    let (at, ()) = blank(input)?;
+    let text = at[..at.len() - rest.len()].strip_prefix(b"+").unwrap_or(&at[..at.len() - rest.len()]);
+    match fast_float2::parse::<f32, _>(text) {
+        Ok(value) if value.is_finite() => Ok((rest, value)),
+        _ => fail(at, Reason::OutOfRange("here numbers have 32 bits and reach up to about 3.4e38")),
+    }
+}
+
 /// Powers of ten that are exact as f64.
 const POWERS_OF_TEN: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];

@@ -84,7 +84,7 @@ pub(crate) fn shorten(word: &[u8]) -> String {
 /// The syntax of a statement, for messages.
 fn usage(keyword: &[u8]) -> Option<&'static str> {
     Some(match keyword {
-        b"v" => "v ID x y z [color] [nx ny nz] ;",
+        b"v" => "v ID x y z [color] [nx ny nz] [(u v)] ;",
         b"w" => "w [ID] (vertices) … [color] [< vx vy vz >] ;",
         b"f" => "f [ID] (vertices) … [color] [level or surface] [< vx vy vz >] ;",
         b"c" => "c [ID] lightness [hue [saturation [translucency [factor]]]] ;",
@@ -95,6 +95,9 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"c_refl" => "c_refl [ID] nm reflectance [nm reflectance] … ;  c_refl [ID] SURFACE ;",
         b"c_mix" => "c_mix ID color share [color share] … ;",
         b"c_time" => "c_time ID [-step] [-period T] [-shift T] time color [time color] … ;",
+        b"c_tex" => {
+            "c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend] ;"
+        }
         b"surf" => "surf ID kd ks kt [n [exponent [absorption]]] ;",
         b"l" => "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",

@@ -7,12 +7,13 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
-    BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Item, Light,
-    LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
+    AlphaMode, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Item,
+    Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
+    Texture, Wrap,
 };
 
 use crate::chunked_writer::ChunkedWriter;
-use crate::number_text::{push_number, push_velocity};
+use crate::number_text::{push_number, push_number32, push_velocity};
 use crate::stage_statement;
 
 /// Number of rows per piece of text.
@@ -75,6 +76,7 @@ impl<'s> Tables<'s, '_> {
             }
             w.text(";");
         })?;
+        self.rows(&scene.textures, Item::Texture, Writer::texture)?;
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
         self.motions();
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
@@ -83,6 +85,12 @@ impl<'s> Tables<'s, '_> {
             w.point(vertex.position);
             w.optional_color(vertex.color);
             vertex.normal.into_iter().for_each(|normal| w.point(normal));
+            if let Some([u, v]) = vertex.uv {
+                w.text(" (");
+                push_number32(&mut w.out, &mut w.numbers, u);
+                w.number32(v);
+                w.text(")");
+            }
             w.text(";");
         })?;
         self.rows(&scene.faces, Item::Face, |w, face| {
@@ -289,6 +297,11 @@ impl<'s> Writer<'s> {
         push_number(&mut self.out, &mut self.numbers, value);
     }
 
+    fn number32(&mut self, value: f32) {
+        self.out.push(b' ');
+        push_number32(&mut self.out, &mut self.numbers, value);
+    }
+
     fn point(&mut self, p: DVec3) {
         self.number(p.x);
         self.number(p.y);
@@ -427,6 +440,43 @@ impl<'s> Writer<'s> {
         match factor {
             Some(numbers) => self.numbers(&numbers),
             None => clear.into_iter().for_each(|clear| self.number(clear)),
+        }
+        self.text(";");
+    }
+
+    /// A picture. One within a mesh has no file that a text could name.
+    fn texture(&mut self, texture: &Texture) {
+        let Texture { color, image, wrap, factor, alpha } = texture;
+        let Some(file) = &image.file else { return };
+        self.text("c_tex");
+        self.name(self.scene.colors[color.index()].name);
+        self.text(" \"");
+        self.text(file);
+        self.text("\"");
+        if let Some(row) = image.row {
+            self.text(" -image");
+            self.number(f64::from(row));
+        }
+        if *wrap != [Wrap::Repeat; 2] {
+            self.text(" -wrap");
+            let n = if wrap[0] == wrap[1] { 1 } else { 2 };
+            for axis in &wrap[..n] {
+                self.text(" ");
+                self.text(axis.name());
+            }
+        }
+        if *factor != [1.0; 4] {
+            self.text(" -factor");
+            let n = if factor[3] == 1.0 { 3 } else { 4 };
+            factor[..n].iter().for_each(|&channel| self.number32(channel));
+        }
+        match *alpha {
+            AlphaMode::Opaque => {}
+            AlphaMode::Mask(cutoff) => {
+                self.text(" -mask");
+                self.number32(cutoff);
+            }
+            AlphaMode::Blend => self.text(" -blend"),
         }
         self.text(";");
     }

@@ -13,6 +13,7 @@ use crate::config::Config;
 use crate::lens::frame_around;
 use crate::pixel_centers::PixelCenters;
 use crate::scenery::Scenery;
+use crate::surface_point::PictureSample;
 use crate::tracer::{Arriving, Tracer, Visit};
 use ugpicture::rays::PastRay;
 use ugpicture::rays::{Intersection, PacketMemory};
@@ -153,7 +154,8 @@ pub fn explained(scenery: &Scenery<'_>, config: &Config, pixel: [u32; 2]) -> Vec
         let ray = scenery.primary_ray(place)?;
         let first = scenery.closest(&ray, slab.near..slab.far);
         let sample = u64::from(place[1]) * u64::from(config.picture.size[0] * n) + u64::from(place[0]);
-        let (arriving, visits) = tracer.explained(&ray, first, slab.far, sample);
+        let (arriving, visits) =
+            tracer.explained(&ray, first, slab.far, (sample, PictureSample { place, distance: 1 }));
         Some(ExplainedRay { place, ray, arriving, visits })
     };
     let places = (0..n).flat_map(|row| (0..n).map(move |column| [column, row]));
@@ -233,7 +235,8 @@ impl<'a> Painting<'a> {
         let sample = match self.scenery.primary_ray(place) {
             Some(ray) => {
                 let first = self.scenery.closest(&ray, slab.near..slab.far);
-                let arriving = tracer.arriving(&ray, first, slab.far, self.number(place));
+                let sample = PictureSample { place, distance: side * self.samples };
+                let arriving = tracer.arriving(&ray, first, slab.far, (self.number(place), sample));
                 self.on_background(arriving.light, arriving.background)
             }
             None => self.on_background(DVec3::ZERO, DVec3::ONE),
@@ -355,11 +358,16 @@ impl<'a> Painting<'a> {
                     ((left + PACKET).min(samples.columns.end), (top + PACKET).min(samples.rows.end));
                 packet.trace(self.scenery, [left..right, top..bottom], seen, &is_wanted);
                 statistics.n_samples += packet.places.len() as u64;
-                for (&[column, row], (ray, first)) in
+                for (&place @ [column, row], (ray, first)) in
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
                     let far = self.scenery.view.slab.far;
-                    let arriving = tracer.arriving(ray, *first, far, self.number([column, row]));
+                    let arriving = tracer.arriving(
+                        ray,
+                        *first,
+                        far,
+                        (self.number(place), PictureSample { place, distance: 1 }),
+                    );
                     let is_own = columns.contains(&(column / n)) && rows.contains(&(row / n));
                     let brightest = arriving.light.max_element();
                     if is_own && first.is_some() {

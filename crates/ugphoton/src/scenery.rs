@@ -18,6 +18,7 @@ use crate::lens::{Film, Sight};
 use crate::media::{Media, Solid};
 use ugpicture::rays::PastRay;
 use ugpicture::rays::{Faces, Intersection, PacketMemory, World};
+use ugpicture::textures::Textures;
 
 /// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
 /// reflections by mirrors that approach each other.
@@ -44,6 +45,8 @@ pub struct Scenery<'a> {
     pub appearance: Appearance,
     /// What the colours of the corners of each face have in common.
     pub face_colors: Vec<FaceColors>,
+    /// The pictures that colours of faces are.
+    pub textures: Textures,
     /// Which secondary rays are traced.
     pub rays: RayOptions,
     /// The lights, or the default ones.
@@ -119,6 +122,8 @@ impl<'a> Scenery<'a> {
         let is_moving = |face: &Face| surface.frames().is_moving(face.body);
         let colors = |face: &Face| appearance.face_colors_in_motion(&scene, face, is_moving(face));
         let face_colors = scene.faces.par_iter().map(colors).collect();
+        let textures = Textures::new(&scene, |color| uglight::RestColor::new(&scene, Some(color)).linear())
+            .map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
@@ -137,6 +142,7 @@ impl<'a> Scenery<'a> {
             has_absorption,
             appearance,
             face_colors,
+            textures,
             rays,
             lamps,
             shift,
@@ -146,7 +152,8 @@ impl<'a> Scenery<'a> {
 
     /// True if a face transmits light straight on.
     pub fn is_translucent(&self, face: u32) -> bool {
-        self.appearance.is_translucent(&self.scene, &self.scene.faces[face as usize])
+        let face = &self.scene.faces[face as usize];
+        self.appearance.is_translucent(&self.scene, face) || self.textures.is_translucent(face.color)
     }
 
     /// True if the scene has lights. Default lights cast no shadows.

@@ -12,7 +12,7 @@ use crate::sampling::disk_point;
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
 use ugpicture::rays::Corridor;
-use ugpicture::rays::{PastRay, Start};
+use ugpicture::rays::{Intersection, PastRay, Start};
 
 /// Shades points of surfaces; it owns the memory it needs for that.
 pub struct Shader<'a> {
@@ -199,7 +199,7 @@ fn unshadowed(
     let mut part = 1.0;
     let mut crossings = Vec::new();
     let _ = scenery.world.visit_along(scenery.faces(), &ray, 0.0..distance, Some(corridor), |found| {
-        part *= transmittance(scenery, found.triangle.face);
+        part *= transmittance_at(scenery, &found);
         if scenery.has_absorption {
             crossings.extend(Crossing::new(&scenery.world, scenery.faces(), &ray, &found));
         }
@@ -247,6 +247,18 @@ pub fn absorption(scenery: &Scenery<'_>, solid: Option<Solid>, step: Event) -> f
         return 0.0;
     }
     coefficient * scenery.world.parts[solid.part].frame.rest_from_camera(step).x.length()
+}
+
+/// [`transmittance`] of a face where a ray meets it.
+fn transmittance_at(scenery: &Scenery<'_>, found: &Intersection) -> f64 {
+    let face = &scenery.scene.faces[found.triangle.face as usize];
+    if scenery.textures.is_translucent(face.color) && scenery.scene.surface(face).is_none() {
+        let at = (found.triangle.corners, found.weights());
+        if let Some(texel) = scenery.textures.texel(&scenery.scene, face.color, at, || [[0.0; 2]; 2]) {
+            return texel.translucency;
+        }
+    }
+    transmittance(scenery, found.triangle.face)
 }
 
 /// Transmittance of a face for a ray that is not bent, 0…1.

@@ -8,6 +8,7 @@ use ugscene::SurfaceId;
 use crate::scenery::Scenery;
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start, along};
+use ugpicture::textures::SurfaceElementPlane;
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.
@@ -52,11 +53,16 @@ pub struct Element {
 }
 
 impl SurfacePoint {
-    /// Where a ray meets a face.
-    pub fn new(scenery: &Scenery<'_>, ray: &PastRay, found: &Intersection) -> Self {
+    /// Where a ray meets a face. `sample`: of a ray from the eye, for the footprints of textures.
+    pub fn new(
+        scenery: &Scenery<'_>,
+        ray: &PastRay,
+        found: &Intersection,
+        sample: Option<PictureSample>,
+    ) -> Self {
         let part = &scenery.world.parts[found.part];
         if let Some(motion) = &part.motion {
-            return Self::on_line(scenery, ray, found, &motion.line);
+            return Self::on_line(scenery, (ray, sample), found, &motion.line);
         }
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
@@ -73,7 +79,14 @@ impl SurfacePoint {
         };
         let is_moving = !part.frame.velocity().is_zero();
         let own_time = || delay - ugphysics::length(place);
-        let color = color(scenery, found, is_moving, own_time);
+        let color = if scenery.textures.is_empty() {
+            color(scenery, found, is_moving, own_time)
+        } else {
+            let plane = SurfaceElementPlane { frame: &part.frame, normal: plane_normal, event, places };
+            let steps = |neighbours| plane.steps(neighbours, |step| step);
+            textured(scenery, found, is_moving, sample, steps)
+                .unwrap_or_else(|| color(scenery, found, is_moving, own_time))
+        };
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -92,7 +105,12 @@ impl SurfacePoint {
 
     /// Where a ray meets a face of a body on a world line.
     #[inline(never)] // Keeps `new` small, which is called for every ray.
-    fn on_line(scenery: &Scenery<'_>, ray: &PastRay, found: &Intersection, line: &WorldLine) -> Self {
+    fn on_line(
+        scenery: &Scenery<'_>,
+        (ray, sample): (&PastRay, Option<PictureSample>),
+        found: &Intersection,
+        line: &WorldLine,
+    ) -> Self {
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let place = mean(places, found.weights());
         let own_time = found.own_time;
@@ -110,10 +128,16 @@ impl SurfacePoint {
         } else {
             ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift))
         };
+        let event = along(ray.origin, ray.step, found.s);
+        // The axes of the body in the frame of the element, as normals turn: exact unless it spins.
+        let to_body = |step: DVec3| DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)));
+        let triangle = SurfaceElementPlane { frame: &frame, normal: plane_normal, event, places };
+        let steps = |neighbours| triangle.steps(neighbours, to_body);
+        let textured = textured(scenery, found, true, sample, steps);
         Self {
             part: found.part,
             face: found.triangle.face,
-            event: along(ray.origin, ray.step, found.s),
+            event,
             place,
             element: Some(Box::new(Element { frame, own_time, body_normal })),
             delay: 0.0,
@@ -122,7 +146,7 @@ impl SurfacePoint {
             normal: if body_normal == plane { plane_normal } else { element.normal(body_normal) },
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
-            color: color(scenery, found, true, || own_time),
+            color: textured.unwrap_or_else(|| color(scenery, found, true, || own_time)),
         }
     }
 
@@ -169,6 +193,46 @@ impl SurfacePoint {
             ugscene::Shading::Level(_) => None,
         }
     }
+}
+
+/// A sample of the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct PictureSample {
+    /// Its column and row.
+    pub place: [u32; 2],
+    /// How far it is from its neighbours, in samples.
+    pub distance: u32,
+}
+
+impl PictureSample {
+    /// The rays of the neighbours across and down. A lens may show nothing at one; then it is on
+    /// the other side.
+    fn neighbours(self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
+        let [column, row] = self.place.map(|at| f64::from(at) + 0.5);
+        let ray = |across: f64, down: f64| {
+            let through = |sign: f64| scenery.ray_through([column + sign * across, row + sign * down]);
+            through(1.0).or_else(|| through(-1.0))
+        };
+        let distance = f64::from(self.distance);
+        Some([ray(distance, 0.0)?, ray(0.0, distance)?])
+    }
+}
+
+/// The colour at rest where a ray meets a face with a texture. `steps`: of the weights of a sample.
+#[inline]
+fn textured(
+    scenery: &Scenery<'_>,
+    found: &Intersection,
+    is_moving: bool,
+    sample: Option<PictureSample>,
+    steps: impl FnOnce([PastRay; 2]) -> [[f64; 2]; 2],
+) -> Option<SurfaceColor> {
+    let color = scenery.scene.faces[found.triangle.face as usize].color;
+    let neighbours = || sample.and_then(|sample| sample.neighbours(scenery));
+    let steps = || neighbours().map_or([[0.0; 2]; 2], steps);
+    let texel =
+        scenery.textures.texel(&scenery.scene, color, (found.triangle.corners, found.weights()), steps)?;
+    Some(scenery.appearance.texel(texel.light, texel.translucency, is_moving))
 }
 
 /// The colour at rest where a ray meets a face. `own_time`: of the body there.

@@ -8,7 +8,7 @@ use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 use crate::media::{Media, Solid};
 use crate::scenery::Scenery;
 use crate::shade::{LampLight, Shader, absorption};
-use crate::surface_point::SurfacePoint;
+use crate::surface_point::{PictureSample, SurfacePoint};
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start};
 
@@ -110,6 +110,8 @@ struct Path<'p> {
     absorption: f64,
     /// A number for each sample of the picture.
     sample: u64,
+    /// The sample, if the ray comes straight from the eye.
+    place: Option<PictureSample>,
     /// Where it comes from.
     way: Way,
 }
@@ -136,23 +138,23 @@ impl<'a> Tracer<'a> {
         ray: &PastRay,
         first: Option<Intersection>,
         far: f64,
-        sample: u64,
+        (sample, place): (u64, PictureSample),
     ) -> (Arriving, Vec<Visit>) {
         (self.visits, self.shader.received) = (Some(Vec::new()), Some(Vec::new()));
-        let arriving = self.arriving(ray, first, far, sample);
+        let arriving = self.arriving(ray, first, far, (sample, place));
         self.shader.received = None;
         (arriving, self.visits.take().unwrap_or_default())
     }
 
     /// The light that arrives along a ray, and how much of the background is seen. `first`: the
     /// nearest face on the ray within the clipping distances. `far`: the end of the range of
-    /// parameters.
+    /// parameters. `sample`: its number in the picture.
     pub fn arriving(
         &mut self,
         ray: &PastRay,
         first: Option<Intersection>,
         far: f64,
-        sample: u64,
+        (sample, place): (u64, PictureSample),
     ) -> Arriving {
         let media = self.scenery.media_at(ray.origin);
         let path = Path {
@@ -162,6 +164,7 @@ impl<'a> Tracer<'a> {
             weight: 1.0,
             absorption: absorption(self.scenery, media.innermost(), ray.step),
             sample,
+            place: Some(place),
             way: Way::Straight,
         };
         (self.n_branches, self.is_too_deep, self.leaves_open_solid) = (0, false, None);
@@ -176,7 +179,7 @@ impl<'a> Tracer<'a> {
         while let Some(found) = next {
             let left = if path.absorption > 0.0 { libm::exp(-path.absorption * found.s) } else { 1.0 };
             if !self.scenery.is_translucent(found.triangle.face) {
-                let point = SurfacePoint::new(self.scenery, path.ray, &found);
+                let point = SurfacePoint::new(self.scenery, path.ray, &found, path.place);
                 let part = passing * left;
                 let own = self.light_of(&Path { weight: path.weight * part, ..*path }, &point, left);
                 sum.add(part, own);
@@ -187,7 +190,7 @@ impl<'a> Tracer<'a> {
             self.scenery.world.coincident(self.scenery.faces(), path.ray, &found, &mut layers);
             let mut end = found.s;
             for layer in &layers {
-                let point = SurfacePoint::new(self.scenery, path.ray, layer);
+                let point = SurfacePoint::new(self.scenery, path.ray, layer, path.place);
                 let weight = passing * left * (1.0 - point.color.swatch.translucency);
                 if weight > 0.0 {
                     let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point, left);
@@ -311,8 +314,15 @@ impl<'a> Tracer<'a> {
             start: Start::Surface { part: point.part, place: point.place },
         };
         let absorption = absorption(self.scenery, media.innermost(), step);
-        let next =
-            Path { ray: &ray, media, absorption, depth: path.depth + 1, weight: path.weight * part, ..*path };
+        let next = Path {
+            ray: &ray,
+            media,
+            absorption,
+            depth: path.depth + 1,
+            weight: path.weight * part,
+            place: None,
+            ..*path
+        };
         let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
         self.seen(&next, first, f64::INFINITY)
     }

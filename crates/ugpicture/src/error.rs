@@ -28,6 +28,9 @@ pub enum Error {
         height = .0[1]
     )]
     Memory([u32; 2], u64),
+    /// A texture cannot be read.
+    #[error(transparent)]
+    Texture(#[from] crate::textures::TextureError),
     /// A file to be packed is no PNG file.
     #[error("only PNG files are packed smaller")]
     NotPng,

@@ -65,6 +65,7 @@ mod picture_file;
 mod quantity;
 pub mod rays;
 mod rendering;
+pub mod textures;
 mod units;
 
 pub use annotations::{Annotated, FindItems, FoundItems, Layout, Scale, Subject, VisibleWires};

@@ -23,6 +23,13 @@ pub enum Note {
         /// The picture is drawn by rays.
         is_exact: bool,
     },
+    /// A colour is a picture, and only its plain colour is drawn.
+    PlainTextures {
+        /// Its name.
+        color: String,
+        /// Its colours are as seen already.
+        is_seen: bool,
+    },
     /// Vertices are to be repeated, but have colours as seen.
     NotRepeated,
     /// Rays do not meet wires.
@@ -169,6 +176,9 @@ impl fmt::Display for Note {
             }
             Self::MovingLights { .. } => {
                 "velocities of lights are left out: each light rests with the faces it lights"
+            }
+            Self::PlainTextures { color, .. } => {
+                return write!(f, "textures are not drawn: faces of colour `{color}` have its plain colour");
             }
             Self::NotRepeated => "vertices with colours as seen are not repeated",
             Self::NoWires => "wires are left out: rays do not meet lines",

@@ -33,6 +33,14 @@ pub const SHIFT_SPECTRA: &str = "`ugdoppler -sp` shifts them as spectra";
 pub const EXACT_SEEN_COLORS: &str = "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
      leave ugdoppler out, and give -sp, -br, --no-doppler or --no-flux here; or, for ugdoppler -li, leave out -xc";
 
+/// Only polygons are explained.
+pub const EXPLAIN_EXACT: &str = "--explain works in scanline mode only: leave out -xc; \
+     faces with textures are drawn by rays, which `ugphoton --explain` explains";
+
+/// Textures are drawn before colours are shifted.
+pub const DRAW_TEXTURES: &str =
+    "{}; leave out ugdoppler and give -xc here, which shifts them itself, or use ugphoton";
+
 /// Exact mode follows rays through both effects of motion on shape.
 pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \
      leave out -xc, or -nc and --no-flight-time";

@@ -119,7 +119,8 @@ pub struct Args {
     /// Each ray is intersected with the faces in their rest frames, and the colour is shifted
     /// there. Reads what `uglorentz -sd 1` writes, and does the work of ugdoppler itself. Outline,
     /// depth, Doppler factor, colour and light are exact at every sample, so faces need no
-    /// subdivision.
+    /// subdivision. Scenes with textures (c_tex) are drawn so without it, too, with colours as they
+    /// are, unless they went through ugdoppler, or -og, -cb or -vec is given.
     #[arg(long, visible_alias = "exact", conflicts_with_all = ["og", "explain"], help_heading = EXACT)]
     xc: bool,
 

@@ -2,9 +2,9 @@
 
 use uglight::{ColorShift, Interpolation};
 use ugphysics::{Brightness, Hsv};
-use ugpicture::PictureOptions;
+use ugpicture::{Output, PictureOptions};
 use ugraster::DepthFade;
-use ugscene::{HueScale, Scene};
+use ugscene::{HueScale, Projection, Scene, ShownEffects};
 
 /// Everything besides the scene that affects the bytes of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +68,25 @@ impl Config {
             Some(ColorShift::Spectra(_)) => Brightness::None,
             None => scene.stage.law().unwrap_or(Brightness::None),
         }
+    }
+
+    /// The same for a scene: faces with textures are drawn by rays, without a shift of colours that
+    /// was not asked for, where rays can draw the scene.
+    pub(crate) fn with_textures(&self, scene: &Scene) -> Self {
+        let camera = scene.camera().and_then(|camera| camera.projection);
+        let is_orthographic = self.picture.camera.is_orthographic || camera == Some(Projection::Orthographic);
+        let are_drawn = scene.faces.iter().any(|face| {
+            let texture = face.color.and_then(|color| scene.texture_of(color));
+            texture.is_some_and(|texture| !texture.image.bytes.is_empty())
+        });
+        let may_be_exact = self.draw_mode().has_faces()
+            && !(self.cull || is_orthographic)
+            && matches!(self.picture.output, Output::Color(_))
+            && scene.stage.seen_colors().is_none()
+            && ShownEffects::of(scene) == ShownEffects::default()
+            && ugscene::require_seen_geometry(scene).is_ok();
+        let exact = self.exact.or((are_drawn && may_be_exact).then_some(ColorShift::NONE));
+        Self { exact, ..self.clone() }
     }
 
     /// The options that decide how faces and lines are drawn.

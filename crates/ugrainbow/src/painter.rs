@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use uglight::{Appearance, ColorForm, FaceColors, Lighting, Mixing, Swatch};
+use ugpicture::textures::Textures;
 use ugraster::{Corner, SampleGrid, ScreenPoint};
 use ugscene::{CameraPoint, ColorId, Face, Scene, Slab, VertexId, View, Wire, unit_normal};
 
@@ -21,6 +22,8 @@ pub struct Painter<'a> {
     pub appearance: &'a Appearance,
     /// Its lights.
     pub lighting: &'a Lighting,
+    /// The pictures that colours are, in exact pictures.
+    pub textures: &'a Textures,
     /// What faces are drawn as.
     pub layout: Layout,
     /// Cull back-facing faces.
@@ -76,7 +79,7 @@ impl Painter<'_> {
     /// corners, so a translucent face does not make neighbours translucent that share its corners.
     #[inline]
     pub fn is_transparent(&self, face: &Face) -> bool {
-        self.appearance.is_translucent(self.scene, face)
+        self.appearance.is_translucent(self.scene, face) || self.textures.is_translucent(face.color)
     }
 
     /// The colours of the ends of a wire. `keeps_light`: see

@@ -41,7 +41,7 @@ pub fn render_with(scene: &Scene, config: &Config, progress: &dyn Progress) -> R
 /// # Errors
 /// See [`Error`].
 pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
-    let mut config = config.clone();
+    let mut config = config.with_textures(scene);
     config.picture.keep_light();
     config.picture.check()?;
     let setup = prepare(scene, &config)?;
@@ -91,7 +91,7 @@ fn draw(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     progress.step("preparing", 0);
-    let config = &Config { picture: canvas.options().clone(), ..config.clone() };
+    let config = &Config { picture: canvas.options().clone(), ..config.with_textures(scene) };
     let drawn = match config.picture.output {
         Output::Vector(format) => vector::draw(scene, config, format, progress)?,
         Output::Color(_) => draw_pixels(scene, config, progress)?,

@@ -218,11 +218,9 @@ impl<'a> RenderLayers<'a> {
             Layout::Mixed { has_levels: false } => many(pack_white),
             Layout::Mixed { has_levels: true } => many(pack_transparent),
         };
-        let faces = painter
-            .appearance
-            .palette
-            .has_translucency
-            .then(|| Layers::new(painter, &planes, mode, true, pack_transparent));
+        let has_translucency =
+            painter.appearance.palette.has_translucency || painter.textures.has_translucency();
+        let faces = has_translucency.then(|| Layers::new(painter, &planes, mode, true, pack_transparent));
         let shape: Box<dyn LineShape> = match mode.exact {
             Some(_) => Box::new(CurvedLines::new(painter)),
             None => Box::new(StraightLines::new(painter)),

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use uglight::{Appearance, ColorShift, Lighting};
 use ugpicture::PictureOptions;
+use ugpicture::textures::Textures;
 use ugraster::{SampleGrid, TileShape};
 use ugscene::{Scene, ShownEffects, View};
 
@@ -20,6 +21,8 @@ pub struct Setup<'a> {
     pub grid: SampleGrid,
     pub appearance: Appearance,
     pub lighting: Lighting,
+    /// The pictures that colours are, in exact pictures.
+    textures: Textures,
     pub layout: Layout,
     pub shader: Shader,
     /// Back-facing faces are culled.
@@ -77,10 +80,30 @@ impl<'a> Setup<'a> {
                 return Err(Error::ExactMovingSpectrum);
             }
         }
-        let layout = Layout::new(&scene, &appearance, &lighting);
+        let light = |color| uglight::RestColor::new(&scene, Some(color)).linear();
+        let textures = match config.exact {
+            Some(_) => Textures::new(&scene, light).map_err(|error| Error::Picture(error.into()))?,
+            None => Textures::default(),
+        };
+        let layout = match Layout::new(&scene, &appearance, &lighting) {
+            // Texels are hues or light.
+            Layout::Hues if !textures.is_empty() => Layout::Mixed { has_levels: false },
+            layout => layout,
+        };
         let shader = Shader::new(palette.interpolation, !keeps_highlights, law.acts_on_light(), layout);
         let is_culled = config.cull;
-        Ok(Self { scene, view, grid, appearance, lighting, layout, shader, is_culled, keeps_highlights })
+        Ok(Self {
+            scene,
+            view,
+            grid,
+            appearance,
+            lighting,
+            textures,
+            layout,
+            shader,
+            is_culled,
+            keeps_highlights,
+        })
     }
 
     /// The scene, whose vertices are part of one body each. Faces and wires keep their order.
@@ -96,6 +119,7 @@ impl<'a> Setup<'a> {
             grid: &self.grid,
             appearance: &self.appearance,
             lighting: &self.lighting,
+            textures: &self.textures,
             layout: self.layout,
             is_culled: self.is_culled,
         }

@@ -203,7 +203,7 @@ fn add_box(scene: &mut Scene, part: &Part) {
 
 fn add_vertex(scene: &mut Scene, position: DVec3) -> VertexId {
     let name = scene.names.add("");
-    scene.add_vertex(Vertex { name, position, color: None, normal: None })
+    scene.add_vertex(Vertex { name, position, color: None, normal: None, uv: None })
 }
 
 /// Boxes where they are seen in a picture.

@@ -256,7 +256,7 @@ impl SceneBuilder {
         for (row, &position) in mesh.positions.iter().enumerate() {
             let name = self.scene.names.add_parts(&[mesh.name, ":", &(row + 1).to_string()]);
             let (color, normal) = (mesh.colors.get(row).copied(), mesh.normals.get(row).copied());
-            self.scene.add_vertex(Vertex { name, position, color, normal });
+            self.scene.add_vertex(Vertex { name, position, color, normal, uv: None });
         }
         let shading = mesh.surface.map(|surface| {
             self.scene.shadings.push(Shading::Surface(surface));

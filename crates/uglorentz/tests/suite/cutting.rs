@@ -579,3 +579,32 @@ fn pieces_are_bounded_at_every_speed() {
         }
     }
 }
+
+/// Texture coordinates are linear in the rest frame, however a face is cut: also of instances and of
+/// bodies that turn and accelerate.
+#[test]
+fn texture_coordinates_are_linear_at_rest() {
+    let vertex = |name: &str, [x, y]: [f64; 2], [u, v]: [f64; 2]| format!("v {name} {x} 3 {y} ({u} {v});\n");
+    // u = 0.5 + 0.25 x, v = 0.75 - 0.5 y + 0.125 x: exact in 32 bits.
+    let square = [("a", [-1.0, -1.0]), ("b", [1.0, -1.0]), ("c", [1.0, 1.0]), ("d", [-1.0, 1.0])]
+        .map(|(name, [x, y])| vertex(name, [x, y], [0.5 + 0.25 * x, 0.75 - 0.5 * y + 0.125 * x]))
+        .concat();
+    let wheel = "motion wheel -acc .1 0 0 0 9 -spin 0 .3 0;";
+    for (text, n_least) in [
+        (format!("{square}f (a b c d) <.9 0 .1>;"), 20),
+        (format!("def it; {square}f (a b c d); end; i (it) <.9 0 .1>;"), 20),
+        (format!("{wheel}{square}f (a b c) <wheel>; f (a c d) <wheel>;"), 20),
+    ] {
+        for pieces in [Pieces::UpTo(1e-4), Pieces::PerEdge(6)] {
+            let scene = run(&text, &Config { pieces, ..Config::default() }).scene;
+            assert!(scene.vertices.len() >= n_least, "{text}: {}", scene.vertices.len());
+            assert_eq!(scene.rest.len(), scene.vertices.len());
+            for (vertex, place) in scene.vertices.iter().zip(&scene.rest) {
+                let [u, v] = vertex.uv.unwrap().map(f64::from);
+                let expected = [0.5 + 0.25 * place.x, 0.75 - 0.5 * place.z + 0.125 * place.x];
+                let error = (u - expected[0]).abs().max((v - expected[1]).abs());
+                assert!(error < 5e-7, "{text} {place}: {u} {v}, {expected:?}");
+            }
+        }
+    }
+}

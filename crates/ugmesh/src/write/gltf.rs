@@ -1,11 +1,13 @@
 //! Writes glTF 2.0: a node and a mesh for each name of faces, a primitive for each of its colours,
 //! 32-bit floats, linear colours.
 
+use std::sync::Arc;
+
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 use ugphysics::srgb_decode;
-use ugscene::Camera;
+use ugscene::{AlphaMode, Camera, Texture, Wrap};
 
 use crate::Error;
 use crate::polygon_mesh::PolygonMesh;
@@ -71,12 +73,14 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         let colors = distinct(groups.iter().map(|group| &group.color));
         let mut meshes = vec![Vec::new(); names.len()];
         let mut is_transparent = vec![false; colors.len()];
+        let mut textures = vec![None; colors.len()];
         for group in &groups {
             let row = |list: &[&Option<String>], name| list.iter().position(|&other| other == name);
             let (Some(at), Some(material)) = (row(&names, &group.name), row(&colors, &group.color)) else {
                 continue;
             };
             is_transparent[material] |= group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
+            textures[material] = group.texture.clone();
             let indices = indices(mesh, &group.polygons, &mut buffer);
             meshes[at].push(
                 json!({ "attributes": attributes, "indices": indices, "material": material, "mode": 4 }),
@@ -90,8 +94,17 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         document["nodes"] = nodes.into();
         let meshes = meshes.into_iter().zip(&names);
         document["meshes"] = meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
-        let materials = is_transparent.into_iter().zip(&colors);
-        document["materials"] = materials.map(|(is_clear, name)| named(material(is_clear), name)).collect();
+        let mut pictures = Pictures::default();
+        let materials = is_transparent.into_iter().zip(&textures).zip(&colors);
+        let materials = materials.map(|((is_clear, texture), name)| {
+            let mut material = material(is_clear);
+            if let Some(texture) = texture {
+                pictures.add(texture, &mut material, &mut buffer, &mut mesh.notes);
+            }
+            named(material, name)
+        });
+        document["materials"] = materials.collect();
+        pictures.write(&mut document);
         document["accessors"] = Value::Array(buffer.accessors);
         document["bufferViews"] = Value::Array(buffer.views);
         document["buffers"] = json!([{ "byteLength": buffer.bytes.len() }]);
@@ -164,6 +177,75 @@ fn material(is_transparent: bool) -> Value {
     material
 }
 
+/// The pictures of materials, each of which is written once.
+#[derive(Default)]
+struct Pictures {
+    images: Vec<Value>,
+    samplers: Vec<Value>,
+    textures: Vec<Value>,
+    /// The bytes of the images.
+    known: Vec<Arc<[u8]>>,
+}
+
+impl Pictures {
+    /// Adds a texture and describes it in its material.
+    fn add(&mut self, texture: &Texture, material: &mut Value, buffer: &mut Buffer, notes: &mut Vec<String>) {
+        let bytes = &texture.image.bytes;
+        let kind = match bytes[..] {
+            [0x89, b'P', b'N', b'G', ..] => "image/png",
+            [0xff, 0xd8, 0xff, ..] => "image/jpeg",
+            _ => {
+                let file = texture.image.file.as_deref().unwrap_or("of a mesh");
+                notes.push(format!("picture `{file}` is left out: glTF has only PNG and JPEG"));
+                return;
+            }
+        };
+        let source = self.known.iter().position(|known| known == bytes).unwrap_or_else(|| {
+            self.images.push(json!({ "bufferView": buffer.picture(bytes), "mimeType": kind }));
+            self.known.push(Arc::clone(bytes));
+            self.known.len() - 1
+        });
+        let [s, t] = texture.wrap.map(|wrap| match wrap {
+            Wrap::Repeat => 10497,
+            Wrap::Clamp => 33071,
+            Wrap::Mirror => 33648,
+        });
+        let sampler = row(&mut self.samplers, json!({ "wrapS": s, "wrapT": t }));
+        let number = row(&mut self.textures, json!({ "source": source, "sampler": sampler }));
+        let surface = &mut material["pbrMetallicRoughness"];
+        surface["baseColorTexture"] = json!({ "index": number });
+        if texture.factor != [1.0; 4] {
+            surface["baseColorFactor"] = json!(texture.factor.map(|part| part.min(1.0)));
+        }
+        match texture.alpha {
+            AlphaMode::Opaque => {
+                material.as_object_mut().map(|material| material.remove("alphaMode"));
+            }
+            AlphaMode::Mask(cutoff) => {
+                material["alphaMode"] = "MASK".into();
+                material["alphaCutoff"] = json!(cutoff);
+            }
+            AlphaMode::Blend => material["alphaMode"] = "BLEND".into(),
+        }
+    }
+
+    fn write(self, document: &mut Value) {
+        if !self.images.is_empty() {
+            document["images"] = self.images.into();
+            document["samplers"] = self.samplers.into();
+            document["textures"] = self.textures.into();
+        }
+    }
+}
+
+/// The row of a value in a list, to which it is added if it is new.
+fn row(list: &mut Vec<Value>, value: Value) -> usize {
+    list.iter().position(|known| *known == value).unwrap_or_else(|| {
+        list.push(value);
+        list.len() - 1
+    })
+}
+
 fn attributes(mesh: &mut PolygonMesh, buffer: &mut Buffer) -> Value {
     let positions: Vec<[f32; 3]> =
         mesh.scene.vertices.iter().map(|vertex| vertex.position.as_vec3().to_array()).collect();
@@ -181,6 +263,11 @@ fn attributes(mesh: &mut PolygonMesh, buffer: &mut Buffer) -> Value {
             mesh.notes.push("normals are left out: not every vertex has one".to_string());
         }
         None => {}
+    }
+    if !mesh.scene.textures.is_empty() {
+        let uvs: Vec<[f32; 2]> =
+            mesh.scene.vertices.iter().map(|vertex| vertex.uv.unwrap_or_default()).collect();
+        attributes["TEXCOORD_0"] = buffer.rows(&uvs, "VEC2").into();
     }
     if let Some(colors) = &mesh.colors {
         let linear = |&[red, green, blue, alpha]: &[f64; 4]| {
@@ -218,6 +305,17 @@ impl Buffer {
     fn rows<const N: usize>(&mut self, rows: &[[f32; N]], kind: &str) -> usize {
         let bytes: Vec<u8> = rows.iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
         self.add(&bytes, rows.len(), FLOAT, kind, ARRAY_BUFFER)
+    }
+
+    /// Appends a picture, padded to four bytes, and describes it by a view. Returns the index of the
+    /// view.
+    fn picture(&mut self, bytes: &[u8]) -> usize {
+        self.views.push(json!({
+            "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(),
+        }));
+        self.bytes.extend_from_slice(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        self.views.len() - 1
     }
 
     /// Appends data and describes it by a view and an accessor. Returns the index of the accessor.

@@ -23,7 +23,7 @@ pub(crate) fn write(scene: Scene, target: Target, is_placed: bool) -> Result<(Ve
         Target::Gltf => (Polygons::Triangles, gltf::write_json),
         Target::Glb => (Polygons::Triangles, gltf::write_glb),
     };
-    let mut mesh = PolygonMesh::new(scene, polygons, target.has_camera());
+    let mut mesh = PolygonMesh::new(scene, polygons, target.has_camera(), target.has_textures());
     let bytes = writer(&mut mesh)?;
     Ok((bytes, mesh.notes))
 }

@@ -8,3 +8,4 @@ mod found_files;
 mod hostile;
 mod reading;
 mod round_trip;
+mod textures;

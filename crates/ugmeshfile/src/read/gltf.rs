@@ -11,13 +11,13 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use rustc_hash::FxHashMap;
 use serde_json::Value;
 use ugphysics::srgb_encode;
-use ugscene::{VertexId, shorten};
+use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
 use super::gltf_document::{Document, numbers, split, whole};
 use super::{Input, accessor, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
-use crate::textures::{MAX_TEXTURE_BYTES, Textures};
+use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let (json, blob) = split(input.bytes)?;
@@ -35,13 +35,18 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         n_without_positions: 0,
         input,
         textures: Textures::default(),
+        ignored: BTreeSet::new(),
     };
     reader.scene()?;
-    let Reader { n_skipped, n_without_positions, textures, .. } = reader;
+    let Reader { n_skipped, n_without_positions, textures, ignored, .. } = reader;
     if document.table("nodes").iter().any(|node| !node["skin"].is_null()) {
         builder.warn("skins are ignored: skinned meshes are read in their bind pose");
     }
     textures.warn(builder);
+    if !ignored.is_empty() {
+        let kinds = ignored.into_iter().collect::<Vec<_>>().join(", ");
+        builder.warn(format!("only base colours are read: textures of other kinds are ignored ({kinds})"));
+    }
     builder.warn_count(
         n_skipped,
         "set of lines or points is left out",
@@ -53,6 +58,27 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         "sets of triangles without positions are left out",
     );
     Ok(())
+}
+
+/// The bytes of a picture within a glTF file, by its row.
+///
+/// # Errors
+/// The reason why it cannot be read.
+pub fn picture_within(bytes: &[u8], row: usize) -> Result<Vec<u8>, String> {
+    let no_files = |_: &str, _| Err(std::io::Error::other("it is in another file"));
+    let read = || {
+        let (json, blob) = split(bytes)?;
+        let document = Document::parse(json)?;
+        let image = document.row("images", row)?;
+        let input = Input { bytes, read_file: &no_files };
+        if let Some(uri) = image["uri"].as_str() {
+            return load(uri, MAX_TEXTURE_BYTES, &input);
+        }
+        let buffers = buffers(&document, blob, &input)?;
+        let view = whole(&image["bufferView"]).and_then(|view| document.view(view, &buffers));
+        view.map(<[u8]>::to_vec).ok_or_else(|| Problem::new("it is not in the buffers"))
+    };
+    read().map_err(|problem: Problem| problem.what)
 }
 
 /// Largest number of bytes of all buffers, as the mesh states them.
@@ -154,6 +180,8 @@ struct Reader<'a, 'b> {
     n_without_positions: usize,
     input: &'a Input<'a>,
     textures: Textures,
+    /// The kinds of textures that scenes do not have.
+    ignored: BTreeSet<&'static str>,
 }
 
 impl Reader<'_, '_> {
@@ -237,6 +265,13 @@ impl Reader<'_, '_> {
         };
         let surface = self.surface(material);
         let colors = self.colors(&attributes["COLOR_0"], &surface)?;
+        let uvs = match &surface.texture {
+            Some(texture) => {
+                let name = format!("TEXCOORD_{}", texture.set);
+                self.rows(&attributes[&name], 2, &name)?
+            }
+            None => None,
+        };
         let corners = self.corners(&primitive["indices"], n_positions)?;
 
         // The inverse transpose keeps normals perpendicular to surfaces under non-uniform scaling.
@@ -252,11 +287,26 @@ impl Reader<'_, '_> {
             let normal = normal.map(|normals| (normal_matrix * vector(normals, row)).normalize_or_zero());
             let color = colors.as_ref().and_then(|colors| colors.get(row)).copied();
             vertices[row] = self.builder.vertex(position, normal, color)?;
+            let uv = uvs.as_ref().and_then(|uvs| uvs.get(2 * row..2 * row + 2));
+            if let (Some(texture), Some(&[u, v])) = (&surface.texture, uv) {
+                self.builder.set_uv(vertices[row], Some(texture.placed([u, v])));
+            }
         }
+        let texture = surface.texture.as_ref().filter(|_| uvs.is_some()).map(|texture| {
+            let mut drawn = texture.texture.clone();
+            if colors.is_some() {
+                // The colours of vertices contain those of the material.
+                let part = |mean: f64| if mean > 0.0 { (1.0 / mean) as f32 } else { 0.0 };
+                let [red, green, blue] = texture.mean.map(part);
+                drawn.factor = [red, green, blue, drawn.factor[3]];
+            }
+            drawn
+        });
         let color = match (&colors, material) {
-            (None, Some(material)) => {
+            (Some(_), _) if texture.is_none() => None,
+            (_, Some(material)) => {
                 let name = material["name"].as_str().unwrap_or_default();
-                Some(self.builder.material(surface.display_color([1.0; 4]), name))
+                Some(self.builder.material(surface.display_color([1.0; 4]), name, texture))
             }
             _ => None,
         };
@@ -271,7 +321,9 @@ impl Reader<'_, '_> {
 
     /// The colour of a material, times the mean of its texture; white without one.
     fn surface(&mut self, material: Option<&Value>) -> Surface {
-        let Some(material) = material else { return Surface { factor: [1.0; 4], is_blended: false } };
+        let Some(material) = material else {
+            return Surface { factor: [1.0; 4], is_blended: false, texture: None };
+        };
         let glossy = &material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
         let (factor, texture) = if glossy.is_null() {
             let surface = &material["pbrMetallicRoughness"];
@@ -279,31 +331,66 @@ impl Reader<'_, '_> {
         } else {
             (&glossy["diffuseFactor"], &glossy["diffuseTexture"])
         };
-        let mut factor = numbers(factor).unwrap_or([1.0; 4]);
-        if let Some(mean) = whole(&texture["index"]).and_then(|texture| self.texture_mean(texture)) {
+        self.ignored.extend(ignored_textures(material, &surface_of(material)["metallicRoughnessTexture"]));
+        let mut factor: [f64; 4] = numbers(factor).unwrap_or([1.0; 4]);
+        let is_blended = material["alphaMode"] == "BLEND";
+        let loaded = whole(&texture["index"]).and_then(|index| Some((index, self.texture(index)?)));
+        let texture = loaded.map(|(index, LoadedTexture { mean, image })| {
+            let factor_of_texels =
+                factor.map(|part| if part.is_finite() { part.max(0.0) as f32 } else { 1.0 });
+            let alpha = match material["alphaMode"].as_str() {
+                Some("MASK") => {
+                    AlphaMode::Mask(material["alphaCutoff"].as_f64().unwrap_or(0.5).clamp(0.0, 2.0) as f32)
+                }
+                Some("BLEND") => AlphaMode::Blend,
+                _ => AlphaMode::Opaque,
+            };
             factor.iter_mut().zip(mean).for_each(|(factor, mean)| *factor *= mean);
-        }
-        Surface { factor, is_blended: material["alphaMode"] == "BLEND" }
+            let wrap = self.wrap(index);
+            let none = ColorId::from_index(0);
+            let drawn = Texture { wrap, factor: factor_of_texels, alpha, ..Texture::new(none, image) };
+            SurfaceTexture::new(drawn, mean, texture)
+        });
+        Surface { factor, is_blended, texture }
     }
 
-    /// The mean linear light of a texture.
-    fn texture_mean(&mut self, index: usize) -> Option<[f64; 3]> {
+    /// What is beyond the edges of a texture.
+    fn wrap(&self, index: usize) -> [Wrap; 2] {
+        let texture = self.document.table("textures").get(index);
+        let sampler = texture.and_then(|texture| whole(&texture["sampler"]));
+        let sampler = sampler.and_then(|sampler| self.document.table("samplers").get(sampler));
+        ["wrapS", "wrapT"].map(|axis| match sampler.and_then(|sampler| whole(&sampler[axis])) {
+            Some(33071) => Wrap::Clamp,
+            Some(33648) => Wrap::Mirror,
+            _ => Wrap::Repeat,
+        })
+    }
+
+    /// A texture, if it can be read.
+    fn texture(&mut self, index: usize) -> Option<LoadedTexture> {
         let (document, buffers, input) = (self.document, &self.buffers, self.input);
         let source = document.table("textures").get(index).and_then(|texture| whole(&texture["source"]));
         let image = source.and_then(|source| Some((source, document.table("images").get(source)?)));
         let Some((source, image)) = image else {
             let none = || Err("it has no PNG or JPEG picture".to_owned());
-            return self.textures.mean(&format!("texture {index}"), none);
+            return self.textures.load(&format!("texture {index}"), none);
         };
         let number = format!("image {source}");
         if let Some(uri) = image["uri"].as_str() {
-            let name = if uri.starts_with("data:") { number } else { percent_decoded(uri) };
-            let load = || load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what);
-            return self.textures.mean(&name, load);
+            let file = (!uri.starts_with("data:")).then(|| percent_decoded(uri));
+            let name = file.clone().unwrap_or(number);
+            let load = || {
+                let bytes = load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what)?;
+                Ok((bytes, file.map_or(TextureOrigin::Within(source), TextureOrigin::File)))
+            };
+            return self.textures.load(&name, load);
         }
         let bytes = whole(&image["bufferView"]).and_then(|view| document.view(view, buffers));
-        self.textures
-            .mean(&number, || bytes.map(<[u8]>::to_vec).ok_or_else(|| "it is not in the buffers".to_owned()))
+        let copied = || match bytes {
+            Some(bytes) => Ok((bytes.to_vec(), TextureOrigin::Within(source))),
+            None => Err("it is not in the buffers".to_owned()),
+        };
+        self.textures.load(&number, copied)
     }
 
     /// The index of the primitive's vertex for each corner.
@@ -402,6 +489,56 @@ fn transform(translation: Option<[f64; 3]>, rotation: Option<[f64; 4]>, scale: O
 struct Surface {
     factor: [f64; 4],
     is_blended: bool,
+    texture: Option<SurfaceTexture>,
+}
+
+/// The texture of a material.
+struct SurfaceTexture {
+    texture: Texture,
+    mean: [f64; 3],
+    /// The number of its texture coordinates.
+    set: usize,
+    /// The transform of these (`KHR_texture_transform`), if there is one: u and v from u, v and 1.
+    transform: Option<[[f64; 3]; 2]>,
+}
+
+impl SurfaceTexture {
+    /// `info`: the reference to the texture in the material.
+    fn new(texture: Texture, mean: [f64; 3], info: &Value) -> Self {
+        let placed = &info["extensions"]["KHR_texture_transform"];
+        let set = whole(&placed["texCoord"]).or(whole(&info["texCoord"])).unwrap_or(0);
+        let transform = (!placed.is_null()).then(|| {
+            let [x, y] = numbers(&placed["offset"]).unwrap_or([0.0; 2]);
+            let [width, height] = numbers(&placed["scale"]).unwrap_or([1.0; 2]);
+            let turn = placed["rotation"].as_f64().unwrap_or(0.0);
+            let (sin, cos) = (libm::sin(turn), libm::cos(turn));
+            [[cos * width, sin * height, x], [-sin * width, cos * height, y]]
+        });
+        Self { texture, mean, set, transform }
+    }
+
+    /// Texture coordinates after the transform.
+    fn placed(&self, [u, v]: [f64; 2]) -> [f32; 2] {
+        match self.transform {
+            Some(rows) => rows.map(|[along, across, offset]| (along * u + across * v + offset) as f32),
+            None => [u as f32, v as f32],
+        }
+    }
+}
+
+fn surface_of(material: &Value) -> &Value {
+    &material["pbrMetallicRoughness"]
+}
+
+/// The kinds of textures of a material that scenes do not have.
+fn ignored_textures(material: &Value, roughness: &Value) -> impl Iterator<Item = &'static str> + use<> {
+    let kinds = [
+        ("emissive", &material["emissiveTexture"]),
+        ("metallic-roughness", roughness),
+        ("normal", &material["normalTexture"]),
+        ("occlusion", &material["occlusionTexture"]),
+    ];
+    kinds.map(|(kind, texture)| (!texture.is_null()).then_some(kind)).into_iter().flatten()
 }
 
 impl Surface {

@@ -11,6 +11,8 @@ mod ply;
 mod stl;
 mod text;
 
+pub use gltf::picture_within;
+
 use crate::builder::Builder;
 use crate::error::Problem;
 use crate::foreign;

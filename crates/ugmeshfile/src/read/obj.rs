@@ -9,7 +9,8 @@ use std::io;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugscene::{ColorId, VertexId, shorten};
+use ugphysics::srgb_decode;
+use ugscene::{AlphaMode, ColorId, Texture, VertexId, shorten};
 
 use super::Input;
 use super::mtl::{self, Materials};
@@ -17,7 +18,7 @@ use super::text::{any_number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
-use crate::textures::{MAX_TEXTURE_BYTES, Textures, tinted};
+use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures, tinted};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
     let text = decode(input.bytes);
@@ -77,8 +78,10 @@ struct Reader<'a> {
     input: &'a Input<'a>,
     builder: &'a mut Builder,
     normals: Vec<DVec3>,
-    /// The corners of all faces: vertex, and index into `normals`.
-    corners: Vec<(VertexId, Option<u32>)>,
+    /// Texture coordinates, with v downwards.
+    uvs: Vec<[f32; 2]>,
+    /// The corners of all faces.
+    corners: Vec<Corner>,
     /// For each face, its end in `corners`, its colour and its line.
     faces: Vec<(usize, Option<ColorId>, u32)>,
     /// The names of groups and objects, each with the first face that has it.
@@ -109,6 +112,7 @@ impl<'a> Reader<'a> {
             input,
             builder,
             normals: Vec::new(),
+            uvs: Vec::new(),
             corners: Vec::new(),
             faces: Vec::new(),
             groups: Vec::new(),
@@ -133,6 +137,7 @@ impl<'a> Reader<'a> {
         match keyword {
             "v" => self.vertex(line, rest)?,
             "vn" => self.normal(rest)?,
+            "vt" => self.uv(rest),
             "f" => self.face(rest)?,
             "l" | "p" | "curv" | "curv2" | "surf" => self.n_skipped += 1,
             "mtllib" => self.load_materials(rest)?,
@@ -174,6 +179,13 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
+    /// A texture coordinate that is no number is NaN, and dropped with its vertex.
+    fn uv(&mut self, rest: &str) {
+        let mut parts = rest.split_whitespace().map_while(any_number);
+        let (u, v) = (parts.next().unwrap_or(f64::NAN), parts.next().unwrap_or(0.0));
+        self.uvs.push([u as f32, (1.0 - v) as f32]);
+    }
+
     fn face(&mut self, rest: &str) -> Result<(), Problem> {
         for word in rest.split_whitespace() {
             let corner = self.corner(word)?;
@@ -185,9 +197,9 @@ impl<'a> Reader<'a> {
 
     /// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, with indices counted from 1, or backwards from
     /// −1.
-    fn corner(&mut self, word: &str) -> Result<(VertexId, Option<u32>), Problem> {
+    fn corner(&mut self, word: &str) -> Result<Corner, Problem> {
         let mut parts = word.split('/');
-        let (position, normal) = (parts.next().unwrap_or_default(), parts.nth(1).unwrap_or_default());
+        let [position, uv, normal] = std::array::from_fn(|_| parts.next().unwrap_or_default());
         let n_vertices = self.builder.n_vertices();
         let vertex =
             row(position, n_vertices).and_then(|row| self.builder.vertex_at(row)).ok_or_else(|| {
@@ -196,12 +208,13 @@ impl<'a> Reader<'a> {
                     shorten(position)
                 ))
             })?;
+        let uv = row(uv, self.uvs.len()).filter(|&row| row < self.uvs.len() as u64).map(|row| row as u32);
         if normal.is_empty() {
-            return Ok((vertex, None));
+            return Ok(Corner { vertex, uv, normal: None });
         }
         let normal = row(normal, self.normals.len()).filter(|&row| row < self.normals.len() as u64);
         self.n_without_normal += usize::from(normal.is_none());
-        Ok((vertex, normal.map(|row| row as u32)))
+        Ok(Corner { vertex, uv, normal: normal.map(|row| row as u32) })
     }
 
     /// `mtllib` allows several names, but a single name with spaces is more common, so that is
@@ -210,13 +223,13 @@ impl<'a> Reader<'a> {
         if !self.libraries.insert(rest.to_owned()) {
             return Ok(());
         }
-        if let Ok(bytes) = read_named(self.input, rest, self.material_room + 1) {
+        if let Ok((bytes, _)) = read_named(self.input, rest, self.material_room + 1) {
             return self.add_materials(&bytes);
         }
         let names: Vec<&str> = rest.split_whitespace().collect();
         for name in if names.is_empty() { vec![rest] } else { names } {
             match read_named(self.input, name, self.material_room + 1) {
-                Ok(bytes) => self.add_materials(&bytes)?,
+                Ok((bytes, _)) => self.add_materials(&bytes)?,
                 Err(error) => {
                     self.builder
                         .warn(format!("colours are missing: cannot read `{}`: {error}", shorten(name)));
@@ -242,25 +255,36 @@ impl<'a> Reader<'a> {
             self.unknown_materials.insert(name.to_string());
         }
         let file = self.materials.textures.get(name).cloned();
-        let tinted = known.map(|color| match file {
-            // Exporters write so where the texture alone has the colour.
-            Some(file) if color.0[..3] == [0.0; 3] => {
-                self.builder.warn(format!(
-                    "material `{}` is black and has a texture, which alone colours its faces",
-                    shorten(name)
-                ));
-                self.textured(Rgba([1.0, 1.0, 1.0, color.0[3]]), &file)
-            }
-            Some(file) => self.textured(color, &file),
-            None => color,
+        self.color = known.map(|mut color| {
+            let loaded = file.and_then(|file| {
+                let load = || {
+                    let read = read_named(self.input, &file, MAX_TEXTURE_BYTES);
+                    read.map(|(bytes, name)| (bytes, TextureOrigin::File(name)))
+                        .map_err(|error| error.to_string())
+                };
+                let loaded = self.textures.load(&file, load);
+                // Exporters write so where the texture alone has the colour.
+                if color.0[..3] == [0.0; 3] {
+                    self.builder.warn(format!(
+                        "material `{}` is black and has a texture, which alone colours its faces",
+                        shorten(name)
+                    ));
+                    color = Rgba([1.0, 1.0, 1.0, color.0[3]]);
+                }
+                loaded
+            });
+            let texture = loaded.as_ref().map(|LoadedTexture { image, .. }| {
+                let [red, green, blue, alpha] = color.0;
+                let factor = [red, green, blue].map(|part| srgb_decode(part.clamp(0.0, 1.0)));
+                let [red, green, blue, alpha] = [factor[0], factor[1], factor[2], alpha.clamp(0.0, 1.0)];
+                let factor =
+                    [red, green, blue, alpha].map(|part| if part.is_nan() { 0.0 } else { part as f32 });
+                let mode = if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
+                Texture { factor, alpha: mode, ..Texture::new(ColorId::from_index(0), image.clone()) }
+            });
+            let tinted = loaded.map_or(color, |LoadedTexture { mean, .. }| tinted(color, mean));
+            self.builder.material(tinted, name, texture)
         });
-        self.color = tinted.map(|color| self.builder.material(color, name));
-    }
-
-    /// The colour with the mean of a texture, if its file can be read.
-    fn textured(&mut self, color: Rgba, file: &str) -> Rgba {
-        let load = || read_named(self.input, file, MAX_TEXTURE_BYTES).map_err(|error| error.to_string());
-        self.textures.mean(file, load).map_or(color, |mean| tinted(color, mean))
     }
 
     /// Builds the faces, after all vertices have been read.
@@ -268,7 +292,7 @@ impl<'a> Reader<'a> {
         if let (false, Some(line)) = (self.has_statement, self.unknown_line) {
             return Err(Problem::at(line, "this is not an OBJ file: no line of it is a statement of OBJ"));
         }
-        let mut splitter = NormalSplitter::new(self.builder.n_vertices());
+        let mut splitter = CornerSplitter::new(self.builder.n_vertices());
         let mut start = 0;
         let mut groups = self.groups.iter().peekable();
         for (row, &(end, color, line)) in self.faces.iter().enumerate() {
@@ -277,9 +301,12 @@ impl<'a> Reader<'a> {
             if let Some((_, name)) = begun.last() {
                 self.builder.name_faces(name);
             }
-            let corners = self.corners[start..end].iter().map(|&(vertex, normal)| {
+            // Without a texture, seams would only divide the faces.
+            let has_texture = color.is_some_and(|color| self.builder.has_texture(color));
+            let corners = self.corners[start..end].iter().map(|&Corner { vertex, uv, normal }| {
                 let normal = normal.map(|row| self.normals[row as usize]).filter(|n| n.is_finite());
-                splitter.vertex(self.builder, vertex, normal)
+                let uv = uv.filter(|_| has_texture).map(|row| self.uvs[row as usize]);
+                splitter.vertex(self.builder, vertex, normal, uv)
             });
             let corners = corners.collect::<Result<Vec<_>, _>>()?;
             self.builder.face(&corners, color)?;
@@ -315,40 +342,57 @@ impl<'a> Reader<'a> {
 }
 
 /// Reads a file that the mesh names, perhaps by a path of another machine: then it is searched for
-/// in the folder of the mesh.
-fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<Vec<u8>> {
+/// in the folder of the mesh. Returns the name by which it was found as well.
+fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<(Vec<u8>, String)> {
     let name = name.replace('\\', "/");
-    (input.read_file)(&name, limit).or_else(|error| match name.rsplit_once('/') {
-        Some((_, last)) => (input.read_file)(last, limit).map_err(|_| error),
-        None => Err(error),
-    })
+    match ((input.read_file)(&name, limit), name.rsplit_once('/')) {
+        (Ok(bytes), _) => Ok((bytes, name)),
+        (Err(error), Some((_, last))) => {
+            (input.read_file)(last, limit).map(|bytes| (bytes, last.to_owned())).map_err(|_| error)
+        }
+        (Err(error), None) => Err(error),
+    }
 }
 
-/// The bits of a normal, by which equal normals with different indices are identified.
-type NormalBits = Option<[u64; 3]>;
-
-/// Splits a vertex with several normals into several vertices. The vertex of the file gets the
-/// first normal, so that vertices keep their order; the copies are appended at the end.
-struct NormalSplitter {
-    first: Vec<Option<NormalBits>>,
-    copies: FxHashMap<(VertexId, NormalBits), VertexId>,
+/// A corner of a face.
+#[derive(Clone, Copy)]
+struct Corner {
+    vertex: VertexId,
+    /// Row of the texture coordinates.
+    uv: Option<u32>,
+    /// Row of the normals.
+    normal: Option<u32>,
 }
 
-impl NormalSplitter {
+/// The bits of a normal and of texture coordinates, by which equal ones with different indices are
+/// identified.
+type CornerBits = (Option<[u64; 3]>, Option<[u32; 2]>);
+
+/// Splits a vertex with several normals or texture coordinates into several vertices. The vertex of
+/// the file gets the first of them, so that vertices keep their order; the copies are appended at
+/// the end.
+struct CornerSplitter {
+    first: Vec<Option<CornerBits>>,
+    copies: FxHashMap<(VertexId, CornerBits), VertexId>,
+}
+
+impl CornerSplitter {
     fn new(n_vertices: usize) -> Self {
         Self { first: vec![None; n_vertices], copies: FxHashMap::default() }
     }
 
-    /// The vertex with this normal at the position of `vertex`.
+    /// The vertex with these at the position of `vertex`.
     fn vertex(
         &mut self,
         builder: &mut Builder,
         vertex: VertexId,
         normal: Option<DVec3>,
+        uv: Option<[f32; 2]>,
     ) -> Result<VertexId, Problem> {
-        let bits = normal.map(|n| n.to_array().map(f64::to_bits));
+        let bits = (normal.map(|n| n.to_array().map(f64::to_bits)), uv.map(|uv| uv.map(f32::to_bits)));
         let first = self.first[vertex.index()].get_or_insert_with(|| {
             builder.set_normal(vertex, normal);
+            builder.set_uv(vertex, uv);
             bits
         });
         if *first == bits {
@@ -357,7 +401,7 @@ impl NormalSplitter {
         if let Some(&copy) = self.copies.get(&(vertex, bits)) {
             return Ok(copy);
         }
-        let copy = builder.copy(vertex, normal)?;
+        let copy = builder.copy(vertex, normal, uv)?;
         self.copies.insert((vertex, bits), copy);
         Ok(copy)
     }

@@ -203,7 +203,7 @@ impl<'t> Expander<'_, 't> {
                 let row = self.scene.vertices.len();
                 self.note(&[Scope::vertex_statement(self.text, span)], row, Item::Vertex);
             }
-            self.scene.vertices.push(Vertex { name, position, color: vertex.color, normal });
+            self.scene.vertices.push(Vertex { name, position, normal, ..*vertex });
             self.origins.vertices.push(span);
         }
         for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {

@@ -20,18 +20,18 @@ use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
 use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
-    MotionReference, References, Repeat, ShadingStatement, StatedFrame, Statement, SurfaceStatement,
-    VertexStatement,
+    CallStatement, CameraStatement, ColorStatement, FaceStatement, FileStatement, LightStatement,
+    MixStatement, MotionReference, References, Repeat, ShadingStatement, StatedFrame, Statement,
+    SurfaceStatement, VertexStatement,
 };
 use crate::token::{
-    Input, Parsed, Reason, backtrack, blank, fail, identifier, integer, mark, number, point, require, wanted,
-    word,
+    Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, mark, number, number32,
+    point, require, wanted, word,
 };
 
 /// The statement keywords, as messages list them.
 pub(crate) const KEYWORDS: &str =
-    "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time surf l cam motion def end i a include execute";
+    "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam motion def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -79,6 +79,7 @@ impl<'t> Grammar<'t> {
             b"c_refl" => self.spectrum(input, true),
             b"c_mix" => self.mix(input),
             b"c_time" => self.table(input),
+            b"c_tex" => self.texture(input),
             b"surf" => self.surface(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),
@@ -104,7 +105,16 @@ impl<'t> Grammar<'t> {
         Ok((input, motion))
     }
 
-    /// `v ID x y z [color] [nx ny nz]`
+    /// A file name, for messages `what`.
+    fn file<'a>(&self, input: Input<'a>, what: &'static str) -> Parsed<'a, FileStatement> {
+        let at = blank(input)?.0;
+        let (rest, name) = wanted(file_name(input), what)?;
+        let span = Span { start: self.position(at), end: self.position(rest) };
+        let start = span.start + u32::from(at.starts_with(b"\""));
+        Ok((rest, FileStatement { span, name: Span { start, end: start + name.len() as u32 } }))
+    }
+
+    /// `v ID x y z [color] [nx ny nz] [(u v)]`
     fn vertex<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (input, name) = wanted(self.name(input), NAME)?;
         let (input, position) = point(input)?;
@@ -113,7 +123,17 @@ impl<'t> Grammar<'t> {
         if normal == Some(DVec3::ZERO) {
             return fail(blank(input)?.0, zero_vector(3));
         }
-        Ok((rest, Statement::Vertex(VertexStatement { name, position, color, normal })))
+        let (rest, uv) = match mark(b'(', "`(` and texture coordinates")(rest) {
+            Ok((inner, ())) => {
+                let (inner, u) = require(number32(inner))?;
+                let (inner, v) = require(number32(inner))?;
+                let (rest, ()) = require(mark(b')', "`)`")(inner))?;
+                (rest, Some([u, v]))
+            }
+            Err(nom::Err::Error(_)) => (rest, None),
+            Err(error) => return Err(error),
+        };
+        Ok((rest, Statement::Vertex(VertexStatement { name, position, color, normal, uv })))
     }
 
     /// `f [ID] contours [color] [shading] [< x y z >]`

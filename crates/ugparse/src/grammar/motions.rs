@@ -9,7 +9,7 @@ use ugscene::StatedMotion;
 use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
 use crate::source::Span;
 use crate::statement::{MotionReference, MotionStatement, PathStatement, StatedFrame, Statement};
-use crate::token::{Input, Parsed, Reason, blank, fail, file_name, mark, number, point, require, wanted};
+use crate::token::{Input, Parsed, Reason, blank, fail, mark, number, point, require, wanted};
 
 impl Grammar<'_> {
     /// `motion ID { -vel -at -acc -spin -orbit -path -on -shift }`
@@ -113,14 +113,8 @@ impl Grammar<'_> {
             return Ok((require(mark(b'>', "`>`")(rest))?.0, PathStatement::Of(name)));
         }
         let Ok((list, ())) = mark(b'(', "`(`")(input) else {
-            let at = blank(input)?.0;
-            let (rest, name) = require(wanted(file_name(input), "a file name, or `(` and a list of events"))?;
-            let span = Span { start: self.position(at), end: self.position(rest) };
-            let start = span.start + u32::from(at.starts_with(b"\""));
-            return Ok((
-                rest,
-                PathStatement::File { span, name: Span { start, end: start + name.len() as u32 } },
-            ));
+            let (rest, file) = require(self.file(input, "a file name, or `(` and a list of events"))?;
+            return Ok((rest, PathStatement::File(file)));
         };
         let (mut input, mut events) = (list, Vec::new());
         while let (rest, Some(t)) = opt(number).parse(input)? {

@@ -1,11 +1,15 @@
-//! Colours that change with own time.
+//! Colours that change with own time, and colours that are pictures.
 
 use nom::Parser;
 use nom::combinator::opt;
 
+use ugscene::{AlphaMode, ColorId, Texture, TextureImage, Wrap};
+
 use super::{Grammar, NAME, number_from, option_word};
-use crate::statement::{Statement, TableStatement};
-use crate::token::{Input, Parsed, Reason, blank, fail, number, require, wanted};
+use crate::statement::{Statement, TableStatement, TextureStatement};
+use crate::token::{
+    Input, Parsed, Reason, backtrack, blank, fail, integer, number, number32, require, wanted, word,
+};
 
 impl Grammar<'_> {
     /// `c_time ID [-step] [-period T] [-shift T] { time color }`
@@ -49,4 +53,65 @@ impl Grammar<'_> {
         }
         Ok((input, Statement::Table(TableStatement { color, is_stepped, period, shift, rows })))
     }
+
+    /// `c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]`
+    pub(super) fn texture<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let (input, color) = wanted(self.name(input), NAME)?;
+        let (mut input, file) = require(self.file(input, "the file of a picture"))?;
+        let mut texture = Texture::new(ColorId::from_index(0), TextureImage::default());
+        while let (rest, Some(option)) = opt(option_word).parse(input)? {
+            match option {
+                b"wrap" => {
+                    let (rest, u) = require(wrap(rest))?;
+                    let (rest, v) = opt(wrap).parse(rest)?;
+                    (input, texture.wrap) = (rest, [u, v.unwrap_or(u)]);
+                }
+                b"factor" => {
+                    let mut behind = rest;
+                    for channel in &mut texture.factor[..3] {
+                        (behind, *channel) = require(factor(behind))?;
+                    }
+                    let (behind, alpha) = opt(factor).parse(behind)?;
+                    texture.factor[3] = alpha.unwrap_or(1.0);
+                    input = behind;
+                }
+                b"mask" => {
+                    let (rest, cutoff) = opt(factor).parse(rest)?;
+                    (input, texture.alpha) = (rest, AlphaMode::Mask(cutoff.unwrap_or(0.5)));
+                }
+                b"image" => {
+                    let (rest, row) = require(wanted(integer(rest), "the number of a picture, from 0"))?;
+                    // No mesh has so many; those beyond are refused with the mesh.
+                    (input, texture.image.row) = (rest, Some(u32::try_from(row).unwrap_or(u32::MAX)));
+                }
+                b"blend" => (input, texture.alpha) = (rest, AlphaMode::Blend),
+                _ => {
+                    let expected = "`;` or an option of a picture (-image -wrap -factor -mask -blend)";
+                    return fail(blank(input)?.0, Reason::Expected(expected));
+                }
+            }
+        }
+        Ok((input, Statement::Texture(TextureStatement { color, file, texture })))
+    }
+}
+
+/// What is beyond the edges of a picture.
+fn wrap(input: Input<'_>) -> Parsed<'_, Wrap> {
+    match word(input) {
+        Ok((rest, name))
+            if let Some(wrap) = Wrap::ALL.into_iter().find(|wrap| wrap.name().as_bytes() == name) =>
+        {
+            Ok((rest, wrap))
+        }
+        _ => backtrack(input, Reason::Expected("`repeat`, `clamp` or `mirror`")),
+    }
+}
+
+/// A number, 0 or more.
+fn factor(input: Input<'_>) -> Parsed<'_, f32> {
+    let (rest, value) = number32(input)?;
+    if value < 0.0 {
+        return fail(blank(input)?.0, Reason::OutOfRange("a factor is 0 or more"));
+    }
+    Ok((rest, value))
 }

@@ -14,6 +14,7 @@ use ugscene::Scene;
 use crate::diagnostic::Diagnostic;
 use crate::options::Limits;
 use crate::scope::Scope;
+use crate::source::Images;
 
 pub(crate) use degenerate::{degeneracy, face_name, has_three, is_short, omitted, short_wire};
 pub(crate) use undefined::{undefined, undefined_like};
@@ -21,7 +22,9 @@ pub(crate) use undefined::{undefined, undefined_like};
 use calls::link_calls;
 use corners::{link_corners, path_corners};
 use degenerate::{remove_degenerate_faces, remove_short_wires};
-use named::{apply_default_colors, gather_mixes, gather_named, name_surfaces, paint, visible};
+use named::{
+    apply_default_colors, gather_mixes, gather_named, gather_textures, name_surfaces, paint, visible,
+};
 use sizes::Sizes;
 use undefined::{UndefinedNames, show};
 
@@ -46,7 +49,7 @@ pub(crate) struct Link {
 
 /// Resolves all names of `scopes`, and moves their colours and surfaces to `scene`.
 pub(crate) fn resolve(
-    text: &[u8],
+    (text, images): (&[u8], &Images),
     scopes: &mut [Scope<'_>],
     scene: &mut Scene,
     limits: &Limits,
@@ -78,6 +81,7 @@ pub(crate) fn resolve(
         let has_colors = paint(scope, &colors);
         if has_colors {
             findings.extend(gather_mixes(scope, &colors, scene));
+            findings.extend(gather_textures(scope, &colors, images, scene));
             tables::gather(scope, &colors, scene);
         }
         let has_surfaces = name_surfaces(scope, &surfaces);
@@ -91,6 +95,7 @@ pub(crate) fn resolve(
         remove_short_wires(text, scope, has_corners, findings);
     }
     scene.mixes.sort_by_key(|mix| mix.color);
+    scene.textures.sort_by_key(|texture| texture.color);
     tables::check(text, (scopes, &firsts.colors), scene, findings);
     apply_default_colors(&mut scopes[0]);
     let calls = (0..scopes.len()).map(|row| link_calls(text, scopes, row, findings)).collect();

@@ -10,7 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::named::Named;
 use crate::options::{Limit, Limits};
 use crate::scope::{Scope, shifted};
-use crate::source::Span;
+use crate::source::{Images, Span};
 
 /// The limit for names of colours and surfaces, paths included, is the limit for all names divided
 /// by this.
@@ -117,6 +117,35 @@ pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     colors.iter().all(Option::is_some)
 }
 
+/// Moves the textures of a scope to the scene. Returns an error if it has two of one colour.
+pub(super) fn gather_textures(
+    scope: &mut Scope<'_>,
+    colors: &[Option<usize>],
+    images: &Images,
+    scene: &mut Scene,
+) -> Option<Diagnostic> {
+    let first = scene.textures.len();
+    for mut texture in std::mem::take(&mut scope.textures.rows) {
+        texture.color = ColorId::from_index(colors[texture.color.index()]?);
+        let key = (texture.image.file.clone().unwrap_or_default(), texture.image.row);
+        texture.image.bytes = images.get(&key).cloned().unwrap_or_default();
+        scene.textures.push(texture);
+    }
+    let colors: Vec<ColorId> = scene.textures[first..].iter().map(|texture| texture.color).collect();
+    stated_twice(&colors, &scope.textures.spans, "has two pictures", scene)
+}
+
+/// The error of the first colour that is stated twice, in rows of a scope.
+fn stated_twice(colors: &[ColorId], spans: &[Span], what: &str, scene: &Scene) -> Option<Diagnostic> {
+    let mut order: Vec<usize> = (0..colors.len()).collect();
+    order.sort_by_key(|&row| colors[row]);
+    let twice = order.windows(2).find(|pair| colors[pair[0]] == colors[pair[1]])?;
+    let color = &scene.colors[colors[twice[0]].index()];
+    let message = format!("colour `{}` {what}", scene.names.get(color.name));
+    let error = Diagnostic::error(spans[twice[1]], message).label("again here");
+    Some(error.other(spans[twice[0]], "first here").help("remove one of them"))
+}
+
 /// Moves the mixtures of a scope to the scene. Returns an error if it has two of one colour.
 pub(super) fn gather_mixes(
     scope: &Scope<'_>,
@@ -130,14 +159,8 @@ pub(super) fn gather_mixes(
         Some(Mix { color: row(mix.color)?, parts: parts.collect::<Option<_>>()? })
     };
     scene.mixes.extend(scope.mixes.rows.iter().filter_map(resolved));
-    let mut order: Vec<usize> = (first..scene.mixes.len()).collect();
-    order.sort_by_key(|&row| scene.mixes[row].color);
-    let twice = order.windows(2).find(|pair| scene.mixes[pair[0]].color == scene.mixes[pair[1]].color)?;
-    let color = &scene.colors[scene.mixes[twice[0]].color.index()];
-    let [before, again] = [twice[0], twice[1]].map(|row| scope.mixes.spans[row - first]);
-    let message = format!("colour `{}` is mixed twice", scene.names.get(color.name));
-    let error = Diagnostic::error(again, message).label("again here").other(before, "first here");
-    Some(error.help("remove one of them"))
+    let colors: Vec<ColorId> = scene.mixes[first..].iter().map(|mix| mix.color).collect();
+    stated_twice(&colors, &scope.mixes.spans, "is mixed twice", scene)
 }
 
 /// Replaces names of surfaces by rows; returns false if one is not defined.

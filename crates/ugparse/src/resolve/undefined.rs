@@ -29,6 +29,7 @@ impl UndefinedNames<'_, '_, '_> {
                     self.check_color(Some(mix.color));
                     mix.parts.iter().for_each(|&(part, _)| self.check_color(Some(part)));
                 }
+                Some(Statement::Texture(texture)) => self.check_color(Some(texture.color)),
                 Some(Statement::Table(table)) => {
                     table.rows.iter().for_each(|&(_, color)| self.check_color(Some(color)));
                 }

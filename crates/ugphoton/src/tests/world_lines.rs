@@ -182,7 +182,7 @@ fn hits_are_those_of_emission_events() {
             let first = scenery.closest(&ray, 0.0..f64::INFINITY);
             assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
             if let (Some(first), 0) = (first, idx % 2) {
-                let seen = SurfacePoint::new(&scenery, &PastRay::from_eye(direction), &first);
+                let seen = SurfacePoint::new(&scenery, &PastRay::from_eye(direction), &first, None);
                 let light = line.emission(seen.place, origin).unwrap();
                 let beta = seen.frame(&scenery).velocity().beta();
                 assert!((first.own_time - light.own_time).abs() < 1e-8, "{text}\n{first:?} {light:?}");

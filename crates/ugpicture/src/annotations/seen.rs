@@ -63,7 +63,7 @@ fn with_wires(mut scene: Scene, eye: DVec3, lines: &[[DVec3; 2]]) -> Scene {
             if !scene.rest.is_empty() {
                 scene.rest.push(end);
             }
-            scene.add_vertex(Vertex { name, position: eye + end, color: None, normal: None })
+            scene.add_vertex(Vertex { name, position: eye + end, color: None, normal: None, uv: None })
         });
         let contours = scene.contours.push_all([ends]);
         scene.wires.push(Wire { name: None, contours, color: None, body });

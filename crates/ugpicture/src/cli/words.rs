@@ -37,6 +37,9 @@ impl Words for Error {
                      count columns and rows from 0 at the upper left, or give -sz"
                 );
             }
+            Self::Texture(_) => {
+                "{}; save it again as PNG or JPEG, or remove its `c_tex`, and its faces have their plain colour"
+            }
             Self::Text(_) | Self::Stopped(_) => "{}",
             Self::Camera(error) => return error.words(),
         };
@@ -44,7 +47,7 @@ impl Words for Error {
     }
 
     fn is_usage(&self) -> bool {
-        !matches!(self, Self::Memory(..) | Self::Camera(_) | Self::Stopped(_))
+        !matches!(self, Self::Memory(..) | Self::Texture(_) | Self::Camera(_) | Self::Stopped(_))
             || *self == Self::Camera(CameraError::NoUp)
     }
 }
@@ -63,6 +66,8 @@ impl Words for Note {
                 let remedy = if *is_exact { "leave out -xc: " } else { "" };
                 return format!("{self}; {remedy}{}", remedies::MOVING_LIGHTS);
             }
+            Self::PlainTextures { is_seen: false, .. } => "{}; -xc draws them",
+            Self::PlainTextures { is_seen: true, .. } => remedies::DRAW_TEXTURES,
             Self::NotRepeated => remedies::REPEAT_EARLIER,
             Self::UpReplaced => "{}; choose one with -ud",
             Self::NothingInFront => remedies::NOTHING_IN_FRONT,

@@ -89,6 +89,12 @@ impl PictureRays {
         self.rest(row + x * self.rays[1])
     }
 
+    /// The rays of the samples across and down from that with the ray `rest`.
+    pub fn neighbours(&self, rest: DVec3) -> [DVec3; 2] {
+        let seen = self.seen(rest);
+        [self.rays[1], self.rays[2]].map(|step| self.rest(seen + step))
+    }
+
     /// The ray at the middle of a column. `length`: of the apparent ray.
     #[inline]
     pub fn ray_of_length(&self, row: DVec3, column: u32, length: f64) -> RestRay {

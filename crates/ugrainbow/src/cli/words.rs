@@ -10,7 +10,7 @@ impl Words for Error {
             Self::Scene(_) | Self::Empty => "{}",
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
-            Self::ExplainExact => "--explain works in scanline mode only: leave out -xc",
+            Self::ExplainExact => remedies::EXPLAIN_EXACT,
             Self::ExactSeenColors => remedies::EXACT_SEEN_COLORS,
             Self::ExactPartialGeometry => remedies::EXACT_PARTIAL_GEOMETRY,
             Self::ExactOrthographic => {

@@ -104,11 +104,13 @@ impl<'a, const N: usize> Faces<'a, N> {
         let Some(moving) = &self.moving else { return };
         let [columns, rows] = samples(target.area());
         for [column, row] in rows.flat_map(|row| columns.clone().map(move |column| [column, row])) {
-            let ray = moving.ray([column, row].map(|at| f64::from(at) + 0.5));
+            let place = [column, row].map(|at| f64::from(at) + 0.5);
+            let ray = moving.ray(place);
             for found in hits(moving, &ray) {
                 let key = (1.0 / found.s) as f32;
                 target.draw_each(row, column..column + 1, found.triangle.face, |_, occluder_key| {
-                    (key > occluder_key).then(|| (key, self.packed(moving.shaded::<SPECTRAL>(&ray, &found))))
+                    (key > occluder_key)
+                        .then(|| (key, self.packed(moving.shaded::<SPECTRAL>(&ray, &found, place))))
                 });
             }
         }

@@ -1,9 +1,9 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{ColorForm, FaceColors, Mixing, Swatch};
+use uglight::{ColorForm, FaceColors, Mixing, SurfaceColor, Swatch};
 use ugpicture::outlines::{PictureRays, RestRay};
-use ugscene::{Face, VertexId};
+use ugscene::{ColorId, Face, VertexId};
 
 use crate::painter::Painter;
 
@@ -30,13 +30,16 @@ pub struct Look {
     wavelength_nm: f64,
     /// Index of its spectrum.
     row: u32,
-    /// Triangles between the corners, if colours or normals differ between these. Values at a point
+    /// The colour of the face, if it is a picture.
+    texture: Option<ColorId>,
+    /// Triangles between the corners, if colours or normals differ between these, or for a picture. Values at a point
     /// are interpolated linearly in the rest frame.
     triangles: Box<[Triangle]>,
 }
 
 #[derive(Clone, Debug)]
 struct Triangle {
+    corners: [VertexId; 3],
     colors: [Swatch; 3],
     /// Indices of the spectra of the corners.
     rows: [u32; 3],
@@ -56,7 +59,7 @@ pub fn mean(weights: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
 }
 
 impl Triangle {
-    fn new(places: [DVec3; 3], corners: [(Swatch, u32, DVec3); 3]) -> Self {
+    fn new(places: [DVec3; 3], ids: [VertexId; 3], corners: [(Swatch, u32, DVec3); 3]) -> Self {
         let [a, b, c] = places;
         let sides = [(b, c), (c, a), (a, b)].map(|(from, to)| from.cross(to - from));
         let colors @ [a, b, c] = corners.map(|corner| corner.0);
@@ -65,7 +68,15 @@ impl Triangle {
             [number(|color| color.tint), number(|color| color.saturation), number(|color| color.value)];
         let are_hues = colors.iter().all(|color| color.form == ColorForm::Hue && color.translucency == 0.0);
         let (rows, normals) = (corners.map(|corner| corner.1), corners.map(|corner| corner.2));
-        Self { colors, rows, normals, hues: are_hues.then_some(hues), sides }
+        Self { corners: ids, colors, rows, normals, hues: are_hues.then_some(hues), sides }
+    }
+
+    /// The weights of the corners where a ray from the eye meets the plane of the triangle.
+    #[inline]
+    fn weights(&self, ray: DVec3) -> [f64; 3] {
+        let products = self.sides.map(|side| side.dot(ray));
+        let part = 1.0 / (products[0] + products[1] + products[2]);
+        products.map(|product| product * part)
     }
 
     /// The colour at a point, given by weights of the corners.
@@ -88,7 +99,13 @@ impl Look {
     pub fn new(painter: &Painter<'_>, frame: Option<&PictureRays>, face: &Face) -> Self {
         let (appearance, lighting) = (painter.appearance, painter.lighting);
         let is_moving = frame.is_none_or(|frame| !frame.velocity.is_zero());
-        let colors = appearance.face_colors_in_motion(painter.scene, face, is_moving);
+        let mut colors = appearance.face_colors_in_motion(painter.scene, face, is_moving);
+        let texture = face.color.filter(|_| painter.textures.has(face.color));
+        if texture.is_some() && !appearance.is_spectral() {
+            // Texels are drawn as colours of a display.
+            let keeps_light = appearance.keeps_light() || !is_moving;
+            colors.mixing = if keeps_light { Mixing::Display } else { Mixing::Hue };
+        }
         let normal = painter.seen_normal(face);
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corner = |&vertex: &VertexId| {
@@ -115,7 +132,9 @@ impl Look {
             .then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
         let triangles = match frame {
-            Some(frame) if has_colors || has_normals => triangles(painter, frame, face, &corners),
+            Some(frame) if has_colors || has_normals || texture.is_some() => {
+                triangles(painter, frame, face, &corners)
+            }
             _ => Box::default(),
         };
         Self {
@@ -126,7 +145,8 @@ impl Look {
             is_lit_by_spectra,
             is_lit_by_hues,
             has_colors,
-            has_tints: corners.iter().any(|corner| corner.0.tint != first.0.tint),
+            has_tints: texture.is_some() || corners.iter().any(|corner| corner.0.tint != first.0.tint),
+            texture,
             has_normals,
             color: first.0,
             wavelength_nm: appearance.wavelength_nm(first.0.tint),
@@ -148,8 +168,16 @@ impl Look {
     ) -> (Swatch, DVec3) {
         let spot = (!self.triangles.is_empty()).then(|| self.spot(ray.rest));
         let mixed = spot.filter(|_| self.has_colors);
-        let color = mixed.map(|(triangle, weights)| triangle.color(weights));
-        let rows = || mixed.map(|(it, weights)| std::array::from_fn(|at| (it.rows[at], weights[at])));
+        let texel = if self.texture.is_some() { self.texel(painter, frame, ray.rest, spot) } else { None };
+        let color = match &texel {
+            Some(texel) => Some(texel.swatch),
+            None => mixed.map(|(triangle, weights)| triangle.color(weights)),
+        };
+        let rows = || {
+            let of_corners =
+                |(it, weights): (&Triangle, [f64; 3])| std::array::from_fn(|at| (it.rows[at], weights[at]));
+            texel.map(|texel| texel.rows).or_else(|| mixed.map(of_corners))
+        };
         self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
             let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
             let normal = match spot {
@@ -160,6 +188,29 @@ impl Look {
             };
             [if self.needs_place { place() } else { DVec3::ZERO }, normal, frame.lamp_shift]
         })
+    }
+
+    /// The colour of a texture where a ray meets the face.
+    #[inline(never)] // Keeps the code of other faces small.
+    fn texel(
+        &self,
+        painter: &Painter<'_>,
+        frame: &PictureRays,
+        ray: DVec3,
+        spot: Option<(&Triangle, [f64; 3])>,
+    ) -> Option<SurfaceColor> {
+        let (triangle, weights) = spot?;
+        let [_, second, third] = triangle.weights(ray);
+        let steps = || {
+            frame.neighbours(ray).map(|ray| {
+                let [_, b, c] = triangle.weights(ray);
+                [b - second, c - third]
+            })
+        };
+        let texel =
+            painter.textures.texel(painter.scene, self.texture, (triangle.corners, weights), steps)?;
+        let is_moving = !frame.velocity.is_zero();
+        Some(painter.appearance.texel(texel.light, texel.translucency, is_moving))
     }
 
     /// Apparent colour and light level of a point of the face. `mixed`: its colour at rest, if the
@@ -212,9 +263,7 @@ impl Look {
         let mut best = (&self.triangles[0], [1.0, 0.0, 0.0]);
         let mut most = f64::NEG_INFINITY;
         for triangle in &self.triangles {
-            let products = triangle.sides.map(|side| side.dot(ray));
-            let part = 1.0 / (products[0] + products[1] + products[2]);
-            let weights = products.map(|product| product * part);
+            let weights = triangle.weights(ray);
             let least = weights[0].min(weights[1]).min(weights[2]);
             if least > most {
                 (best, most) = ((triangle, weights), least);
@@ -241,7 +290,11 @@ fn triangles(
     let place = |id: VertexId| frame.aligned_from_scene(painter.appearance.surface.rest(id));
     let triangle = |at: [u32; 3]| {
         let places = at.map(|corner| place(vertices[corner as usize]));
-        Triangle::new(places, at.map(|corner| corners[corner as usize]))
+        Triangle::new(
+            places,
+            at.map(|corner| vertices[corner as usize]),
+            at.map(|corner| corners[corner as usize]),
+        )
     };
     // A self-intersecting face has no triangulation, so it gets a fan.
     let fan = || (2..vertices.len() as u32).map(|corner| [0, corner - 1, corner]).collect();

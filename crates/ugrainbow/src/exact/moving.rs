@@ -6,7 +6,8 @@ use std::ops::{ControlFlow, Range};
 use glam::DVec3;
 use uglight::Swatch;
 use ugphysics::RestFrame;
-use ugpicture::rays::{Faces, Intersection, PastRay, World};
+use ugpicture::rays::{Faces, Intersection, PastRay, World, along};
+use ugpicture::textures::SurfaceElementPlane;
 use ugraster::Bounds;
 use ugscene::{Face, VertexId, shading_normal};
 
@@ -85,7 +86,13 @@ impl<'a> MovingFaces<'a> {
     }
 
     /// Apparent colour and light level at a hit.
-    pub fn shaded<const SPECTRAL: bool>(&self, ray: &PastRay, found: &Intersection) -> (Swatch, DVec3) {
+    /// `x`, `y`: the place of the sample in the picture.
+    pub fn shaded<const SPECTRAL: bool>(
+        &self,
+        ray: &PastRay,
+        found: &Intersection,
+        [x, y]: [f64; 2],
+    ) -> (Swatch, DVec3) {
         let Painter { scene, appearance, .. } = self.painter;
         let face = found.triangle.face;
         let Some(line) = appearance.surface.frames().world_line(scene.faces[face as usize].body) else {
@@ -97,10 +104,27 @@ impl<'a> MovingFaces<'a> {
         let frame = RestFrame::new(element.velocity);
         let stretch = frame.wave_to_rest(ray.wave).frequency;
         let look = &self.looks[&face];
-        let color = appearance.color_at(&look.colors, corners, weights);
+        let outside = self.world.outside[face as usize];
+        let steps = || {
+            let plane = SurfaceElementPlane {
+                frame: &frame,
+                normal: element.normal(outside),
+                event: along(ray.origin, ray.step, found.s),
+                places: corners.map(|corner| appearance.surface.rest(corner)),
+            };
+            // Exact unless the body spins.
+            let to_body =
+                |step: DVec3| DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)));
+            plane.steps([self.ray([x + 1.0, y]), self.ray([x, y + 1.0])], to_body)
+        };
+        let color = scene.faces[face as usize].color;
+        let texel = self.painter.textures.texel(scene, color, (corners, weights), steps);
+        let color = match texel {
+            Some(texel) => appearance.texel(texel.light, texel.translucency, true),
+            None => appearance.color_at(&look.colors, corners, weights),
+        };
         let color = (Some(color.swatch), || Some(color.rows));
         look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
-            let outside = self.world.outside[face as usize];
             let step = frame.rest_from_camera(ray.step).x;
             let seen = if element.normal(outside).dot(step) <= 0.0 { outside } else { -outside };
             let own = corners.map(|corner| shading_normal(scene.vertices[corner.index()].normal, seen));

@@ -89,7 +89,7 @@ pub fn explain(
     pixel: [u32; 2],
 ) -> Result<(Explanation<ExplainedSample>, Diagnostics), Error> {
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
-    if config.exact.is_some() {
+    if config.with_textures(&parsed.scene).exact.is_some() {
         return Err(Error::ExplainExact);
     }
     let canvas = Canvas::new(&config.picture)?;

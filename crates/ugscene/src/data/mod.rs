@@ -11,6 +11,7 @@ mod remarks;
 mod scene;
 mod stage;
 mod surface;
+mod texture;
 
 pub use body::{Bodies, Body};
 pub use color_table::{ColorTable, TablePlace};
@@ -28,3 +29,4 @@ pub use stage::{
     ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,
 };
 pub use surface::{SurfaceNumber, SurfaceProperties};
+pub use texture::{AlphaMode, Texture, TextureImage, Wrap};

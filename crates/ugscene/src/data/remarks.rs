@@ -44,6 +44,8 @@ pub enum Item {
     Color(u32),
     /// Row of [`Scene::mixes`].
     Mix(u32),
+    /// Row of [`Scene::textures`].
+    Texture(u32),
     /// Row of [`Scene::surfaces`].
     Surface(u32),
     /// Row of [`Scene::bodies`], of a body whose motion has a statement.

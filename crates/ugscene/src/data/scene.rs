@@ -23,6 +23,7 @@ use super::names::Names;
 use super::remarks::Remarks;
 use super::stage::{HueScale, Stage};
 use super::surface::SurfaceProperties;
+use super::texture::Texture;
 
 /// A flat UniGrafix scene.
 ///
@@ -45,6 +46,8 @@ pub struct Scene {
     pub mixes: Vec<Mix>,
     /// `c_time`, by the row of the colour: see [`Scene::table_of`].
     pub color_tables: Vec<ColorTable>,
+    /// `c_tex`, by the row of the colour: see [`Scene::texture_of`].
+    pub textures: Vec<Texture>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
     /// The bodies and their motions.
@@ -186,6 +189,15 @@ pub struct Vertex {
     pub color: Option<ColorId>,
     /// Rest-frame normal for smooth shading; any length except 0.
     pub normal: Option<DVec3>,
+    /// Texture coordinates: u to the right and v downwards, from 0 to 1 in the picture.
+    pub uv: Option<[f32; 2]>,
+}
+
+impl Vertex {
+    /// A vertex without normal and texture coordinates. The name is that of row 0.
+    pub fn at(position: DVec3, color: Option<ColorId>) -> Self {
+        Self { name: NameId::from_index(0), position, color, normal: None, uv: None }
+    }
 }
 
 /// A planar polygon, with holes if it has more than one contour (even-odd rule).
@@ -354,6 +366,12 @@ impl Scene {
     pub fn table_of(&self, color: ColorId) -> Option<&ColorTable> {
         let row = self.color_tables.binary_search_by_key(&color, |table| table.color).ok()?;
         Some(&self.color_tables[row])
+    }
+
+    /// The picture that a colour is.
+    pub fn texture_of(&self, color: ColorId) -> Option<&Texture> {
+        let row = self.textures.binary_search_by_key(&color, |texture| texture.color).ok()?;
+        Some(&self.textures[row])
     }
 
     /// True if the colour of a face or wire changes with own time.

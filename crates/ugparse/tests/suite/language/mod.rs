@@ -14,6 +14,7 @@ mod scopes;
 mod stage;
 mod statements;
 mod surfaces;
+mod textures;
 mod threads;
 mod tokens;
 mod transforms;

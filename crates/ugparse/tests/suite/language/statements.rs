@@ -14,7 +14,7 @@ fn vertices() {
     check_error("v a 1 2 3 4 5 6 7;", "expected `;`, found `7`");
     check_error("v a 1 2 3 0 0 0;", "the vector is zero");
     check_error("v a 1 2 3 0 0 -0;", "the vector is zero");
-    check_error("v a 1 2 3 (b);", "expected `;`, found `(`");
+    check_error("v a 1 2 3 (b);", "expected a number, found `b`");
 }
 
 #[test]

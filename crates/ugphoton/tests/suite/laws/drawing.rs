@@ -1,7 +1,9 @@
 //! Scenes for measurements, and their light.
 
+use std::path::Path;
+
 use glam::{DMat3, DMat4, DVec3, DVec4};
-use ugimage::{LinearFrame, Samples};
+use ugimage::{Format, Frame, LinearFrame, Metadata, Samples};
 use ugphoton::{CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, light};
 use ugphysics::{Brightness, srgb_encode};
 
@@ -11,11 +13,29 @@ pub const HEAD: &str = "c white 1; l 0; surf mirror 0 1 0; surf glass 0 0 1 1.5;
 /// The light of a scene with the eye at the origin.
 pub fn drawn(text: &str, config: &Config) -> LinearFrame {
     let source = ugparse::Source::new("test.ug", text);
+    let options = ugparse::Options::default();
+    let source = ugparse::include(source, &options, |request| Ok(picture(request.path))).unwrap();
     let mut scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
     if scene.cameras.is_empty() {
         scene.cameras.push(ugscene::Camera { eye: Some(DVec3::ZERO), ..ugscene::Camera::default() });
     }
     light(scene, config).unwrap()
+}
+
+/// The picture that a name describes: `rgb_R_G_B` is one pixel, `checks_N_M` are N x N checks of M x
+/// M pixels, black at the upper left.
+fn picture(path: &Path) -> Vec<u8> {
+    let name = path.to_str().unwrap();
+    let numbers: Vec<u32> = name.split('_').skip(1).map(|number| number.parse().unwrap()).collect();
+    let (side, pixels) = match numbers[..] {
+        [red, green, blue] => (1, vec![[red as u8, green as u8, blue as u8, 255]]),
+        [n, m] => {
+            let places = (0..n * m).flat_map(|row| (0..n * m).map(move |column| (row / m + column / m) % 2));
+            (n * m, places.map(|odd| if odd == 1 { [255; 4] } else { [0, 0, 0, 255] }).collect())
+        }
+        _ => panic!("{name}"),
+    };
+    Format::Png.encode(&Frame::new([side; 2], true, pixels), &Metadata::default())
 }
 
 /// A view of one sample per pixel.
@@ -45,7 +65,7 @@ pub fn seen_with(text: &str, toward: DVec3, base: Config) -> DVec3 {
 /// The distance of the emission event in a direction.
 pub fn distance(text: &str, toward: DVec3) -> f64 {
     let mut config = config([1, 1], toward, 1e-3);
-    config.picture.output = Output::Color(ugimage::Format::Exr);
+    config.picture.output = Output::Color(Format::Exr);
     config.picture.channels = vec![Channel::Distance];
     let frame = drawn(text, &config);
     match &frame.planes()[0].samples {

@@ -4,6 +4,7 @@ mod beaming;
 mod drawing;
 mod frames;
 mod report;
+mod textures;
 
 use glam::DVec3;
 use ugphoton::{ColorShift, Config, RayOptions};

@@ -1,0 +1,157 @@
+//! Textures: their light, their place, and their footprints.
+
+use glam::{DVec2, DVec3};
+use ugphoton::{ColorShift, Config, HueShift, PictureOptions};
+use ugphysics::{Brightness, Velocity, seen_position, srgb_decode, srgb_encode};
+
+use super::drawing::{HEAD, by_spectra, config, drawn, polygon, seen_with};
+
+/// Shapes alone: nothing is shifted.
+fn by_shape() -> Config {
+    Config { shift: ColorShift::NONE, ..Config::default() }
+}
+
+/// A square at y = 3 with this colour, and texture coordinates over the whole picture.
+fn square(color: &str, velocity: &str) -> String {
+    format!(
+        "v a -1 3 -1 (0 1); v b 1 3 -1 (1 1); v c 1 3 1 (1 0); v d -1 3 1 (0 0); f (a b c d) {color} 1 {velocity};"
+    )
+}
+
+/// A texture of one colour is shifted as that colour: in motion, by hues exactly, and by spectra
+/// within the error of the lattice; at rest it is the colour, whatever it is.
+#[test]
+fn a_texel_is_shifted_as_its_colour() {
+    let colors =
+        [[200, 40, 30], [12, 130, 60], [20, 30, 180], [230, 180, 40], [128, 128, 128], [250, 245, 252]];
+    let hues = Config {
+        shift: ColorShift::Hues(HueShift { doppler: true, law: Brightness::Photon }),
+        ..Config::default()
+    };
+    for [red, green, blue] in colors {
+        let [r, g, b] = [red, green, blue].map(|byte| f64::from(byte) / 255.0);
+        let head =
+            format!("{HEAD}c_rgb plain {r} {g} {b}; c 1; c_tex it rgb_{red}_{green}_{blue}; c_rgb it 1 1 1;");
+        for beta in [DVec3::ZERO, DVec3::X * 0.2, DVec3::Y * 0.4, DVec3::Y * -0.4, DVec3::new(-0.5, 0.3, 0.0)]
+        {
+            let velocity = &format!("<{} {} {}>", beta.x, beta.y, beta.z);
+            let toward = seen_position(DVec3::new(0.1, 3.0, -0.2), Velocity::from_beta(beta).unwrap());
+            let at = |color: &str, base: &Config| {
+                let text = head.clone() + &square(color, velocity);
+                seen_with(&text, toward, base.clone())
+            };
+            for (base, tolerance) in [(&hues, 1e-6), (&by_shape(), 1e-6), (&by_spectra(), 0.02)] {
+                let (found, expected) = (at("it", base), at("plain", base));
+                let error = (found - expected).abs().max_element() / expected.abs().max_element();
+                assert!(error < tolerance, "{red} {green} {blue} {velocity}: {found} {expected}");
+            }
+            // At rest and with grey the lattice is exact.
+            if beta == DVec3::ZERO || (red == green && green == blue) {
+                let (found, expected) = (at("it", &by_spectra()), at("plain", &by_spectra()));
+                assert!((found / expected - 1.0).abs().max_element() < 1e-6, "{found} {expected}");
+            }
+        }
+    }
+}
+
+/// Light is texel times factor times the colours of the vertices, interpolated as light.
+#[test]
+fn factors_multiply_light() {
+    let head = format!("{HEAD}c_rgb it 1 1 1; c_tex it rgb_255_128_0 -factor .5 .25 1; c_rgb half .5 1 .25;");
+    let light = |tint: &str| {
+        let text = head.clone() + &square("it", "").replace(" (", &format!(" {tint} ("));
+        // The parentheses of the face are no coordinates.
+        seen_with(&text.replace(&format!("f {tint} ("), "f ("), DVec3::Y, by_shape())
+    };
+    let texel = DVec3::new(0.5, 0.25 * srgb_decode(128.0 / 255.0), 0.0);
+    assert!(light("").distance(texel) < 1e-6, "{}", light(""));
+    let tint = DVec3::new(srgb_decode(0.5), 1.0, srgb_decode(0.25));
+    assert!(light("half").distance(texel * tint) < 1e-6, "{}", light("half"));
+}
+
+/// Where a mask cuts, the light behind is seen, and shadows have its shape.
+#[test]
+fn alpha_masks_and_blends() {
+    let behind = polygon(
+        "w",
+        &[[-9.0, -9.0], [9.0, -9.0], [9.0, 9.0], [-9.0, 9.0]].map(|[x, z]| DVec3::new(x, 9.0, z)),
+        "white 0.5",
+    );
+    let seen = |alpha: &str| {
+        let text = format!("{HEAD}c it 1; c_tex it rgb_255_0_0 {alpha};{}{behind}", square("it", ""));
+        seen_with(&text, DVec3::Y, by_shape())
+    };
+    let (red, wall) = (DVec3::X, DVec3::splat(srgb_decode(0.5)));
+    for (alpha, expected) in [
+        ("-factor 1 1 1 .4", red),
+        ("-factor 1 1 1 .4 -mask .5", wall),
+        ("-factor 1 1 1 .6 -mask .5", red),
+        ("-factor 1 1 1 .25 -blend", 0.25 * red + 0.75 * wall),
+    ] {
+        assert!(seen(alpha).distance(expected) < 1e-6, "{alpha}: {} {expected}", seen(alpha));
+    }
+}
+
+/// The edges of checks are seen where exact geometry has them (P3), to a tenth of a pixel of a
+/// picture in which a side of the square is 200 pixels.
+#[test]
+fn checks_are_where_they_are_seen() {
+    for beta in [DVec3::ZERO, DVec3::X * 0.99, DVec3::new(0.5, -0.6, 0.3), DVec3::Z * -0.99] {
+        let velocity = format!("<{} {} {}>", beta.x, beta.y, beta.z);
+        let text = format!("{HEAD}c it 1; c_tex it checks_8_8;{}", square("it", &velocity));
+        let velocity = Velocity::from_beta(beta).unwrap();
+        let light = |uv: DVec2| {
+            let place = DVec3::new(2.0 * uv.x - 1.0, 3.0, 1.0 - 2.0 * uv.y);
+            seen_with(&text, seen_position(place, velocity), by_shape()).y
+        };
+        for (column, row) in [(1, 2), (4, 4), (7, 0), (3, 7)] {
+            let middle = DVec2::new(f64::from(column) / 8.0, (f64::from(row) + 0.5) / 8.0);
+            let step = DVec2::X * (0.1 / 200.0);
+            let (left, right) = (light(middle - step), light(middle + step));
+            let is_black_left = (column - 1 + row) % 2 == 0;
+            assert_eq!(left < 0.5, is_black_left, "{beta} {column} {row}: {left} {right}");
+            assert_eq!(right > 0.5, is_black_left, "{beta} {column} {row}: {left} {right}");
+        }
+    }
+}
+
+/// Peak signal to noise ratio of two pictures, display-encoded, in dB.
+fn psnr(text: &str, (toward, angle): (DVec3, f64), samples: [u32; 2]) -> f64 {
+    let [a, b] = samples.map(|samples| {
+        let picture = config([48, 36], toward, angle).picture;
+        let picture = PictureOptions { samples, ..picture };
+        drawn(text, &Config { picture, ..by_shape() })
+    });
+    let encoded = |light: f32| srgb_encode(f64::from(light).clamp(0.0, 1.0));
+    let error = |(a, b): (&[f32; 4], &[f32; 4])| encoded(a[1]) - encoded(b[1]);
+    let sum: f64 = a.pixels().iter().zip(b.pixels()).map(error).map(|error| error * error).sum();
+    let n_bright = b.pixels().iter().filter(|pixel| pixel[1] > 0.1).count();
+    assert!(20 * n_bright > b.pixels().len(), "{n_bright} pixels are seen");
+    -10.0 * libm::log10(sum / a.pixels().len() as f64)
+}
+
+/// A floor of 400 x 400 checks to the horizon, and a board: 8 x 8 samples differ from 16 x 16 by no
+/// more than edges do, and footprints keep a floor free of moire with 2 x 2 samples.
+#[test]
+fn footprints_prevent_aliasing() {
+    for beta in [DVec3::ZERO, DVec3::X * -0.99, DVec3::Y * -0.99] {
+        let velocity = format!("<{} {} {}>", beta.x, beta.y, beta.z);
+        let floor = format!(
+            "v e -99 1 -1.5 (0 0); v g 99 1 -1.5 (50 0); v h 99 199 -1.5 (50 50); v i -99 199 -1.5 (0 50); \
+             f (e g h i) it 1 {velocity};"
+        );
+        let seen = |place: DVec3| seen_position(place, Velocity::from_beta(beta).unwrap());
+        for (scene, corners) in [
+            (square("it", &velocity), [DVec3::new(-1.0, 3.0, -1.0), DVec3::new(1.0, 3.0, 1.0)]),
+            (floor, [DVec3::new(-9.0, 1.0, -1.5), DVec3::new(9.0, 60.0, -1.5)]),
+        ] {
+            let text = format!("{HEAD}c it 1; c_tex it checks_8_8;{scene}");
+            // Without the outline, where samples alias as on any face.
+            let angle = 0.6 * seen(corners[0]).angle_between(seen(corners[1])).to_degrees().min(100.0);
+            let view = (seen(corners[0].midpoint(corners[1])), angle);
+            let [fine, coarse] = [8, 2].map(|samples| psnr(&text, view, [samples, 16]));
+            assert!(fine > 38.0, "{velocity}: {fine} dB\n{scene}");
+            assert!(coarse > 26.0, "{velocity}: {coarse} dB with 2 x 2 samples\n{scene}");
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Pictures on surfaces, for renderers that find the light of each sample by itself: `levels`,
+//! texels with mip levels; `footprint`, the change of texture coordinates between samples.
+
+mod footprint;
+mod levels;
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use thiserror::Error;
+use ugimage::{PictureLimits, read_picture};
+use ugscene::{AlphaMode, ColorId, Scene, Texture, VertexId};
+
+pub use footprint::SurfaceElementPlane;
+use levels::Levels;
+
+/// The most bytes of texels of all textures of a scene, with their mip levels.
+const MOST_BYTES: u64 = 1 << 32;
+
+/// A picture on surfaces that cannot be read.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("the picture `{file}` of colour `{color}` cannot be read: {reason}")]
+pub struct TextureError {
+    /// Its file, or its colour if it has none.
+    pub file: String,
+    /// The name of the colour.
+    pub color: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// The textures of a scene, ready for sampling.
+#[derive(Debug, Default)]
+pub struct Textures {
+    maps: Vec<TextureMap>,
+    /// For each colour of the scene, its map; empty if there are none.
+    of_color: Vec<Option<u32>>,
+    /// For each colour of the scene the linear light with which a vertex tints a texture.
+    tints: Vec<DVec3>,
+}
+
+/// A texture.
+#[derive(Debug)]
+struct TextureMap {
+    levels: Arc<Levels>,
+    texture: Texture,
+}
+
+/// The light of a texture at a point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Texel {
+    /// Linear red, green and blue, 0 or more.
+    pub light: DVec3,
+    /// 0 opaque … 1 fully transparent.
+    pub translucency: f64,
+}
+
+impl Textures {
+    /// Decodes the textures of a scene. `light`: the linear light of a colour, with which a vertex
+    /// tints a texture.
+    ///
+    /// # Errors
+    /// A picture is damaged or too large.
+    pub fn new(scene: &Scene, light: impl Fn(ColorId) -> DVec3) -> Result<Self, TextureError> {
+        if scene.textures.is_empty() {
+            return Ok(Self::default());
+        }
+        // The bytes are missing if the files of the scene were not read.
+        let is_drawn = |texture: &&Texture| {
+            let mut faces = scene.faces.iter();
+            !texture.image.bytes.is_empty() && faces.any(|face| face.color == Some(texture.color))
+        };
+        let drawn: Vec<&Texture> = scene.textures.iter().filter(is_drawn).collect();
+        // Each picture is decoded once. Texels are kept with alpha only where it counts.
+        let key = |texture: &Texture| (texture.image.bytes.as_ptr(), texture.alpha == AlphaMode::Opaque);
+        let mut pictures: Vec<&Texture> = Vec::new();
+        for texture in &drawn {
+            if !pictures.iter().any(|known| key(known) == key(texture)) {
+                pictures.push(texture);
+            }
+        }
+        let room = MOST_BYTES / pictures.len().max(1) as u64;
+        let levels: Vec<Arc<Levels>> =
+            pictures.par_iter().map(|texture| decoded(scene, texture, room)).collect::<Result<_, _>>()?;
+        let mut of_color = vec![None; scene.colors.len()];
+        let mut maps = Vec::new();
+        for texture in drawn {
+            let row = pictures.iter().position(|known| key(known) == key(texture)).unwrap_or_default();
+            of_color[texture.color.index()] = Some(maps.len() as u32);
+            maps.push(TextureMap { levels: Arc::clone(&levels[row]), texture: texture.clone() });
+        }
+        let is_mixture = |id: ColorId| {
+            let name = scene.names.get(scene.colors[id.index()].name);
+            scene.stage.mixtures.is_some_and(|mixtures| mixtures.contains(name))
+        };
+        let tint = |id: ColorId| if is_mixture(id) { DVec3::ONE } else { light(id).max(DVec3::ZERO) };
+        let tints = (0..scene.colors.len()).map(ColorId::from_index).map(tint).collect();
+        Ok(Self { maps, of_color, tints })
+    }
+
+    /// The texture of a colour.
+    #[inline]
+    fn of(&self, color: Option<ColorId>) -> Option<&TextureMap> {
+        self.maps.get((*self.of_color.get(color?.index())?)? as usize)
+    }
+
+    /// True if a colour is a picture that is there.
+    #[inline]
+    pub fn has(&self, color: Option<ColorId>) -> bool {
+        self.of(color).is_some()
+    }
+
+    /// True if a texture is not opaque.
+    pub fn has_translucency(&self) -> bool {
+        self.maps.iter().any(|map| map.texture.alpha != AlphaMode::Opaque)
+    }
+
+    /// True if a face of this colour is not opaque everywhere, because of its texture.
+    #[inline]
+    pub fn is_translucent(&self, color: Option<ColorId>) -> bool {
+        self.of(color).is_some_and(|map| map.texture.alpha != AlphaMode::Opaque)
+    }
+
+    /// True if there are none.
+    pub fn is_empty(&self) -> bool {
+        self.maps.is_empty()
+    }
+
+    /// The texel of a face at a point of a triangle of it; `None` if it has no texture, or a corner
+    /// has no texture coordinates.
+    ///
+    /// `corners`, `weights`: of the triangle, and of the point. `steps`: the changes of the weights
+    /// of the second and third corner to the next sample across and down.
+    #[inline]
+    pub fn texel(
+        &self,
+        scene: &Scene,
+        color: Option<ColorId>,
+        (corners, weights): ([VertexId; 3], [f64; 3]),
+        steps: impl FnOnce() -> [[f64; 2]; 2],
+    ) -> Option<Texel> {
+        let map = self.of(color)?;
+        map.texel(self, scene, corners, weights, steps)
+    }
+}
+
+impl TextureMap {
+    #[inline(never)] // Keeps the code of untextured points small.
+    fn texel(
+        &self,
+        textures: &Textures,
+        scene: &Scene,
+        corners: [VertexId; 3],
+        [_, second, third]: [f64; 3],
+        steps: impl FnOnce() -> [[f64; 2]; 2],
+    ) -> Option<Texel> {
+        let vertices = corners.map(|corner| &scene.vertices[corner.index()]);
+        let place = |at: usize| vertices[at].uv.map(|[u, v]| DVec2::new(f64::from(u), f64::from(v)));
+        let (a, b, c) = (place(0)?, place(1)?, place(2)?);
+        let (along, beside) = (b - a, c - a);
+        let uv = a + second * along + third * beside;
+        let steps = steps().map(|[second, third]| second * along + third * beside);
+        let Texture { wrap, factor, alpha, .. } = self.texture;
+        let [red, green, blue, opacity] = self.levels.sample(uv, steps, wrap);
+        let [f_red, f_green, f_blue, f_alpha] = factor.map(f64::from);
+        let mut light = DVec3::new(red * f_red, green * f_green, blue * f_blue);
+        let tint = |at: usize| vertices[at].color.map(|color| textures.tints[color.index()]);
+        if let (Some(a), Some(b), Some(c)) = (tint(0), tint(1), tint(2)) {
+            light *= a + second * (b - a) + third * (c - a);
+        }
+        let opacity = opacity * f_alpha;
+        let translucency = match alpha {
+            AlphaMode::Opaque => 0.0,
+            AlphaMode::Mask(cutoff) => f64::from(u8::from(opacity < f64::from(cutoff))),
+            AlphaMode::Blend => 1.0 - opacity.clamp(0.0, 1.0),
+        };
+        Some(Texel { light, translucency })
+    }
+}
+
+fn decoded(scene: &Scene, texture: &Texture, room: u64) -> Result<Arc<Levels>, TextureError> {
+    let limits =
+        PictureLimits { bytes: room.min(PictureLimits::default().bytes), ..PictureLimits::default() };
+    let picture = read_picture(&texture.image.bytes, &limits).map_err(|error| {
+        let color = scene.names.get(scene.colors[texture.color.index()].name).to_owned();
+        let file = texture.image.file.clone().unwrap_or_else(|| color.clone());
+        TextureError { file, color, reason: error.to_string() }
+    })?;
+    Ok(Arc::new(Levels::new(picture.size, picture.pixels, texture.alpha == AlphaMode::Opaque)))
+}
