@@ -13,6 +13,9 @@ use crate::{
     SpectralFilter, SurfaceAttributes, Swatch,
 };
 
+/// Rows of spectra with their weights: of the corners of a face, or of the mixture of a texel.
+pub type SpectralRows = [(u32, f64); 4];
+
 /// A colour at rest at a point of a surface.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceColor {
@@ -21,13 +24,13 @@ pub struct SurfaceColor {
     /// Where colours are spectra, the spectrum is the mean of those of the corners of its face:
     /// rows of the colours of vertices ([`SurfaceAttributes::row`]) with their weights. That of a
     /// texture is a mixture, too ([`Appearance::texel`]).
-    pub rows: [(u32, f64); 3],
+    pub rows: SpectralRows,
 }
 
 impl SurfaceColor {
     /// A colour that is the same all around. `row`: of its spectrum.
     pub fn even(swatch: Swatch, row: u32) -> Self {
-        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0)] }
+        Self { swatch, rows: [(row, 1.0), (row, 0.0), (row, 0.0), (row, 0.0)] }
     }
 }
 
@@ -331,13 +334,13 @@ fn spectral_light(
 }
 
 /// The weighted mean of rows. `light`: of a row.
-fn mean(rows: [(u32, f64); 3], light: impl Fn(u32) -> DVec3) -> DVec3 {
+fn mean(rows: SpectralRows, light: impl Fn(u32) -> DVec3) -> DVec3 {
     let parts = rows.into_iter().filter(|(_, weight)| *weight != 0.0);
     parts.map(|(row, weight)| weight * light(row)).sum()
 }
 
 /// The spectrum that counts for a filter: the one of the greatest weight.
-fn strongest(spectra: &Spectra, rows: [(u32, f64); 3]) -> &Spectrum {
+fn strongest(spectra: &Spectra, rows: SpectralRows) -> &Spectrum {
     let row = rows.into_iter().reduce(|best, row| if row.1 > best.1 { row } else { best });
     spectra.spectrum(row.map_or(0, |row| row.0))
 }

@@ -55,7 +55,7 @@ mod spectral;
 mod surface_attributes;
 mod vertex_color;
 
-pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor};
+pub use appearance::{Appearance, ColorFilter, Illumination, SpectralRows, SurfaceColor};
 pub use color::{
     ColorForm, Mixing, RestColor, color_form, display_hue, hsv, hsv_and_factor, mean_hue, spectra_note,
     spectrum,

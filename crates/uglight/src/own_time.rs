@@ -65,7 +65,7 @@ impl Appearance {
             Swatch { form: if is_light { swatch.form } else { ColorForm::Hue }, ..swatch }
         };
         let [(a, share), (b, rest)] = parts;
-        let rows = [(a.index() as u32, share), (b.index() as u32, rest), (a.index() as u32, 0.0)];
+        let rows = [(a.index() as u32, share), (b.index() as u32, rest), (0, 0.0), (0, 0.0)];
         let part = |(color, share)| {
             let swatch = of(color);
             let linear = swatch.form.light().unwrap_or_else(|| shown_light(self.palette.hsv(&swatch)));

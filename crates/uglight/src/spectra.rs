@@ -8,6 +8,7 @@ use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, ColorMix, Scene};
 
+use crate::appearance::SpectralRows;
 use crate::color_lattice::{N_CORNERS, corner, mixture};
 use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
 
@@ -121,7 +122,7 @@ impl Spectra {
     }
 
     /// The rows of a mixture that is seen as a colour of a texture.  Eq. (P51)
-    pub fn texel_rows(&self, light: DVec3) -> [(u32, f64); 3] {
+    pub fn texel_rows(&self, light: DVec3) -> SpectralRows {
         // Colours of vertices are not more than 2^32 with the lattice.
         let first = self.rows.len() as u32;
         mixture(light).map(|(corner, share)| (first + corner, share))
@@ -131,7 +132,8 @@ impl Spectra {
     fn color(&self, row: usize) -> &SpectralColor {
         match row.checked_sub(self.colors.len()) {
             None => &self.colors[row],
-            Some(at) => self.lattice[at].get_or_init(|| SpectralColor::of(corner(at)).tabulated(&self.grid)),
+            Some(at) => self.lattice[at]
+                .get_or_init(|| SpectralColor::of(corner(at), self.shift.infrared).tabulated(&self.grid)),
         }
     }
 

@@ -1,6 +1,7 @@
 //! Colours as spectra, as seen in motion.
 
 use glam::DVec3;
+use ugphysics::linear_srgb_to_xyz;
 use ugphysics::spectrum::{DopplerGrid, DopplerTable, InfraredRule, LightSpectrum, SmoothCurve, Spectrum};
 use ugscene::{ColorId, Scene};
 
@@ -97,15 +98,16 @@ impl SpectralColor {
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         let (spectrum, is_exact) = match color {
             Some(color) => spectrum(scene, &scene.colors[color.index()]),
-            None => return Self::of([1.0; 3]),
+            None => return Self::of([1.0; 3], scene.infrared),
         };
         Self { spectrum, is_exact, table: None }
     }
 
     /// The spectrum of a surface of these linear red, green and blue.
     #[must_use]
-    pub fn of(linear: [f64; 3]) -> Self {
-        Self { spectrum: Spectrum::from_linear_srgb(linear), is_exact: true, table: None }
+    pub fn of(linear: [f64; 3], infrared: InfraredRule) -> Self {
+        let (spectrum, is_exact) = Spectrum::with_infrared(linear_srgb_to_xyz(linear), infrared);
+        Self { spectrum, is_exact, table: None }
     }
 
     /// The same, tabulated over D: soon found for many factors.

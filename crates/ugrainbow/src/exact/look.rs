@@ -1,7 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{ColorForm, FaceColors, Mixing, SurfaceColor, Swatch};
+use uglight::{ColorForm, FaceColors, Mixing, SpectralRows, SurfaceColor, Swatch};
 use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{ColorId, Face, VertexId};
 
@@ -174,8 +174,10 @@ impl Look {
             None => mixed.map(|(triangle, weights)| triangle.color(weights)),
         };
         let rows = || {
-            let of_corners =
-                |(it, weights): (&Triangle, [f64; 3])| std::array::from_fn(|at| (it.rows[at], weights[at]));
+            let of_corners = |(it, weights): (&Triangle, [f64; 3])| {
+                let [a, b, c] = std::array::from_fn(|at| (it.rows[at], weights[at]));
+                [a, b, c, (0, 0.0)]
+            };
             texel.map(|texel| texel.rows).or_else(|| mixed.map(of_corners))
         };
         self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
@@ -220,7 +222,7 @@ impl Look {
     pub fn shaded<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
-        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<[(u32, f64); 3]>),
+        (mixed, rows): (Option<Swatch>, impl Fn() -> Option<SpectralRows>),
         stretch: f64,
         lit: impl Fn() -> [DVec3; 3],
     ) -> (Swatch, DVec3) {
