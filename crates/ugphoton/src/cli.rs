@@ -16,6 +16,7 @@ use ugpicture::cli::{
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
+use ugskybox::cli::SkyArgs;
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::explain::explain;
@@ -144,6 +145,9 @@ pub struct Args {
     explain: Option<Pixel>,
 
     #[command(flatten)]
+    sky: SkyArgs,
+
+    #[command(flatten)]
     picture: PictureArgs,
 
     #[command(flatten)]
@@ -235,6 +239,7 @@ impl Args {
             lens: self.lens.lens(),
             stereo: self.stereo,
             adaptive: self.ad,
+            sky: self.sky.sky(),
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
             reading: pipe::options(&self.common)?,
         })
@@ -251,7 +256,7 @@ impl Args {
 /// # Errors
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
-    let config = args.config(context.output_name())?;
+    let mut config = args.config(context.output_name())?;
     if let Some(pixel) = args.explain {
         let report = report_format(args.dt, context.output_name())?;
         let source = pipe::read(context, &config.reading)?;
@@ -261,6 +266,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
+    config.sky.open(&args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();

@@ -10,6 +10,7 @@ use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugscene::{BodyId, Face, HueScale, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
+use ugskybox::SkyAround;
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -50,6 +51,8 @@ pub struct Scenery<'a> {
     pub lamps: Lamps,
     /// How motion changes colours.
     pub shift: ColorShift,
+    /// What rays see that leave the scene.
+    pub sky: Option<SkyAround>,
     /// True if a transparent solid absorbs light.
     pub has_absorption: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
@@ -73,7 +76,7 @@ impl<'a> Scenery<'a> {
     /// # Errors
     /// There are no faces, or the camera is invalid.
     pub fn new(scene: Cow<'a, Scene>, config: &Config) -> Result<Self, Error> {
-        if scene.faces.is_empty() {
+        if scene.faces.is_empty() && !config.sky.is_some() {
             return Err(Error::Empty);
         }
         if ShownEffects::of(&scene) != ShownEffects::default() {
@@ -126,6 +129,8 @@ impl<'a> Scenery<'a> {
         let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
         let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
+        let (velocity, pixel) = (ugscene::camera_velocity(&scene), film.pixel_side(view.forward));
+        let sky = config.sky.around(velocity, shift, keeps_highlights, pixel)?;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
         Ok(Self {
             scene,
@@ -134,6 +139,7 @@ impl<'a> Scenery<'a> {
             world,
             immersion,
             eye_media,
+            sky,
             has_absorption,
             appearance,
             face_colors,

@@ -11,6 +11,7 @@ use crate::shade::{LampLight, Shader, absorption};
 use crate::surface_point::SurfacePoint;
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start};
+use ugskybox::{SkyAround, SkyRays};
 
 /// Light that arrives along a ray.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,7 @@ impl Arriving {
 pub struct Tracer<'a> {
     scenery: &'a Scenery<'a>,
     shader: Shader<'a>,
+    sky: Option<SkyRays<'a>>,
     /// Filters on the path so far.
     filters: Vec<ColorFilter>,
     /// Memory for faces at the same place.
@@ -120,6 +122,7 @@ impl<'a> Tracer<'a> {
         Self {
             scenery,
             shader: Shader::new(scenery),
+            sky: scenery.sky.as_ref().map(SkyAround::rays),
             filters: Vec::new(),
             layers: Vec::new(),
             n_branches: 0,
@@ -204,7 +207,16 @@ impl<'a> Tracer<'a> {
         }
         // The background is infinitely far away.
         if path.absorption == 0.0 {
-            sum.background += passing * self.scenery.appearance.transmitted(&self.filters);
+            let passing = passing * self.scenery.appearance.transmitted(&self.filters);
+            match &mut self.sky {
+                // Behind the picture the sky is drawn pixel by pixel.
+                Some(sky) if path.depth > 0 => {
+                    let toward = path.ray.step.x.normalize_or_zero();
+                    let [red, green, blue, _] = sky.light(toward, path.ray.wave.frequency);
+                    sum.light += passing * DVec3::from([red, green, blue].map(f64::from));
+                }
+                _ => sum.background += passing,
+            }
         }
         sum
     }

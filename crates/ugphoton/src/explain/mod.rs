@@ -104,6 +104,9 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation<TracedSample>, Diagnostics), Error> {
+    if config.sky.is_some() {
+        return Err(Error::ExplainSky);
+    }
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     let canvas = config.canvas()?;
     canvas.check_pixel(pixel)?;

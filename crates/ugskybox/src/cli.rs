@@ -1,0 +1,99 @@
+//! The options of a sky behind a scene.
+
+use std::path::PathBuf;
+
+use clap::{ArgAction, Args};
+use glam::{DQuat, DVec3};
+use ugimage::PictureLimits;
+use ugpipe::{CommonArgs, Context, Failure, Input, finite, sha256};
+
+use crate::error::OpenError;
+use crate::open::{Opened, open};
+use crate::scene_sky::{SceneSky, SkySource};
+use crate::star_list::{StarList, is_star_list, read_stars};
+
+/// A sky behind a scene: flatten it into the arguments of a renderer.
+#[derive(Args, Clone, Debug)]
+pub struct SkyArgs {
+    /// Sky behind the scene: a panorama, a cube map, or a list of stars
+    ///
+    /// A picture twice as wide as high with all directions (PNG, JPEG, HDR, EXR or PFM); a cube
+    /// map, six squares side by side or a cross; or stars (CSV). It is infinitely far away, at rest
+    /// in the frame of the scene, with y in its middle, x to the right and z up.
+    #[arg(long, value_name = "FILE", help_heading = SKY)]
+    sky: Option<PathBuf>,
+
+    /// Turn the sky by these angles about x, then y, then z, in degrees
+    #[arg(long, num_args = 3, value_names = ["X", "Y", "Z"], action = ArgAction::Set, requires = "sky",
+          allow_hyphen_values = true, value_parser = finite, help_heading = SKY)]
+    sky_turn: Option<Vec<f64>>,
+}
+
+/// Heading of these options in `--help`.
+const SKY: &str = "Sky";
+
+impl SkyArgs {
+    /// The sky that these arguments define, which has not been opened.
+    pub fn sky(&self) -> SceneSky {
+        let source = self.sky.clone().map_or(SkySource::None, SkySource::File);
+        let turn = self.sky_turn.as_deref().map_or(DQuat::IDENTITY, turn);
+        SceneSky { source, turn, ..SceneSky::default() }
+    }
+}
+
+/// Turns about the axes, one after the other, by angles in degrees.
+fn turn(degrees: &[f64]) -> DQuat {
+    let about = |(axis, degrees): (DVec3, &f64)| {
+        let (sin, cos) = libm::sincos(0.5 * degrees.to_radians());
+        DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos)
+    };
+    let turns = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(degrees).map(about);
+    turns.fold(DQuat::IDENTITY, |sum, turn| turn * sum).normalize()
+}
+
+impl SceneSky {
+    /// Opens its file, unless it is open. `common`: for the limit of memory.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or is neither a panorama nor a list of stars.
+    pub fn open(&mut self, common: &CommonArgs, context: &Context) -> Result<(), Failure> {
+        if let SkySource::File(path) = &self.source {
+            let file = context.input_file(path)?;
+            self.source = SkySource::Opened(opened(&file, common)?.into());
+        }
+        Ok(())
+    }
+}
+
+fn opened(file: &Input, common: &CommonArgs) -> Result<Opened, Failure> {
+    let Input { name, text } = file;
+    if is_star_list(text) {
+        let StarList { stars, notes } =
+            read_stars(name, text).map_err(|found| Failure::Report(found.report()))?;
+        return Ok(Opened { stars, notes, ..Opened::default() });
+    }
+    let mut limits = PictureLimits::default();
+    limits.bytes = common.memory_limit().unwrap_or(limits.bytes);
+    open(&[text], None, None, None, limits).map_err(|error| {
+        let remedy = match &error {
+            OpenError::Read { error, .. } => CommonArgs::memory_remedy(error.needed_memory()),
+            OpenError::Panorama(_) => {
+                "; a sky is twice as wide as high, six squares in a row, or a cross of 4 : 3 or 3 : 4".to_owned()
+            }
+        };
+        Failure::Failed(format!("sky `{name}`: {error}{remedy}"))
+    })
+}
+
+impl Opened {
+    /// The words for the origin of a picture: the SHA-256 and the name of the first file, and one
+    /// of all other files together.
+    pub fn origin(&self, input: &Input, context: &Context) -> String {
+        let (hash, name) = (sha256(&input.text), context.recorded_name());
+        if self.others.is_empty() {
+            return format!("SHA-256 {hash} {name}");
+        }
+        let all = sha256(format!("{hash} {}", self.others.join(" ")).as_bytes());
+        format!("SHA-256 {hash} including {all} {name}")
+    }
+}
