@@ -437,6 +437,7 @@ impl Read {
             let origin = opened.origin(&input, context);
             return Ok(Self::Panorama(Box::new(opened), origin));
         }
+        script.open_sky(&args.common, context)?;
         let reading = pipe::options(&args.common)?;
         let input = pipe::input(context, &reading)?;
         let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;

@@ -5,7 +5,8 @@ use std::sync::OnceLock;
 
 use ugimage::Format;
 use ugpicture::Output;
-use ugpipe::{Failure, shell_word};
+use ugpipe::{CommonArgs, Context, Failure, shell_word};
+use ugskybox::SkySource;
 
 use crate::options::{Given, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
@@ -38,6 +39,8 @@ pub struct Script {
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,
     options: Vec<Setting>,
+    /// The sky of all frames, which is opened once.
+    sky: SkySource,
     /// Least and greatest speed over the film, for captions.
     pub speeds: Option<Timeline>,
     /// The words of the programs of some frame, and what they are.
@@ -66,6 +69,7 @@ impl Script {
             is_loop: false,
             reading: Vec::new(),
             options: Vec::new(),
+            sky: SkySource::None,
             speeds: None,
             parsed: OnceLock::new(),
         }
@@ -171,6 +175,9 @@ impl Script {
         let mut commands = self.commands(frame, left_out)?;
         commands.set_format(format);
         let mut pipe = Pipe::new(self.programs(frame)?);
+        if let (Some(sky), SkySource::Opened(_)) = (pipe.sky(), &self.sky) {
+            sky.source = self.sky.clone();
+        }
         pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
         pipe.picture.output = match pipe.picture.output {
             Output::Vector(_) => Output::Vector(format),
@@ -180,6 +187,19 @@ impl Script {
             pipe.picture.annotations.caption = self.values(setting, frame)?.concat();
         }
         Ok(pipe)
+    }
+
+    /// Opens the sky of all frames.
+    ///
+    /// # Errors
+    /// An option is wrong, or the file of the sky.
+    pub fn open_sky(&mut self, common: &CommonArgs, context: &Context) -> Result<(), Failure> {
+        let mut pipe = Pipe::new(self.programs(1.0)?);
+        if let Some(sky) = pipe.sky() {
+            sky.open(common, context)?;
+            self.sky = sky.source.clone();
+        }
+        Ok(())
     }
 
     /// The programs of a frame. Words that are those of an earlier frame are not parsed again.

@@ -106,9 +106,6 @@ pub enum Error {
     /// The sky.
     #[error(transparent)]
     Sky(#[from] SkyError),
-    /// A pixel of a picture with a sky is to be explained.
-    #[error("the light of a sky cannot be explained")]
-    ExplainSky,
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args};
 use glam::{DQuat, DVec3};
 use ugimage::PictureLimits;
-use ugpipe::{CommonArgs, Context, Failure, Input, finite, sha256};
+use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite, sha256};
 
-use crate::error::OpenError;
+use crate::error::{OpenError, SkyError};
 use crate::open::{Opened, open};
 use crate::scene_sky::{SceneSky, SkySource};
 use crate::star_list::{StarList, is_star_list, read_stars};
@@ -95,5 +95,23 @@ impl Opened {
         }
         let all = sha256(format!("{hash} {}", self.others.join(" ")).as_bytes());
         format!("SHA-256 {hash} including {all} {name}")
+    }
+}
+
+impl Words for SkyError {
+    fn words(&self) -> String {
+        let remedy = match self {
+            Self::Closed(_) | Self::Basis(_) => "",
+            Self::Vectors => ": leave out -vec or -sky",
+            Self::Orthographic => ": leave out -og (in the scene, too), or -sky",
+            Self::Transparent => ": leave out -tb or -sky",
+            Self::PartialGeometry => ": leave out -sky",
+            Self::Explained => ": leave out -sky",
+        };
+        format!("{self}{remedy}")
+    }
+
+    fn is_usage(&self) -> bool {
+        matches!(self, Self::Vectors | Self::Transparent | Self::Explained)
     }
 }

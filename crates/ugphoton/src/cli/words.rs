@@ -7,10 +7,11 @@ use crate::Error;
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
-            Self::Text(_) | Self::Empty | Self::Sky(_) | Self::MovingMedium { .. } | Self::WorldLine { .. } => "{}",
+            Self::Text(_) | Self::Empty | Self::MovingMedium { .. } | Self::WorldLine { .. } => "{}",
             Self::Motion(error) => return error.words(),
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
+            Self::Sky(error) => return error.words(),
             Self::OutOfRange { .. } => "{}: use smaller coordinates, a smaller time (-ti) or a lower speed",
             Self::AnnotatedPart => {
                 "annotations (-cap, -lg, -dl, -gr) are for whole pictures: leave them out, or -crop"
@@ -19,7 +20,6 @@ impl Words for Error {
                 "-ex auto would differ between the parts of a picture: with -crop give the exposure of the \
                  whole one"
             }
-            Self::ExplainSky => "--explain has no words for the light of a sky: leave out -sky",
             Self::StereoCube => "{}: leave out -stereo, or give -pan instead of -cube",
             Self::CubeSize => {
                 "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512"
@@ -62,9 +62,9 @@ impl Words for Error {
         match self {
             Self::Picture(error) => error.is_usage(),
             Self::Motion(error) => error.is_usage(),
+            Self::Sky(error) => error.is_usage(),
             Self::Text(_)
             | Self::Empty
-            | Self::Sky(_)
             | Self::OutOfRange { .. }
             | Self::TooManyLights { .. }
             | Self::Orthographic

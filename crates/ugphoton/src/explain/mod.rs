@@ -15,6 +15,7 @@ use ugpicture::explain::{
     covers, nearest,
 };
 use ugscene::{HueScale, SeenColors};
+use ugskybox::SkyError;
 
 use crate::config::Config;
 use crate::error::Error;
@@ -105,7 +106,7 @@ pub fn explain(
     pixel: [u32; 2],
 ) -> Result<(Explanation<TracedSample>, Diagnostics), Error> {
     if config.sky.is_some() {
-        return Err(Error::ExplainSky);
+        return Err(SkyError::Explained.into());
     }
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     let canvas = config.canvas()?;
