@@ -129,8 +129,8 @@ impl<'a> Scenery<'a> {
         let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
         let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
-        let (velocity, pixel) = (ugscene::camera_velocity(&scene), film.pixel_side(view.forward));
-        let sky = config.sky.around(velocity, shift, keeps_highlights, pixel)?;
+        let velocity = ugscene::camera_velocity(&scene);
+        let sky = config.sky.around(velocity, shift, keeps_highlights)?;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
         Ok(Self {
             scene,
@@ -179,6 +179,11 @@ impl<'a> Scenery<'a> {
             return Some(PastRay::from_eye(sight.direction));
         }
         self.ray_at_event(&sight)
+    }
+
+    /// Angle of a sample at a direction of any length, radians.
+    pub fn sample_width(&self, direction: DVec3) -> f64 {
+        self.film.pixel_width(direction.normalize_or_zero())
     }
 
     /// True if all light of the picture arrives at the origin, in a vacuum.

@@ -112,6 +112,8 @@ struct Path<'p> {
     absorption: f64,
     /// A number for each sample of the picture.
     sample: u64,
+    /// Angle of the sample at the eye, radians.
+    width: f64,
     /// Where it comes from.
     way: Way,
 }
@@ -165,6 +167,7 @@ impl<'a> Tracer<'a> {
             weight: 1.0,
             absorption: absorption(self.scenery, media.innermost(), ray.step),
             sample,
+            width: if self.sky.is_some() { self.scenery.sample_width(ray.step.x) } else { 0.0 },
             way: Way::Straight,
         };
         (self.n_branches, self.is_too_deep, self.leaves_open_solid) = (0, false, None);
@@ -212,7 +215,7 @@ impl<'a> Tracer<'a> {
                 // Behind the picture the sky is drawn pixel by pixel.
                 Some(sky) if path.depth > 0 => {
                     let toward = path.ray.step.x.normalize_or_zero();
-                    let [red, green, blue, _] = sky.light(toward, path.ray.wave.frequency);
+                    let [red, green, blue, _] = sky.light(toward, path.width, path.ray.wave.frequency);
                     sum.light += passing * DVec3::from([red, green, blue].map(f64::from));
                 }
                 _ => sum.background += passing,

@@ -26,8 +26,6 @@ pub struct SkyAround {
     star_light: StarLight,
     star_index: StarIndex,
     stars: StarOptions,
-    /// Angle of a sample at the eye, radians.
-    pixel: f64,
 }
 
 /// Turns a velocity.
@@ -40,7 +38,7 @@ pub(crate) fn turned(turn: DQuat, velocity: Velocity) -> Velocity {
 
 impl SkyAround {
     /// `turn`: from the axes of the sky to those of the scene. `velocity`: of the camera in the frame
-    /// of the scene. `keeps_light`: see [`Shade::new`]. `pixel`: angle of a sample at the eye, radians.
+    /// of the scene. `keeps_light`: see [`Shade::new`].
     ///
     /// # Errors
     /// [`BasisError`].
@@ -50,7 +48,6 @@ impl SkyAround {
         velocity: Velocity,
         colors: SkyColors,
         keeps_light: bool,
-        pixel: f64,
     ) -> Result<Self, BasisError> {
         let sky_from_scene = turn.inverse();
         let velocity = turned(sky_from_scene, velocity);
@@ -62,7 +59,7 @@ impl SkyAround {
         let star_index = StarIndex::new(&opened.stars);
         let stars = StarOptions::default();
         let observer = Observer::new(velocity);
-        Ok(Self { opened, sky_from_scene, observer, shade, star_light, star_index, stars, pixel })
+        Ok(Self { opened, sky_from_scene, observer, shade, star_light, star_index, stars })
     }
 
     /// The same with stars drawn so.
@@ -89,23 +86,23 @@ impl SkyRays<'_> {
     /// Linear red, green and blue, and the covered part, of the light that arrives from a direction,
     /// a unit vector in the frame of the camera and the axes of the scene.
     ///
-    /// `frequency`: of the light on this ray in the frame of the camera, where it is 1 at the eye:
+    /// `width`: angle of the sample at the eye, radians. `frequency`: of the light on this ray in the frame of the camera, where it is 1 at the eye:
     /// mirrors in motion change it, and with it the angle of a sample, which is divided by it.
-    pub fn light(&mut self, toward: DVec3, frequency: f64) -> [f32; 4] {
+    pub fn light(&mut self, toward: DVec3, width: f64, frequency: f64) -> [f32; 4] {
         let around = self.around;
         let toward = around.sky_from_scene * toward;
         let across = toward.any_orthonormal_vector();
-        let mut width = around.pixel / frequency;
+        let mut side = width / frequency;
         let mut sum = [0.0; 4];
         let (direction, doppler) = around.observer.direction_in_sky(toward);
         let doppler = doppler / frequency;
         if let (Some(sampler), Some(shade)) = (&mut self.sampler, &around.shade) {
             let found = loop {
-                let ray = around.observer.ray(toward, [width * across, width * toward.cross(across)]);
+                let ray = around.observer.ray(toward, [side * across, side * toward.cross(across)]);
                 match sampler.light(&ray, 1.0) {
                     Some(light) => break light,
                     // The footprint covers nearly the whole sky: its middle stands for it.
-                    None if width > 0.0 => width *= 0.5,
+                    None if side > 0.0 => side *= 0.5,
                     None => break [0.0; 4],
                 }
             };
@@ -113,16 +110,16 @@ impl SkyRays<'_> {
             shade.see(&mut seen, &[doppler as f32; Seen::N]);
             sum = seen.map(|part| part[0]);
         }
-        let stars = self.starlight(direction, doppler);
+        let stars = self.starlight(direction, width, doppler);
         (0..3).for_each(|channel| sum[channel] += stars[channel]);
         sum
     }
 
     /// The light of stars around a direction in the sky: each is a Gaussian profile at the eye, D
     /// times as wide in the sky.
-    fn starlight(&self, direction: DVec3, doppler: f64) -> [f32; 3] {
+    fn starlight(&self, direction: DVec3, width: f64, doppler: f64) -> [f32; 3] {
         let around = self.around;
-        let deviation = around.stars.deviation() * around.pixel;
+        let deviation = around.stars.deviation() * width;
         let in_sky = (deviation * doppler).min(StarOptions::MOST_DEVIATION);
         let scale = around.stars.scale() / (core::f64::consts::TAU * deviation * deviation);
         let mut sum = [0.0; 3];

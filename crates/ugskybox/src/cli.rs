@@ -6,6 +6,7 @@ use clap::{ArgAction, Args};
 use glam::{DQuat, DVec3};
 use ugimage::PictureLimits;
 use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite, sha256};
+use ugsky::PanoramaError;
 
 use crate::error::{OpenError, SkyError};
 use crate::open::{Opened, open};
@@ -77,9 +78,10 @@ fn opened(file: &Input, common: &CommonArgs) -> Result<Opened, Failure> {
     open(&[text], None, None, None, limits).map_err(|error| {
         let remedy = match &error {
             OpenError::Read { error, .. } => CommonArgs::memory_remedy(error.needed_memory()),
-            OpenError::Panorama(_) => {
+            OpenError::Panorama(PanoramaError::Shape { .. }) => {
                 "; a sky is twice as wide as high, six squares in a row, or a cross of 4 : 3 or 3 : 4".to_owned()
             }
+            OpenError::Panorama(_) => String::new(),
         };
         Failure::Failed(format!("sky `{name}`: {error}{remedy}"))
     })

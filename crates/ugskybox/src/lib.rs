@@ -17,8 +17,8 @@
 //! let opened = Opened { panorama: Some(grey), ..Opened::default() };
 //! let colors = sky_colors(uglight::ColorShift::default(), Basis::Mixture);
 //! let velocity = Velocity::from_beta(DVec3::new(0.0, 0.6, 0.0))?;
-//! let sky = SkyAround::new(opened.into(), DQuat::IDENTITY, velocity, colors, true, 1e-3);
-//! let [red, ..] = sky?.rays().light(DVec3::Y, 1.0);
+//! let sky = SkyAround::new(opened.into(), DQuat::IDENTITY, velocity, colors, true);
+//! let [red, ..] = sky?.rays().light(DVec3::Y, 1e-3, 1.0);
 //! assert!((f64::from(red) - ugphysics::srgb_decode(128.0 / 255.0)).abs() < 1e-3, "{red}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```

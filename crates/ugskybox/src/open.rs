@@ -81,9 +81,13 @@ pub fn open(
         }
         pictures.push((picture.size, texels(picture.pixels, &mut notes)));
     }
-    let arrangement = arrangement.unwrap_or_else(|| match pictures.first() {
-        Some((size, _)) if extent.is_none() => Arrangement::of_size(*size),
-        _ => Arrangement::default(),
+    let arrangement = arrangement.unwrap_or_else(|| {
+        let found = pictures.iter().map(|(size, _)| Arrangement::of_size(*size)).next();
+        let found = found.filter(|_| extent.is_none()).unwrap_or_default();
+        if found != Arrangement::Equirectangular {
+            notes.push(format!("by its size the picture is a cube map: a {}", found.name()));
+        }
+        found
     });
     let is_clipped = pictures.iter().any(|(_, texels)| matches!(texels, Texels::Srgb(_)));
     if highlights.is_some() && !is_clipped {

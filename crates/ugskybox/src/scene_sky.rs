@@ -200,8 +200,7 @@ impl SceneSky {
         Ok(light)
     }
 
-    /// The sky for rays that leave the scene, in the frame of the camera. `pixel`: angle of a
-    /// sample at the eye, radians. `None` without a sky.
+    /// The sky for rays that leave the scene, in the frame of the camera. `None` without a sky.
     ///
     /// # Errors
     /// [`SkyError`].
@@ -210,11 +209,10 @@ impl SceneSky {
         velocity: Velocity,
         shift: ColorShift,
         keeps_light: bool,
-        pixel: f64,
     ) -> Result<Option<SkyAround>, SkyError> {
         let Some(opened) = self.opened()? else { return Ok(None) };
         let colors = sky_colors(shift, Basis::Mixture);
-        let around = SkyAround::new(opened.clone(), self.turn, velocity, colors, keeps_light, pixel)?;
+        let around = SkyAround::new(opened.clone(), self.turn, velocity, colors, keeps_light)?;
         Ok(Some(around.with_stars(self.stars)))
     }
 }

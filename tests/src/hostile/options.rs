@@ -51,7 +51,7 @@ const EXCLUDED: [&str; 18] = [
 ];
 
 /// Values that are possible, by the names of options, where a number between 0 and 1 is not enough.
-const VALUES: [(&str, &[&str]); 25] = [
+const VALUES: [(&str, &[&str]); 26] = [
     ("-ad", &["0.1"]),
     ("-an", &["eye", "origin", "center", "middle"]),
     ("-at", &[MEASURED]),
@@ -74,6 +74,7 @@ const VALUES: [(&str, &[&str]); 25] = [
     ("--scene", &["scene.ug"]),
     ("-sd", &["1", "3"]),
     ("-se", &["10", "100"]),
+    ("--sky", &["0.sky"]),
     ("--stars", &["0.sky"]),
     ("-ts", &["6", "12"]),
     ("--ultraviolet", &["0.sky"]),

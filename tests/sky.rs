@@ -1,0 +1,233 @@
+//! Skies behind scenes and in their mirrors: the same sky by three programs, and laws.
+
+use glam::{DQuat, DVec3};
+use ugimage::LinearFrame;
+use ugphoton::{CameraOptions, ColorShift, Lens, MotionOptions, PictureOptions};
+use ugphysics::{Velocity, srgb_encode};
+use ugscene::Scene;
+use ugskybox::{Opened, SceneSky, SkySource};
+use ugwarp::{Extent, Panorama, Star, Texels};
+
+/// A smooth sky of all hues, white where two waves meet.
+fn panorama() -> Opened {
+    let texel = |idx: u32| {
+        let [x, y] = [idx % 256, idx / 256].map(f64::from);
+        let wave = |at: f64, phase: f64| 0.5 + 0.4 * libm::cos(at * core::f64::consts::TAU / 256.0 + phase);
+        let down = libm::sin(y * core::f64::consts::PI / 128.0);
+        [wave(2.0 * x, 0.0) * down, wave(4.0 * y + x, 2.0) * down, wave(2.0 * (x - y), 4.0) * down, 1.0]
+            .map(|part| part as f32)
+    };
+    let texels = Texels::Light((0..256 * 128).map(texel).collect());
+    let panorama = Some(Panorama::new([256, 128], texels, Extent::FULL).unwrap());
+    Opened { panorama, ..Opened::default() }
+}
+
+/// Stars all over the sky.
+fn stars() -> Opened {
+    let star = |idx: u32| {
+        let part = |by: f64| (f64::from(idx) * by).fract();
+        let (z, turn) = (2.0 * part(0.618_034) - 1.0, core::f64::consts::TAU * part(0.754_878));
+        let level = libm::sqrt(1.0 - z * z);
+        let direction = DVec3::new(level * libm::sin(turn), level * libm::cos(turn), z);
+        Star { direction, magnitude: -2.0 + 4.0 * part(0.569_84), kelvin: 3000.0 + 9000.0 * part(0.324_7) }
+    };
+    Opened { stars: (0..3000).map(star).collect(), ..Opened::default() }
+}
+
+fn parsed(text: &str) -> Scene {
+    ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default()).unwrap().scene
+}
+
+/// A triangle too far behind the eye to be met, which looks along +y.
+const BEHIND: &str = "v a 0 -9e9 0; v b 1 -9e9 0; v c 0 -9e9 1; f (a b c); cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
+
+fn picture(lens: Lens) -> PictureOptions {
+    let size = if lens == Lens::Panorama { [128, 64] } else { [96, 72] };
+    PictureOptions { size, samples: 1, ..PictureOptions::default() }
+}
+
+fn by_rays(text: &str, sky: &SceneSky, beta: DVec3, shift: ColorShift, lens: Lens) -> LinearFrame {
+    let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
+    let config = ugphoton::Config { motion, shift, lens, picture: picture(lens), ..Default::default() };
+    ugphoton::light(parsed(text), &ugphoton::Config { sky: sky.clone(), ..config }).unwrap()
+}
+
+fn by_pipe(text: &str, sky: &SceneSky, beta: DVec3, shift: ColorShift) -> LinearFrame {
+    let lorentz = uglorentz::Config { camera_velocity: Some(beta), ..Default::default() };
+    let seen = uglorentz::apply(parsed(text), &lorentz).unwrap().0;
+    let colored = ugdoppler::apply(seen, &ugdoppler::Config { shift, ..Default::default() }).unwrap().0;
+    let config = ugrainbow::Config { picture: picture(Lens::Pinhole), sky: sky.clone(), ..Default::default() };
+    ugrainbow::light(&colored, &config).unwrap()
+}
+
+/// The sky alone. `center`: where the camera looks.
+fn warped(
+    sky: &SceneSky,
+    beta: DVec3,
+    shift: ColorShift,
+    lens: Lens,
+    center: DVec3,
+) -> LinearFrame {
+    let SkySource::Opened(opened) = &sky.source else { panic!("a sky") };
+    let camera = CameraOptions {
+        center: Some(center),
+        eye: Some(DVec3::ZERO),
+        up: Some(DVec3::Z),
+        view_angle: (lens == Lens::Pinhole).then_some((100.0, None)),
+        ..CameraOptions::default()
+    };
+    let picture = PictureOptions { camera, ..picture(lens) };
+    let velocity = Velocity::from_beta(beta).unwrap();
+    let config = ugwarp::Config { velocity, shift, lens, picture, ..Default::default() };
+    ugwarp::light(&**opened, &config).unwrap()
+}
+
+/// Peak signal-to-noise ratio, dB, of pictures exposed so that white is the brightest channel.
+fn psnr(one: &LinearFrame, other: &LinearFrame) -> f64 {
+    let channels = |frame: &LinearFrame| -> Vec<f64> {
+        frame.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).map(f64::from).collect()
+    };
+    let (one, other) = (channels(one), channels(other));
+    let peak = one.iter().copied().fold(0.0, f64::max);
+    let shown = |light: f64| srgb_encode((light / peak).clamp(0.0, 1.0));
+    let square = |(one, other): (&f64, &f64)| (shown(*one) - shown(*other)) * (shown(*one) - shown(*other));
+    let sum: f64 = one.iter().zip(&other).map(square).sum();
+    -10.0 * libm::log10(sum / one.len() as f64)
+}
+
+const SHIFTS: [ColorShift; 3] =
+    [ColorShift::NONE, ColorShift::SPECTRA, ColorShift::hues(true, ugphysics::Brightness::Report)];
+
+/// A sky without a scene before it is the same picture in all programs, by every lens.
+#[test]
+fn a_sky_alone_is_the_same_in_all_programs() {
+    for opened in [panorama, stars] {
+        let sky = SceneSky::from(opened());
+        for beta in [DVec3::ZERO, DVec3::Y * 0.9, DVec3::new(0.5, -0.4, 0.3)] {
+            for shift in SHIFTS {
+                for lens in [Lens::Pinhole, Lens::Panorama, Lens::Fisheye { angle: 3.0 }] {
+                    let expected = warped(&sky, beta, shift, lens, DVec3::Y);
+                    let found = psnr(&expected, &by_rays(BEHIND, &sky, beta, shift, lens));
+                    assert!(found > 60.0, "{beta} {shift:?} {lens:?}: {found} dB");
+                    if lens == Lens::Pinhole {
+                        let found = psnr(&expected, &by_pipe(BEHIND, &sky, beta, shift));
+                        assert!(found > 60.0, "{beta} {shift:?}: {found} dB");
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A sky that is turned is that of a camera that is turned the other way.
+#[test]
+fn a_turned_sky_is_that_of_a_turned_camera() {
+    let turn = DQuat::from_axis_angle(DVec3::Z, 0.5);
+    for opened in [panorama, stars] {
+        let sky = SceneSky { turn, ..SceneSky::from(opened()) };
+        let beta = DVec3::new(0.3, 0.6, 0.0);
+        let found = by_rays(BEHIND, &sky, beta, ColorShift::SPECTRA, Lens::Pinhole);
+        let back = turn.inverse();
+        let expected = warped(&sky, back * beta, ColorShift::SPECTRA, Lens::Pinhole, back * DVec3::Y);
+        assert!(psnr(&expected, &found) > 60.0, "{}", psnr(&expected, &found));
+    }
+}
+
+/// The picture with left and right exchanged.
+fn flipped(frame: &LinearFrame) -> LinearFrame {
+    let width = frame.width() as usize;
+    let rows = frame.pixels().chunks(width);
+    let pixels = rows.flat_map(|row| row.iter().rev().copied()).collect();
+    LinearFrame::new([frame.width(), frame.height()], true, pixels)
+}
+
+/// The luminance of a picture by a pinhole times the solid angles of its pixels, up to a factor.
+fn sum_of_light(frame: &LinearFrame) -> f64 {
+    let [width, height] = [frame.width(), frame.height()].map(f64::from);
+    let tan = libm::tan(50.0_f64.to_radians());
+    let pixels = frame.pixels().iter().enumerate();
+    let light = pixels.map(|(idx, pixel)| {
+        let [x, y] = [idx as f64 % width + 0.5, (idx as f64 / width).floor() + 0.5];
+        let [x, y] = [2.0 * x - width, 2.0 * y - height].map(|part| part / width * tan);
+        let square = 1.0 + x * x + y * y;
+        let [red, green, blue, _] = pixel.map(f64::from);
+        ugphysics::luminance([red, green, blue]) / (square * libm::sqrt(square))
+    });
+    light.sum()
+}
+
+/// A mirror that fills the picture and recedes or approaches with β shows the sky as the mirrored
+/// eye sees it, which moves with 2β/(1 + β²) and looks the other way, with left and right exchanged.
+/// Stars in it keep the sum of their light.
+#[test]
+fn a_mirror_shows_the_sky_of_the_mirrored_eye() {
+    for beta in [0.0, 0.3, -0.5] {
+        let scene = format!(
+            "surf plane 0 1 0; l 0; c white 1; v a -900 20 -900; v b 900 20 -900; v c 900 20 900; v d -900 20 900;
+             f (a b c d) white plane <0 {beta} 0>; cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;"
+        );
+        let eye = DVec3::Y * (2.0 * beta / (1.0 + beta * beta));
+        for shift in SHIFTS {
+            let both = |opened: Opened| {
+                let sky = SceneSky::from(opened);
+                let found = by_rays(&scene, &sky, DVec3::ZERO, shift, Lens::Pinhole);
+                (found, flipped(&warped(&sky, eye, shift, Lens::Pinhole, -DVec3::Y)))
+            };
+            let (found, expected) = both(panorama());
+            let alike = psnr(&expected, &found);
+            // Footprints in mirrors are round.
+            assert!(alike > 38.0, "{beta} {shift:?}: {alike} dB");
+            let (found, expected) = both(stars());
+            let ratio = sum_of_light(&found) / sum_of_light(&expected);
+            assert!((ratio - 1.0).abs() < 0.02, "{beta} {shift:?}: {ratio}");
+        }
+    }
+}
+
+/// Light of a sky behind a translucent face and beside an edge is the covered mean.
+#[test]
+fn a_scene_covers_its_sky_by_parts() {
+    let sky = SceneSky::from(panorama());
+    let scene = "l 1; c half 0.8 0 0 0.5; v a -9 2 -9; v b 0 2 -9; v c 0 2 9; v d -9 2 9; f (a b c d) half 1;
+                 cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
+    let shift = ColorShift::NONE;
+    let alone = warped(&sky, DVec3::ZERO, shift, Lens::Pinhole, DVec3::Y);
+    let dark = by_rays(scene, &SceneSky::default(), DVec3::ZERO, shift, Lens::Pinhole);
+    let found = [
+        by_rays(scene, &sky, DVec3::ZERO, shift, Lens::Pinhole),
+        by_pipe(scene, &sky, DVec3::ZERO, shift),
+    ];
+    for frame in found {
+        for ((sky, dark), pixel) in alone.pixels().iter().zip(dark.pixels()).zip(frame.pixels()) {
+            for channel in 0..3 {
+                let expected = dark[channel] + (1.0 - dark[3]) * sky[channel];
+                assert!((pixel[channel] - expected).abs() < 2e-3, "{pixel:?}, not {expected}");
+            }
+        }
+    }
+}
+
+/// Parts of a picture, both eyes and the sides of a cube have their part of the sky.
+#[test]
+fn parts_of_a_picture_have_their_part_of_the_sky() {
+    for opened in [panorama, stars] {
+        let config = ugphoton::Config { sky: opened().into(), ..Default::default() };
+        let light = |config: &ugphoton::Config| ugphoton::light(parsed(BEHIND), config).unwrap();
+        let whole = light(&ugphoton::Config { picture: picture(Lens::Pinhole), ..config.clone() });
+        let [left, top, width, height] = [40, 30, 20, 11];
+        let crop = Some([left, top, width, height]);
+        let part = light(&ugphoton::Config { picture: picture(Lens::Pinhole), crop, ..config.clone() });
+        for (idx, pixel) in part.pixels().iter().enumerate() {
+            let [x, y] = [left + idx as u32 % width, top + idx as u32 / width];
+            let expected = whole.pixels()[(y * whole.width() + x) as usize];
+            assert!((0..3).all(|i| (pixel[i] - expected[i]).abs() < 1e-5), "{pixel:?} {expected:?}");
+        }
+        let size = [2 * whole.width(), whole.height()];
+        let two = PictureOptions { size, ..picture(Lens::Pinhole) };
+        let two = light(&ugphoton::Config { picture: two, stereo: Some(0.1), ..config.clone() });
+        for (idx, pixel) in two.pixels().iter().enumerate() {
+            let [x, y] = [idx as u32 % size[0] % whole.width(), idx as u32 / size[0]];
+            assert_eq!(pixel[..3], whole.pixels()[(y * whole.width() + x) as usize][..3]);
+        }
+    }
+}
