@@ -8,6 +8,7 @@ use ugimage::PictureLimits;
 use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite, sha256};
 use ugsky::PanoramaError;
 
+use crate::built_in::BuiltIn;
 use crate::error::{OpenError, SkyError};
 use crate::open::{Opened, open};
 use crate::scene_sky::{SceneSky, SkySource};
@@ -16,12 +17,13 @@ use crate::star_list::{StarList, is_star_list, read_stars};
 /// A sky behind a scene: flatten it into the arguments of a renderer.
 #[derive(Args, Clone, Debug)]
 pub struct SkyArgs {
-    /// Sky behind the scene: a panorama, a cube map, or a list of stars
+    /// Sky behind the scene: day, dusk, stars, or a file
     ///
-    /// A picture twice as wide as high with all directions (PNG, JPEG, HDR, EXR or PFM); a cube
-    /// map, six squares side by side or a cross; or stars (CSV). It is infinitely far away, at rest
-    /// in the frame of the scene, with y in its middle, x to the right and z up.
-    #[arg(long, value_name = "FILE", help_heading = SKY)]
+    /// day, dusk: a clear sky with a sun; stars: those that the naked eye sees. A file is a picture
+    /// twice as wide as high with all directions (PNG, JPEG, HDR, EXR or PFM); a cube map, six
+    /// squares side by side or a cross; or stars (CSV). The sky is infinitely far away, at rest in
+    /// the frame of the scene, with y in its middle, x to the right and z up.
+    #[arg(long, value_name = "SKY", help_heading = SKY)]
     sky: Option<PathBuf>,
 
     /// Turn the sky by these angles about x, then y, then z, in degrees
@@ -59,8 +61,11 @@ impl SceneSky {
     /// A file that cannot be read, or is neither a panorama nor a list of stars.
     pub fn open(&mut self, common: &CommonArgs, context: &Context) -> Result<(), Failure> {
         if let SkySource::File(path) = &self.source {
-            let file = context.input_file(path)?;
-            self.source = SkySource::Opened(opened(&file, common)?.into());
+            let opened = match path.to_str().and_then(BuiltIn::from_name) {
+                Some(sky) => sky.open(),
+                None => opened(&context.input_file(path)?, common)?,
+            };
+            self.source = SkySource::Opened(opened.into());
         }
         Ok(())
     }

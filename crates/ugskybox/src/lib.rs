@@ -3,6 +3,7 @@
 //! - [`open`] makes a panorama of the bytes of PNG, JPEG, HDR, EXR or PFM files, cube maps among
 //!   them; [`read_stars`] reads a list of stars.
 //! - [`Warp`] and [`StarField`] are a [`SkyPicture`]'s map to a sky, and its light in every pixel.
+//! - [`BuiltIn`] are skies without a file.
 //! - A [`SceneSky`] is put behind the picture of a scene; [`SkyAround`] is what rays see of it
 //!   that leave the scene.
 //!
@@ -24,6 +25,7 @@
 //! ```
 
 mod around;
+mod built_in;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
@@ -36,6 +38,7 @@ mod stars;
 mod warp;
 
 pub use around::{SkyAround, SkyRays};
+pub use built_in::BuiltIn;
 pub use error::{OpenError, SkyError};
 pub use open::{Opened, open};
 pub use picture::{SkyPicture, sky_colors};
