@@ -76,6 +76,27 @@ impl SkyAround {
     }
 }
 
+/// The light at rest in a square around a direction, `side` radians wide for the observer: times
+/// alpha, and alpha. The middle of a square that is too wide for one footprint stands for it.
+pub(crate) fn light_around(
+    sampler: &mut Sampler<'_>,
+    observer: &Observer,
+    toward: DVec3,
+    mut side: f64,
+) -> [f32; 4] {
+    /// Halvings of a side of 4π.
+    const MOST: u32 = 64;
+    let across = toward.any_orthonormal_vector();
+    for _ in 0..MOST {
+        let ray = observer.ray(toward, [side * across, side * toward.cross(across)]);
+        if let Some(light) = sampler.light(&ray, 1.0) {
+            return light;
+        }
+        side *= 0.5;
+    }
+    [0.0; 4]
+}
+
 /// Finds the light of rays that leave a scene.
 pub struct SkyRays<'a> {
     around: &'a SkyAround,
@@ -91,21 +112,11 @@ impl SkyRays<'_> {
     pub fn light(&mut self, toward: DVec3, width: f64, frequency: f64) -> [f32; 4] {
         let around = self.around;
         let toward = around.sky_from_scene * toward;
-        let across = toward.any_orthonormal_vector();
-        let mut side = width / frequency;
         let mut sum = [0.0; 4];
         let (direction, doppler) = around.observer.direction_in_sky(toward);
         let doppler = doppler / frequency;
         if let (Some(sampler), Some(shade)) = (&mut self.sampler, &around.shade) {
-            let found = loop {
-                let ray = around.observer.ray(toward, [side * across, side * toward.cross(across)]);
-                match sampler.light(&ray, 1.0) {
-                    Some(light) => break light,
-                    // The footprint covers nearly the whole sky: its middle stands for it.
-                    None if side > 0.0 => side *= 0.5,
-                    None => break [0.0; 4],
-                }
-            };
+            let found = light_around(sampler, &around.observer, toward, width / frequency);
             let mut seen = found.map(|part| [part; Seen::N]);
             shade.see(&mut seen, &[doppler as f32; Seen::N]);
             sum = seen.map(|part| part[0]);

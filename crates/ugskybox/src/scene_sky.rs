@@ -18,6 +18,7 @@ use ugsky::{ALL_NM, Basis, StarOptions};
 use crate::around::SkyAround;
 use crate::error::SkyError;
 use crate::open::Opened;
+use crate::sky_light::SkyLamps;
 use crate::picture::{SkyPicture, sky_colors};
 use crate::stars::StarField;
 use crate::warp::Warp;
@@ -116,6 +117,14 @@ impl SceneSky {
     pub fn notes(&self) -> impl Iterator<Item = Note> {
         let opened = self.opened().ok().flatten();
         opened.into_iter().flat_map(|opened| opened.notes.iter().cloned().map(Note::Source))
+    }
+
+    /// Its light as lights at infinity: sets of points, see [`SkyLamps::new`].
+    ///
+    /// # Errors
+    /// [`SkyError::Closed`].
+    pub fn lamps(&self, sets: [usize; 2]) -> Result<Option<SkyLamps>, SkyError> {
+        Ok(self.opened()?.and_then(|opened| SkyLamps::new(opened, self.turn, sets)))
     }
 
     /// The velocity in the axes of the sky.
