@@ -231,3 +231,69 @@ fn parts_of_a_picture_have_their_part_of_the_sky() {
         }
     }
 }
+
+/// The light of a white square that fills the picture, with a unit normal, at rest with the camera
+/// under a uniform sky of light `level`, in which both move with `beta` along y.
+fn lit_square(normal: DVec3, beta: f64, level: f32, shift: ColorShift, samples: u32) -> f64 {
+    let texels = Texels::Light(vec![[level, level, level, 1.0]; 64 * 32]);
+    let panorama = Some(Panorama::new([64, 32], texels, Extent::FULL).unwrap());
+    let sky = SceneSky::from(Opened { panorama, ..Opened::default() });
+    let across = normal.any_orthonormal_vector();
+    let up = normal.cross(across);
+    let corner = |x: f64, y: f64| 9.0 * (x * across + y * up) - normal;
+    let vertex = |name: &str, at: DVec3| format!("v {name} {} {} {};", at.x, at.y, at.z);
+    let text = format!(
+        "c white 1; {} {} {} {} f (a b c d) white <0 {beta} 0>;
+         cam -ep 0 0 0 -vc {} {} {} -ud {} {} {} -va 20;",
+        vertex("a", corner(-1.0, -1.0)),
+        vertex("b", corner(1.0, -1.0)),
+        vertex("c", corner(1.0, 1.0)),
+        vertex("d", corner(-1.0, 1.0)),
+        -normal.x, -normal.y, -normal.z, up.x, up.y, up.z
+    );
+    let motion = MotionOptions { camera_velocity: Some(DVec3::Y * beta), ..MotionOptions::default() };
+    let picture = PictureOptions { size: [1, 1], samples, ..PictureOptions::default() };
+    let config = ugphoton::Config { motion, shift, picture, sky, ..Default::default() };
+    f64::from(ugphoton::light(parsed(&text), &config).unwrap().pixels()[0][1])
+}
+
+/// The mean over a hemisphere around `normal`, weighted by the cosine, of D⁴, where D is the Doppler
+/// factor of what is seen by an observer who moves with β along y.
+fn mean_of_beamed_light(normal: DVec3, beta: f64) -> f64 {
+    const N: usize = 400;
+    let across = normal.any_orthonormal_vector();
+    let gamma = 1.0 / libm::sqrt(1.0 - beta * beta);
+    let mut sum = 0.0;
+    for row in 0..N {
+        // Equal parts of the square of the sine: equal weights.
+        let square = (row as f64 + 0.5) / N as f64;
+        for column in 0..N {
+            let (sin, cos) = libm::sincos(core::f64::consts::TAU * (column as f64 + 0.5) / N as f64);
+            let aside = cos * across + sin * normal.cross(across);
+            let toward = libm::sqrt(1.0 - square) * normal + libm::sqrt(square) * aside;
+            sum += libm::pow(gamma * (1.0 - beta * toward.y), -4.0);
+        }
+    }
+    sum / (N * N) as f64
+}
+
+/// A white matt surface under a uniform sky has the radiance of the sky, and in motion the mean of
+/// the beamed radiance, weighted by the cosine.
+#[test]
+fn a_uniform_sky_lights_as_theory_says() {
+    let law = ColorShift::hues(true, ugphysics::Brightness::Bolometric);
+    for normal in [DVec3::Y, -DVec3::Y, DVec3::Z, DVec3::new(0.48, 0.6, 0.64)] {
+        for shift in [law, ColorShift::SPECTRA] {
+            let found = lit_square(normal, 0.0, 0.5, shift, 16);
+            assert!((found / 0.5 - 1.0).abs() < 1e-3, "{normal}: {found}");
+        }
+        for (beta, most) in [(0.5, 1e-3), (-0.9, 1e-2)] {
+            let expected = 0.01 * mean_of_beamed_light(normal, beta);
+            let found = lit_square(normal, beta, 0.01, law, 16);
+            assert!((found / expected - 1.0).abs() < most, "{normal} {beta}: {found} {expected}");
+            // With fewer samples it is nearly the same.
+            let few = lit_square(normal, beta, 0.01, law, 4);
+            assert!((few / expected - 1.0).abs() < most.sqrt() + 0.05, "{normal} {beta}: {few} {expected}");
+        }
+    }
+}
