@@ -5,7 +5,7 @@ use ugimage::LinearFrame;
 use ugphoton::{CameraOptions, ColorShift, Lens, MotionOptions, PictureOptions};
 use ugphysics::{Velocity, srgb_encode};
 use ugscene::Scene;
-use ugskybox::{Opened, SceneSky, SkySource};
+use ugskybox::{BuiltIn, Opened, SceneSky, SkySource};
 use ugwarp::{Extent, Panorama, Star, Texels};
 
 /// A smooth sky of all hues, white where two waves meet.
@@ -39,7 +39,8 @@ fn parsed(text: &str) -> Scene {
 }
 
 /// A triangle too far behind the eye to be met, which looks along +y.
-const BEHIND: &str = "v a 0 -9e9 0; v b 1 -9e9 0; v c 0 -9e9 1; f (a b c); cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
+const BEHIND: &str =
+    "v a 0 -9e9 0; v b 1 -9e9 0; v c 0 -9e9 1; f (a b c); cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
 
 fn picture(lens: Lens) -> PictureOptions {
     let size = if lens == Lens::Panorama { [128, 64] } else { [96, 72] };
@@ -56,18 +57,13 @@ fn by_pipe(text: &str, sky: &SceneSky, beta: DVec3, shift: ColorShift) -> Linear
     let lorentz = uglorentz::Config { camera_velocity: Some(beta), ..Default::default() };
     let seen = uglorentz::apply(parsed(text), &lorentz).unwrap().0;
     let colored = ugdoppler::apply(seen, &ugdoppler::Config { shift, ..Default::default() }).unwrap().0;
-    let config = ugrainbow::Config { picture: picture(Lens::Pinhole), sky: sky.clone(), ..Default::default() };
+    let config =
+        ugrainbow::Config { picture: picture(Lens::Pinhole), sky: sky.clone(), ..Default::default() };
     ugrainbow::light(&colored, &config).unwrap()
 }
 
 /// The sky alone. `center`: where the camera looks.
-fn warped(
-    sky: &SceneSky,
-    beta: DVec3,
-    shift: ColorShift,
-    lens: Lens,
-    center: DVec3,
-) -> LinearFrame {
+fn warped(sky: &SceneSky, beta: DVec3, shift: ColorShift, lens: Lens, center: DVec3) -> LinearFrame {
     let SkySource::Opened(opened) = &sky.source else { panic!("a sky") };
     let camera = CameraOptions {
         center: Some(center),
@@ -193,10 +189,8 @@ fn a_scene_covers_its_sky_by_parts() {
     let shift = ColorShift::NONE;
     let alone = warped(&sky, DVec3::ZERO, shift, Lens::Pinhole, DVec3::Y);
     let dark = by_rays(scene, &SceneSky::default(), DVec3::ZERO, shift, Lens::Pinhole);
-    let found = [
-        by_rays(scene, &sky, DVec3::ZERO, shift, Lens::Pinhole),
-        by_pipe(scene, &sky, DVec3::ZERO, shift),
-    ];
+    let found =
+        [by_rays(scene, &sky, DVec3::ZERO, shift, Lens::Pinhole), by_pipe(scene, &sky, DVec3::ZERO, shift)];
     for frame in found {
         for ((sky, dark), pixel) in alone.pixels().iter().zip(dark.pixels()).zip(frame.pixels()) {
             for channel in 0..3 {
@@ -249,7 +243,12 @@ fn lit_square(normal: DVec3, beta: f64, level: f32, shift: ColorShift, samples: 
         vertex("b", corner(1.0, -1.0)),
         vertex("c", corner(1.0, 1.0)),
         vertex("d", corner(-1.0, 1.0)),
-        -normal.x, -normal.y, -normal.z, up.x, up.y, up.z
+        -normal.x,
+        -normal.y,
+        -normal.z,
+        up.x,
+        up.y,
+        up.z
     );
     let motion = MotionOptions { camera_velocity: Some(DVec3::Y * beta), ..MotionOptions::default() };
     let picture = PictureOptions { size: [1, 1], samples, ..PictureOptions::default() };
@@ -295,5 +294,61 @@ fn a_uniform_sky_lights_as_theory_says() {
             let few = lit_square(normal, beta, 0.01, law, 4);
             assert!((few / expected - 1.0).abs() < most.sqrt() + 0.05, "{normal} {beta}: {few} {expected}");
         }
+    }
+}
+
+/// White is the light of a white level surface by day and at dusk, and the sun makes the most of it
+/// by day.
+#[test]
+fn skies_without_a_file_light_a_level_surface_white() {
+    let level = |sky: Opened| {
+        let text = "c white 1; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0; f (a b c d) white;
+                    cam -ep 0 0 5 -vc 0 0 0 -ud 0 1 0 -va 20;";
+        let picture = PictureOptions { size: [1, 1], samples: 8, ..PictureOptions::default() };
+        let shift = ColorShift::hues(false, ugphysics::Brightness::Bolometric);
+        let config = ugphoton::Config { picture, shift, sky: sky.into(), ..Default::default() };
+        let [red, green, blue, _] =
+            ugphoton::light(parsed(text), &config).unwrap().pixels()[0].map(f64::from);
+        ugphysics::luminance([red, green, blue])
+    };
+    for sky in [BuiltIn::Day, BuiltIn::Dusk] {
+        let found = level(sky.open());
+        assert!((found - 1.0).abs() < 0.05, "{sky:?}: {found}");
+    }
+    let found = level(Opened { stars: Vec::new(), ..BuiltIn::Day.open() });
+    assert!((0.2..0.4).contains(&found), "{found}");
+    let Opened { stars, panorama, .. } = BuiltIn::Stars.open();
+    assert!(stars.len() == 5042 && panorama.is_none());
+    // Sirius, in the axes of a panorama.
+    let brightest = stars.iter().min_by(|a, b| a.magnitude.total_cmp(&b.magnitude)).unwrap();
+    assert!((brightest.magnitude + 1.44).abs() < 0.05 && (brightest.direction.z + 0.287).abs() < 0.01);
+}
+
+/// The ground is at the lowest point, rests while the scene moves, and is in the shadow below it.
+#[test]
+fn a_stage_rests_below_the_scene() {
+    let text = "c red 1 0; v a -1 -1 2; v b 1 -1 2; v c 1 1 2; v d -1 1 2; f (d c b a) red;
+                cam -ep 0 -9 4 -vc 0 0 2 -va 60;";
+    let light = |ground: bool, velocity: Option<DVec3>| {
+        let motion = MotionOptions { velocity, in_place: true, ..MotionOptions::default() };
+        let picture = PictureOptions { size: [40, 30], samples: 2, ..PictureOptions::default() };
+        let config = ugphoton::Config {
+            motion,
+            picture,
+            ground,
+            sky: BuiltIn::Day.open().into(),
+            ..Default::default()
+        };
+        ugphoton::light(parsed(text), &config).unwrap()
+    };
+    let at = |frame: &LinearFrame, x: u32, y: u32| frame.pixels()[(y * frame.width() + x) as usize];
+    for velocity in [None, Some(DVec3::X * 0.5)] {
+        let (bare, staged) = (light(false, velocity), light(true, velocity));
+        // In the lower corner there is ground of 0.6, encoded, in full light.
+        let [red, green, blue, _] = at(&staged, 2, 27).map(f64::from);
+        let ground = ugphysics::luminance([red, green, blue]) / ugphysics::srgb_decode(0.6);
+        assert!((ground - 1.0).abs() < 0.25, "{ground}");
+        assert_ne!(at(&bare, 2, 27), at(&staged, 2, 27));
+        assert_eq!(at(&bare, 20, 2), at(&staged, 20, 2));
     }
 }

@@ -16,6 +16,7 @@ use ugpicture::cli::{
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
+use ugskybox::BuiltIn;
 use ugskybox::cli::SkyArgs;
 
 use crate::config::{Config, RayOptions, Shutter};
@@ -147,6 +148,13 @@ pub struct Args {
     #[command(flatten)]
     sky: SkyArgs,
 
+    /// Stand the scene on a grey ground, under a sky: day, unless -sky gives another
+    ///
+    /// The ground is level, at the lowest point of the scene, and rests whatever moves. The sky
+    /// lights a scene without lights.
+    #[arg(long, help_heading = RAYS)]
+    stage: bool,
+
     #[command(flatten)]
     picture: PictureArgs,
 
@@ -239,7 +247,8 @@ impl Args {
             lens: self.lens.lens(),
             stereo: self.stereo,
             adaptive: self.ad,
-            sky: self.sky.sky(),
+            sky: if self.stage { self.sky.sky_or(BuiltIn::Day) } else { self.sky.sky() },
+            ground: self.stage,
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
             reading: pipe::options(&self.common)?,
         })

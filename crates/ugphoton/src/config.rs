@@ -42,6 +42,8 @@ pub struct Config {
     /// What is behind the scene and in its mirrors (`-sky`). A picture with a transparent background
     /// shows it in mirrors only.
     pub sky: SceneSky,
+    /// Put a ground below the scene (`--stage`), see [`ugscene::add_ground`].
+    pub ground: bool,
     /// Draw only a part of the picture (`-crop`): its left column, upper row, width and height. The
     /// pixels are those of the whole picture.
     pub crop: Option<[u32; 4]>,
@@ -183,6 +185,7 @@ impl Default for Config {
             stereo: None,
             adaptive: None,
             sky: SceneSky::default(),
+            ground: false,
             crop: None,
             reading: ugparse::Options::default(),
         }

@@ -78,6 +78,8 @@ pub struct PreparedScene {
     canvas: Canvas,
     scenery: Scenery<'static>,
     metadata: Metadata,
+    /// Notes on what was added to the scene.
+    notes: Vec<Note>,
     /// Of a scene that was read, for the note on bodies that are outside the picture.
     boxes: Option<BodyBoxes>,
 }
@@ -117,9 +119,20 @@ impl PreparedScene {
     ) -> Result<Self, Error> {
         progress.step("preparing", 0);
         let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
-        let config = config.on(&canvas);
+        let mut config = config.on(&canvas);
+        let (mut scene, mut notes) = (scene, Vec::new());
+        if config.ground {
+            // The camera of a scene that has none shows the scene, not the ground.
+            let (size, options) = (config.frame_size(), &mut config.picture.camera);
+            let motions = std::slice::from_ref(&config.motion);
+            if let Some(camera) = ugscene::common_camera(&scene, options, size, motions)? {
+                (options.eye, options.center) = (Some(camera.eye), Some(camera.center));
+                notes.push(Note::Scene(ugscene::Note::DefaultCamera(camera)));
+            }
+            ugscene::add_ground(&mut scene);
+        }
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
-        Ok(Self { config, canvas, scenery, metadata, boxes: None })
+        Ok(Self { config, canvas, scenery, metadata, notes, boxes: None })
     }
 
     /// The note on bodies that are outside a flat picture, with the times at which they are in it.
@@ -150,7 +163,7 @@ impl PreparedScene {
         let brightest = self.put_sky_behind(&mut frame, progress)?;
         let mut notes = notes(&self.scenery, &self.config, &statistics);
         notes.extend(self.out_of_view().map(Note::Scene));
-        notes.extend(self.config.sky.notes());
+        notes.extend(self.config.sky.notes().chain(self.notes.iter().cloned()));
         self.finish(frame, notes, brightest.max(statistics.max_light as f32), progress)
     }
 

@@ -9,7 +9,9 @@ use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
-use ugscene::{BodyId, Face, HueScale, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
+use ugscene::{
+    BodyId, Face, HueScale, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
+};
 use ugskybox::{SkyAround, SkyLamps};
 
 use crate::config::{Config, RayOptions, Shutter};

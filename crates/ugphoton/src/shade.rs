@@ -66,7 +66,8 @@ impl<'a> Shader<'a> {
         let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
         // Mirrors show a sky itself.
-        let exponent = (specular > 0.0 && scenery.sky_lamps.is_none()).then(|| surface.map_or(0.0, |surface| surface.exponent));
+        let exponent = (specular > 0.0 && scenery.sky_lamps.is_none())
+            .then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, exponent, sample);
         let lit = |color: &SurfaceColor, light: &[Irradiance]| {
             let light = Illumination::Lamps(light, &scenery.lamps);

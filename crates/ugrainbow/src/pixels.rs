@@ -181,11 +181,7 @@ impl ResolveSingle<[f32; 4]> for Light<'_> {
 }
 
 /// The whole picture of the scene as light, with the requested channels.
-pub fn light(
-    setup: &Setup<'_>,
-    layers: &RenderLayers<'_>,
-    config: &Config,
-) -> (LinearFrame, SampleStats) {
+pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
     let grid = &setup.grid;
     let PictureOptions { filter, channels, .. } = &config.picture;
     let background = drawn_on(&config.sky, config.picture.background);

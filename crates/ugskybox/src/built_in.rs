@@ -114,7 +114,8 @@ impl ClearSky {
         let from_sun = libm::acos(direction.dot(self.sun).clamp(-1.0, 1.0));
         let gradation = 1.0 - libm::exp(-0.32 / direction.z.max(0.01));
         let cos = libm::cos(from_sun);
-        gradation * (1.0 + 10.0 * (libm::exp(-3.0 * from_sun) - libm::exp(-3.0 * FRAC_PI_2)) + 0.45 * cos * cos)
+        gradation
+            * (1.0 + 10.0 * (libm::exp(-3.0 * from_sun) - libm::exp(-3.0 * FRAC_PI_2)) + 0.45 * cos * cos)
     }
 
     /// Reciprocal temperature of the colour, 10⁶/K.

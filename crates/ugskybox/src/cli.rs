@@ -44,6 +44,15 @@ impl SkyArgs {
     }
 }
 
+impl SkyArgs {
+    /// As [`SkyArgs::sky`]; without one, a sky without a file.
+    pub fn sky_or(&self, sky: BuiltIn) -> SceneSky {
+        let found = self.sky();
+        let source = SkySource::File(sky.name().into());
+        if found.is_some() { found } else { SceneSky { source, ..found } }
+    }
+}
+
 /// Turns about the axes, one after the other, by angles in degrees.
 fn turn(degrees: &[f64]) -> DQuat {
     let about = |(axis, degrees): (DVec3, &f64)| {
@@ -84,7 +93,8 @@ fn opened(file: &Input, common: &CommonArgs) -> Result<Opened, Failure> {
         let remedy = match &error {
             OpenError::Read { error, .. } => CommonArgs::memory_remedy(error.needed_memory()),
             OpenError::Panorama(PanoramaError::Shape { .. }) => {
-                "; a sky is twice as wide as high, six squares in a row, or a cross of 4 : 3 or 3 : 4".to_owned()
+                "; a sky is twice as wide as high, six squares in a row, or a cross of 4 : 3 or 3 : 4"
+                    .to_owned()
             }
             OpenError::Panorama(_) => String::new(),
         };

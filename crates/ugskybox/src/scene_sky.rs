@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::DQuat;
 use rayon::prelude::*;
-use uglight::ColorShift;
 use ugimage::LinearFrame;
+use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Background, Note, PictureOptions};
@@ -18,8 +18,8 @@ use ugsky::{ALL_NM, Basis, StarOptions};
 use crate::around::SkyAround;
 use crate::error::SkyError;
 use crate::open::Opened;
-use crate::sky_light::SkyLamps;
 use crate::picture::{SkyPicture, sky_colors};
+use crate::sky_light::SkyLamps;
 use crate::stars::StarField;
 use crate::warp::Warp;
 

@@ -145,7 +145,11 @@ fn spread(weights: &[[f64; 2 * ROWS]], n: usize) -> Vec<SkyLamp> {
         let (x, y) = libm::sincos(cell * (column as f64 + across) - PI);
         let level = (1.0 - z * z).max(0.0).sqrt();
         let density = weights[row][column] / (total * cell * (high - low));
-        SkyLamp { toward: DVec3::new(level * x, level * y, z), linear: [1.0 / (n as f64 * density); 3], kelvin: None }
+        SkyLamp {
+            toward: DVec3::new(level * x, level * y, z),
+            linear: [1.0 / (n as f64 * density); 3],
+            kelvin: None,
+        }
     };
     (0..n).map(point).collect()
 }

@@ -352,19 +352,20 @@ impl Args {
         let arrangement = self.from.unwrap_or_default();
         let mut limits = PictureLimits::default();
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
-        let mut opened = open(&files, Some(arrangement), self.extent(), self.highlights(), limits).map_err(
-            |error| match error {
-                OpenError::Read { idx, error } => {
-                    let Input { name, text } = inputs[idx];
-                    let remedy = match foreign_data(name, text) {
-                        Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
-                        _ => format!("; {}", remedies::DRAW_SCENE),
-                    };
-                    Failure::Failed(format!("`{name}`: {error}{remedy}"))
+        let mut opened =
+            open(&files, Some(arrangement), self.extent(), self.highlights(), limits).map_err(|error| {
+                match error {
+                    OpenError::Read { idx, error } => {
+                        let Input { name, text } = inputs[idx];
+                        let remedy = match foreign_data(name, text) {
+                            Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
+                            _ => format!("; {}", remedies::DRAW_SCENE),
+                        };
+                        Failure::Failed(format!("`{name}`: {error}{remedy}"))
+                    }
+                    error => Failure::of(Error::from(error)),
                 }
-                error => Failure::of(Error::from(error)),
-            },
-        )?;
+            })?;
         opened.others.extend(others.iter().map(|other| sha256(&other.text)));
         for (path, range_nm) in self.bands() {
             if arrangement == Arrangement::Sides {
@@ -374,8 +375,10 @@ impl Args {
             }
             let file = context.input_file(path)?;
             opened.others.push(sha256(&file.text));
-            let band = open(&[&file.text], Some(arrangement), self.extent(), None, limits)
-                .map_err(|error| Failure::Failed(format!("`{}`: {}", file.name, Error::from(error).words())))?;
+            let band =
+                open(&[&file.text], Some(arrangement), self.extent(), None, limits).map_err(|error| {
+                    Failure::Failed(format!("`{}`: {}", file.name, Error::from(error).words()))
+                })?;
             opened.notes.extend(band.notes);
             opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));
         }

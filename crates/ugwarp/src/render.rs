@@ -6,13 +6,13 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
+use ugpicture::lens::Film;
 use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, channel_planes,
 };
 use ugpipe::Progress;
-use ugscene::{Provenance, Remarks, Scene};
-use ugpicture::lens::Film;
 use ugscene::{CameraError, CameraOptions, View};
+use ugscene::{Provenance, Remarks, Scene};
 use ugsky::{Basis, Layer, Sky};
 use ugskybox::{Opened, SkyPicture, StarField, Statistics, Warp, sky_colors};
 

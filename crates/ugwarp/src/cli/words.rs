@@ -12,7 +12,10 @@ impl Words for Error {
             Self::Picture(error) => return error.words(),
             Self::Motion(error) => return error.words(),
             Self::NoCamera => "{}: add a `cam` statement to it, or leave out --scene",
-            Self::Open(OpenError::Panorama(PanoramaError::Shape { arrangement: Arrangement::Equirectangular, .. })) => {
+            Self::Open(OpenError::Panorama(PanoramaError::Shape {
+                arrangement: Arrangement::Equirectangular,
+                ..
+            })) => {
                 "{}: give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it \
                  shows all; a cube map needs -from strip or -from cross"
             }
@@ -53,7 +56,9 @@ impl Words for Error {
         match self {
             Self::Picture(error) => error.is_usage(),
             Self::Motion(error) => error.is_usage(),
-            Self::Open(OpenError::Panorama(error)) => matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. }),
+            Self::Open(OpenError::Panorama(error)) => {
+                matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. })
+            }
             Self::Open(_) | Self::NoCamera => false,
             _ => true,
         }
