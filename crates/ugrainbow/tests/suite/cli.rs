@@ -156,7 +156,7 @@ fn a_png_is_not_written_to_a_terminal() {
 #[test]
 fn skies_exclude_what_does_not_show_them() {
     let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
-    std::fs::write(file.path(), "ra,dec,mag,kelvin\n0,0,-9,6000\n").unwrap();
+    fs::write(file.path(), "ra,dec,mag,kelvin\n0,0,-9,6000\n").unwrap();
     let sky = format!("-sz 40 30 -sky {}", file.path().display());
     for (options, status, expected) in [
         ("-vec -dt svg", 2, "a sky is drawn as pixels: leave out -vec or -sky"),
