@@ -43,7 +43,11 @@ const BEHIND: &str =
     "v a 0 -9e9 0; v b 1 -9e9 0; v c 0 -9e9 1; f (a b c); cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;";
 
 fn picture(lens: Lens) -> PictureOptions {
-    let size = if lens == Lens::Panorama { [128, 64] } else { [96, 72] };
+    let size = match lens {
+        Lens::Panorama => [128, 64],
+        Lens::Cube => [144, 24],
+        _ => [96, 72],
+    };
     PictureOptions { size, samples: 1, ..PictureOptions::default() }
 }
 
@@ -101,7 +105,7 @@ fn a_sky_alone_is_the_same_in_all_programs() {
         let sky = SceneSky::from(opened());
         for beta in [DVec3::ZERO, DVec3::Y * 0.9, DVec3::new(0.5, -0.4, 0.3)] {
             for shift in SHIFTS {
-                for lens in [Lens::Pinhole, Lens::Panorama, Lens::Fisheye { angle: 3.0 }] {
+                for lens in [Lens::Pinhole, Lens::Panorama, Lens::Cube, Lens::Fisheye { angle: 3.0 }] {
                     let expected = warped(&sky, beta, shift, lens, DVec3::Y);
                     let found = psnr(&expected, &by_rays(BEHIND, &sky, beta, shift, lens));
                     assert!(found > 60.0, "{beta} {shift:?} {lens:?}: {found} dB");
@@ -350,5 +354,53 @@ fn a_stage_rests_below_the_scene() {
         assert!((ground - 1.0).abs() < 0.25, "{ground}");
         assert_ne!(at(&bare, 2, 27), at(&staged, 2, 27));
         assert_eq!(at(&bare, 20, 2), at(&staged, 20, 2));
+    }
+}
+
+/// The statement of a scene is kept by the writer and by the filters of the pipe, and is the sky of
+/// both renderers; an option overrides it.
+#[test]
+fn a_scene_states_its_sky() {
+    let text = format!("sky dusk -ra 0 0 20;\n{BEHIND}");
+    let scene = parsed(&text);
+    let stated = scene.sky.clone().unwrap();
+    assert_eq!((stated.file.as_str(), stated.turn), ("dusk", [0.0, 0.0, 20.0]));
+    let written = ugparse::write(&scene);
+    let written = String::from_utf8(written).unwrap();
+    assert!(written.contains("sky dusk -ra 0 0 20;\n"), "{written}");
+    assert_eq!(parsed(&written).sky, scene.sky);
+    let named = parsed("sky \"my sky.png\"; v a 0 0 0;");
+    assert!(String::from_utf8(ugparse::write(&named)).unwrap().contains("sky \"my sky.png\";"));
+    let tidy = ugparse::tidy(
+        &ugparse::Source::new("t.ug", "sky  01.50 -ra 1e0 +2 3;"),
+        &ugparse::Options::default(),
+    );
+    assert_eq!(String::from_utf8(tidy.unwrap()).unwrap(), "sky 01.50 -ra 1 2 3;\n");
+    let beta = DVec3::Y * 0.5;
+    let none = SceneSky::default();
+    let mut option = none.clone();
+    option.or_stated(Some(&stated));
+    option.open_built_in();
+    let shift = ColorShift::SPECTRA;
+    let expected = by_rays(BEHIND, &option, beta, shift, Lens::Pinhole);
+    assert_eq!(by_rays(&text, &none, beta, shift, Lens::Pinhole), expected);
+    assert!(psnr(&expected, &by_pipe(&text, &none, beta, shift)) > 60.0);
+    let day = SceneSky::from(BuiltIn::Day.open());
+    let overridden = by_rays(BEHIND, &day, beta, shift, Lens::Pinhole);
+    assert_eq!(by_rays(&text, &day, beta, shift, Lens::Pinhole), overridden);
+}
+
+#[test]
+fn wrong_statements_of_skies_are_refused() {
+    for (text, expected) in [
+        ("sky day; sky dusk;", "the scene has two skies"),
+        ("def a; sky day; end; i (a);", "a sky cannot stand in a definition"),
+        ("sky;", "expected a file name"),
+        ("sky day -rx 3;", "expected `-ra` or `;`"),
+        ("sky day -ra 3;", "a number"),
+    ] {
+        let found = ugparse::parse(&ugparse::Source::new("t.ug", text), &ugparse::Options::default());
+        let message = found.err().map(|findings| findings.to_string()).unwrap_or_default();
+        assert!(message.contains(expected), "{text}: {message}");
     }
 }

@@ -138,6 +138,9 @@ impl Drawing {
         let name = program.provenance().program;
         let mut pipe = Pipe::new(vec![program]);
         if let Some(sky) = pipe.sky() {
+            if let Subject::Scene(scene) = subject {
+                sky.or_stated(scene.sky.as_ref());
+            }
             sky.open(&common, &Context::hosted(&common, name, line.clone(), None, call.clone()))?;
         }
         pipe.lines = vec![line.clone()];

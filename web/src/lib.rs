@@ -125,7 +125,7 @@ impl Studio {
         let mut pipe: Pipe = commands.pipe();
         let subject = self.subject(&commands)?;
         if let Some(sky) = pipe.sky() {
-            sky.source = subject.sky.clone();
+            subject.give_light(sky);
         }
         let drawn = pipe.draw(subject.film_subject());
         let (picture, notes) = drawn.map_err(|error| format!("error: {}", error.words()))?;

@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 
 use serde_json::{Value, json};
-use ugfilm::{FilmSubject, Pipe, Program, SkySource};
+use ugfilm::{FilmSubject, Pipe, Program, SceneSky, SkySource};
 use ugparse::pipe;
 use ugpipe::{Context, Failure, Input, Words, parse_words};
 use ugscene::{BodyBoxes, CameraOptions, MotionOptions, Scene, common_camera};
@@ -16,7 +16,7 @@ pub struct Subject {
     pub key: String,
     kind: Kind,
     /// The sky behind a scene.
-    pub sky: SkySource,
+    sky: SkySource,
     /// Notes and warnings of reading.
     notes: Vec<String>,
 }
@@ -75,13 +75,22 @@ impl Subject {
         let is_warned = !parsed.warnings.is_empty();
         let notes = is_warned.then(|| format!("{}: {}", commands.program(), parsed.warnings.report()));
         let boxes = BodyBoxes::new(&parsed.scene);
-        let kind = Kind::Scene(Box::new(parsed.scene), Box::new(boxes));
         let mut pipe = commands.pipe();
         if let Some(sky) = pipe.sky() {
+            sky.or_stated(parsed.scene.sky.as_ref());
             sky.open(&commands.common, context)?;
         }
         let sky = pipe.sky().map_or(SkySource::None, |sky| sky.source.clone());
+        let kind = Kind::Scene(Box::new(parsed.scene), Box::new(boxes));
         Ok(Self { key, kind, sky, notes: notes.into_iter().collect() })
+    }
+
+    /// Gives a sky behind the scene its light.
+    pub fn give_light(&self, sky: &mut SceneSky) {
+        if let Kind::Scene(scene, _) = &self.kind {
+            sky.or_stated(scene.sky.as_ref());
+        }
+        sky.source = self.sky.clone();
     }
 
     /// As ugfilm draws it.

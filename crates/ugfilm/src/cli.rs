@@ -437,7 +437,6 @@ impl Read {
             let origin = opened.origin(&input, context);
             return Ok(Self::Panorama(Box::new(opened), origin));
         }
-        script.open_sky(&args.common, context)?;
         let reading = pipe::options(&args.common)?;
         let input = pipe::input(context, &reading)?;
         let source = pipe::follow(input, &reading, context).map_err(pipe::refused)?;
@@ -447,6 +446,7 @@ impl Read {
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
         }
+        script.open_sky(parsed.scene.sky.as_ref(), &args.common, context)?;
         if let Some(camera) = default_camera(&parsed.scene, script)? {
             context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));
             let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 use ugimage::Format;
 use ugpicture::Output;
 use ugpipe::{CommonArgs, Context, Failure, shell_word};
+use ugscene::StatedSky;
 use ugskybox::SkySource;
 
 use crate::options::{Given, ParsedCommand, TOOLS, Tool};
@@ -41,6 +42,7 @@ pub struct Script {
     options: Vec<Setting>,
     /// The sky of all frames, which is opened once.
     sky: SkySource,
+    stated_sky: Option<StatedSky>,
     /// Least and greatest speed over the film, for captions.
     pub speeds: Option<Timeline>,
     /// The words of the programs of some frame, and what they are.
@@ -70,6 +72,7 @@ impl Script {
             reading: Vec::new(),
             options: Vec::new(),
             sky: SkySource::None,
+            stated_sky: None,
             speeds: None,
             parsed: OnceLock::new(),
         }
@@ -176,6 +179,7 @@ impl Script {
         commands.set_format(format);
         let mut pipe = Pipe::new(self.programs(frame)?);
         if let (Some(sky), SkySource::Opened(_)) = (pipe.sky(), &self.sky) {
+            sky.or_stated(self.stated_sky.as_ref());
             sky.source = self.sky.clone();
         }
         pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
@@ -189,13 +193,20 @@ impl Script {
         Ok(pipe)
     }
 
-    /// Opens the sky of all frames.
+    /// Opens the sky of all frames. `stated`: by the scene.
     ///
     /// # Errors
     /// An option is wrong, or the file of the sky.
-    pub fn open_sky(&mut self, common: &CommonArgs, context: &Context) -> Result<(), Failure> {
+    pub fn open_sky(
+        &mut self,
+        stated: Option<&StatedSky>,
+        common: &CommonArgs,
+        context: &Context,
+    ) -> Result<(), Failure> {
+        self.stated_sky = stated.cloned();
         let mut pipe = Pipe::new(self.programs(1.0)?);
         if let Some(sky) = pipe.sky() {
+            sky.or_stated(stated);
             sky.open(common, context)?;
             self.sky = sky.source.clone();
         }

@@ -42,6 +42,7 @@ pub(crate) enum Statement {
     Light(LightStatement),
     Camera(CameraStatement),
     Motion(Box<MotionStatement>),
+    Sky(SkyStatement),
     Call(CallStatement),
 }
 
@@ -185,6 +186,15 @@ pub(crate) struct CameraStatement {
     pub camera: Camera,
     /// The motion it moves with.
     pub carrier: Option<Span>,
+}
+
+/// A sky.
+#[derive(Debug)]
+pub(crate) struct SkyStatement {
+    /// The name of its file without quotes.
+    pub file: Span,
+    /// Turns about x, y and z, degrees.
+    pub turn: [f64; 3],
 }
 
 /// An instance, or an array of them.

@@ -175,6 +175,7 @@ impl Layout {
             }
             names_file = match keyword {
                 b"include" | b"execute" => true,
+                b"sky" => text == b"sky" || names_file && byte == b'{',
                 _ => keyword == b"motion" && (text == b"-path" || names_file && byte == b'{'),
             };
             input = rest;

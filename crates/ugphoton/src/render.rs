@@ -49,7 +49,7 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
     config.picture.keep_light();
     let drawing = PreparedScene::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
-    let mut frame = pixels::light(&drawing.scenery, &config, &()).0;
+    let mut frame = pixels::light(&drawing.scenery, &drawing.config, &()).0;
     drawing.put_sky_behind(&mut frame, &())?;
     Ok(frame)
 }
@@ -120,6 +120,8 @@ impl PreparedScene {
         progress.step("preparing", 0);
         let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
         let mut config = config.on(&canvas);
+        config.sky.or_stated(scene.sky.as_ref());
+        config.sky.open_built_in();
         let (mut scene, mut notes) = (scene, Vec::new());
         if config.ground {
             // The camera of a scene that has none shows the scene, not the ground.

@@ -296,6 +296,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
         return write_report(report, &explanation, &warnings, context);
     }
+    config.sky.or_stated(ugparse::stated_sky(&source, &config.reading).as_ref());
     config.sky.open(&args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };

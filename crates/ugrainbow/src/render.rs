@@ -44,6 +44,8 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
     config.picture.keep_light();
     config.picture.check()?;
+    config.sky.or_stated(scene.sky.as_ref());
+    config.sky.open_built_in();
     let setup = prepare(scene, &config)?;
     let layers = RenderLayers::new(&setup, &config);
     Ok(pixels::light_with_sky(&setup, &layers, &config, &())?.0)
@@ -91,7 +93,10 @@ fn draw(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     progress.step("preparing", 0);
-    let config = &Config { picture: canvas.options().clone(), ..config.clone() };
+    let mut config = Config { picture: canvas.options().clone(), ..config.clone() };
+    config.sky.or_stated(scene.sky.as_ref());
+    config.sky.open_built_in();
+    let config = &config;
     let drawn = match config.picture.output {
         Output::Vector(format) => vector::draw(scene, config, format, progress)?,
         Output::Color(_) => draw_pixels(scene, config, progress)?,

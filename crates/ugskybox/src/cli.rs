@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{ArgAction, Args};
-use glam::{DQuat, DVec3};
+use glam::DQuat;
 use ugimage::PictureLimits;
 use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite, sha256};
 use ugsky::PanoramaError;
@@ -11,7 +11,7 @@ use ugsky::PanoramaError;
 use crate::built_in::BuiltIn;
 use crate::error::{OpenError, SkyError};
 use crate::open::{Opened, open};
-use crate::scene_sky::{SceneSky, SkySource};
+use crate::scene_sky::{SceneSky, SkySource, turn};
 use crate::star_list::{StarList, is_star_list, read_stars};
 
 /// A sky behind a scene: flatten it into the arguments of a renderer.
@@ -53,32 +53,30 @@ impl SkyArgs {
     }
 }
 
-/// Turns about the axes, one after the other, by angles in degrees.
-fn turn(degrees: &[f64]) -> DQuat {
-    let about = |(axis, degrees): (DVec3, &f64)| {
-        let (sin, cos) = libm::sincos(0.5 * degrees.to_radians());
-        DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos)
-    };
-    let turns = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(degrees).map(about);
-    turns.fold(DQuat::IDENTITY, |sum, turn| turn * sum).normalize()
-}
-
 impl SceneSky {
-    /// Opens its file, unless it is open. `common`: for the limit of memory.
+    /// Opens its file, unless it is open. One that a scene names has to be in its folder or below.
+    /// `common`: for the limit of memory.
     ///
     /// # Errors
     /// A file that cannot be read, or is neither a panorama nor a list of stars.
     pub fn open(&mut self, common: &CommonArgs, context: &Context) -> Result<(), Failure> {
-        if let SkySource::File(path) = &self.source {
-            let opened = match path.to_str().and_then(BuiltIn::from_name) {
-                Some(sky) => sky.open(),
-                None => opened(&context.input_file(path)?, common)?,
-            };
-            self.source = SkySource::Opened(opened.into());
-        }
+        self.open_built_in();
+        let file = match &self.source {
+            SkySource::File(path) => context.input_file(path)?,
+            SkySource::Stated(path) => {
+                let name = path.display().to_string();
+                let failed = |error| Failure::Failed(format!("sky `{name}` of the scene: {error}"));
+                Input { text: context.read_named(path, MOST_BYTES).map_err(failed)?, name }
+            }
+            SkySource::None | SkySource::Opened(_) => return Ok(()),
+        };
+        self.source = SkySource::Opened(opened(&file, common)?.into());
         Ok(())
     }
 }
+
+/// Most bytes of a file that a scene names.
+const MOST_BYTES: u64 = 1 << 30;
 
 fn opened(file: &Input, common: &CommonArgs) -> Result<Opened, Failure> {
     let Input { name, text } = file;
@@ -123,7 +121,7 @@ impl Words for SkyError {
             Self::Orthographic => ": leave out -og (in the scene, too), or -sky",
             Self::Transparent => ": leave out -tb or -sky",
             Self::PartialGeometry => ": leave out -sky",
-            Self::Explained => ": leave out -sky",
+            Self::Explained => ": leave out -sky (in the scene, too)",
         };
         format!("{self}{remedy}")
     }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::LinearFrame;
 use uglight::ColorShift;
@@ -12,10 +12,11 @@ use ugphysics::Velocity;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Background, Note, PictureOptions};
 use ugpipe::Progress;
-use ugscene::View;
+use ugscene::{StatedSky, View};
 use ugsky::{ALL_NM, Basis, StarOptions};
 
 use crate::around::SkyAround;
+use crate::built_in::BuiltIn;
 use crate::error::SkyError;
 use crate::open::Opened;
 use crate::picture::{SkyPicture, sky_colors};
@@ -29,8 +30,10 @@ pub enum SkySource {
     /// There is no sky.
     #[default]
     None,
-    /// A file that has not been opened.
+    /// A file that has not been opened, or the name of a [`BuiltIn`] sky.
     File(PathBuf),
+    /// The same, by the statement of a scene.
+    Stated(PathBuf),
     /// A panorama, stars or both.
     Opened(Arc<Opened>),
 }
@@ -39,7 +42,7 @@ impl PartialEq for SkySource {
     fn eq(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::None, Self::None) => true,
-            (Self::File(one), Self::File(other)) => one == other,
+            (Self::File(one), Self::File(other)) | (Self::Stated(one), Self::Stated(other)) => one == other,
             (Self::Opened(one), Self::Opened(other)) => Arc::ptr_eq(one, other),
             _ => false,
         }
@@ -50,7 +53,7 @@ impl fmt::Debug for SkySource {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::None => f.write_str("None"),
-            Self::File(path) => f.debug_tuple("File").field(path).finish(),
+            Self::File(path) | Self::Stated(path) => f.debug_tuple("File").field(path).finish(),
             Self::Opened(_) => f.write_str("Opened"),
         }
     }
@@ -95,6 +98,23 @@ pub struct SkyCamera<'a> {
 }
 
 impl SceneSky {
+    /// Changes it to the sky that a scene states, unless there is one.
+    pub fn or_stated(&mut self, stated: Option<&StatedSky>) {
+        if let (Some(StatedSky { file, turn: degrees }), SkySource::None) = (stated, &self.source) {
+            self.source = SkySource::Stated(file.into());
+            self.turn = turn(degrees);
+        }
+    }
+
+    /// Opens a sky without a file.
+    pub fn open_built_in(&mut self) {
+        if let SkySource::File(path) | SkySource::Stated(path) = &self.source
+            && let Some(sky) = path.to_str().and_then(BuiltIn::from_name)
+        {
+            self.source = SkySource::Opened(sky.open().into());
+        }
+    }
+
     /// The sky, if there is one.
     ///
     /// # Errors
@@ -102,7 +122,7 @@ impl SceneSky {
     pub fn opened(&self) -> Result<Option<&Arc<Opened>>, SkyError> {
         match &self.source {
             SkySource::None => Ok(None),
-            SkySource::File(path) => Err(SkyError::Closed(path.clone())),
+            SkySource::File(path) | SkySource::Stated(path) => Err(SkyError::Closed(path.clone())),
             SkySource::Opened(opened) => Ok(Some(opened)),
         }
     }
@@ -233,4 +253,14 @@ pub fn drawn_on(sky: &SceneSky, background: Background) -> Background {
         Background::Color(_) if sky.is_some() => PictureOptions::default().background,
         background => background,
     }
+}
+
+/// Turns about the axes, one after the other, by angles in degrees.
+pub(crate) fn turn(degrees: &[f64]) -> DQuat {
+    let about = |(axis, degrees): (DVec3, &f64)| {
+        let (sin, cos) = libm::sincos(0.5 * degrees.to_radians());
+        DQuat::from_xyzw(axis.x * sin, axis.y * sin, axis.z * sin, cos)
+    };
+    let turns = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().zip(degrees).map(about);
+    turns.fold(DQuat::IDENTITY, |sum, turn| turn * sum).normalize()
 }

@@ -105,10 +105,10 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation<TracedSample>, Diagnostics), Error> {
-    if config.sky.is_some() {
+    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    if config.sky.is_some() || parsed.scene.sky.is_some() {
         return Err(SkyError::Explained.into());
     }
-    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     let canvas = config.canvas()?;
     canvas.check_pixel(pixel)?;
     let config = &config.on(&canvas);

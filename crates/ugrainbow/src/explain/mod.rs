@@ -93,7 +93,7 @@ pub fn explain(
     if config.exact.is_some() {
         return Err(Error::ExplainExact);
     }
-    if config.sky.is_some() {
+    if config.sky.is_some() || parsed.scene.sky.is_some() {
         return Err(SkyError::Explained.into());
     }
     let canvas = Canvas::new(&config.picture)?;
