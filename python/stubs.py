@@ -21,7 +21,7 @@ Text = Union[str, os.PathLike[str]]
 '''
 
 #: Values that are text.
-TEXTS = {"TEXT", "NAME", "FILE", "NAMES", "LAW", "FILTER", "CURVE", "FMT", "LOOK", "WORD", "HOW", "KIND"}
+TEXTS = {"TEXT", "NAME", "FILE", "NAMES", "LAW", "FILTER", "CURVE", "FMT", "LOOK", "WORD", "HOW", "KIND", "SKY"}
 
 
 def type_of(program: str, option: Option) -> str:

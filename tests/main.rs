@@ -29,6 +29,7 @@ mod postscript;
 mod processors;
 mod prompt;
 mod reader;
+mod sky;
 mod stage;
 mod stop;
 mod tidy;

@@ -9,6 +9,7 @@ use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{FilmSubject, Note, ParsedCommand, Pipe};
 use ugimage::{LinearFrame, Samples};
 use ugpicture::Rendering;
+use ugpipe::Context;
 use ugscene::{BodyBoxes, TimesInView};
 
 use crate::call::{self, Call};
@@ -133,8 +134,15 @@ fn when_in_view(pipe: &Pipe, subject: FilmSubject<'_>) -> Option<TimesInView> {
 
 impl Drawing {
     fn draw(subject: &Subject, words: &[String], call: &Arc<Call>) -> Result<Self, Refused> {
-        let ParsedCommand { program, line, .. } = ParsedCommand::from_words(words)?;
+        let ParsedCommand { program, line, common, .. } = ParsedCommand::from_words(words)?;
+        let name = program.provenance().program;
         let mut pipe = Pipe::new(vec![program]);
+        if let Some(sky) = pipe.sky() {
+            if let Subject::Scene(scene) = subject {
+                sky.or_stated(scene.sky.as_ref());
+            }
+            sky.open(&common, &Context::hosted(&common, name, line.clone(), None, call.clone()))?;
+        }
         pipe.lines = vec![line.clone()];
         let subject = match subject {
             Subject::Scene(scene) => FilmSubject::Scene(scene),

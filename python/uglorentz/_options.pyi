@@ -287,6 +287,10 @@ class Render(TypedDict, total=False):
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
     look: Text | None
     """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
+    sky: Text | None
+    """SKY. Sky behind the scene: day, dusk, stars, or a file"""
+    sky_turn: Vector | None
+    """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
     caption: Text | None
     """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
     cap: Text | None
@@ -391,6 +395,8 @@ class Photon(TypedDict, total=False):
     """True. Smooth shading"""
     sm: bool | None
     """The same as smooth."""
+    stage: bool | None
+    """True. Stand the scene on a grey ground, under a sky: day, unless sky= gives another"""
     look: Text | None
     """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
     adaptive: float | str | None
@@ -439,6 +445,10 @@ class Photon(TypedDict, total=False):
     """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
     ch: str | Sequence[str] | None
     """The same as channels."""
+    sky: Text | None
+    """SKY. Sky behind the scene: day, dusk, stars, or a file"""
+    sky_turn: Vector | None
+    """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
     camera: Text | None
     """NAME. The camera of this name [default: the first without a name, else the first]"""
     cam: Text | None
@@ -865,6 +875,10 @@ class Film(Reading, total=False):
     """True. Exact: a ray for every sample, instead of subdivision"""
     xc: bool | None
     """The same as exact."""
+    sky: Text | None
+    """SKY. Sky behind the scene: day, dusk, stars, or a file"""
+    sky_turn: Vector | float | str | None
+    """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
     caption: Text | None
     """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
     cap: Text | None
@@ -921,6 +935,8 @@ class Film(Reading, total=False):
     """CONTRAST. Adaptive samples: fewer in pixels of less contrast than this"""
     ad: float | str | None
     """The same as adaptive."""
+    stage: bool | None
+    """True. Stand the scene on a grey ground, under a sky: day, unless sky= gives another"""
     scene: Text | None
     """FILE. Scene whose camera takes the picture"""
     from_: Text | None

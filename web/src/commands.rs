@@ -97,7 +97,8 @@ impl Commands {
 
     /// What the input depends on: commands with equal keys read the same.
     pub fn key(&self) -> String {
-        let mut key = format!("{} {:?}", self.is_of_sky(), self.common.input());
+        let sky = self.pipe().sky().map(|sky| sky.source.clone());
+        let mut key = format!("{} {:?} {sky:?}", self.is_of_sky(), self.common.input());
         let line = self.parsed.first().map_or("", |command| command.line.as_str());
         let mut is_kept = false;
         for word in line.split(' ').skip(1) {

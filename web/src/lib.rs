@@ -122,8 +122,11 @@ impl Studio {
 impl Studio {
     fn rendering(&mut self, commands: &str) -> Result<(Rendering, Vec<String>), String> {
         let commands = Commands::parse(commands)?;
-        let pipe: Pipe = commands.pipe();
+        let mut pipe: Pipe = commands.pipe();
         let subject = self.subject(&commands)?;
+        if let Some(sky) = pipe.sky() {
+            subject.give_light(sky);
+        }
         let drawn = pipe.draw(subject.film_subject());
         let (picture, notes) = drawn.map_err(|error| format!("error: {}", error.words()))?;
         let mut words = subject.notes(&pipe);

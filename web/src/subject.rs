@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 
 use serde_json::{Value, json};
-use ugfilm::{FilmSubject, Pipe, Program};
+use ugfilm::{FilmSubject, Pipe, Program, SceneSky, SkySource};
 use ugparse::pipe;
 use ugpipe::{Context, Failure, Input, Words, parse_words};
 use ugscene::{BodyBoxes, CameraOptions, MotionOptions, Scene, common_camera};
@@ -15,6 +15,8 @@ pub struct Subject {
     /// What it depends on, see [`Commands::key`].
     pub key: String,
     kind: Kind,
+    /// The sky behind a scene.
+    sky: SkySource,
     /// Notes and warnings of reading.
     notes: Vec<String>,
 }
@@ -65,7 +67,7 @@ impl Subject {
             let opened = args.open(&input, context)?;
             let notes = opened.notes.iter().map(|note| format!("{}: {note}", commands.program())).collect();
             let origin = opened.origin(&input, context);
-            return Ok(Self { key, kind: Kind::Sky(Box::new(opened), origin), notes });
+            return Ok(Self { key, kind: Kind::Sky(Box::new(opened), origin), sky: SkySource::None, notes });
         }
         let reading = pipe::options(&commands.common)?;
         let source = pipe::read(context, &reading)?;
@@ -73,8 +75,22 @@ impl Subject {
         let is_warned = !parsed.warnings.is_empty();
         let notes = is_warned.then(|| format!("{}: {}", commands.program(), parsed.warnings.report()));
         let boxes = BodyBoxes::new(&parsed.scene);
+        let mut pipe = commands.pipe();
+        if let Some(sky) = pipe.sky() {
+            sky.or_stated(parsed.scene.sky.as_ref());
+            sky.open(&commands.common, context)?;
+        }
+        let sky = pipe.sky().map_or(SkySource::None, |sky| sky.source.clone());
         let kind = Kind::Scene(Box::new(parsed.scene), Box::new(boxes));
-        Ok(Self { key, kind, notes: notes.into_iter().collect() })
+        Ok(Self { key, kind, sky, notes: notes.into_iter().collect() })
+    }
+
+    /// Gives a sky behind the scene its light.
+    pub fn give_light(&self, sky: &mut SceneSky) {
+        if let Kind::Scene(scene, _) = &self.kind {
+            sky.or_stated(scene.sky.as_ref());
+        }
+        sky.source = self.sky.clone();
     }
 
     /// As ugfilm draws it.

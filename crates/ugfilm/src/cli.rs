@@ -461,6 +461,7 @@ impl Read {
         if colors.into_iter().any(|color| parsed.scene.texture_of(color).is_some()) {
             script.draw_exactly();
         }
+        script.open_sky(parsed.scene.sky.as_ref(), &args.common, context)?;
         if let Some(camera) = default_camera(&parsed.scene, script)? {
             context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));
             let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();

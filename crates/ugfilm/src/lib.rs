@@ -98,3 +98,4 @@ pub use note::Note;
 pub use options::{ParsedCommand, TOOLS, Tool};
 pub use pipe::{FilmSubject, Pipe};
 pub use program::{FilmItem, Program, ProgramError};
+pub use ugskybox::{SceneSky, SkySource};

@@ -4,6 +4,7 @@ use ugimage::{LinearFrame, Metadata};
 use ugpicture::{AnnotationOptions, Canvas, PictureOptions, Rendering};
 use ugpipe::Progress;
 use ugscene::{Provenance, Remarks, Scene};
+use ugskybox::SceneSky;
 
 use crate::error::Error;
 use crate::note::Note;
@@ -42,6 +43,11 @@ impl Pipe {
     /// The programs with their options, but those of the picture.
     pub fn programs(&self) -> &[Program] {
         &self.programs
+    }
+
+    /// The sky behind the scene, of the last program.
+    pub fn sky(&mut self) -> Option<&mut SceneSky> {
+        self.programs.last_mut().and_then(Program::sky)
     }
 
     /// The record in the file of the frame. Of a scene only the comments are used.

@@ -5,6 +5,7 @@ use ugimage::PanoramaArea;
 use ugpicture::{PictureOptions, Rendering};
 use ugpipe::Progress;
 use ugscene::{MotionOptions, Provenance, Scene};
+use ugskybox::SceneSky;
 
 use crate::note::Note;
 
@@ -88,6 +89,15 @@ impl Program {
             Self::Photon(config) => config.lens.panorama(picture, config.stereo.is_some(), config.crop),
             Self::Warp(config) => config.lens.panorama(picture, false, None),
             Self::Lorentz(_) | Self::Doppler(_) | Self::Rainbow(_) => None,
+        }
+    }
+
+    /// The sky behind a scene, of a program that draws scenes.
+    pub fn sky(&mut self) -> Option<&mut SceneSky> {
+        match self {
+            Self::Rainbow(config) => Some(&mut config.sky),
+            Self::Photon(config) => Some(&mut config.sky),
+            Self::Lorentz(_) | Self::Doppler(_) | Self::Warp(_) => None,
         }
     }
 

@@ -6,7 +6,9 @@ use std::sync::OnceLock;
 use ugimage::Format;
 use ugimage::label::number::significant;
 use ugpicture::{Output, Unit, Units};
-use ugpipe::{Failure, shell_word};
+use ugpipe::{CommonArgs, Context, Failure, shell_word};
+use ugscene::StatedSky;
+use ugskybox::SkySource;
 
 use crate::options::{EXACT_PIPE, Given, PIPE, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
@@ -39,6 +41,9 @@ pub struct Script {
     /// Words that every program gets: options for reading.
     pub reading: Vec<String>,
     options: Vec<Setting>,
+    /// The sky of all frames, which is opened once.
+    sky: SkySource,
+    stated_sky: Option<StatedSky>,
     /// Least and greatest speed over the film, for captions.
     pub speeds: Option<Timeline>,
     /// An option with a slider of its own on a page, and how many values it has there: all frames
@@ -70,6 +75,8 @@ impl Script {
             is_loop: false,
             reading: Vec::new(),
             options: Vec::new(),
+            sky: SkySource::None,
+            stated_sky: None,
             speeds: None,
             across: None,
             parsed: OnceLock::new(),
@@ -234,6 +241,10 @@ impl Script {
         let mut commands = self.commands(frame, left_out)?;
         commands.set_format(format);
         let mut pipe = Pipe::new(self.programs(frame)?);
+        if let (Some(sky), SkySource::Opened(_)) = (pipe.sky(), &self.sky) {
+            sky.or_stated(self.stated_sky.as_ref());
+            sky.source = self.sky.clone();
+        }
         pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
         pipe.picture.output = match pipe.picture.output {
             Output::Vector(_) => Output::Vector(format),
@@ -243,6 +254,26 @@ impl Script {
             pipe.picture.annotations.caption = self.values(setting, frame)?.concat();
         }
         Ok(pipe)
+    }
+
+    /// Opens the sky of all frames. `stated`: by the scene.
+    ///
+    /// # Errors
+    /// An option is wrong, or the file of the sky.
+    pub fn open_sky(
+        &mut self,
+        stated: Option<&StatedSky>,
+        common: &CommonArgs,
+        context: &Context,
+    ) -> Result<(), Failure> {
+        self.stated_sky = stated.cloned();
+        let mut pipe = Pipe::new(self.programs(1.0)?);
+        if let Some(sky) = pipe.sky() {
+            sky.or_stated(stated);
+            sky.open(common, context)?;
+            self.sky = sky.source.clone();
+        }
+        Ok(())
     }
 
     /// The programs of a frame. Words that are those of an earlier frame are not parsed again.

@@ -62,11 +62,12 @@ pub(crate) fn mixture(light: DVec3) -> [(u32, f64); 4] {
     let (middle, shares) =
         if x >= y { (corner(1, 0), [1.0 - x, x - y, y]) } else { (corner(0, 1), [1.0 - y, y - x, x]) };
     let corners = [corner(0, 0), middle, corner(1, 1)];
-    // The first corners have the upper level, the last ones the lower, and one has both: as much of
-    // the upper as the colour is above the lower.
+    // The first corners have the upper level, the last ones the lower, and one has both, so that the
+    // shares of the levels interpolate between them.
     let low = LEVELS.iter().rposition(|level| *level <= brightest).unwrap_or(0).min(LEVELS.len() - 2);
     let ends = [LEVELS[low], LEVELS[low + 1]];
-    let mut above = ((brightest - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0);
+    let part = ((brightest - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0);
+    let mut above = if part < 1.0 { part * ends[1] / brightest } else { 1.0 };
     let (mut mixed, mut n) = ([(0, 0.0); 4], 0);
     for (corner, share) in corners.into_iter().zip(shares) {
         let high = share.min(above);

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 use ugphysics::spectrum::{LightSpectrum, Spectrum};
-use ugphysics::{length, unit_or_zero};
+use ugphysics::{Hsv, length, srgb_encode, unit_or_zero, xyz_to_linear_srgb};
 use ugscene::{ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
 
 use crate::color::shown_light;
@@ -158,6 +158,12 @@ impl Lamps {
         self
     }
 
+    /// Lamps that are not in a scene.
+    pub fn of(all: Vec<Lamp>) -> Self {
+        let is_colored = all.iter().any(|lamp| lamp.is_colored);
+        Self { all, is_colored, is_daylight: !is_colored }
+    }
+
     /// As [`Lamps::new`]; in a scene without lights an ambient light ([`DEFAULT_AMBIENT`]) and one
     /// from the eye ([`DEFAULT_FROM_EYE`]).
     ///
@@ -246,6 +252,38 @@ impl Lamp {
             fall_off,
             table: None,
             color_of: None,
+        }
+    }
+
+    /// A light at infinity. `toward`: a unit vector; `linear`: red, green and blue of its light on a
+    /// white surface across it; `kelvin`: of the black body that it is, if it is one.
+    pub fn afar(
+        toward: DVec3,
+        linear: DVec3,
+        kelvin: Option<f64>,
+        motion: LightMotion,
+        is_spectral: bool,
+    ) -> Lamp {
+        let intensity = linear.max_element();
+        let white = Lamp { motion, ..Lamp::white(LampPlace::Afar(toward), intensity) };
+        if intensity <= 0.0 {
+            return white;
+        }
+        let spectrum = match kelvin {
+            Some(kelvin) => Spectrum::blackbody(kelvin, 1.0),
+            None => Spectrum::from_linear_srgb((linear / intensity).to_array()),
+        };
+        let linear = match kelvin {
+            Some(_) => intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO),
+            None => linear,
+        };
+        let encoded = (linear / linear.max_element()).to_array().map(srgb_encode);
+        Lamp {
+            color: DVec3::from(encoded) * intensity,
+            linear,
+            is_colored: Hsv::from_rgb(encoded).saturation > 0.0,
+            own_spectrum: is_spectral.then(|| LightSpectrum::new(&spectrum)),
+            ..white
         }
     }
 

@@ -71,6 +71,7 @@ mod rest_shapes;
 mod rgb_as_hsv;
 mod rows;
 mod scope;
+mod sky_statement;
 mod source;
 mod stage_statement;
 mod statement;
@@ -96,6 +97,7 @@ pub use origin::{Origin, has_history, with_origin};
 pub use read::read;
 pub use request::{Request, RequestError, RequestKind};
 pub use rest_shapes::rest_shapes_warning;
+pub use sky_statement::stated_sky;
 pub use source::{Source, Span};
 pub use tidy::tidy;
 pub use writer::{write, write_to};
@@ -135,6 +137,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let mut findings = Vec::new();
     let mut document = parallel_reader::read_document(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
+    let sky = sky_statement::take(text, &mut document, &mut findings);
     // A scene without the files of its pictures is complete.
     let texts = document.requests.iter().filter(|request| request.kind != RequestKind::Image);
     findings.extend(texts.map(include::not_replaced));
@@ -145,7 +148,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     if stage.is_at_rest() {
         findings.extend(rgb_as_hsv::warning(text, &document.scopes));
     }
-    let mut scene = Scene { stage, ..Scene::default() };
+    let mut scene = Scene { stage, sky, ..Scene::default() };
     let links = resolve::resolve(
         (text, &source.images),
         &mut document.scopes,

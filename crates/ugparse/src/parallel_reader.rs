@@ -157,6 +157,7 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
             camera.carrier = camera.carrier.map(|body| offset.body(body));
         },
     );
+    file.skies = join_tables(&mut parts, &offsets, |part| &mut part.skies, |_, _| {});
     file.motions = join_tables(&mut parts, &offsets, |part| &mut part.motions, |_, _| {});
     file.colors.table = join_tables(
         &mut parts,

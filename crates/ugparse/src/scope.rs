@@ -21,8 +21,8 @@ use crate::rows::Rows;
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
-    MotionReference, MotionStatement, References, ShadingStatement, Statement, SurfaceStatement,
-    TableStatement, TextureStatement, VertexStatement,
+    MotionReference, MotionStatement, References, ShadingStatement, SkyStatement, Statement,
+    SurfaceStatement, TableStatement, TextureStatement, VertexStatement,
 };
 use crate::token::{skip_statement, statement_start};
 
@@ -63,6 +63,7 @@ pub(crate) struct Scope<'t> {
     pub wires: Rows<Wire>,
     pub lights: Rows<Light>,
     pub cameras: Rows<Camera>,
+    pub skies: Rows<SkyStatement>,
     pub escapes: Rows<String>,
     pub unknown: Rows<String>,
 
@@ -167,6 +168,7 @@ impl<'t> Scope<'t> {
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
             Statement::Motion(motion) => self.add_motion(text, span, *motion),
+            Statement::Sky(sky) => self.skies.push(sky, span),
             Statement::Call(_) => {}
         }
     }
@@ -457,6 +459,7 @@ impl<'t> Scope<'t> {
             &self.lights.spans,
             &self.cameras.spans,
             &self.motions.spans,
+            &self.skies.spans,
             &self.colors.table.spans,
             &self.mixes.spans,
             &self.textures.spans,

@@ -43,6 +43,7 @@ pub(crate) enum Statement {
     Light(LightStatement),
     Camera(CameraStatement),
     Motion(Box<MotionStatement>),
+    Sky(SkyStatement),
     Call(CallStatement),
 }
 
@@ -199,6 +200,15 @@ pub(crate) struct CameraStatement {
     pub camera: Camera,
     /// The motion it moves with.
     pub carrier: Option<Span>,
+}
+
+/// A sky.
+#[derive(Debug)]
+pub(crate) struct SkyStatement {
+    /// The name of its file without quotes.
+    pub file: Span,
+    /// Turns about x, y and z, degrees.
+    pub turn: [f64; 3],
 }
 
 /// An instance, or an array of them.

@@ -182,6 +182,7 @@ impl Layout {
                     n_words == 2
                 }
                 b"c_tex" => names_file,
+                b"sky" => text == b"sky" || names_file && byte == b'{',
                 _ => keyword == b"motion" && (text == b"-path" || names_file && byte == b'{'),
             };
             input = rest;

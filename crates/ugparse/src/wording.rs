@@ -104,6 +104,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"motion" => {
             "motion ID [-at x y z] [-vel x y z] [-acc x y z [begin end]] [-spin x y z [begin end]] … ;"
         }
+        b"sky" => "sky FILE [-ra x y z] ;",
         b"def" => "def ID ; … end ;",
         b"end" => "end ;",
         b"include" => "include FILE ;",

@@ -14,7 +14,7 @@ use ugscene::{
 
 use crate::chunked_writer::ChunkedWriter;
 use crate::number_text::{push_number, push_number32, push_velocity};
-use crate::stage_statement;
+use crate::{sky_statement, stage_statement};
 
 /// Number of rows per piece of text.
 const BLOCK_ROWS: usize = 1 << 11;
@@ -60,6 +60,14 @@ impl<'s> Tables<'s, '_> {
             self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
         self.stage();
+        if let Some(sky) = &scene.sky {
+            self.chunked_writer.append(|out| {
+                Writer::on(out, scene, &[], |w| {
+                    sky_statement::write(sky, &mut w.out, &mut w.numbers);
+                    w.out.push(b'\n');
+                });
+            });
+        }
         self.rows(&scene.remarks.escapes, Item::Escape, |w, text| {
             w.text("(");
             w.text(text);

@@ -16,6 +16,8 @@ use ugpicture::cli::{
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
+use ugskybox::BuiltIn;
+use ugskybox::cli::SkyArgs;
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::explain::explain;
@@ -144,6 +146,16 @@ pub struct Args {
     explain: Option<Pixel>,
 
     #[command(flatten)]
+    sky: SkyArgs,
+
+    /// Stand the scene on a grey ground, under a sky: day, unless -sky gives another
+    ///
+    /// The ground is level, at the lowest point of the scene, and rests whatever moves. The sky
+    /// lights a scene without lights.
+    #[arg(long, help_heading = RAYS)]
+    stage: bool,
+
+    #[command(flatten)]
     picture: PictureArgs,
 
     #[command(flatten)]
@@ -235,6 +247,8 @@ impl Args {
             lens: self.lens.lens(),
             stereo: self.stereo,
             adaptive: self.ad,
+            sky: if self.stage { self.sky.sky_or(BuiltIn::Day) } else { self.sky.sky() },
+            ground: self.stage,
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
             reading: pipe::options(&self.common)?,
         })
@@ -251,7 +265,7 @@ impl Args {
 /// # Errors
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
-    let config = args.config(context.output_name())?;
+    let mut config = args.config(context.output_name())?;
     if let Some(pixel) = args.explain {
         let report = report_format(args.dt, context.output_name())?;
         let source = pipe::read(context, &config.reading)?;
@@ -261,6 +275,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
+    config.sky.or_stated(ugparse::stated_sky(&source, &config.reading).as_ref());
+    config.sky.open(&args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();

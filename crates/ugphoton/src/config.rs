@@ -4,6 +4,7 @@ use ugimage::PanoramaArea;
 use uglight::{ColorShift, Interpolation};
 use ugpicture::{Canvas, Exposure, PictureOptions};
 use ugscene::{HueScale, MotionOptions};
+use ugskybox::SceneSky;
 
 use crate::error::Error;
 use crate::lens::Lens;
@@ -38,6 +39,11 @@ pub struct Config {
     /// by no more, their mean stands for the others. The contrast of light is the greatest
     /// difference of a channel divided by the greatest sum of the least and the most of one.
     pub adaptive: Option<f64>,
+    /// What is behind the scene and in its mirrors (`-sky`). A picture with a transparent background
+    /// shows it in mirrors only.
+    pub sky: SceneSky,
+    /// Put a ground below the scene (`--stage`), see [`ugscene::add_ground`].
+    pub ground: bool,
     /// Draw only a part of the picture (`-crop`): its left column, upper row, width and height. The
     /// pixels are those of the whole picture.
     pub crop: Option<[u32; 4]>,
@@ -178,6 +184,8 @@ impl Default for Config {
             lens: Lens::Pinhole,
             stereo: None,
             adaptive: None,
+            sky: SceneSky::default(),
+            ground: false,
             crop: None,
             reading: ugparse::Options::default(),
         }

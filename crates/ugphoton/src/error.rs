@@ -4,6 +4,7 @@ use thiserror::Error;
 use ugparse::Diagnostics;
 use ugphysics::WorldLineError;
 use ugscene::{CameraError, MotionError, StageError};
+use ugskybox::SkyError;
 
 /// The most lights times samples of a picture. A shadow ray takes about a microsecond, so this many
 /// take some hours.
@@ -102,6 +103,9 @@ pub enum Error {
         /// Why.
         error: WorldLineError,
     },
+    /// The sky.
+    #[error(transparent)]
+    Sky(#[from] SkyError),
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),

@@ -63,6 +63,7 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
         notes.push(Note::Adaptive(100.0 * statistics.n_samples as f64 / n_all as f64));
     }
     notes.extend(match statistics {
+        Statistics { n_covered: 0, .. } if scenery.sky.is_some() => None,
         Statistics { n_covered: 0, .. } => Some(Note::NothingMet),
         Statistics { n_visible: 0, .. } => Some(Note::BlackFaces),
         _ => None,

@@ -8,6 +8,7 @@ use ugimage::{Filter, LinearFrame};
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugpicture::{Backdrop, PictureOptions, channel_planes};
 use ugpipe::Progress;
+use ugskybox::drawn_on;
 
 use crate::config::Config;
 use crate::lens::frame_around;
@@ -207,7 +208,7 @@ impl<'a> Painting<'a> {
             samples,
             filter,
             contrast: config.adaptive,
-            backdrop: Backdrop::new(background, samples),
+            backdrop: Backdrop::new(drawn_on(&config.sky, background), samples),
             outlines: None,
         }
     }

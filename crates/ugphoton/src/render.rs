@@ -10,7 +10,8 @@ use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, metadata,
 };
 use ugpipe::Progress;
-use ugscene::{BodyBoxes, PlacedBodies, Provenance, Scene, ShownPoint};
+use ugscene::{BodyBoxes, PlacedBodies, Provenance, Scene, ShownPoint, View};
+use ugskybox::SkyCamera;
 
 use crate::config::Config;
 use crate::error::Error;
@@ -48,7 +49,9 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.clone();
     config.picture.keep_light();
     let drawing = PreparedScene::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
-    Ok(pixels::light(&drawing.scenery, &config, &()).0)
+    let mut frame = pixels::light(&drawing.scenery, &drawing.config, &()).0;
+    drawing.put_sky_behind(&mut frame, &())?;
+    Ok(frame)
 }
 
 /// Reads a scene, renders it, and packs it into a file. `provenance`: for the history in the file.
@@ -75,6 +78,8 @@ pub struct PreparedScene {
     canvas: Canvas,
     scenery: Scenery<'static>,
     metadata: Metadata,
+    /// Notes on what was added to the scene.
+    notes: Vec<Note>,
     /// Of a scene that was read, for the note on bodies that are outside the picture.
     boxes: Option<BodyBoxes>,
 }
@@ -114,9 +119,22 @@ impl PreparedScene {
     ) -> Result<Self, Error> {
         progress.step("preparing", 0);
         let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
-        let config = config.on(&canvas);
+        let mut config = config.on(&canvas);
+        config.sky.or_stated(scene.sky.as_ref());
+        config.sky.open_built_in();
+        let (mut scene, mut notes) = (scene, Vec::new());
+        if config.ground {
+            // The camera of a scene that has none shows the scene, not the ground.
+            let (size, options) = (config.frame_size(), &mut config.picture.camera);
+            let motions = std::slice::from_ref(&config.motion);
+            if let Some(camera) = ugscene::common_camera(&scene, options, size, motions)? {
+                (options.eye, options.center) = (Some(camera.eye), Some(camera.center));
+                notes.push(Note::Scene(ugscene::Note::DefaultCamera(camera)));
+            }
+            ugscene::add_ground(&mut scene);
+        }
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
-        Ok(Self { config, canvas, scenery, metadata, boxes: None })
+        Ok(Self { config, canvas, scenery, metadata, notes, boxes: None })
     }
 
     /// The note on bodies that are outside a flat picture, with the times at which they are in it.
@@ -133,7 +151,8 @@ impl PreparedScene {
     /// # Errors
     /// See [`Error`].
     pub fn preview(&self, side: u32, progress: &dyn Progress) -> Result<Rendering, Error> {
-        let frame = pixels::preview(&self.scenery, &self.config, side.max(1), progress);
+        let mut frame = pixels::preview(&self.scenery, &self.config, side.max(1), progress);
+        self.put_sky_behind(&mut frame, progress)?;
         self.finish(frame, Vec::new(), 0.0, progress)
     }
 
@@ -142,10 +161,31 @@ impl PreparedScene {
     /// # Errors
     /// See [`Error`].
     pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
-        let (frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
+        let (mut frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
+        let brightest = self.put_sky_behind(&mut frame, progress)?;
         let mut notes = notes(&self.scenery, &self.config, &statistics);
         notes.extend(self.out_of_view().map(Note::Scene));
-        self.finish(frame, notes, statistics.max_light as f32, progress)
+        notes.extend(self.config.sky.notes().chain(self.notes.iter().cloned()));
+        self.finish(frame, notes, brightest.max(statistics.max_light as f32), progress)
+    }
+
+    /// Puts the sky behind the light of the picture. Returns its brightest channel.
+    fn put_sky_behind(&self, frame: &mut LinearFrame, progress: &dyn Progress) -> Result<f32, Error> {
+        let Self { config, scenery, .. } = self;
+        if !config.sky.is_some() {
+            return Ok(0.0);
+        }
+        let camera = SkyCamera {
+            view: &View::new(&scenery.scene, &config.picture.camera, config.frame_size())?,
+            lens: config.lens,
+            is_stereo: config.stereo.is_some(),
+            crop: config.crop,
+            velocity: ugscene::camera_velocity(&scenery.scene),
+            shift: config.shift,
+            keeps_light: scenery.keeps_highlights,
+            picture: &config.picture,
+        };
+        Ok(config.sky.put_behind(frame, &camera, progress)?)
     }
 
     /// Develops and annotates the light of a picture.
@@ -175,7 +215,8 @@ impl PreparedScene {
             wires: if config.lens == Lens::Pinhole { Some(&wires) } else { None },
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let content = DrawnContent::Light { frame, is_clipped: !scenery.keeps_highlights };
+        let is_uncut = scenery.keeps_highlights || config.sky.is_some() && config.shift.is_spectral();
+        let content = DrawnContent::Light { frame, is_clipped: !is_uncut };
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)
     }
 }

@@ -5,11 +5,14 @@ use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
-use ugscene::{BodyId, Face, HueScale, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
+use ugscene::{
+    BodyId, Face, HueScale, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
+};
+use ugskybox::{SkyAround, SkyLamps};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -53,11 +56,26 @@ pub struct Scenery<'a> {
     pub lamps: Lamps,
     /// How motion changes colours.
     pub shift: ColorShift,
+    /// What rays see that leave the scene.
+    pub sky: Option<SkyAround>,
+    /// The lights of the sky, if it lights the scene: [`Scenery::lamps`] are its stars, then its
+    /// points.
+    pub sky_lamps: Option<SkyLamps>,
+    /// Samples in a row of the picture, and along a side of a pixel.
+    grid: [u32; 2],
     /// True if a transparent solid absorbs light.
     pub has_absorption: bool,
     /// Light brighter than white is kept until it is developed; otherwise it is clipped per sample,
     /// as in 1988.
     pub keeps_highlights: bool,
+}
+
+/// The sets of points of a sky that lights a scene, and how many are in each: a set for each sample
+/// of a pixel, of 64 points in all or more.
+fn sky_sets(samples: u32) -> [usize; 2] {
+    const POINTS: usize = 64;
+    let n_sets = (samples * samples) as usize;
+    [n_sets, (POINTS / n_sets).max(4)]
 }
 
 /// A body on a world line with a surface that transmits light. A medium in which light has one
@@ -76,7 +94,7 @@ impl<'a> Scenery<'a> {
     /// # Errors
     /// There are no faces, or the camera is invalid.
     pub fn new(scene: Cow<'a, Scene>, config: &Config) -> Result<Self, Error> {
-        if scene.faces.is_empty() {
+        if scene.faces.is_empty() && !config.sky.is_some() {
             return Err(Error::Empty);
         }
         if ShownEffects::of(&scene) != ShownEffects::default() {
@@ -107,6 +125,11 @@ impl<'a> Scenery<'a> {
             HueScale::Wavelengths => Interpolation::Wavelength,
         };
         let shift = config.shift;
+        let sky_lamps = if n_lights == 0 { config.sky.lamps(sky_sets(*samples))? } else { None };
+        let sky_motion = sky_lamps.as_ref().map(|_| {
+            let velocity = -ugscene::camera_velocity(&scene);
+            LightMotion::Body(scene.to_mut().bodies.moving_with(velocity))
+        });
         let appearance = Appearance::new(&scene, view.eye, interpolation, shift, REACH);
         let surface = &appearance.surface;
         if surface.has_moving_spectra(&scene, &[], shift) {
@@ -126,11 +149,19 @@ impl<'a> Scenery<'a> {
             .map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
+        let of_sky = sky_lamps.iter().flat_map(|sky| sky.stars.iter().chain(&sky.points));
+        let of_sky = of_sky.zip(sky_motion.into_iter().cycle()).map(|(lamp, motion)| {
+            Lamp::afar(lamp.toward, lamp.linear.into(), lamp.kelvin, motion, shift.is_spectral())
+        });
+        let of_sky: Vec<Lamp> = of_sky.collect();
         let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
         let lamps = lamps.over_time(&scene, view.eye, shift.is_spectral());
+        let lamps = if of_sky.is_empty() { lamps } else { Lamps::of(of_sky) };
         let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
         let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
+        let velocity = ugscene::camera_velocity(&scene);
+        let sky = config.sky.around(velocity, shift, keeps_highlights)?;
         let has_absorption = scene.surfaces.iter().any(|surface| surface.absorption > 0.0);
         Ok(Self {
             scene,
@@ -139,6 +170,9 @@ impl<'a> Scenery<'a> {
             world,
             immersion,
             eye_media,
+            sky,
+            sky_lamps,
+            grid: [width * samples, *samples],
             has_absorption,
             appearance,
             face_colors,
@@ -156,9 +190,19 @@ impl<'a> Scenery<'a> {
         self.appearance.is_translucent(&self.scene, face) || self.textures.is_translucent(face.color)
     }
 
-    /// True if the scene has lights. Default lights cast no shadows.
+    /// True if the scene has lights, or its sky lights it. Default lights cast no shadows.
     pub fn has_lights(&self) -> bool {
-        !self.scene.lights.is_empty()
+        !self.scene.lights.is_empty() || self.sky_lamps.is_some()
+    }
+
+    /// The rows of the lamps whose light a sample receives: all, but of the points of a sky one set,
+    /// another for each sample of a pixel.
+    pub fn lamps_of(&self, sample: u64) -> [Range<usize>; 2] {
+        let Some(sky) = &self.sky_lamps else { return [0..self.lamps.len(), 0..0] };
+        let [across, n] = self.grid.map(u64::from);
+        let set = sky.set((sample / across % n * n + sample % across % n) as usize);
+        let n_stars = sky.stars.len();
+        [0..n_stars, n_stars + set.start..n_stars + set.end]
     }
 
     /// The faces.
@@ -180,6 +224,11 @@ impl<'a> Scenery<'a> {
             return Some(PastRay::from_eye(sight.direction));
         }
         self.ray_at_event(&sight)
+    }
+
+    /// Angle of a sample at a direction of any length, radians.
+    pub fn sample_width(&self, direction: DVec3) -> f64 {
+        self.film.pixel_width(direction.normalize_or_zero())
     }
 
     /// True if all light of the picture arrives at the origin, in a vacuum.

@@ -65,7 +65,9 @@ impl<'a> Shader<'a> {
         }
         let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
-        let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
+        // Mirrors show a sky itself.
+        let exponent = (specular > 0.0 && scenery.sky_lamps.is_none())
+            .then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, exponent, sample);
         let lit = |color: &SurfaceColor, light: &[Irradiance]| {
             let light = Illumination::Lamps(light, &scenery.lamps);
@@ -97,7 +99,7 @@ impl<'a> Shader<'a> {
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
         let has_shadows = scenery.has_lights() && scenery.rays.shadows;
-        let add = |incident: IncidentLamp| {
+        let mut add = |incident: IncidentLamp| {
             let Irradiance { level, lamp, .. } = incident.irradiance;
             let is_wanted = has_shadows || exponent.is_some();
             let toward = incident.toward.filter(|_| is_wanted);
@@ -133,7 +135,16 @@ impl<'a> Shader<'a> {
             }
             (place, _) => place,
         };
-        element.for_each_incident(&scenery.lamps, scenery.appearance.surface.frames(), place, add);
+        let frames = scenery.appearance.surface.frames();
+        for rows in scenery.lamps_of(sample) {
+            let first = rows.start as u32;
+            let place = |row: usize, lamp: &Lamp| place(rows.start + row, lamp);
+            element.for_each_incident(&scenery.lamps[rows.clone()], frames, place, |incident| {
+                let Irradiance { lamp, .. } = incident.irradiance;
+                let irradiance = Irradiance { lamp: first + lamp, ..incident.irradiance };
+                add(IncidentLamp { irradiance, ..incident });
+            });
+        }
     }
 }
 

@@ -11,6 +11,7 @@ use crate::shade::{LampLight, Shader, absorption};
 use crate::surface_point::{PictureSample, SurfacePoint};
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start};
+use ugskybox::{SkyAround, SkyRays};
 
 /// Light that arrives along a ray.
 #[derive(Clone, Copy, Debug)]
@@ -34,6 +35,7 @@ impl Arriving {
 pub struct Tracer<'a> {
     scenery: &'a Scenery<'a>,
     shader: Shader<'a>,
+    sky: Option<SkyRays<'a>>,
     /// Filters on the path so far.
     filters: Vec<ColorFilter>,
     /// Memory for faces at the same place.
@@ -112,6 +114,8 @@ struct Path<'p> {
     sample: u64,
     /// The sample, if the ray comes straight from the eye.
     place: Option<PictureSample>,
+    /// Angle of the sample at the eye, radians.
+    width: f64,
     /// Where it comes from.
     way: Way,
 }
@@ -122,6 +126,7 @@ impl<'a> Tracer<'a> {
         Self {
             scenery,
             shader: Shader::new(scenery),
+            sky: scenery.sky.as_ref().map(SkyAround::rays),
             filters: Vec::new(),
             layers: Vec::new(),
             n_branches: 0,
@@ -165,6 +170,7 @@ impl<'a> Tracer<'a> {
             absorption: absorption(self.scenery, media.innermost(), ray.step),
             sample,
             place: Some(place),
+            width: if self.sky.is_some() { self.scenery.sample_width(ray.step.x) } else { 0.0 },
             way: Way::Straight,
         };
         (self.n_branches, self.is_too_deep, self.leaves_open_solid) = (0, false, None);
@@ -207,7 +213,16 @@ impl<'a> Tracer<'a> {
         }
         // The background is infinitely far away.
         if path.absorption == 0.0 {
-            sum.background += passing * self.scenery.appearance.transmitted(&self.filters);
+            let passing = passing * self.scenery.appearance.transmitted(&self.filters);
+            match &mut self.sky {
+                // Behind the picture the sky is drawn pixel by pixel.
+                Some(sky) if path.depth > 0 => {
+                    let toward = path.ray.step.x.normalize_or_zero();
+                    let [red, green, blue, _] = sky.light(toward, path.width, path.ray.wave.frequency);
+                    sum.light += passing * DVec3::from([red, green, blue].map(f64::from));
+                }
+                _ => sum.background += passing,
+            }
         }
         sum
     }

@@ -4,7 +4,7 @@ mod pixels_near;
 
 use std::ops::Range;
 
-use glam::DVec3;
+use glam::{DQuat, DVec3};
 use ugimage::PanoramaArea;
 use ugscene::View;
 
@@ -105,6 +105,14 @@ impl Film {
             up,
             forward: view.forward,
         }
+    }
+
+    /// The same film with its axes turned.
+    #[must_use]
+    pub fn turned(mut self, turn: DQuat) -> Self {
+        self.pinhole = self.pinhole.map(|direction| turn * direction);
+        [self.right, self.up, self.forward] = [self.right, self.up, self.forward].map(|axis| turn * axis);
+        self
     }
 
     /// True if all light of the picture arrives at one place.

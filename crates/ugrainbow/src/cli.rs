@@ -18,6 +18,7 @@ use ugpipe::{
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
+use ugskybox::cli::SkyArgs;
 
 use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
 use crate::explain::explain;
@@ -136,6 +137,9 @@ pub struct Args {
     explain: Option<Pixel>,
 
     #[command(flatten)]
+    sky: SkyArgs,
+
+    #[command(flatten)]
     annotations: AnnotationArgs,
 
     #[command(flatten)]
@@ -217,6 +221,7 @@ impl Args {
             depth_cue: self.depth_cue()?,
             exact: self.xc.then(|| self.color_shift()),
             cull: self.cb,
+            sky: self.sky.sky(),
             repeat: self.repeat.repeats(),
         })
     }
@@ -277,7 +282,7 @@ pub fn manual() -> Manual {
 /// # Errors
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
-    let config = args.config(context.output_name())?;
+    let mut config = args.config(context.output_name())?;
     let report = match args.explain {
         Some(pixel) => Some((pixel, report_format(args.dt, context.output_name())?)),
         None => None,
@@ -292,6 +297,8 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
         return write_report(report, &explanation, &warnings, context);
     }
+    config.sky.or_stated(ugparse::stated_sky(&source, &config.reading).as_ref());
+    config.sky.open(&args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let picture = run_with(&config, &source, provenance, &context.steps()).map_err(Failure::of)?;

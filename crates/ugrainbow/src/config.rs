@@ -4,7 +4,8 @@ use uglight::{ColorShift, Interpolation};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::{Output, PictureOptions};
 use ugraster::DepthFade;
-use ugscene::{HueScale, Projection, Scene, ShownEffects};
+use ugscene::{ColorScale, HueScale, Projection, Scene, SeenColors, ShownEffects};
+use ugskybox::SceneSky;
 
 /// Everything besides the scene that affects the bytes of a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Config {
     /// Draw faces by a ray for each sample (`-xc`) with this colour shift. The colours of the scene
     /// must be those at rest.
     pub exact: Option<ColorShift>,
+    /// What is behind the scene (`-sky`).
+    pub sky: SceneSky,
     /// Cull back-facing faces, which run clockwise in the picture.
     pub cull: bool,
     /// Give each vertex a copy per colour of its faces, instead of mixing them (`-vr`).
@@ -45,6 +48,7 @@ impl Default for Config {
             line_width: LINE_WIDTH,
             depth_cue: None,
             exact: None,
+            sky: SceneSky::default(),
             cull: false,
             repeat: false,
         }
@@ -87,6 +91,18 @@ impl Config {
             && ugscene::require_seen_geometry(scene).is_ok();
         let exact = self.exact.or((are_drawn && may_be_exact).then_some(ColorShift::NONE));
         Self { exact, ..self.clone() }
+    }
+
+    /// How the colours of the scene are shifted: by rays, or before in the pipe.
+    pub(crate) fn shift(&self, scene: &Scene) -> ColorShift {
+        match (self.exact, scene.stage.seen_colors()) {
+            (Some(shift), _) => shift,
+            (None, None) => ColorShift::NONE,
+            (None, Some(&SeenColors { scale, doppler, .. })) => match scale {
+                ColorScale::Hues { law, .. } => ColorShift::hues(doppler, law),
+                ColorScale::Spectra { flux } => ColorShift::new(true, doppler, flux, None),
+            },
+        }
     }
 
     /// The options that decide how faces and lines are drawn.

@@ -3,6 +3,7 @@
 use thiserror::Error;
 use ugparse::Diagnostics;
 use ugscene::{CameraError, StageError};
+use ugskybox::SkyError;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
@@ -43,6 +44,9 @@ pub enum Error {
     /// A vector figure with too many translucent faces one behind another.
     #[error("too many translucent faces overlap for vector graphics")]
     FigureOverlaps,
+    /// The sky.
+    #[error(transparent)]
+    Sky(#[from] SkyError),
     /// The scene is not at the stage at which it can be drawn so.
     #[error(transparent)]
     Stage(#[from] StageError),

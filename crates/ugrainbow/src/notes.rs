@@ -21,7 +21,7 @@ pub fn notes(drawn: &DrawnScene<'_>, config: &Config) -> Vec<Note> {
         notes.push(Note::UpReplaced);
     }
     let why = why_nothing_is_seen(config, drawn, !setup.scene().lights.is_empty());
-    notes.extend(why.or_else(|| why_it_is_dark(&drawn.stats)));
+    notes.extend(why.filter(|_| !config.sky.is_some()).or_else(|| why_it_is_dark(&drawn.stats)));
     if let (Some(DepthCue { range: None, least }), Some(DepthFade { near, far, .. })) =
         (config.depth_cue, setup.grid.fade)
     {

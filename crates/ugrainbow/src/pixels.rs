@@ -4,24 +4,67 @@
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
+use ugpicture::lens::Lens;
 use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
+use ugpipe::Progress;
 use ugraster::{Center, Encoding, Keep, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
+use ugscene::View;
+use ugskybox::{SkyCamera, drawn_on};
 
 use crate::center_surface::center_surface;
 use crate::config::Config;
+use crate::error::Error;
 use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
 /// Draws the scene as light, or directly as 8-bit levels if no exposure, tone curve or channel is
 /// requested.
-pub fn draw(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (DrawnContent, SampleStats) {
+///
+/// # Errors
+/// See [`Error`].
+pub fn draw(
+    setup: &Setup<'_>,
+    layers: &RenderLayers<'_>,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<(DrawnContent, SampleStats), Error> {
     let is_deep = config.picture.output.format().is_deep();
-    if !is_deep && !setup.keeps_highlights {
+    if !is_deep && !setup.keeps_highlights && !config.sky.is_some() {
         let (frame, stats) = display(setup, layers, config);
-        return (DrawnContent::Display(frame), stats);
+        return Ok((DrawnContent::Display(frame), stats));
     }
-    let (frame, stats) = light(setup, layers, config);
-    (DrawnContent::Light { frame, is_clipped: !setup.keeps_highlights }, stats)
+    let (frame, stats) = light_with_sky(setup, layers, config, progress)?;
+    let is_uncut =
+        setup.keeps_highlights || config.sky.is_some() && config.shift(setup.scene()).is_spectral();
+    Ok((DrawnContent::Light { frame, is_clipped: !is_uncut }, stats))
+}
+
+/// The light of the scene with its sky behind it, and the requested channels.
+///
+/// # Errors
+/// See [`Error`].
+pub fn light_with_sky(
+    setup: &Setup<'_>,
+    layers: &RenderLayers<'_>,
+    config: &Config,
+    progress: &dyn Progress,
+) -> Result<(LinearFrame, SampleStats), Error> {
+    let (mut frame, mut stats) = light(setup, layers, config);
+    if config.sky.is_some() {
+        let camera = SkyCamera {
+            view: &View::new(setup.scene(), &config.picture.camera, config.picture.size)?,
+            lens: Lens::Pinhole,
+            is_stereo: false,
+            crop: None,
+            velocity: ugscene::camera_velocity(setup.scene()),
+            shift: config.shift(setup.scene()),
+            keeps_light: setup.keeps_highlights,
+            picture: &config.picture,
+        };
+        let brightest = config.sky.put_behind(&mut frame, &camera, progress)?;
+        stats.max_intensity = stats.max_intensity.max(brightest);
+    }
+    Ok((frame, stats))
 }
 
 /// The whole picture as 8-bit levels.
@@ -137,11 +180,12 @@ impl ResolveSingle<[f32; 4]> for Light<'_> {
     }
 }
 
-/// The whole picture as light, with the requested channels.
+/// The whole picture of the scene as light, with the requested channels.
 pub fn light(setup: &Setup<'_>, layers: &RenderLayers<'_>, config: &Config) -> (LinearFrame, SampleStats) {
     let grid = &setup.grid;
     let PictureOptions { filter, channels, .. } = &config.picture;
-    let backdrop = backdrop(&config.picture);
+    let background = drawn_on(&config.sky, config.picture.background);
+    let backdrop = Backdrop::new(background, config.picture.samples);
     let frame = |pixels| LinearFrame::new([grid.width, grid.height], backdrop.is_opaque(), pixels);
     if channels.is_empty() || *filter != Filter::Box {
         let (pixels, stats) = layers.paint(*filter, &Light(&backdrop));

@@ -44,9 +44,11 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     let mut config = config.with_textures(scene);
     config.picture.keep_light();
     config.picture.check()?;
+    config.sky.or_stated(scene.sky.as_ref());
+    config.sky.open_built_in();
     let setup = prepare(scene, &config)?;
     let layers = RenderLayers::new(&setup, &config);
-    Ok(pixels::light(&setup, &layers, &config).0)
+    Ok(pixels::light_with_sky(&setup, &layers, &config, &())?.0)
 }
 
 /// Reads a scene, renders it, and packs it into a file.
@@ -91,12 +93,16 @@ fn draw(
     progress: &dyn Progress,
 ) -> Result<Rendering, Error> {
     progress.step("preparing", 0);
-    let config = &Config { picture: canvas.options().clone(), ..config.with_textures(scene) };
+    let mut config = Config { picture: canvas.options().clone(), ..config.with_textures(scene) };
+    config.sky.or_stated(scene.sky.as_ref());
+    config.sky.open_built_in();
+    let config = &config;
     let drawn = match config.picture.output {
         Output::Vector(format) => vector::draw(scene, config, format, progress)?,
         Output::Color(_) => draw_pixels(scene, config, progress)?,
     };
-    let notes = notes(&drawn, config);
+    let mut notes = notes(&drawn, config);
+    notes.extend(config.sky.notes());
     let DrawnScene { setup, stats, content, .. } = drawn;
     let items = |each_sample: bool, found: &mut dyn FnMut(&FoundItems<'_>)| {
         find_items(setup.scene(), config, each_sample, found)
@@ -124,7 +130,7 @@ fn draw_pixels<'a>(
 ) -> Result<DrawnScene<'a>, Error> {
     let setup = prepare(scene, config)?;
     let layers = RenderLayers::new(&setup, config).with_progress(progress);
-    let (content, stats) = pixels::draw(&setup, &layers, config);
+    let (content, stats) = pixels::draw(&setup, &layers, config, progress)?;
     let clip_counts = layers.clip_counts();
     drop(layers);
     Ok(DrawnScene { setup, clip_counts, stats, content })

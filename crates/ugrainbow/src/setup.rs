@@ -3,10 +3,11 @@
 use std::borrow::Cow;
 
 use uglight::{Appearance, ColorShift, Lighting};
-use ugpicture::PictureOptions;
 use ugpicture::textures::Textures;
+use ugpicture::{Background, Output, PictureOptions};
 use ugraster::{SampleGrid, TileShape};
 use ugscene::{Scene, ShownEffects, View};
+use ugskybox::SkyError;
 
 use crate::config::Config;
 use crate::error::Error;
@@ -38,7 +39,7 @@ impl<'a> Setup<'a> {
     /// # Errors
     /// There is nothing to draw, the camera is invalid, or the scene cannot be drawn by rays.
     pub fn new(scene: &'a Scene, config: &Config) -> Result<Self, Error> {
-        if scene.faces.is_empty() && scene.wires.is_empty() {
+        if scene.faces.is_empty() && scene.wires.is_empty() && !config.sky.is_some() {
             return Err(Error::Empty);
         }
         if config.exact.is_some() {
@@ -79,6 +80,9 @@ impl<'a> Setup<'a> {
             if appearance.surface.has_moving_spectra(&scene, &scene.wires, shift) {
                 return Err(Error::ExactMovingSpectrum);
             }
+        }
+        if config.sky.is_some() {
+            check_sky(&scene, &view, config)?;
         }
         let light = |color| uglight::RestColor::new(&scene, Some(color)).linear();
         let textures = match config.exact {
@@ -136,6 +140,23 @@ fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
     }
     if !view.is_perspective {
         return Err(Error::ExactOrthographic);
+    }
+    Ok(())
+}
+
+/// Refuses a sky that cannot be seen so.
+fn check_sky(scene: &Scene, view: &View, config: &Config) -> Result<(), SkyError> {
+    if let Output::Vector(_) = config.picture.output {
+        return Err(SkyError::Vectors);
+    }
+    if config.picture.background == Background::Transparent {
+        return Err(SkyError::Transparent);
+    }
+    if !view.is_perspective {
+        return Err(SkyError::Orthographic);
+    }
+    if ShownEffects::of(scene) != ShownEffects::default() {
+        return Err(SkyError::PartialGeometry);
     }
     Ok(())
 }

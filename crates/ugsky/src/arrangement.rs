@@ -38,4 +38,18 @@ impl Arrangement {
     pub fn n_files(self) -> usize {
         if self == Self::Sides { 6 } else { 1 }
     }
+
+    /// The arrangement in one file of a picture by the ratio of its sides: a strip is six times as
+    /// wide as high, a cross 4 : 3 or 3 : 4, all others are panoramas.
+    #[must_use]
+    pub fn of_size([width, height]: [u32; 2]) -> Self {
+        let [width, height] = [width, height].map(u64::from);
+        if width == 6 * height {
+            Self::Strip
+        } else if 3 * width == 4 * height || 4 * width == 3 * height {
+            Self::Cross
+        } else {
+            Self::Equirectangular
+        }
+    }
 }

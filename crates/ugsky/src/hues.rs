@@ -58,7 +58,7 @@ impl Hues {
         let value = red.max(green).max(blue);
         let white = red.min(green).min(blue);
         let pure = value - white;
-        let keeps_wavelength = pure.simd_le(zero) | doppler.simd_eq(one);
+        let keeps_wavelength = pure.simd_le(zero) | (doppler - one).abs().simd_le(number(ROUNDING));
         if !is_shifted || keeps_wavelength.all_true() {
             let (red, green, blue) = (red * gain, green * gain, blue * gain);
             return decoded(simd, most, of_light, [red, green, blue]);
@@ -127,6 +127,10 @@ fn attenuation<S: Simd>(simd: S, nm: f32x16<S>) -> f32x16<S> {
     let red = (number(RED_END_NM as f32) - nm) * number(1.0 / (RED_END_NM as f32 - 700.0));
     violet.min(red).max(number(0.0)).min(number(1.0))
 }
+
+/// Rounding error of a Doppler factor of 1 in single precision. Magentas are no wavelengths, so they
+/// would change with it.
+const ROUNDING: f32 = 1e-6;
 
 /// Cells of a [`Table`].
 const CELLS: usize = 4096;

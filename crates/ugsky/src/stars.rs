@@ -51,6 +51,13 @@ impl StarOptions {
         libm::exp10(0.4 * self.white) * SQUARE_DEGREE
     }
 
+    /// The magnitude of a star whose irradiance is that of white light from this solid angle,
+    /// steradians.
+    #[must_use]
+    pub fn magnitude(&self, white: f64) -> f64 {
+        -2.5 * libm::log10(white / self.scale())
+    }
+
     /// The profile of a star at the square of a distance on the unit sphere.
     #[must_use]
     #[inline]

@@ -25,12 +25,11 @@ use ugpipe::{
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
 use ugsky::{Arrangement, Band, Basis, Extent, StarOptions, VISIBLE_NM};
+use ugskybox::{OpenError, Opened, StarList, is_star_list, open, read_stars};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::open::{Opened, open};
 use crate::render::{PROVENANCE, metadata, run};
-use crate::star_list::{StarList, is_star_list, read_stars};
 
 /// Shows a 360-degree panorama as a fast traveller sees it
 ///
@@ -353,19 +352,20 @@ impl Args {
         let arrangement = self.from.unwrap_or_default();
         let mut limits = PictureLimits::default();
         limits.bytes = self.common.memory_limit().unwrap_or(limits.bytes);
-        let mut opened = open(&files, arrangement, self.extent(), self.highlights(), limits).map_err(
-            |error| match error {
-                Error::Read { idx, error } => {
-                    let Input { name, text } = inputs[idx];
-                    let remedy = match foreign_data(name, text) {
-                        Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
-                        _ => format!("; {}", remedies::DRAW_SCENE),
-                    };
-                    Failure::Failed(format!("`{name}`: {error}{remedy}"))
+        let mut opened =
+            open(&files, Some(arrangement), self.extent(), self.highlights(), limits).map_err(|error| {
+                match error {
+                    OpenError::Read { idx, error } => {
+                        let Input { name, text } = inputs[idx];
+                        let remedy = match foreign_data(name, text) {
+                            Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
+                            _ => format!("; {}", remedies::DRAW_SCENE),
+                        };
+                        Failure::Failed(format!("`{name}`: {error}{remedy}"))
+                    }
+                    error => Failure::of(Error::from(error)),
                 }
-                error => Failure::of(error),
-            },
-        )?;
+            })?;
         opened.others.extend(others.iter().map(|other| sha256(&other.text)));
         for (path, range_nm) in self.bands() {
             if arrangement == Arrangement::Sides {
@@ -375,8 +375,10 @@ impl Args {
             }
             let file = context.input_file(path)?;
             opened.others.push(sha256(&file.text));
-            let band = open(&[&file.text], arrangement, self.extent(), None, limits)
-                .map_err(|error| Failure::Failed(format!("`{}`: {}", file.name, error.words())))?;
+            let band =
+                open(&[&file.text], Some(arrangement), self.extent(), None, limits).map_err(|error| {
+                    Failure::Failed(format!("`{}`: {}", file.name, Error::from(error).words()))
+                })?;
             opened.notes.extend(band.notes);
             opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));
         }
@@ -420,19 +422,6 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let metadata = metadata(Some(&origin), Provenance { command: Some(&command_line), ..PROVENANCE });
     let picture = run(&config, &opened, &metadata, &context.steps()).map_err(Failure::of)?;
     write_picture(&picture, config.picture.size, context)
-}
-
-impl Opened {
-    /// The words for the origin of a picture: the SHA-256 and the name of the first file, and one
-    /// of all other files together.
-    pub fn origin(&self, input: &Input, context: &Context) -> String {
-        let (hash, name) = (sha256(&input.text), context.recorded_name());
-        if self.others.is_empty() {
-            return format!("SHA-256 {hash} {name}");
-        }
-        let all = sha256(format!("{hash} {}", self.others.join(" ")).as_bytes());
-        format!("SHA-256 {hash} including {all} {name}")
-    }
 }
 
 /// The stars of a list.

@@ -1,24 +1,16 @@
 //! Why there is no picture.
 
 use thiserror::Error;
-use ugimage::ReadError;
 use ugscene::{CameraError, MotionError};
-use ugsky::{BasisError, PanoramaError};
+use ugsky::BasisError;
+use ugskybox::OpenError;
 
 /// Why there is no picture.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// A file is no picture that can be read.
-    #[error("{error}")]
-    Read {
-        /// Which of several files.
-        idx: usize,
-        /// The error.
-        error: ReadError,
-    },
-    /// The pictures cannot be a panorama.
+    /// Files are no panorama.
     #[error(transparent)]
-    Panorama(#[from] PanoramaError),
+    Open(#[from] OpenError),
     /// The options of the picture, its camera or its annotations.
     #[error(transparent)]
     Picture(#[from] ugpicture::Error),

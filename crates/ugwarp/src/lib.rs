@@ -14,12 +14,10 @@
 //!
 //! # Modules
 //!
-//! Each line imports only from the lines above it:
+//! Skies are opened and drawn by [`ugskybox`]. Each line imports only from the lines above it:
 //!
 //! ```text
 //! error  config                             errors; options
-//! open                                      from files to panoramas and stars
-//! warp  stars                               from pixels to the sky, and their light; points of light
 //! render                                    from a panorama to a picture, with messages
 //! cli                                       the command line
 //! ```
@@ -48,19 +46,13 @@
 mod cli;
 mod config;
 mod error;
-mod open;
 mod render;
-mod star_list;
-mod stars;
-mod warp;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw, manual};
 pub use config::Config;
 pub use error::Error;
-pub use open::{Opened, open};
 pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};
-pub use star_list::{StarList, is_star_list, read_stars};
 pub use uglight::{ColorShift, HueShift, SpectralShift};
 pub use ugpicture::lens::Lens;
 pub use ugpicture::{
@@ -69,4 +61,4 @@ pub use ugpicture::{
 pub use ugscene::CameraOptions;
 pub use ugscene::Provenance;
 pub use ugsky::{ALL_NM, Arrangement, Band, Basis, Extent, Panorama, Sky, Star, StarOptions, Texels};
-pub use warp::Warp;
+pub use ugskybox::{OpenError, Opened, StarList, Warp, is_star_list, open, read_stars};

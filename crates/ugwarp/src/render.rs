@@ -6,18 +6,18 @@ use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
+use ugpicture::lens::Film;
 use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, channel_planes,
 };
 use ugpipe::Progress;
+use ugscene::{CameraError, CameraOptions, View};
 use ugscene::{Provenance, Remarks, Scene};
 use ugsky::{Basis, Layer, Sky};
+use ugskybox::{Opened, SkyPicture, StarField, Statistics, Warp, sky_colors};
 
 use crate::config::Config;
 use crate::error::Error;
-use crate::open::Opened;
-use crate::stars::StarField;
-use crate::warp::{Statistics, Warp, view};
 
 /// Makes a picture of a panorama, of stars or of both.
 ///
@@ -50,8 +50,10 @@ pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame
     let sky = sky.into();
     let mut config = config.clone();
     config.picture.keep_light();
-    let warp = Warp::new(sky, &config)?;
-    let (mut frame, _) = seen(sky, &warp, &config, &())?;
+    config.check()?;
+    let (picture, _) = sky_picture(&config)?;
+    let warp = Warp::new(sky, &picture)?;
+    let (mut frame, _) = seen(sky, &warp, &picture, &());
     push_channels(&mut frame, &warp, &config);
     Ok(frame)
 }
@@ -60,15 +62,53 @@ pub fn light<'s>(sky: impl Into<Sky<'s>>, config: &Config) -> Result<LinearFrame
 fn seen(
     sky: Sky<'_>,
     warp: &Warp<'_>,
-    config: &Config,
+    picture: &SkyPicture,
     progress: &dyn Progress,
-) -> Result<(LinearFrame, Statistics), Error> {
+) -> (LinearFrame, Statistics) {
     let (mut frame, mut statistics) = warp.light(progress);
     if !sky.stars.is_empty() {
         progress.step("stars", 0);
-        statistics.max_light = StarField::new(sky.stars, config)?.add(sky.stars, &mut frame);
+        statistics.max_light = StarField::new(sky.stars, picture).add(sky.stars, &mut frame);
     }
-    Ok((frame, statistics))
+    (frame, statistics)
+}
+
+/// The view of a picture: from the middle of the sky along +y, unless the camera or options say
+/// otherwise.
+fn view(config: &Config, samples: [u32; 2]) -> Result<View, CameraError> {
+    let (camera, options) = (&config.camera, &config.picture.camera);
+    let eye = options.eye.or(camera.eye).unwrap_or_default();
+    let center = options.center.or(camera.center).unwrap_or(eye + DVec3::Y);
+    let options = CameraOptions { eye: Some(eye), center: Some(center), ..options.clone() };
+    View::without_scene(camera, &options, samples)
+}
+
+/// What the picture of a sky depends on, and whether the camera was parallel to its up direction.
+fn sky_picture(config: &Config) -> Result<(SkyPicture, bool), CameraError> {
+    let picture = &config.picture;
+    let [across, down] = config.lens.frames(false);
+    let [width, height] = picture.size;
+    let film = |samples: u32| {
+        let frame = [width / across * samples, height / down * samples];
+        let view = view(config, frame)?;
+        Ok::<_, CameraError>((Film::new(config.lens, None, &view, frame), view.is_up_replaced))
+    };
+    let (samples_film, is_up_replaced) = film(picture.samples)?;
+    let sky_picture = SkyPicture {
+        part: [0, 0, width, height],
+        samples: picture.samples,
+        filter: picture.filter,
+        background: picture.background,
+        lens: config.lens,
+        film: samples_film,
+        pixel_film: film(1)?.0,
+        velocity: config.velocity,
+        colors: sky_colors(config.shift, config.basis),
+        range_nm: config.range_nm.clone(),
+        keeps_light: picture.keeps_light(),
+        stars: config.stars,
+    };
+    Ok((sky_picture, is_up_replaced))
 }
 
 /// Adds the channels that the options ask for.
@@ -129,7 +169,10 @@ struct Prepared<'s> {
     /// Options of the picture without its annotations.
     config: Config,
     canvas: Canvas,
+    picture: SkyPicture,
     warp: Warp<'s>,
+    /// The camera was parallel to its up direction.
+    is_up_replaced: bool,
 }
 
 impl<'s> Prepared<'s> {
@@ -139,7 +182,8 @@ impl<'s> Prepared<'s> {
         let canvas = Canvas::new(&config.picture)?;
         config.picture = canvas.options().clone();
         progress.step("preparing", 0);
-        Ok(Self { warp: Warp::new(sky, &config)?, config, canvas })
+        let (picture, is_up_replaced) = sky_picture(&config)?;
+        Ok(Self { warp: Warp::new(sky, &picture)?, picture, is_up_replaced, config, canvas })
     }
 
     /// The panorama, if there is nothing else in the sky and each pixel has its final colour, of 8
@@ -150,14 +194,14 @@ impl<'s> Prepared<'s> {
     }
 
     fn render(&self, sky: Sky<'_>, metadata: &Metadata, progress: &dyn Progress) -> Result<Rendering, Error> {
-        let Self { config, canvas, warp } = self;
+        let Self { config, canvas, picture, warp, is_up_replaced } = self;
         let (content, statistics) = match self.alone(sky) {
             Some(layer) => {
                 let (frame, statistics) = warp.frame(layer, progress);
                 (DrawnContent::Display(frame), statistics)
             }
             None => {
-                let (mut frame, statistics) = seen(sky, warp, config, progress)?;
+                let (mut frame, statistics) = seen(sky, warp, picture, progress);
                 push_channels(&mut frame, warp, config);
                 (DrawnContent::Light { frame, is_clipped: !warp.is_uncut() }, statistics)
             }
@@ -173,7 +217,7 @@ impl<'s> Prepared<'s> {
         let view = view(config, config.picture.size)?;
         let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
-        let (brightest, mut notes) = (statistics.max_light, notes(config, warp, &statistics));
+        let (brightest, mut notes) = (statistics.max_light, notes(config, *is_up_replaced, &statistics));
         if sky.panorama.is_none() && sky.stars.is_empty() {
             notes = vec![Note::NoStars];
         }
@@ -185,11 +229,11 @@ impl<'s> Prepared<'s> {
 const FEW: u64 = 20;
 
 /// The notes on a picture.
-fn notes(config: &Config, warp: &Warp<'_>, statistics: &Statistics) -> Vec<Note> {
+fn notes(config: &Config, is_up_replaced: bool, statistics: &Statistics) -> Vec<Note> {
     let has_amounts =
         matches!(config.basis, Basis::Planck(_)) && matches!(config.shift, ColorShift::Spectra(_));
     let mut notes = Vec::new();
-    if warp.is_up_replaced {
+    if is_up_replaced {
         notes.push(Note::UpReplaced);
     }
     if statistics.n_covered == 0 {

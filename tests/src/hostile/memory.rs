@@ -168,7 +168,7 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     let mut random = Random(seed);
     let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
     let config = quick(&mut random, seed);
-    let Ok(opened) = ugwarp::open(&[bytes], arrangement, None, None, LIMITS) else { return Ok(()) };
+    let Ok(opened) = ugwarp::open(&[bytes], Some(arrangement), None, None, LIMITS) else { return Ok(()) };
     sky((&opened).into(), &config, seed)
 }
 

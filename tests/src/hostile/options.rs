@@ -51,7 +51,7 @@ const EXCLUDED: [&str; 18] = [
 ];
 
 /// Values that are possible, by the names of options, where a number between 0 and 1 is not enough.
-const VALUES: [(&str, &[&str]); 29] = [
+const VALUES: [(&str, &[&str]); 30] = [
     ("--infrared-rule", &["measured", "constant"]),
     ("--across", &["va 2", "vel 3"]),
     ("-c", &["30km/h", "1e-9 m/s"]),
@@ -78,6 +78,7 @@ const VALUES: [(&str, &[&str]); 29] = [
     ("--scene", &["scene.ug"]),
     ("-sd", &["1", "3"]),
     ("-se", &["10", "100"]),
+    ("--sky", &["0.sky"]),
     ("--stars", &["0.sky"]),
     ("-ts", &["6", "12"]),
     ("--ultraviolet", &["0.sky"]),

@@ -21,8 +21,8 @@ use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
 use crate::source::Span;
 use crate::statement::{
     CallStatement, CameraStatement, ColorStatement, FaceStatement, FileStatement, LightStatement,
-    MixStatement, MotionReference, References, Repeat, ShadingStatement, StatedFrame, Statement,
-    SurfaceStatement, VertexStatement,
+    MixStatement, MotionReference, References, Repeat, ShadingStatement, SkyStatement, StatedFrame,
+    Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, mark, number, number32,
@@ -30,8 +30,7 @@ use crate::token::{
 };
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str =
-    "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam motion def end i a include execute";
+pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam motion sky def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -84,6 +83,7 @@ impl<'t> Grammar<'t> {
             b"l" => self.light(input),
             b"cam" => self.camera(input),
             b"motion" => self.motion(input),
+            b"sky" => self.sky(input),
             b"i" => self.call(input, false),
             b"a" => self.call(input, true),
             _ => return None,
@@ -352,6 +352,20 @@ impl<'t> Grammar<'t> {
         };
         let camera = Camera { velocity, ..camera };
         Ok((input, Statement::Camera(CameraStatement { name, camera, carrier })))
+    }
+
+    /// `sky FILE [-ra x y z]`
+    fn sky<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let at = blank(input)?.0;
+        let (input, name) = file_name(input)?;
+        let start = self.position(at) + u32::from(at.starts_with(b"\""));
+        let file = Span { start, end: start + name.len() as u32 };
+        let (input, turn) = match opt(option_word).parse(input)? {
+            (rest, Some(b"ra")) => require(numbers(rest))?,
+            (_, Some(_)) => return fail(blank(input)?.0, Reason::Expected("`-ra` or `;`")),
+            (rest, None) => (rest, [0.0; 3]),
+        };
+        Ok((input, Statement::Sky(SkyStatement { file, turn })))
     }
 
     /// `i [ID] ( def [color] tforms ) [< x y z >]`,

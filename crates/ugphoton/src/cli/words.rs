@@ -11,6 +11,7 @@ impl Words for Error {
             Self::Motion(error) => return error.words(),
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
+            Self::Sky(error) => return error.words(),
             Self::OutOfRange { .. } => "{}: use smaller coordinates, a smaller time (-ti) or a lower speed",
             Self::AnnotatedPart => {
                 "annotations (-cap, -lg, -dl, -gr) are for whole pictures: leave them out, or -crop"
@@ -61,6 +62,7 @@ impl Words for Error {
         match self {
             Self::Picture(error) => error.is_usage(),
             Self::Motion(error) => error.is_usage(),
+            Self::Sky(error) => error.is_usage(),
             Self::Text(_)
             | Self::Empty
             | Self::OutOfRange { .. }

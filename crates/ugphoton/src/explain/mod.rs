@@ -15,6 +15,7 @@ use ugpicture::explain::{
     covers, nearest,
 };
 use ugscene::{HueScale, SeenColors};
+use ugskybox::SkyError;
 
 use crate::config::Config;
 use crate::error::Error;
@@ -105,6 +106,9 @@ pub fn explain(
     pixel: [u32; 2],
 ) -> Result<(Explanation<TracedSample>, Diagnostics), Error> {
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    if config.sky.is_some() || parsed.scene.sky.is_some() {
+        return Err(SkyError::Explained.into());
+    }
     let canvas = config.canvas()?;
     canvas.check_pixel(pixel)?;
     let config = &config.on(&canvas);

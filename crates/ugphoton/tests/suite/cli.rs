@@ -109,3 +109,52 @@ fn notes_say_what_is_missing() {
     check(&format!("{SCENE} w (a c);"), "wires are left out");
     check(&SCENE.replace("-vc 0 0 0", "-vc 0 -1 9"), "nothing is drawn");
 }
+
+/// Skies that cannot be one, and options that contradict them.
+#[test]
+fn wrong_skies_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path.to_str().unwrap().to_owned()
+    };
+    let png = |size: [u32; 2]| {
+        let frame = ugimage::Frame::new(size, true, vec![[9, 9, 9, 255]; (size[0] * size[1]) as usize]);
+        ugimage::Format::Png.encode(&frame, &ugimage::Metadata::default())
+    };
+    let square = file("square.png", &png([64, 64]));
+    let tiny = file("tiny.png", &png([1, 1]));
+    let text = file("text.png", b"no picture");
+    let huge = file("huge.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 60000 +X 120000\n");
+    let list = file("list.csv", b"ra,dec,mag,kelvin\n1,2,three,5000\n");
+    let good = file("good.png", &png([64, 32]));
+    let missing = folder.path().join("missing.png");
+    for (sky, expected) in [
+        (square, "64 x 64 pixels are not the shape of a panorama, which is twice as wide as high; a sky is"),
+        (tiny, "the panorama has too few pixels"),
+        (text, "text.png`: "),
+        (huge, "huge.hdr`: "),
+        (list, "`three` is not a number"),
+        (missing.to_str().unwrap().to_owned(), "No such file"),
+    ] {
+        UGPHOTON.refuses(&format!("-sz 20 10 -sky {sky}"), SCENE, 1, expected);
+    }
+    UGPHOTON.refuses(&format!("-sky {good} --explain 1,1"), SCENE, 2, "leave out -sky");
+    UGPHOTON.refuses("--sky-turn 0 0 9", SCENE, 2, "--sky");
+    // Behind an empty scene there is the sky alone.
+    let camera = "cam -ep 0 0 0 -vc 0 1 0;";
+    assert!(!UGPHOTON.output(&format!("-sz 20 10 -sky {good}"), camera).is_empty());
+    // A transparent picture has it in mirrors alone.
+    let clear = UGPHOTON.output(&format!("-sz 20 10 -tb -sky {good}"), camera);
+    let pixels = image_pixels(&clear);
+    assert!(pixels.iter().all(|pixel| pixel[3] == 0), "{pixels:?}");
+}
+
+fn image_pixels(png: &[u8]) -> Vec<[u8; 4]> {
+    let picture = ugimage::read_picture(png, &ugimage::PictureLimits::default()).unwrap();
+    match picture.pixels {
+        ugimage::Pixels::Srgb(pixels) => pixels,
+        ugimage::Pixels::Light(_) => panic!("8 bits"),
+    }
+}

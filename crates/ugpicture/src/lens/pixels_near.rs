@@ -64,6 +64,27 @@ impl Film {
         }
     }
 
+    /// The geometric mean of the sides of a pixel at a direction, radians.
+    #[must_use]
+    pub fn pixel_width(&self, direction: DVec3) -> f64 {
+        let [width, height] = self.size;
+        match self.lens {
+            Lens::Pinhole => {
+                let ahead = direction.dot(self.forward).max(0.0);
+                (self.pinhole[1].cross(self.pinhole[2]).length() * ahead).sqrt() * ahead
+            }
+            Lens::Panorama => {
+                let sin = direction.dot(self.up);
+                (PI / height * TAU / width * (1.0 - sin * sin).max(0.0).sqrt()).sqrt()
+            }
+            Lens::Fisheye { .. } => self.pixel_side(direction),
+            Lens::Cube => {
+                let side = self.pixel_side(direction);
+                side * (side * width.min(height) * 0.5).sqrt()
+            }
+        }
+    }
+
     /// Cosine of the angle between a direction and the middle of the view.
     #[must_use]
     pub fn ahead(&self, direction: DVec3) -> f64 {

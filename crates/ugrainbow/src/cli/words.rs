@@ -10,6 +10,7 @@ impl Words for Error {
             Self::Scene(_) | Self::Empty => "{}",
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
+            Self::Sky(error) => return error.words(),
             Self::ExplainExact => remedies::EXPLAIN_EXACT,
             Self::ExactSeenColors => remedies::EXACT_SEEN_COLORS,
             Self::ExactPartialGeometry => remedies::EXACT_PARTIAL_GEOMETRY,
@@ -32,6 +33,7 @@ impl Words for Error {
     fn is_usage(&self) -> bool {
         match self {
             Self::Picture(error) => error.is_usage(),
+            Self::Sky(error) => error.is_usage(),
             Self::ExplainExact => true,
             _ => false,
         }

@@ -14,6 +14,7 @@ use ugpicture::explain::{
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
 use ugscene::{ColorScale, RestPosition, SeenPosition, ShownEffects, VertexId};
+use ugskybox::SkyError;
 
 use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
@@ -91,6 +92,9 @@ pub fn explain(
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.with_textures(&parsed.scene).exact.is_some() {
         return Err(Error::ExplainExact);
+    }
+    if config.sky.is_some() || parsed.scene.sky.is_some() {
+        return Err(SkyError::Explained.into());
     }
     let canvas = Canvas::new(&config.picture)?;
     canvas.check_pixel(pixel)?;

@@ -151,3 +151,21 @@ fn a_png_is_not_written_to_a_terminal() {
     assert!(output.status.success(), "{}", messages(&output));
     assert!(folder.path().join("a.png").exists());
 }
+
+/// Options that contradict a sky.
+#[test]
+fn skies_exclude_what_does_not_show_them() {
+    let file = tempfile::Builder::new().suffix(".csv").tempfile().unwrap();
+    fs::write(file.path(), "ra,dec,mag,kelvin\n0,0,-9,6000\n").unwrap();
+    let sky = format!("-sz 40 30 -sky {}", file.path().display());
+    for (options, status, expected) in [
+        ("-vec -dt svg", 2, "a sky is drawn as pixels: leave out -vec or -sky"),
+        ("-tb", 2, "leave out -tb or -sky"),
+        ("-og", 1, "leave out -og (in the scene, too), or -sky"),
+        ("--explain 1,1", 2, "leave out -sky"),
+    ] {
+        UGRAINBOW.refuses(&format!("{sky} {options}"), SCENE, status, expected);
+    }
+    let ahead = "cam -ep 0 0 0 -vc 0 1 0;";
+    assert_ne!(UGRAINBOW.output(&sky, ahead), UGRAINBOW.output(&format!("{sky} --sky-turn 0 0 180"), ahead));
+}

@@ -23,7 +23,7 @@ pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{
     Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
-    Shading, Tint, Vertex, Wire,
+    Shading, StatedSky, Tint, Vertex, Wire,
 };
 pub use stage::{
     ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,

@@ -73,8 +73,19 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// `cam`.
     pub cameras: Vec<Camera>,
+    /// `sky`.
+    pub sky: Option<StatedSky>,
     /// Comments, history and statements for other programs.
     pub remarks: Remarks,
+}
+
+/// The sky around the scene, which is not read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StatedSky {
+    /// The name of its file, or of a sky without a file.
+    pub file: String,
+    /// Turns about x, then y, then z, degrees.
+    pub turn: [f64; 3],
 }
 
 /// A named surface colour.

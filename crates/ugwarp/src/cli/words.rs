@@ -2,6 +2,7 @@
 
 use ugpipe::Words;
 use ugsky::{Arrangement, PanoramaError};
+use ugskybox::OpenError;
 
 use crate::Error;
 
@@ -11,14 +12,17 @@ impl Words for Error {
             Self::Picture(error) => return error.words(),
             Self::Motion(error) => return error.words(),
             Self::NoCamera => "{}: add a `cam` statement to it, or leave out --scene",
-            Self::Panorama(PanoramaError::Shape { arrangement: Arrangement::Equirectangular, .. }) => {
+            Self::Open(OpenError::Panorama(PanoramaError::Shape {
+                arrangement: Arrangement::Equirectangular,
+                ..
+            })) => {
                 "{}: give the angles that it shows with -part WEST EAST SOUTH NORTH, or -part -180 180 -90 90 if it \
                  shows all; a cube map needs -from strip or -from cross"
             }
-            Self::Panorama(PanoramaError::Shape { .. }) => {
+            Self::Open(OpenError::Panorama(PanoramaError::Shape { .. })) => {
                 "{}: a strip is 6 squares across, a cross 4 across and 3 down, or 3 across and 4 down"
             }
-            Self::Panorama(PanoramaError::Sides { n_files }) => {
+            Self::Open(OpenError::Panorama(PanoramaError::Sides { n_files })) => {
                 return format!(
                     "{n_files} files were given: -from sides needs six, right, left, up, down, front and back, and \
                      others one; a list of stars is added with --stars FILE"
@@ -37,7 +41,7 @@ impl Words for Error {
             Self::Stars => {
                 "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60"
             }
-            Self::Read { .. } | Self::Panorama(_) | Self::Basis(_) => "{}",
+            Self::Open(_) | Self::Basis(_) => "{}",
             Self::CubeSize => {
                 "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512"
             }
@@ -52,8 +56,10 @@ impl Words for Error {
         match self {
             Self::Picture(error) => error.is_usage(),
             Self::Motion(error) => error.is_usage(),
-            Self::Panorama(error) => matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. }),
-            Self::Read { .. } | Self::NoCamera => false,
+            Self::Open(OpenError::Panorama(error)) => {
+                matches!(error, PanoramaError::Extent | PanoramaError::Sides { .. })
+            }
+            Self::Open(_) | Self::NoCamera => false,
             _ => true,
         }
     }

@@ -20,7 +20,7 @@ fn side(face: usize, [x, y]: [u32; 2]) -> [u8; 4] {
 fn arrangements_agree() {
     let light = |files: &[Vec<u8>], arrangement: Arrangement| {
         let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-        let opened = open(&files, arrangement, None, None, PictureLimits::default())
+        let opened = open(&files, Some(arrangement), None, None, PictureLimits::default())
             .unwrap_or_else(|error| panic!("{error}"));
         let config = Config { lens: Lens::Panorama, ..Config::default() };
         let picture = PictureOptions { size: [40, 20], samples: 1, ..config.picture.clone() };
@@ -51,7 +51,7 @@ fn wrong_shapes_are_refused() {
     let file = |size: [u32; 2]| png(size, |_| [9, 9, 9, 255]);
     let message = |files: &[Vec<u8>], arrangement: Arrangement| {
         let files: Vec<&[u8]> = files.iter().map(Vec::as_slice).collect();
-        open(&files, arrangement, None, None, PictureLimits::default())
+        open(&files, Some(arrangement), None, None, PictureLimits::default())
             .err()
             .map(|error| error.to_string())
             .unwrap_or_default()

@@ -6,7 +6,7 @@ use ugimage::{PictureLimits, Pixels, read_picture};
 use ugscene::Scene;
 use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
-use crate::error::Error;
+use crate::error::OpenError;
 
 /// A panorama, stars or both, and what their user should know.
 #[derive(Default)]
@@ -41,30 +41,31 @@ impl<'s> From<&'s Opened> for Sky<'s> {
 /// Reads a panorama from the bytes of PNG, JPEG, HDR, EXR or PFM files. `extent`: the angles that
 /// an equirectangular one shows; without it the whole sphere. `highlights`: how many times as
 /// bright as white clipped highlights of photographs are. `limits`: of all files together.
+/// `arrangement`: without it the one of the ratio of the sides, see [`Arrangement::of_size`].
 ///
 /// # Errors
-/// - [`Error::Read`]: a file is no picture that can be read.
-/// - [`Error::Panorama`]: the pictures do not suit the arrangement, are too small, or their angles
+/// - [`OpenError::Read`]: a file is no picture that can be read.
+/// - [`OpenError::Panorama`]: the pictures do not suit the arrangement, are too small, or their angles
 ///   are impossible.
 pub fn open(
     files: &[&[u8]],
-    arrangement: Arrangement,
+    arrangement: Option<Arrangement>,
     mut extent: Option<Extent>,
     highlights: Option<f32>,
     mut limits: PictureLimits,
-) -> Result<Opened, Error> {
+) -> Result<Opened, OpenError> {
     let mut notes = Vec::new();
     let mut pictures = Vec::new();
-    if files.len() != arrangement.n_files() {
+    if files.len() != arrangement.unwrap_or_default().n_files() {
         return Err(PanoramaError::Sides { n_files: files.len() }.into());
     }
     for (idx, file) in files.iter().enumerate() {
-        let picture = read_picture(file, &limits).map_err(|error| Error::Read { idx, error })?;
+        let picture = read_picture(file, &limits).map_err(|error| OpenError::Read { idx, error })?;
         limits.bytes -= picture.pixels.n_bytes().min(limits.bytes);
         notes.extend(picture.notes);
         if let Some([left, right, top, bottom]) = picture.part
             && extent.is_none()
-            && arrangement == Arrangement::Equirectangular
+            && matches!(arrangement, None | Some(Arrangement::Equirectangular))
         {
             let stated = Extent {
                 longitudes: [left, right].map(|edge| TAU * (edge - 0.5)),
@@ -80,6 +81,14 @@ pub fn open(
         }
         pictures.push((picture.size, texels(picture.pixels, &mut notes)));
     }
+    let arrangement = arrangement.unwrap_or_else(|| {
+        let found = pictures.iter().map(|(size, _)| Arrangement::of_size(*size)).next();
+        let found = found.filter(|_| extent.is_none()).unwrap_or_default();
+        if found != Arrangement::Equirectangular {
+            notes.push(format!("by its size the picture is a cube map: a {}", found.name()));
+        }
+        found
+    });
     let is_clipped = pictures.iter().any(|(_, texels)| matches!(texels, Texels::Srgb(_)));
     if highlights.is_some() && !is_clipped {
         notes.push(LIGHT.to_owned());

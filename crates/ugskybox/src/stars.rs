@@ -8,9 +8,7 @@ use ugimage::LinearFrame;
 use ugpicture::lens::{Film, Lens, Window};
 use ugsky::{Observer, Star, StarLight, StarOptions};
 
-use crate::config::Config;
-use crate::error::Error;
-use crate::warp::{colors, film};
+use crate::picture::SkyPicture;
 
 /// Rows that one task draws.
 const BAND: u32 = 16;
@@ -27,7 +25,8 @@ const MOST: f64 = 1e30;
 /// is normalised by the sum over the pixels, so that light times solid angle, added up, is the
 /// irradiance, wherever the star is between the middles of pixels and whatever the lens.
 pub struct StarField {
-    size: [u32; 2],
+    /// Left column, upper row, width and height of the part of the picture that is drawn.
+    part: [u32; 4],
     film: Film,
     lens: Lens,
     observer: Observer,
@@ -48,36 +47,35 @@ struct Point {
 }
 
 impl StarField {
-    /// The map of a picture's options for a list of stars.
-    ///
-    /// # Errors
-    /// The camera of the picture is invalid.
-    pub fn new(stars: &[Star], config: &Config) -> Result<Self, Error> {
-        Ok(Self {
-            size: config.picture.size,
-            film: film(config, 1)?.0,
-            lens: config.lens,
-            observer: Observer::new(config.velocity),
-            light: StarLight::new(stars, colors(config).parts(), config.velocity.rapidity()),
-            deviation: config.stars.deviation(),
-            scale: config.stars.scale(),
-        })
+    /// The map of a picture for a list of stars.
+    #[must_use]
+    pub fn new(stars: &[Star], picture: &SkyPicture) -> Self {
+        Self {
+            part: picture.part,
+            film: picture.pixel_film,
+            lens: picture.lens,
+            observer: Observer::new(picture.velocity),
+            light: StarLight::new(stars, picture.colors.parts(), picture.velocity.rapidity()),
+            deviation: picture.stars.deviation(),
+            scale: picture.stars.scale(),
+        }
     }
 
     /// Adds the light of stars to a picture. Returns the largest channel of its pixels.
     pub fn add(&self, stars: &[Star], frame: &mut LinearFrame) -> f32 {
-        let n_bands = self.size[1].div_ceil(BAND);
+        let [_, top, width, height] = self.part;
+        let n_bands = height.div_ceil(BAND);
         for stars in stars.chunks(CHUNK) {
             let points: Vec<Point> = stars.par_iter().filter_map(|star| self.point(star)).collect();
             let mut bands = vec![Vec::new(); n_bands as usize];
             for (idx, point) in points.iter().enumerate() {
-                for band in point.rows.start / BAND..=(point.rows.end - 1) / BAND {
+                for band in (point.rows.start - top) / BAND..=(point.rows.end - top - 1) / BAND {
                     bands[band as usize].push(idx);
                 }
             }
-            let rows = frame.pixels_mut().par_chunks_mut((BAND * self.size[0]) as usize);
+            let rows = frame.pixels_mut().par_chunks_mut((BAND * width) as usize);
             rows.zip(bands).enumerate().for_each(|(band, (pixels, indices))| {
-                let top = band as u32 * BAND;
+                let top = top + band as u32 * BAND;
                 indices.into_iter().for_each(|idx| self.draw(&points[idx], top, pixels));
             });
         }
@@ -93,6 +91,7 @@ impl StarField {
             return None;
         }
         let (mut sum, mut first, mut last) = (0.0, u32::MAX, 0);
+        let [above, below] = [self.part[1], self.part[1] + self.part[3]];
         for window in self.film.pixels_near(direction, StarOptions::REACH * deviation) {
             // Pixels may be much longer than wide: along a disc there are more than can be counted,
             // and the sum over some of them is as exact.
@@ -101,7 +100,7 @@ impl StarField {
                 sum += StarOptions::profile(square, deviation) * facet.solid_angle;
             });
             let [from, to] =
-                [window.rows.start, window.rows.end].map(|row| row.clamp(0, i64::from(self.size[1])) as u32);
+                [window.rows.start, window.rows.end].map(|row| row.clamp(above.into(), below.into()) as u32);
             (first, last) = (first.min(from), last.max(to));
         }
         if sum <= 0.0 || first >= last {
@@ -126,20 +125,24 @@ impl StarField {
 
     /// Adds the light of a star to rows of the picture from `top` on.
     fn draw(&self, point: &Point, top: u32, pixels: &mut [[f32; 4]]) {
-        let width = self.size[0] as usize;
+        let [left, _, width, _] = self.part;
+        let (right, width) = (left + width, width as usize);
         let bottom = i64::from(top) + (pixels.len() / width) as i64;
         for window in self.film.pixels_near(point.direction, StarOptions::REACH * point.deviation) {
             let rows = window.rows.start.max(i64::from(top))..window.rows.end.min(bottom);
             let columns = match self.lens {
-                Lens::Pinhole => window.columns.start.max(0)..window.columns.end.min(width as i64),
+                Lens::Pinhole => window.columns.start.max(left.into())..window.columns.end.min(right.into()),
                 _ => window.columns,
             };
             self.film.visit(&Window { columns, rows, ..window }, |facet| {
                 let Some([column, row]) = facet.place else { return };
+                if !(left..right).contains(&column) {
+                    return;
+                }
                 let square = (facet.direction - point.direction).length_squared();
                 let weight = StarOptions::profile(square, point.deviation);
                 if weight > 0.0 {
-                    let pixel = &mut pixels[(row - top) as usize * width + column as usize];
+                    let pixel = &mut pixels[(row - top) as usize * width + (column - left) as usize];
                     (0..3).for_each(|channel| pixel[channel] += (weight * point.light[channel]) as f32);
                     let brightest = pixel[0].max(pixel[1]).max(pixel[2]);
                     pixel[3] = pixel[3].max(brightest.min(1.0));

@@ -5,16 +5,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use glam::{DQuat, DVec3};
 use rayon::prelude::*;
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, display_pixel};
-use uglight::ColorShift;
 use ugphysics::luminance;
 use ugpicture::lens::{Film, Lens};
 use ugpicture::{Backdrop, Background, Emission, SeenItem};
 use ugpipe::Progress;
-use ugscene::{CameraError, CameraOptions, View};
-use ugsky::{FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyColors, SkyLight, SkyView};
+use ugsky::{BasisError, FlatFilm, Layer, Observer, Sampler, Seen, Sky, SkyLight, SkyView};
 
-use crate::config::Config;
-use crate::error::Error;
+use crate::picture::SkyPicture;
 
 /// Rows that one task computes.
 const BAND: usize = 32;
@@ -30,8 +27,8 @@ const DARK: f64 = 1e-4;
 type Light = [[f32; Seen::N]; 4];
 
 /// The directions of a pinhole camera, which are linear in the place.
-fn flat_film(lens: Lens, film: &Film) -> Option<FlatFilm> {
-    let at = |place: [f64; 2]| film.sight(place).map(|sight| sight.direction);
+fn flat_film(lens: Lens, film: &Film, [left, top]: [f64; 2]) -> Option<FlatFilm> {
+    let at = |place: [f64; 2]| film.sight([left + place[0], top + place[1]]).map(|sight| sight.direction);
     if lens != Lens::Pinhole {
         return None;
     }
@@ -50,8 +47,8 @@ pub struct Warp<'s> {
     panorama: Option<Layer<'s>>,
     /// Infrared and ultraviolet light.
     bands: Vec<Layer<'s>>,
-    /// The camera was parallel to its up direction.
-    pub(crate) is_up_replaced: bool,
+    /// The upper left corner of the part that is drawn, in samples.
+    corner: [f64; 2],
 }
 
 /// The findings in a picture.
@@ -99,44 +96,12 @@ impl Statistics {
     }
 }
 
-/// The view of a picture: from the middle of the sky along +y, unless the camera or options say
-/// otherwise.
-pub(crate) fn view(config: &Config, samples: [u32; 2]) -> Result<View, CameraError> {
-    let (camera, options) = (&config.camera, &config.picture.camera);
-    let eye = options.eye.or(camera.eye).unwrap_or_default();
-    let center = options.center.or(camera.center).unwrap_or(eye + DVec3::Y);
-    let options = CameraOptions { eye: Some(eye), center: Some(center), ..options.clone() };
-    View::without_scene(camera, &options, samples)
-}
-
-/// How colours change by the options of a picture.
-pub(crate) fn colors(config: &Config) -> SkyColors {
-    match config.shift {
-        ColorShift::Hues(shift) => SkyColors::Hues { doppler: shift.doppler, law: shift.law },
-        ColorShift::Spectra(shift) => {
-            SkyColors::Spectra { basis: config.basis, doppler: shift.doppler, flux: shift.flux }
-        }
-    }
-}
-
-/// The lens before a film with so many samples for each pixel and direction, and whether the camera
-/// was parallel to its up direction.
-pub(crate) fn film(config: &Config, samples: u32) -> Result<(Film, bool), Error> {
-    let [across, down] = config.lens.frames(false);
-    let [width, height] = config.picture.size;
-    let frame = [width / across * samples, height / down * samples];
-    let view = view(config, frame)?;
-    Ok((Film::new(config.lens, None, &view, frame), view.is_up_replaced))
-}
-
 impl<'s> Warp<'s> {
-    /// The map of a picture's options to a sky, with its light.
+    /// The map of a picture to a sky, with its light.
     ///
     /// # Errors
-    /// See [`Error`].
-    pub fn new(sky: Sky<'s>, config: &Config) -> Result<Self, Error> {
-        config.check()?;
-        let picture = &config.picture;
+    /// [`BasisError`].
+    pub fn new(sky: Sky<'s>, picture: &SkyPicture) -> Result<Self, BasisError> {
         let samples = picture.samples;
         let n = f64::from(samples * samples);
         let variance = match picture.filter {
@@ -144,34 +109,35 @@ impl<'s> Warp<'s> {
             Filter::Triangle => 1.0 / 6.0,
             Filter::Spline => 1.0 / 4.0,
         };
-        let (film, is_up_replaced) = film(config, samples)?;
+        let [left, top, width, height] = picture.part;
+        let corner = [left, top].map(|at| f64::from(at * samples));
         let mut layers =
-            sky.layers(colors(config), config.velocity, &config.range_nm, picture.keeps_light())?;
+            sky.layers(picture.colors, picture.velocity, &picture.range_nm, picture.keeps_light)?;
         let bands = layers.split_off(layers.len() - sky.bands.len());
         Ok(Self {
-            size: picture.size,
+            size: [width, height],
             samples,
             view: SkyView {
-                observer: Observer::new(config.velocity),
+                observer: Observer::new(picture.velocity),
                 // Less the variance of the places of samples.
                 spread: 12.0 * variance * n - n + 1.0,
-                flat: flat_film(config.lens, &film),
+                flat: flat_film(picture.lens, &picture.film, corner),
             },
             backdrop: Backdrop::new(picture.background, 1),
             panorama: layers.pop(),
             bands,
-            is_up_replaced,
-            film,
+            film: picture.film,
+            corner,
         })
     }
 
     /// The panorama, if its light is clipped at white, as in 1988, and alone.
-    pub(crate) fn clipped(&self) -> Option<&Layer<'s>> {
+    pub fn clipped(&self) -> Option<&Layer<'s>> {
         self.panorama.as_ref().filter(|layer| self.bands.is_empty() && !layer.shade.is_uncut())
     }
 
     /// Light brighter than white is kept until it is developed.
-    pub(crate) fn is_uncut(&self) -> bool {
+    pub fn is_uncut(&self) -> bool {
         self.panorama.as_ref().is_none_or(|layer| layer.shade.is_uncut())
     }
 
@@ -210,7 +176,7 @@ impl<'s> Warp<'s> {
     }
 
     /// The light of a layer display-encoded with 8 bits per channel; light outside 0…1 is clipped.
-    pub(crate) fn frame(&self, layer: &Layer<'s>, progress: &dyn Progress) -> (Frame, Statistics) {
+    pub fn frame(&self, layer: &Layer<'s>, progress: &dyn Progress) -> (Frame, Statistics) {
         let drawing = Drawing::new(self, layer, &self.backdrop, progress, self.encode());
         let (pixels, statistics) = drawing.pixels();
         (Frame::new(self.size, self.backdrop.is_opaque(), pixels), statistics)
@@ -235,12 +201,17 @@ impl<'s> Warp<'s> {
         }
     }
 
+    /// The direction seen at a place, in samples from the corner of the part that is drawn.
+    fn sight(&self, [x, y]: [f64; 2]) -> Option<DVec3> {
+        self.film.sight([self.corner[0] + x, self.corner[1] + y]).map(|sight| sight.direction)
+    }
+
     /// A black sky on the background, which is outside the circle of a fisheye.
     fn darkness(&self) -> (LinearFrame, Statistics) {
         let (n, width) = (f64::from(self.samples), self.size[0] as usize);
         let covered = |idx: usize| {
             let place = [idx % width, idx / width].map(|at| n * (at as f64 + 0.5));
-            f32::from(self.film.sight(place).is_some())
+            f32::from(self.sight(place).is_some())
         };
         let n_pixels = width * self.size[1] as usize;
         let pixel = |idx: usize| self.backdrop.pixel([0.0; 3], covered(idx));
@@ -252,19 +223,19 @@ impl<'s> Warp<'s> {
 
     /// The surfaces at the middles of pixels, for channels and legends: light that was
     /// emitted far away, in the frame of the sky.
-    pub(crate) fn seen_item(&self, idx: usize) -> Option<SeenItem> {
+    pub fn seen_item(&self, idx: usize) -> Option<SeenItem> {
         self.seen_at(f64::from(self.samples), self.size[0] as usize, idx)
     }
 
     /// What is seen at the middle of a sample, counted row after row.
-    pub(crate) fn seen_sample(&self, idx: usize) -> Option<SeenItem> {
+    pub fn seen_sample(&self, idx: usize) -> Option<SeenItem> {
         self.seen_at(1.0, self.size[0] as usize * self.samples as usize, idx)
     }
 
     /// What is seen at the middle of a square `side` samples wide, of `width` in a row.
     fn seen_at(&self, side: f64, width: usize, idx: usize) -> Option<SeenItem> {
         let place = [idx % width, idx / width].map(|at| side * (at as f64 + 0.5));
-        let direction = self.film.sight(place)?.direction.normalize();
+        let direction = self.sight(place)?.normalize();
         let emission = Emission {
             place: direction,
             depth: f64::INFINITY,
@@ -331,7 +302,7 @@ impl<'a, F> Drawing<'a, F> {
             let n_chunks = (TILE * warp.samples as usize).div_ceil(Seen::N);
             (self.layer.panorama.sampler(), vec![Seen::default(); n_chunks])
         });
-        let film = |place: [f64; 2]| warp.film.sight(place).map(|sight| sight.direction);
+        let film = |place: [f64; 2]| warp.sight(place);
         let shade = &self.layer.shade;
         let mut sky = SkyLight { view: &warp.view, film, shade, sampler: &mut sampler };
         let mut statistics = Found::default();
