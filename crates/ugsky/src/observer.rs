@@ -61,21 +61,6 @@ impl Observer {
         self.velocity
     }
 
-    /// The unit vector along the motion.
-    pub(crate) fn ahead(&self) -> DVec3 {
-        self.ahead
-    }
-
-    /// γβ.
-    pub(crate) fn proper_speed(&self) -> f64 {
-        self.proper_speed
-    }
-
-    /// The Doppler factors straight behind and ahead.
-    pub(crate) fn factors(&self) -> [f64; 2] {
-        self.factors
-    }
-
     /// The direction in the frame of the sky of what is seen along the unit vector `seen`, and its
     /// Doppler factor.  Eq. (P6), (P10)
     #[must_use]
