@@ -5,6 +5,5 @@
 mod cli;
 mod common;
 mod found_files;
-mod hostile;
 mod reading;
 mod round_trip;

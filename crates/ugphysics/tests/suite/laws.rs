@@ -32,11 +32,6 @@ fn points() -> impl Strategy<Value = DVec3> {
     (unit_vectors(), 0.1..100.0_f64).prop_map(|(direction, distance)| distance * direction)
 }
 
-fn rotations() -> impl Strategy<Value = DQuat> {
-    (unit_vectors(), -1.0..1.0_f64)
-        .prop_map(|(axis, w)| DQuat::from_xyzw(axis.x, axis.y, axis.z, w).normalize())
-}
-
 /// A tolerance of a few roundings, magnified by `factor`.
 fn rounding(factor: f64) -> f64 {
     1e-15 * factor
@@ -48,17 +43,6 @@ fn off_light_cone(event: Event) -> f64 {
 }
 
 proptest! {
-    /// (P1) and then (P2), with p = p₀ + w v, are (P3).
-    #[test]
-    fn contraction_and_flight_are_one_boost(p in points(), v in velocities()) {
-        let now = contracted(p, v);
-        let w = flight_time(now, v);
-        let seen = seen_event(p, v);
-        // p₀ and w v are up to γ² longer than their sum.
-        let tolerance = rounding(4.0 * v.gamma() * v.gamma());
-        near_vector("place", now + w * v.beta(), seen.x, tolerance);
-        near("time", w / seen.t, 1.0, tolerance);
-    }
 
     /// (P3) is the 4×4 boost of the emission event.
     #[test]
@@ -75,14 +59,6 @@ proptest! {
     #[test]
     fn what_is_seen_is_on_the_light_cone(p in points(), v in velocities()) {
         prop_assert!(off_light_cone(seen_event(p, v)) <= rounding(2.0));
-    }
-
-    /// (P4) undoes (P3); a rounding of the direction costs a factor γ at most each way.
-    #[test]
-    fn rest_and_seen_are_inverse(p in points(), v in velocities()) {
-        let tolerance = rounding(8.0 * v.gamma());
-        near_vector("rest of seen", rest_position(seen_position(p, v), v), p, tolerance);
-        near_vector("seen of rest", seen_position(rest_position(p, v), v), p, tolerance);
     }
 
     /// (P6) as written, and as the direction of (P3) and (P4).
@@ -106,13 +82,6 @@ proptest! {
         let doppler = doppler_at(seen_position(p, v), v);
         near("energy", observed.t / doppler, 1.0, rounding(8.0 * v.gamma() * v.gamma()));
         near("r = r' D", seen_position(p, v).length() / (p.length() * doppler), 1.0, rounding(8.0 * v.gamma()));
-    }
-
-    /// (P10) as written.
-    #[test]
-    fn doppler_is_the_plain_formula(n in unit_vectors(), v in velocities()) {
-        let plain = 1.0 / (v.gamma() * (1.0 - v.beta().dot(n)));
-        near("D", doppler_factor(n, v) / plain, 1.0, rounding(8.0 * v.gamma() * v.gamma()));
     }
 
     /// Light out of a moving body and into another that moves with it is not shifted.
@@ -230,14 +199,6 @@ proptest! {
     }
 
     #[test]
-    fn rotations_commute(p in points(), v in velocities(), r in rotations()) {
-        let turned = Velocity::from_rapidity(r * v.direction(), v.rapidity()).unwrap();
-        let tolerance = rounding(16.0 * v.gamma());
-        near_vector("seen", seen_position(r * p, turned), r * seen_position(p, v), tolerance);
-        near("D", doppler_factor(r * p, turned) / doppler_factor(p, v), 1.0, tolerance);
-    }
-
-    #[test]
     fn scale_does_not_matter(p in points(), v in velocities(), exponent in -900..900_i32) {
         let scale = libm::ldexp(1.0, exponent);
         prop_assert_eq!(seen_position(p * scale, v), seen_position(p, v) * scale);
@@ -347,25 +308,9 @@ fn every_size_and_speed_gives_a_finite_answer() {
 }
 
 #[test]
-fn small_speeds_act_to_first_order() {
-    // p = p' − β|p'|û, D = 1 + β cos θ, both to β² and rounding.
-    for speed in [1e-4, 1e-6, 1e-9, 1e-12] {
-        for axis in directions() {
-            let v = Velocity::from_beta(speed * axis).unwrap();
-            for d in directions() {
-                let bound = 2.0 * speed * speed + 1e-15;
-                near_vector("seen", seen_position(d, v), d - speed * axis, bound);
-                near("D", doppler_factor(d, v), 1.0 + speed * d.dot(axis), bound);
-                near_vector("contracted", contracted(d, v), d, bound);
-            }
-        }
-    }
+fn coordinates_across_an_axis_pass_to_the_bit() {
     // There is no threshold: even the smallest velocity displaces a point abeam.
     assert_eq!(seen_position(DVec3::Y, along_x(1e-300)).x, -1e-300);
-}
-
-#[test]
-fn coordinates_across_an_axis_pass_to_the_bit() {
     for speed in [0.1, 0.3, 0.9, 0.999_999] {
         for p in directions() {
             let p = 0.3 * p;

@@ -1,6 +1,6 @@
 //! Scenes for measurements, and their light.
 
-use glam::{DMat3, DMat4, DVec3, DVec4};
+use glam::{DMat4, DVec3, DVec4};
 use ugimage::{LinearFrame, Samples};
 use ugphoton::{
     CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, SpectralShift, light,
@@ -69,11 +69,6 @@ pub fn by_spectra() -> Config {
 /// The value of a grey seen in a direction: a number, of which a picture shows the light.
 pub fn value(text: &str, toward: DVec3, base: Config) -> f64 {
     srgb_encode(seen_with(text, toward, base).y)
-}
-
-/// The linear light of a grey seen in a direction: what a law that names a quantity multiplies.
-pub fn grey_light(text: &str, toward: DVec3, base: Config) -> f64 {
-    seen_with(text, toward, base).y
 }
 
 /// Vertices and a face. `rest` follows the corners in its statement.
@@ -150,10 +145,4 @@ pub fn boost(v: DVec3) -> DMat4 {
     let (gamma, axis) = (1.0 / (1.0 - speed * speed).sqrt(), v / speed);
     let column = |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));
     DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::from((gamma * v, gamma)))
-}
-
-/// Velocity and rotation of a boost times a rotation.
-pub fn factors(matrix: DMat4) -> (DVec3, DMat3) {
-    let v = matrix.w_axis.truncate() / matrix.w_axis.w;
-    (v, DMat3::from_mat4(boost(-v) * matrix))
 }
