@@ -71,21 +71,6 @@ fn light_at_rest_in_a_moving_body_moves_along() {
     }
 }
 
-/// The velocity 0 gives the same as no velocity, and a small velocity nearly the same.
-#[test]
-fn rest_is_the_limit_of_slow_lights() {
-    let still = numbers(&doppler(&room(LIGHTS), &lit()));
-    assert_eq!(numbers(&doppler(&room(&with_velocity("<0 0 0>")), &lit())), still);
-    for speed in [1e-3, 1e-5, 1e-7] {
-        let slow = numbers(&doppler(&room(&with_velocity(&format!("<{speed} 0 {speed}>"))), &lit()));
-        for ((name, slow), (_, still)) in slow.iter().zip(&still) {
-            // The integral of ambient light over directions has an error of up to 10⁻³.
-            let off = (0..3).map(|part| (slow[part] - still[part]).abs()).fold(0.0, f64::max);
-            assert!(off < 20.0 * speed + 1e-3, "{name} at {speed}: {slow:?}, {still:?}");
-        }
-    }
-}
-
 /// A face that faces the light and the eye, all on one line: D and D_l are powers of 2.
 #[test]
 fn both_factors_shift_and_dim() {
@@ -135,41 +120,6 @@ fn wavelength_and_intensity(scene: &Scene, law: Brightness) -> (f64, f64) {
         }
         other => panic!("{other:?}"),
     }
-}
-
-/// A lamp flies over a floor: the brightest point is below its retarded position, not below its
-/// present one.
-#[test]
-fn lamplight_lags() {
-    let speed = 0.8;
-    let floor: String = (-40..=40)
-        .map(|x| format!("v a{x} {x} 20 0; v b{x} {x} 20.001 0; v c{x} {x}.001 20 0; f (a{x} b{x} c{x});"))
-        .collect::<String>()
-        .replace("a-", "am")
-        .replace("b-", "bm")
-        .replace("c-", "cm");
-    let text = format!("{floor} l 0.5 0 20 3 0 <{speed} 0 0>; cam -ep 0 0 5;");
-    let config = Config { shift: ColorShift::NONE, ..lit() };
-    let scene = scenes::parse(&doppler(text.as_bytes(), &config));
-    let bright = |vertex: &ugscene::Vertex| {
-        let color = vertex.color.expect("a colour");
-        match scene.colors[color.index()].value {
-            ColorValue::Hsv { value, .. } => value,
-            other => panic!("{other:?}"),
-        }
-    };
-    let brightest = scene.vertices.iter().filter(|v| scene.names.get(v.name).starts_with('a'));
-    let brightest = brightest.max_by(|a, b| bright(a).total_cmp(&bright(b))).expect("a vertex");
-    // Light emitted directly above needs the time 3 to the floor and |(x, 20, −5)| to the eye. n·l
-    // is largest directly below the emission event, x = v t with t = −√(x² + 20² + 5²) − 3.
-    let lag = |x: f64| speed * (-(x * x + 425.0).sqrt() - 3.0) - x;
-    let (mut low, mut high) = (-1000.0, 0.0);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if lag(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    assert!((brightest.position.x - low).abs() < 0.51, "{}, not {low}", brightest.position.x);
-    assert!(low < -25.0, "{low}");
 }
 
 /// Without lights nothing changes, and the renderer uses its default lights.

@@ -1,10 +1,8 @@
 //! Scenes for measurements, and their light.
 
-use glam::{DMat4, DVec3, DVec4};
-use ugimage::{LinearFrame, Samples};
-use ugphoton::{
-    CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, SpectralShift, light,
-};
+use glam::DVec3;
+use ugimage::LinearFrame;
+use ugphoton::{CameraOptions, ColorShift, Config, HueShift, PictureOptions, light};
 use ugphysics::{Brightness, srgb_encode};
 
 /// Colours, surfaces, and no light but that of faces with a level.
@@ -44,26 +42,9 @@ pub fn seen_with(text: &str, toward: DVec3, base: Config) -> DVec3 {
     DVec3::new(red.into(), green.into(), blue.into())
 }
 
-/// The distance of the emission event in a direction.
-pub fn distance(text: &str, toward: DVec3) -> f64 {
-    let mut config = config([1, 1], toward, 1e-3);
-    config.picture.output = Output::Color(ugimage::Format::Exr);
-    config.picture.channels = vec![Channel::Distance];
-    let frame = drawn(text, &config);
-    match &frame.planes()[0].samples {
-        Samples::Float(distances) => distances[0].into(),
-        Samples::Whole(_) => panic!("distances are not whole numbers"),
-    }
-}
-
 /// Options with a brightness law, and wavelengths as they are.
 pub fn by_law(law: Brightness) -> Config {
     Config { shift: ColorShift::Hues(HueShift { doppler: false, law }), ..Config::default() }
-}
-
-/// Options for spectra.
-pub fn by_spectra() -> Config {
-    Config { shift: ColorShift::Spectra(SpectralShift { doppler: true, flux: true }), ..Config::default() }
 }
 
 /// The value of a grey seen in a direction: a number, of which a picture shows the light.
@@ -97,52 +78,4 @@ pub fn surroundings(name: &str, half: f64, rest: &str) -> String {
 /// A velocity as a scene states it.
 pub fn velocity(v: DVec3) -> String {
     format!("<{} {} {}>", v.x, v.y, v.z)
-}
-
-/// A square that shows the place of a point on it, in its rest frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Chart {
-    /// Its middle.
-    pub center: DVec3,
-    /// From there to the middles of two of its sides.
-    pub axes: [DVec3; 2],
-    /// Its velocity.
-    pub velocity: DVec3,
-}
-
-impl Chart {
-    /// Its statements. Along one of its axes the value of its grey increases from 0.2 to 0.8.
-    fn text(&self, axis: usize) -> String {
-        let [u, v] = self.axes;
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let mut text = String::from("c low 0.2; c high 0.8;\n");
-        for (at, (a, b)) in corners.into_iter().enumerate() {
-            let place = self.center + a * u + b * v;
-            let color = if [a, b][axis] > 0.0 { "high" } else { "low" };
-            text += &format!("v chart{at} {} {} {} {color};\n", place.x, place.y, place.z);
-        }
-        text + &format!("f (chart0 chart1 chart2 chart3) white 1 {};\n", velocity(self.velocity))
-    }
-
-    /// The place in its rest frame that is seen in a direction; `None` if something else is seen.
-    pub fn place(&self, others: &str, toward: DVec3) -> Option<DVec3> {
-        let along = |axis: usize| {
-            let text = format!("{HEAD}{others}{}", self.text(axis));
-            let value = value(&text, toward, by_law(Brightness::None));
-            (value > 0.19).then_some((value - 0.5) / 0.3)
-        };
-        let [u, v] = self.axes;
-        Some(self.center + along(0)? * u + along(1)? * v)
-    }
-}
-
-/// The boost from the rest frame of a body with velocity `v`; events are (x, y, z, t).
-pub fn boost(v: DVec3) -> DMat4 {
-    let speed = v.length();
-    if speed == 0.0 {
-        return DMat4::IDENTITY;
-    }
-    let (gamma, axis) = (1.0 / (1.0 - speed * speed).sqrt(), v / speed);
-    let column = |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::from((gamma * v, gamma)))
 }

@@ -2,8 +2,6 @@
 
 mod beaming;
 mod drawing;
-mod frames;
-mod report;
 
 use glam::DVec3;
 use ugphoton::{ColorShift, Config, RayOptions, SpectralShift};
