@@ -5,7 +5,6 @@ use std::process::Command;
 use glam::DVec3;
 use uglight::{ColorShift, ScatteringTime, SurfaceElement};
 use ugscene::{Anchor, CameraOptions, ColorValue, MotionOptions, PlacedBodies, RestFrames};
-use ugtests::worlds::picture::{Picture, Renderer};
 use ugtests::{pipe, programs, scenes};
 
 /// Velocities of 1 g, 9.80665 m/s², in light years and Julian years.
@@ -134,7 +133,7 @@ fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
 
 /// From about 18 years on, β of a camera at 1 g rounds to 1. A body at rest at the angle θ from the
 /// motion is seen at tan ½θ' = e^{−η} tan ½θ, with D = e^η cos² ½θ + e^{−η} sin² ½θ. A black body
-/// of 5800 K/D has the chromaticity of one of 5800 K, and rays draw what the pipe draws.
+/// of 5800 K/D has the chromaticity of one of 5800 K.
 #[test]
 fn a_flight_of_many_years_shows_aberration_and_doppler() {
     const DEG: f64 = std::f64::consts::PI / 180.0;
@@ -195,19 +194,6 @@ fn a_flight_of_many_years_shows_aberration_and_doppler() {
                 (chromaticity - DVec3::new(0.3260, 0.3354, 0.3386)).length() < 1e-3,
                 "{years}: {chromaticity}"
             );
-            let motion = MotionOptions { time: years, ..MotionOptions::default() };
-            let picture = Picture {
-                motion,
-                size: [80, 60],
-                ..Picture::of_scene(text, ColorShift::SPECTRA).like_pipe()
-            };
-            let [pipe, rays] =
-                [Renderer::Pipe, Renderer::Rays].map(|by| picture.clone().by(by).draw().unwrap().light());
-            let n_lit = rays.iter().filter(|pixel| pixel[0] > 0.0).count();
-            let is_off =
-                |(a, b): &(&[f32; 3], &[f32; 3])| (0..3).any(|k| (a[k] - b[k]).abs() > 0.02 * b[k].max(0.1));
-            let n_off = pipe.iter().zip(&rays).filter(is_off).count();
-            assert!(n_lit > 30 && n_off < 16, "{years}: {n_off} of {n_lit}");
         }
     }
 }

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rayon::prelude::*;
 use ugtesting::Random;
-use ugtests::hostile::{Case, Edge, File, Kind, MESHES};
+use ugtests::hostile::{Case, File, Kind, MESHES};
 use ugtests::{programs, scenes};
 
 /// Fails with all findings at once.
@@ -94,7 +94,7 @@ fn motions_hold() {
     let run = |(name, text, words): (&str, String, &[&str])| {
         let stages = vec![words.iter().copied().map(str::to_owned).collect()];
         let files = vec![("scene.ug".to_owned(), text.into_bytes())];
-        let case = Case { seed: 1, files, stages, edge: Edge::Plain };
+        let case = Case { seed: 1, files, stages };
         case.run(programs::folder()).err().map(|finding| format!("{name}: {finding}"))
     };
     assert_none(&rows.into_par_iter().filter_map(run).collect::<Vec<_>>());

@@ -6,7 +6,6 @@
 mod acceleration;
 mod determinism;
 mod docs;
-mod documents;
 mod exact;
 mod faces;
 mod figures;

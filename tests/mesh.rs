@@ -149,53 +149,6 @@ fn every_format_is_drawn_at_once() {
     }
 }
 
-#[test]
-fn any_size_at_any_place() {
-    for size in [1e-3, 1.0, 1e6] {
-        for place in [DVec3::ZERO, DVec3::new(-500.0, 20.0, 3000.0), DVec3::new(0.0, 0.0, -2e6)] {
-            let text = converted(&obj(size, place), MeshFormat::Obj, Target::Ug, false);
-            check_fill(&format!("size {size} at {place}"), &drawn(&text, SIZE).0);
-            let seen = as_seen(&text, DVec3::new(0.9, 0.0, 0.0));
-            check_fill(&format!("size {size} at {place}, moving"), &drawn(&seen, SIZE).0);
-        }
-    }
-}
-
-#[test]
-fn any_velocity_with_keep_in_view() {
-    let text = converted(&obj(1.0, DVec3::splat(5.0)), MeshFormat::Obj, Target::Ug, false);
-    let directions = [
-        DVec3::NEG_X,
-        DVec3::Y,
-        DVec3::NEG_Z,
-        // Toward the eye at rest, and away from it.
-        DVec3::new(3.0, -4.0, 2.0),
-        DVec3::new(-3.0, 4.0, -2.0),
-        // About 41° from the direction to the eye.
-        DVec3::new(-0.1, -1.0, 0.3),
-        DVec3::new(1.0, -0.2, 0.5),
-    ];
-    for direction in directions {
-        for speed in [0.5, 0.9, 0.999] {
-            let seen = as_seen(&text, speed * direction.normalize());
-            check_fill(&format!("{speed} along {direction}"), &drawn(&seen, SIZE).0);
-        }
-    }
-}
-
-#[test]
-fn wide_and_tall_pictures() {
-    let text = converted(&obj(1.0, DVec3::ZERO), MeshFormat::Obj, Target::Ug, false);
-    for size in [[320, 60], [60, 320], [100, 100], [192, 108]] {
-        check_fill(&format!("{size:?}"), &drawn(&text, size).0);
-    }
-    // The camera for 1024 × 768 suits other pictures, too.
-    let seen = as_seen(&text, DVec3::new(0.9, 0.0, 0.0));
-    for size in [[100, 160], [100, 100], [192, 108]] {
-        check_fill(&format!("{size:?}, moving"), &drawn(&seen, size).0);
-    }
-}
-
 /// A small triangle of a body at 0.8c and 0.9c, with the normal of its plane at the corners.
 #[test]
 fn exported_normals_are_those_of_the_seen_shape() {

@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 use std::sync::LazyLock;
 
+use ugtests::hostile::is_dangerous;
 use ugtests::programs;
 
 static PROGRAMS: LazyLock<PathBuf> = LazyLock::new(|| programs::folder().to_owned());
@@ -20,11 +21,6 @@ const PAYLOADS: [&str; 3] = [
     "a\r\u{85}\t\u{b}\u{2028}\u{2029}b",
     "a\nugparse: error: forged",
 ];
-
-/// Unicode's control and format characters, as far as the payloads have them.
-fn is_obeyed(c: char) -> bool {
-    PAYLOADS[..2].iter().any(|payload| payload[1..payload.len() - 1].contains(c)) && !c.is_ascii_graphic()
-}
 
 struct Case<'a> {
     /// The program and its arguments, with `@`.
@@ -90,7 +86,7 @@ impl Case<'_> {
     fn check_text(&self, bytes: &[u8]) -> bool {
         let text = String::from_utf8_lossy(bytes);
         let Self { words, files } = self;
-        let obeyed = text.chars().find(|&c| is_obeyed(c));
+        let obeyed = text.chars().find(|&c| is_dangerous(c));
         assert_eq!(obeyed, None, "{words:?} {files:?}: {}", text.escape_debug());
         let is_forged = text.lines().any(|line| line.starts_with("ugparse: error: forged"));
         assert!(!is_forged, "{words:?} {files:?}: {text}");
@@ -283,7 +279,7 @@ fn labels_and_histories_of_pictures() {
                 let case = Case { words: &words, files: &files };
                 let output = case.run(payload, false);
                 case.check_text(&output.stderr);
-                assert!(!String::from_utf8_lossy(&output.stdout).contains(is_obeyed), "{words:?}");
+                assert!(!String::from_utf8_lossy(&output.stdout).contains(is_dangerous), "{words:?}");
                 if format == "ps" {
                     let is_plain = |byte: &u8| byte.is_ascii_graphic() || matches!(byte, b' ' | b'\n');
                     assert!(output.stdout.iter().all(is_plain), "{words:?}");
@@ -293,21 +289,6 @@ fn labels_and_histories_of_pictures() {
             }
         }
     }
-}
-
-#[test]
-fn figures_of_sheets() {
-    let svg = "<?xml version='1.0'?><!DOCTYPE svg><svg id='i' width='9' height='9' viewBox='0 0 9 9'><desc>d</desc>\
-               <g fill='url(#i)'><a href='#i'>text</a></g></svg>";
-    let fields =
-        ["version='1.0'", "<!DOCTYPE svg>", "'i'", "'9'", "viewBox", "<desc>", "url(#i)", "</a>", "text"];
-    let damaged = fields.map(|field| svg.replacen(field, "@", 1));
-    check_files(&["ugsheet", "a.svg"], "a.svg", &[], &damaged.each_ref().map(String::as_str));
-    let pdf = "%PDF-1.4\n1 0 obj<</Pages 2 0 R>>endobj 2 0 obj<</Kids[3 0 R]>>endobj 3 0 obj<</MediaBox[0 0 9 9]>>endobj\n\
-               xref\n0 1\n0 65535 f\ntrailer<</Root 1 0 R>>startxref 109\n";
-    let fields = ["%PDF-1.4", "/Pages", "/Kids", "obj<<", "xref\n0", "/Root", "109"];
-    let damaged = fields.map(|field| pdf.replacen(field, "@", 1));
-    check_files(&["ugsheet", "a.pdf"], "a.pdf", &[], &damaged.each_ref().map(String::as_str));
 }
 
 /// Tags are closed in order, and `<` and `&` occur only in markup.

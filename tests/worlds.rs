@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use ugtests::worlds::LAWS;
 
 /// Worlds for each law.
-const N_WORLDS: u64 = 2;
+const N_WORLDS: u64 = 6;
 
 #[test]
 fn laws_hold() {

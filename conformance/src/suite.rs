@@ -3,50 +3,18 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+macro_rules! files {
+    ($($topic:literal)*) => { [$(include_str!(concat!("../cases/T", $topic, ".tsv"))),*] };
+}
+
 /// Id and question of a case, and its tolerance in single precision, where that is larger.
 const SINGLE: &str = include_str!("../single.tsv");
 
-/// One file for each topic, T01 to T38.
-const FILES: [&str; 38] = [
-    include_str!("../cases/T01.tsv"),
-    include_str!("../cases/T02.tsv"),
-    include_str!("../cases/T03.tsv"),
-    include_str!("../cases/T04.tsv"),
-    include_str!("../cases/T05.tsv"),
-    include_str!("../cases/T06.tsv"),
-    include_str!("../cases/T07.tsv"),
-    include_str!("../cases/T08.tsv"),
-    include_str!("../cases/T09.tsv"),
-    include_str!("../cases/T10.tsv"),
-    include_str!("../cases/T11.tsv"),
-    include_str!("../cases/T12.tsv"),
-    include_str!("../cases/T13.tsv"),
-    include_str!("../cases/T14.tsv"),
-    include_str!("../cases/T15.tsv"),
-    include_str!("../cases/T16.tsv"),
-    include_str!("../cases/T17.tsv"),
-    include_str!("../cases/T18.tsv"),
-    include_str!("../cases/T19.tsv"),
-    include_str!("../cases/T20.tsv"),
-    include_str!("../cases/T21.tsv"),
-    include_str!("../cases/T22.tsv"),
-    include_str!("../cases/T23.tsv"),
-    include_str!("../cases/T24.tsv"),
-    include_str!("../cases/T25.tsv"),
-    include_str!("../cases/T26.tsv"),
-    include_str!("../cases/T27.tsv"),
-    include_str!("../cases/T28.tsv"),
-    include_str!("../cases/T29.tsv"),
-    include_str!("../cases/T30.tsv"),
-    include_str!("../cases/T31.tsv"),
-    include_str!("../cases/T32.tsv"),
-    include_str!("../cases/T33.tsv"),
-    include_str!("../cases/T34.tsv"),
-    include_str!("../cases/T35.tsv"),
-    include_str!("../cases/T36.tsv"),
-    include_str!("../cases/T37.tsv"),
-    include_str!("../cases/T38.tsv"),
-];
+/// One file for each topic.
+const FILES: [&str; 38] = files! {
+    "01" "02" "03" "04" "05" "06" "07" "08" "09" "10" "11" "12" "13" "14" "15" "16" "17" "18" "19"
+    "20" "21" "22" "23" "24" "25" "26" "27" "28" "29" "30" "31" "32" "33" "34" "35" "36" "37" "38"
+};
 
 /// A topic of the suite and its cases.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,6 @@
 //! Compares every sample of exact pictures (`ugrainbow -xc`) with the oracle, which uses 4×4
 //! matrices and the scene as written, and with the formulas of `ugphysics`.
 
-mod modes;
 mod rules;
 mod samples;
 mod world_lines;

@@ -1,4 +1,4 @@
-//! Exact pictures: independence of threads, refused input, and notes.
+//! Exact pictures: independence of threads, refused input, notes, and channels.
 
 use glam::DVec3;
 use ugpipe::Words;
@@ -6,7 +6,7 @@ use ugrainbow::ColorShift;
 use ugtests::pipe::{Pipe, lorentz, rainbow};
 use ugtests::scenes;
 
-use super::{SQUARE, exact};
+use super::{SQUARE, channels, exact};
 
 #[test]
 fn threads_do_not_change_the_picture() {
@@ -64,4 +64,22 @@ fn moving_lights_cause_a_note() {
     // At rest a spectrum is not shifted, so there is no note.
     let glowing = SQUARE.replace("c green .9 130 .8;", "c_bb green 5000;").replace("<.2 -.1 0>", "");
     assert!(!notes(&glowing).contains("ugdoppler"), "{}", notes(&glowing));
+}
+
+/// In both modes, channels describe the nearest surface that transmits less than half of the light.
+#[test]
+fn channels_tell_of_what_hides_more_than_it_shows() {
+    for (translucency, first) in [(0.0, 1.0), (0.4, 1.0), (0.6, 2.0), (1.0, 2.0)] {
+        let text = format!(
+            "c pane 1 0 1 {translucency}; c wall .8; l 1; cam -ep 0 0 0 -vc 0 1 0 -va 60 50;
+             v a -9 4 -9; v b 9 4 -9; v c 9 4 9; v d -9 4 9; f (a b c d) pane;
+             v e -9 8 -9; v f 9 8 -9; v g 9 8 9; v h -9 8 9; f (e f g h) wall;"
+        );
+        let exact = exact(None);
+        let mut scanned = exact.clone();
+        scanned.rainbow.exact = None;
+        for pipe in [exact, scanned] {
+            assert!(channels(&pipe, text.as_bytes())["id"].iter().all(|id| *id == first), "{translucency}");
+        }
+    }
 }

@@ -1,18 +1,13 @@
 //! Compares every sample with the oracle and the formulas.
 
 use glam::DVec3;
-use ugphysics::spectrum::Spectrum;
-use ugphysics::{
-    Brightness, Hsv, Velocity, attenuation, doppler_at, hue_to_wavelength, rest_position, srgb_decode,
-    wavelength_to_hue, xyz_to_linear_srgb,
-};
-use ugrainbow::{ColorShift, HueShift};
+use ugrainbow::ColorShift;
 use ugscene::{Face, Scene, VertexId};
 use ugtests::oracle::{Oracle, Pinhole};
 use ugtests::scenes;
 use ugtests::shading::Shading;
 
-use super::{SIZE, SQUARE, channels, exact};
+use super::{SIZE, channels, exact};
 
 const SPEEDS: [f64; 4] = [0.3, 0.9, 0.99, 0.999];
 
@@ -261,78 +256,4 @@ fn scenes_are_exact_for_a_camera_that_moves() {
         .into_iter()
         .for_each(|speed| check(Case { eye, camera: Some(speed * aside), ..Case::new("street") }));
     check(Case { camera: Some(0.3 * DVec3::NEG_Y), ..Case::new("dice") });
-}
-
-/// A black body at T seen with D is one at D·T: its light at T, times the ratio of their Y.  Eq.
-/// (P13)
-#[test]
-fn a_black_body_is_seen_at_another_temperature() {
-    const KELVIN: f64 = 4000.0;
-    let text = SQUARE.replace("c green .9 130 .8; l .2; l .7 1 -2 .5;", "c_bb green 4000 .5; l 1;");
-    let velocity = DVec3::new(0.2, -0.1, 0.0);
-    let mut pipe = exact(None);
-    pipe.rainbow.exact = Some(ColorShift::SPECTRA);
-    let channels = channels(&pipe, text.as_bytes());
-    let scene = scenes::parse(text.as_bytes());
-    let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, SIZE);
-    let velocity = Velocity::from_beta(velocity).unwrap();
-    let mut factors = [f64::INFINITY, 0.0];
-    for pixel in (0..(SIZE[0] * SIZE[1]) as usize).step_by(37) {
-        let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]].map(|i| f64::from(i) + 0.5);
-        let doppler = doppler_at(camera.direction(x, y), velocity);
-        factors = [factors[0].min(doppler), factors[1].max(doppler)];
-        let brighter = Spectrum::blackbody(KELVIN, 1.0).seen(doppler)[1];
-        let xyz = Spectrum::blackbody(doppler * KELVIN, 0.5 * brighter).seen(1.0);
-        for (name, expected) in ["R", "G", "B"].iter().zip(xyz_to_linear_srgb(xyz)) {
-            let ours = channels[*name][pixel];
-            assert!((ours / expected - 1.0).abs() < 2e-3, "{x}, {y}: {name} {ours}, not {expected}");
-        }
-    }
-    assert!(factors[1] / factors[0] > 1.1, "{factors:?}");
-}
-
-#[test]
-fn colour_and_light_are_those_of_the_point() {
-    let laws = [(Brightness::Report, true), (Brightness::Photon, true), (Brightness::None, false)];
-    for (law, doppler) in laws {
-        for point_light in [false, true] {
-            let text = if point_light {
-                SQUARE.replace("l .7 1 -2 .5;", "l .7 1 4 .5 1;")
-            } else {
-                SQUARE.to_owned()
-            };
-            let mut pipe = exact(None);
-            pipe.rainbow.exact = Some(ColorShift::Hues(HueShift { doppler, law }));
-            let channels = channels(&pipe, text.as_bytes());
-            let scene = scenes::parse(text.as_bytes());
-            let camera = Pinhole::new(scene.camera().unwrap(), DVec3::ZERO, SIZE);
-            let velocity = Velocity::from_beta(DVec3::new(0.2, -0.1, 0.0)).unwrap();
-            for pixel in (0..(SIZE[0] * SIZE[1]) as usize).step_by(37) {
-                let [x, y] = [pixel as u32 % SIZE[0], pixel as u32 / SIZE[0]].map(|i| f64::from(i) + 0.5);
-                let direction = camera.direction(x, y);
-                let rest = rest_position(direction, velocity);
-                let point = rest * (9.0 / rest.y);
-                let toward = if point_light {
-                    (DVec3::new(1.0, 4.0, 0.5) - point).normalize()
-                } else {
-                    DVec3::new(1.0, -2.0, 0.5).normalize()
-                };
-                let level = 0.2 + 0.7 * toward.dot(DVec3::NEG_Y).max(0.0);
-                let factor = doppler_at(direction, velocity);
-                let wavelength_nm = hue_to_wavelength(130.0) / if doppler { factor } else { 1.0 };
-                // Under a law that names a quantity, level and factor multiply linear light.
-                let bright = level * law.factor(factor);
-                let [encoded, linear] = if law.acts_on_light() { [1.0, bright] } else { [bright, 1.0] };
-                let value = 0.9 * encoded * attenuation(wavelength_nm);
-                let color = Hsv { hue: wavelength_to_hue(wavelength_nm), saturation: 0.8, value };
-                for (name, channel) in ["R", "G", "B"].iter().zip(color.to_rgb()) {
-                    let (ours, expected) = (channels[*name][pixel], linear * srgb_decode(channel));
-                    assert!(
-                        (ours - expected).abs() < 1e-5,
-                        "{law:?}, {point_light}, {x}, {y}: {name} {ours}, not {expected}"
-                    );
-                }
-            }
-        }
-    }
 }

@@ -90,7 +90,7 @@ fn vertices_have_positions_by_p3_and_doppler_factors_by_p10() {
     let (mut n_vertices, mut worst_place, mut worst_doppler) = (0, 0.0_f64, 0.0_f64);
     for speed in speeds() {
         let (beta, eye) = (speed * random.direction(), random.in_cube(10.0));
-        let (text, points) = triangles(&mut random, 5, &["green"]);
+        let (text, points) = triangles(&mut random, 5, "green");
         let text = format!("c green 0.1 120 1; {text}");
         // Vertices are where they are however edges are divided.
         let pieces = uglorentz::Pieces::PerEdge(1);

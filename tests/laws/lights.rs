@@ -3,9 +3,8 @@
 use glam::DVec3;
 use ugdoppler::Config;
 use uglight::ColorShift;
-use ugphysics::{Brightness, Velocity, srgb_decode};
+use ugphysics::{Brightness, srgb_decode};
 use ugscene::{ColorValue, Scene, Tint};
-use ugtesting::Random;
 use ugtests::picture::{assert_same, decode};
 use ugtests::pipe::{Pipe, doppler, lorentz, rainbow};
 use ugtests::scenes;
@@ -72,21 +71,6 @@ fn light_at_rest_in_a_moving_body_moves_along() {
     }
 }
 
-/// The velocity 0 gives the same as no velocity, and a small velocity nearly the same.
-#[test]
-fn rest_is_the_limit_of_slow_lights() {
-    let still = numbers(&doppler(&room(LIGHTS), &lit()));
-    assert_eq!(numbers(&doppler(&room(&with_velocity("<0 0 0>")), &lit())), still);
-    for speed in [1e-3, 1e-5, 1e-7] {
-        let slow = numbers(&doppler(&room(&with_velocity(&format!("<{speed} 0 {speed}>"))), &lit()));
-        for ((name, slow), (_, still)) in slow.iter().zip(&still) {
-            // The integral of ambient light over directions has an error of up to 10⁻³.
-            let off = (0..3).map(|part| (slow[part] - still[part]).abs()).fold(0.0, f64::max);
-            assert!(off < 20.0 * speed + 1e-3, "{name} at {speed}: {slow:?}, {still:?}");
-        }
-    }
-}
-
 /// A face that faces the light and the eye, all on one line: D and D_l are powers of 2.
 #[test]
 fn both_factors_shift_and_dim() {
@@ -138,89 +122,6 @@ fn wavelength_and_intensity(scene: &Scene, law: Brightness) -> (f64, f64) {
     }
 }
 
-/// A lamp flies over a floor: the brightest point is below its retarded position, not below its
-/// present one.
-#[test]
-fn lamplight_lags() {
-    let speed = 0.8;
-    let floor: String = (-40..=40)
-        .map(|x| format!("v a{x} {x} 20 0; v b{x} {x} 20.001 0; v c{x} {x}.001 20 0; f (a{x} b{x} c{x});"))
-        .collect::<String>()
-        .replace("a-", "am")
-        .replace("b-", "bm")
-        .replace("c-", "cm");
-    let text = format!("{floor} l 0.5 0 20 3 0 <{speed} 0 0>; cam -ep 0 0 5;");
-    let config = Config { shift: ColorShift::NONE, ..lit() };
-    let scene = scenes::parse(&doppler(text.as_bytes(), &config));
-    let bright = |vertex: &ugscene::Vertex| {
-        let color = vertex.color.expect("a colour");
-        match scene.colors[color.index()].value {
-            ColorValue::Hsv { value, .. } => value,
-            other => panic!("{other:?}"),
-        }
-    };
-    let brightest = scene.vertices.iter().filter(|v| scene.names.get(v.name).starts_with('a'));
-    let brightest = brightest.max_by(|a, b| bright(a).total_cmp(&bright(b))).expect("a vertex");
-    // Light emitted directly above needs the time 3 to the floor and |(x, 20, −5)| to the eye. n·l
-    // is largest directly below the emission event, x = v t with t = −√(x² + 20² + 5²) − 3.
-    let lag = |x: f64| speed * (-(x * x + 425.0).sqrt() - 3.0) - x;
-    let (mut low, mut high) = (-1000.0, 0.0);
-    for _ in 0..100 {
-        let middle = 0.5 * (low + high);
-        if lag(middle) > 0.0 { low = middle } else { high = middle }
-    }
-    assert!((brightest.position.x - low).abs() < 0.51, "{}, not {low}", brightest.position.x);
-    assert!(low < -25.0, "{low}");
-}
-
-/// The illumination of a moving surface by a moving light does not depend on the camera. A camera
-/// with any velocity (`-cv`) sees the same events with another Doppler factor, which cancels in the
-/// ratio to lights that rest with the surface.
-#[test]
-fn the_camera_does_not_change_what_falls_on_a_surface() {
-    let mut random = Random(19);
-    for case in 0..40 {
-        let vector = |v: DVec3| format!("{} {} {}", v.x, v.y, v.z);
-        let corners: Vec<String> = ["a", "b", "c"]
-            .iter()
-            .map(|name| format!("v {name} {};", vector(random.in_cube(10.0))))
-            .collect();
-        let body = vector(0.8 * random.direction());
-        let mut lights = |velocity: &dyn Fn(&mut Random) -> String| {
-            ["0.3", "0.4 3 -5 8", "0.5 4 -3 6 0", "0.6 -7 2 1 0"]
-                .iter()
-                .map(|light| format!("l {light} {};", velocity(&mut random)))
-                .collect::<String>()
-        };
-        let moving = lights(&|random| format!("<{}>", vector(0.8 * random.direction())));
-        let resting = lights(&|_| String::new());
-        let config = Config { keep: true, ..lit() };
-        let values = |lights: &str, camera: DVec3| -> Vec<f64> {
-            let text =
-                format!("c grey 0.5; {} f (a b c) grey <{body}>; {lights} cam -ep 1 2 3;", corners.join(" "));
-            let lorentz_config = uglorentz::Config {
-                camera_velocity: Some(camera),
-                pieces: uglorentz::Pieces::PerEdge(1),
-                ..uglorentz::Config::default()
-            };
-            let scene = scenes::parse(&doppler(&lorentz(text.as_bytes(), &lorentz_config), &config));
-            let value = |color: ugscene::ColorId| match scene.colors[color.index()].value {
-                ColorValue::Hsv { value, .. } => value,
-                other => panic!("{other:?}"),
-            };
-            scene.vertices.iter().map(|vertex| value(vertex.color.expect("a colour"))).collect()
-        };
-        let camera = 0.8 * random.direction();
-        let ratio = |camera: DVec3| -> Vec<f64> {
-            values(&moving, camera).iter().zip(values(&resting, camera)).map(|(a, b)| a / b).collect()
-        };
-        for (still, driven) in ratio(DVec3::ZERO).into_iter().zip(ratio(camera)) {
-            // The integral of ambient light over rings of directions depends slightly on the axes.
-            assert!((still / driven - 1.0).abs() < 1e-3, "case {case}: {still}, {driven}");
-        }
-    }
-}
-
 /// Without lights nothing changes, and the renderer uses its default lights.
 #[test]
 fn no_lights_no_change() {
@@ -242,27 +143,6 @@ fn numbers(text: &[u8]) -> Vec<(String, [f64; 3])> {
         (scene.names.get(vertex.name).to_string(), rgb)
     };
     scene.vertices.iter().map(of).collect()
-}
-
-/// Colours stay finite at all speeds.
-#[test]
-fn no_speed_breaks_it() {
-    for (body, light) in
-        [(0.999_999_999, -0.999_999_999), (-0.999_999_999_999, 0.0), (0.0, 0.999_999_999_999)]
-    {
-        let lights = with_velocity(&format!("<0 {light} 0>"));
-        let velocity = Velocity::from_beta(DVec3::new(0.0, body, 0.0)).unwrap();
-        let pieces = uglorentz::Pieces::PerEdge(4);
-        let config =
-            uglorentz::Config { velocity: Some(velocity.beta()), pieces, ..uglorentz::Config::default() };
-        for law in [Brightness::Report, Brightness::Bolometric] {
-            let seen = doppler(
-                &lorentz(&room(&lights), &config),
-                &Config { shift: ColorShift::hues(true, law), ..lit() },
-            );
-            assert!(numbers(&seen).iter().flat_map(|(_, rgb)| rgb).all(|part| part.is_finite()));
-        }
-    }
 }
 
 /// A white surface lit by a black body: Planck's law at D_l D T, times D_l⁻² for the solid angle of
@@ -309,74 +189,5 @@ fn full_daylight_shows_colours_as_they_are() {
     for (lit, plain) in colors(true).into_iter().flatten().zip(colors(false).into_iter().flatten()) {
         // Reflectances are interpolated between nodes.
         assert!((lit - plain).abs() < 3e-6 * plain, "{lit} {plain}");
-    }
-}
-
-/// Four tiles under a lamp that flies by: subdivided for its light (`-sl`), the picture equals that
-/// of many uniform pieces.
-#[test]
-fn large_faces_get_the_vertices_that_their_light_needs() {
-    let floor = "c grey 0.9; v a -12 -6 0; v b 0 -6 0; v c 12 -6 0; v d -12 0 0; v e 0 0 0; v f 12 0 0;
-        v g -12 6 0; v h 0 6 0; v i 12 6 0;
-        f (a b e d) grey; f (b c f e) grey; f (d e h g) grey; f (e f i h) grey;
-        cam -ep 0 -13 6.5 -vc 0 0 0.5 -ud 0 0 1 -va 62 48;";
-    let mut pipe = Pipe::default();
-    pipe.rainbow.picture.size = [160, 120];
-    for light in [
-        "l lamp 0.6 5 0 2 0 <0.4 0 0>;",
-        "l lamp 0.8 -2 1 1.5 0;",
-        "l 0.1; l 0.5 3 -1 2 0 <0 0.3 0>; l 0.3 -6 2 3 0;",
-        "l lamp 0.6 5 0 2 0 2 <0.4 0 0>;",
-        "l lamp 0.8 -2 1 1.5 0 1.8;",
-    ] {
-        let text = format!("{floor} {light}").into_bytes();
-        let base = uglorentz::Config::default();
-        let draw = |config: &uglorentz::Config| {
-            let baked = doppler(&lorentz(&text, config), &lit());
-            (baked.iter().filter(|&&byte| byte == b'\n').count(), decode(&rainbow(&baked, &pipe.rainbow)))
-        };
-        let (_, expected) =
-            draw(&uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(128), ..base.clone() });
-        let (n_few, few) = draw(&base);
-        let (n_lines, found) = draw(&uglorentz::Config { light_error: 0.02, ..base });
-        let off =
-            |picture| ugtests::picture::difference(&expected, picture).map_or(u8::MAX, |found| found.levels);
-        // Two percent of the light are five levels, and more where D of the lamp is above 1.
-        assert!(off(&found) <= 8, "{light}: {}", off(&found));
-        assert!(off(&few) > 16, "{light}: {}", off(&few));
-        assert!(n_lines < 6000, "{light}: {n_few} and {n_lines} lines");
-    }
-}
-
-/// The same with a moving camera. The floor, whose edges look curved, extends beyond the picture,
-/// because one sample more or less at an outline would change many levels.
-#[test]
-fn the_camera_may_move_over_large_faces() {
-    let floor = "c grey 0.9; v a -60 -8 0; v b 60 -8 0; v c 60 60 0; v d -60 60 0; f (a b c d) grey;
-        cam -ep 0 -6 3 -vc 0 0 0 -ud 0 0 1 -va 30 20;";
-    let mut pipe = Pipe::default();
-    pipe.rainbow.picture.size = [80, 60];
-    for camera in [DVec3::new(0.3, 0.2, 0.0), DVec3::new(0.0, 0.2, 0.0), DVec3::new(-0.3, 0.1, 0.1)] {
-        let text = format!("{floor} l 0.1; l 0.3 3 -1 2 0 <0 0.3 0>; l 0.2 -6 2 3 0;").into_bytes();
-        // Coarse, so that subdivision for the shape is not fine enough for the light.
-        let base = uglorentz::Config {
-            camera_velocity: Some(camera),
-            pieces: uglorentz::Pieces::UpTo(5e-3),
-            color_error: f64::INFINITY,
-            ..uglorentz::Config::default()
-        };
-        let config = Config { shift: ColorShift::hues(true, Brightness::None), ..lit() };
-        let draw = |lorentz_config: &uglorentz::Config| {
-            decode(&rainbow(&doppler(&lorentz(&text, lorentz_config), &config), &pipe.rainbow))
-        };
-        let expected = draw(&uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(256), ..base.clone() });
-        let off = |config: &uglorentz::Config| {
-            ugtests::picture::difference(&expected, &draw(config)).map_or(0, |found| found.levels)
-        };
-        let uncut = off(&base);
-        let cut = off(&uglorentz::Config { light_error: 0.01, ..base });
-        assert!(cut <= 4 && uncut >= 8, "{camera}: {cut}, and {uncut} without");
-        let darkest = expected.pixels().map(|pixel| pixel.0[0]).min();
-        assert!(darkest > Some(10), "{camera}: the floor fills the picture, {darkest:?}");
     }
 }

@@ -12,10 +12,8 @@ mod lights;
 mod linear_light;
 mod moving_camera;
 mod notice;
-mod outlines;
 mod rest;
 mod silhouettes;
-mod switches;
 
 use std::collections::HashMap;
 
@@ -23,9 +21,9 @@ use glam::DVec3;
 use ugscene::{Color, Scene, Vertex};
 use ugtesting::Random;
 
-/// Triangles with corners anywhere within 10 of the origin, `n` of them, each in a colour of the
-/// list in turn. Vertices are called `a0`, `b0`, `c0`, `a1`, ….
-fn triangles(random: &mut Random, n: usize, colors: &[&str]) -> (String, HashMap<String, DVec3>) {
+/// Triangles with corners anywhere within 10 of the origin, `n` of them. Vertices are called `a0`,
+/// `b0`, `c0`, `a1`, ….
+fn triangles(random: &mut Random, n: usize, color: &str) -> (String, HashMap<String, DVec3>) {
     let mut text = String::new();
     let mut points = HashMap::new();
     for row in 0..n {
@@ -34,7 +32,6 @@ fn triangles(random: &mut Random, n: usize, colors: &[&str]) -> (String, HashMap
             text += &format!("v {name} {:?} {:?} {:?};\n", p.x, p.y, p.z);
             points.insert(name, p);
         }
-        let color = colors.get(row % colors.len().max(1)).copied().unwrap_or_default();
         text += &format!("f (a{row} b{row} c{row}) {color};\n");
     }
     (text, points)

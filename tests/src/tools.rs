@@ -22,85 +22,68 @@ pub struct Tool {
     pub checks: &'static str,
 }
 
+const fn tool(
+    program: &'static str,
+    option: &'static str,
+    package: &'static str,
+    checks: &'static str,
+) -> Tool {
+    Tool { program, option, package, checks }
+}
+
 /// Renders PostScript and PDF.
-pub const GHOSTSCRIPT: Tool = Tool {
-    program: "gs",
-    option: "--version",
-    package: "ghostscript",
-    checks: "PostScript and PDF files show the pixels of the PNG",
-};
+pub const GHOSTSCRIPT: Tool =
+    tool("gs", "--version", "ghostscript", "PostScript and PDF files show the pixels of the PNG");
 
 /// Renders PDF.
-pub const POPPLER: Tool = Tool {
-    program: "pdftoppm",
-    option: "-v",
-    package: "poppler-utils",
-    checks: "PDF figures show the same as the PNG",
-};
+pub const POPPLER: Tool = tool("pdftoppm", "-v", "poppler-utils", "PDF figures show the same as the PNG");
 
 /// Renders SVG.
-pub const RSVG: Tool = Tool {
-    program: "rsvg-convert",
-    option: "--version",
-    package: "librsvg2-bin",
-    checks: "SVG figures show the same as the PNG",
-};
+pub const RSVG: Tool =
+    tool("rsvg-convert", "--version", "librsvg2-bin", "SVG figures show the same as the PNG");
 
 /// A browser.
-pub const CHROMIUM: Tool = Tool {
-    program: "chromium",
-    option: "--version",
-    package: "chromium",
-    checks: "SVG figures look the same in a browser",
-};
+pub const CHROMIUM: Tool =
+    tool("chromium", "--version", "chromium", "SVG figures look the same in a browser");
 
 /// Encodes films.
-pub const FFMPEG: Tool = Tool {
-    program: "ffprobe",
-    option: "-version",
-    package: "ffmpeg",
-    checks: "films are marked as others expect it",
-};
+pub const FFMPEG: Tool = tool("ffprobe", "-version", "ffmpeg", "films are marked as others expect it");
 
 /// Reads EXR, HDR and PFM.
-pub const OIIOTOOL: Tool = Tool {
-    program: "oiiotool",
-    option: "--help",
-    package: "openimageio-tools",
-    checks: "files of linear light are read by others as they were written",
-};
+pub const OIIOTOOL: Tool = tool(
+    "oiiotool",
+    "--help",
+    "openimageio-tools",
+    "files of linear light are read by others as they were written",
+);
 
 /// Runs commands on a terminal.
-pub const SCRIPT: Tool = Tool {
-    program: "script",
-    option: "--version",
-    package: "bsdutils",
-    checks: "programs answer mistakes at a terminal as the documentation says",
-};
+pub const SCRIPT: Tool = tool(
+    "script",
+    "--version",
+    "bsdutils",
+    "programs answer mistakes at a terminal as the documentation says",
+);
 
 /// Emulates other processors.
-pub const QEMU: Tool = Tool {
-    program: "qemu-x86_64",
-    option: "--version",
-    package: "qemu-user",
-    checks: "the programs write the same bytes on processors with other instructions",
-};
+pub const QEMU: Tool = tool(
+    "qemu-x86_64",
+    "--version",
+    "qemu-user",
+    "the programs write the same bytes on processors with other instructions",
+);
 
 /// Checks man pages.
-pub const MANDOC: Tool =
-    Tool { program: "mandoc", option: "/dev/null", package: "mandoc", checks: "man pages are valid" };
+pub const MANDOC: Tool = tool("mandoc", "/dev/null", "mandoc", "man pages are valid");
 
 /// A shell.
-pub const BASH: Tool =
-    Tool { program: "bash", option: "--version", package: "bash", checks: "bash completes options" };
+pub const BASH: Tool = tool("bash", "--version", "bash", "bash completes options");
 
 /// A shell.
-pub const ZSH: Tool =
-    Tool { program: "zsh", option: "--version", package: "zsh", checks: "zsh completes options" };
+pub const ZSH: Tool = tool("zsh", "--version", "zsh", "zsh completes options");
 
 /// A shell.
-pub const FISH: Tool =
-    Tool { program: "fish", option: "--version", package: "fish", checks: "fish completes options" };
+pub const FISH: Tool = tool("fish", "--version", "fish", "fish completes options");
 
 /// Tools for the checks in `cargo test`: all but [`QEMU`].
 pub const TOOLS: [Tool; 11] =

@@ -147,32 +147,3 @@ fn words(tokens: TokenStream) -> Vec<String> {
     });
     words.collect()
 }
-
-#[test]
-fn code_is_told_from_comments_and_tests() {
-    let check = |text: &str, production, test| {
-        assert_eq!(count(text).unwrap().lines, Lines { production, test }, "{text}");
-    };
-    check("", 0, 0);
-    check("//! a\n\n/// b\nfn f() {\n    // c\n    1;\n}\n", 3, 0);
-    check("/* a\n b */ struct A; // c\n", 1, 0);
-    check("const A: &str = \"// a\n// b\";\n", 2, 0);
-    check("fn f() {}\n#[cfg(test)]\nmod tests {\n    /// a\n    fn g() {}\n}\nfn h() {}\n", 2, 4);
-    check("#[cfg(test)]\nuse a::b;\n#[cfg(not(test))]\nuse a::c;\n", 2, 2);
-    check("#[cfg(all(test, unix))]\nfn f(a: [u8; 2]) {\n}\nfn g() {}\n", 1, 3);
-}
-
-#[test]
-fn files_of_test_modules_are_tests() {
-    let files = [
-        ("src/lib.rs", "mod a;\n#[cfg(test)]\nmod tests;\n"),
-        ("src/a.rs", "fn f() {}\n#[cfg(test)]\nmod deep;\n"),
-        ("src/a/deep.rs", "fn f() {}\n"),
-        ("src/tests.rs", "mod more;\n"),
-        ("src/tests/more.rs", "fn f() {}\n"),
-        ("tests/main.rs", "fn f() {}\n"),
-        ("examples/e.rs", "fn main() {}\n"),
-    ];
-    let files = files.map(|(path, text)| (PathBuf::from("/x").join(path), text.to_string()));
-    assert_eq!(of_crate(&files.into(), Path::new("/x")), Lines { production: 2, test: 8 });
-}

@@ -41,12 +41,3 @@ fn raw_length(here: &str, hashes: usize) -> usize {
     let end = format!("\"{}", "#".repeat(hashes));
     here[1..].find(&end).map_or(here.len(), |at| at + 1)
 }
-
-#[test]
-fn literals_are_told_from_comments_and_code() {
-    let source = "let a = \"one \\\" two\"; // \"no\"\n/// \"no\"\nlet b = '\"'; f(r#\"three\"four\"#, 'x', \"\");\n\
-                  #[cfg(test)]\nmod tests { \"no\" }";
-    let found = of(source);
-    let expected = [(0, "one \\\" two"), (2, "three\"four"), (2, "")];
-    assert!(found.iter().map(|(line, text)| (*line, text.as_str())).eq(expected), "{found:?}");
-}

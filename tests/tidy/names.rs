@@ -58,18 +58,3 @@ fn words_after<'c>(code: &'c str, begin: &'c str) -> impl Iterator<Item = &'c st
     let rests = code.match_indices(begin).map(|(at, begin)| &code[at + begin.len()..]);
     rests.map(|rest| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or(rest))
 }
-
-#[test]
-fn public_types_are_found() {
-    let files = [
-        ("lib.rs", "mod a;\npub mod b;\npub use a::{Circle, area};\npub use c::*;\npub use other::Thing;"),
-        ("a.rs", "mod inner;\npub(crate) use inner::Circle;\npub struct Hidden;\npub fn area() {}"),
-        ("a/inner.rs", "pub struct Circle;"),
-        ("b.rs", "pub enum Shape {}\n// pub struct Remark;\npub(crate) struct Inner;\nstruct Own;"),
-        ("c/mod.rs", "mod d;\npub use d::Line;"),
-        ("c/d.rs", "pub type Line = u8;\npub trait Hidden {}"),
-        ("main.rs", "pub struct Program;"),
-    ];
-    let files = files.into_iter().map(|(path, text)| (path.to_owned(), text.to_owned())).collect();
-    assert_eq!(public_types(&files), ["Circle", "Line", "Shape"]);
-}

@@ -5,7 +5,6 @@ mod bound;
 mod lamps;
 mod laws;
 mod paths;
-mod pixels;
 mod rays;
 mod text;
 mod vertices;

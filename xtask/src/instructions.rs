@@ -16,7 +16,7 @@ use std::process::Command;
 
 use image::{Rgb, RgbImage};
 
-use crate::bench::Outcome;
+use crate::Outcome;
 use crate::programs;
 
 /// The table: name of the work, command, millions of instructions, and why the row was raised.

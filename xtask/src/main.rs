@@ -23,7 +23,6 @@
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
-mod bench;
 mod directions;
 mod gallery;
 mod globe;
@@ -46,6 +45,7 @@ mod worlds;
 
 use clap::{Parser, Subcommand};
 use std::error::Error;
+use std::ffi::OsString;
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -94,8 +94,13 @@ enum Task {
     },
     /// Measure running times, beside those of another commit if wanted, as Markdown
     ///
-    /// Requires hyperfine, which Debian and Homebrew have a package of.
-    Bench(bench::Args),
+    /// Requires hyperfine, which Debian and Homebrew have a package of. xtask/bench.sh lists the
+    /// benchmarks and their options.
+    Bench {
+        /// Benchmark and options
+        #[arg(trailing_var_arg = true, allow_hyphen_values = true)]
+        words: Vec<OsString>,
+    },
     /// Count the instructions that the programs execute on fixed work, and compare with
     /// xtask/instructions.csv, as Markdown
     ///
@@ -158,6 +163,8 @@ enum Task {
     },
 }
 
+type Outcome<T> = Result<T, Box<dyn Error>>;
+
 fn main() -> ExitCode {
     match run(&Args::parse().task) {
         Ok(()) => ExitCode::SUCCESS,
@@ -175,7 +182,7 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
     error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
 }
 
-fn run(task: &Task) -> Result<(), Box<dyn Error>> {
+fn run(task: &Task) -> Outcome<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match task {
         Task::Teapot { squares } => teapot::write(&mut out, *squares)?,
@@ -183,7 +190,7 @@ fn run(task: &Task) -> Result<(), Box<dyn Error>> {
         Task::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
         Task::Directions { beta } => directions::write(&mut out, *beta)?,
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
-        Task::Bench(args) => bench::write(&mut out, args)?,
+        Task::Bench { words } => scripts::bench(words)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
         Task::Instructions(args) => instructions::write(&mut out, args)?,
         Task::Scaling(args) => scaling::write(&mut out, args)?,

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::bench::Outcome;
+use crate::Outcome;
 use crate::{instructions, programs};
 
 /// The greatest exponent.

@@ -1,13 +1,23 @@
-//! Runs the scripts of the repository that need other tools: packages, the Python package, and
-//! workflows on a Slurm.
+//! Runs the scripts of the repository that need other tools: benchmarks, packages, the Python
+//! package, and workflows on a Slurm.
 
-use std::ffi::OsStr;
+use std::ffi::{OsStr, OsString};
 use std::io;
 use std::process::Command;
 
 use ugtests::scenes;
 
 use crate::programs;
+
+/// Builds the programs and runs `xtask/bench.sh` with them, this program, and more `words`.
+pub fn bench(words: &[OsString]) -> io::Result<()> {
+    let [programs, xtask] = [programs::released(), std::env::current_exe()?];
+    let own = [programs.as_os_str(), xtask.as_os_str()];
+    run(
+        "xtask/bench.sh",
+        &own.into_iter().chain(words.iter().map(|word| word.as_os_str())).collect::<Vec<_>>(),
+    )
+}
 
 /// Builds the programs and runs `batch/check.sh` with them.
 pub fn cluster() -> io::Result<()> {

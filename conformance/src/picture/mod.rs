@@ -126,91 +126,46 @@ impl fmt::Display for MeasuredQuantity {
 }
 
 const SHAPE: DrawOptions = DrawOptions { shift: false, spectral: false, samples: 1 };
+const PATCHES: DrawOptions = DrawOptions { samples: 2, ..SHAPE };
+const SHIFTED: DrawOptions = DrawOptions { shift: true, ..PATCHES };
+const SPECTRA: DrawOptions = DrawOptions { spectral: true, ..SHIFTED };
+
+/// Cases by name, size, lens, options and measurement, each with its topic and description.
+macro_rules! cases {
+    ($($name:literal $size:tt $lens:ident $options:ident $measure:path: $about:literal;)*) => {
+        [$(PictureCase {
+            name: $name,
+            about: $about,
+            scene: include_str!(concat!("../../scenes/", $name, ".ug")),
+            size: $size,
+            lens: Lens::$lens,
+            options: $options,
+            measure: $measure,
+        }),*]
+    };
+}
 
 /// All cases.
-pub const CASES: [PictureCase; 9] = [
-    PictureCase {
-        name: "sphere",
-        about: "T11: the outline of a moving sphere is a circle on the sphere of directions",
-        scene: include_str!("../../scenes/sphere.ug"),
-        size: [600, 600],
-        lens: Lens::Pinhole,
-        options: SHAPE,
-        measure: sphere::measure,
-    },
-    PictureCase {
-        name: "panorama",
-        about: "T11: the same outline in a panorama, in both hemispheres",
-        scene: include_str!("../../scenes/panorama.ug"),
-        size: [2000, 1000],
-        lens: Lens::Panorama,
-        options: SHAPE,
-        measure: sphere::measure_panorama,
-    },
-    PictureCase {
-        name: "cube",
-        about: "T08, T09: a distant cube seen at right angles to its motion looks rotated by asin 0.8",
-        scene: include_str!("../../scenes/cube.ug"),
-        size: [800, 800],
-        lens: Lens::Pinhole,
-        options: SHAPE,
-        measure: cube::measure,
-    },
-    PictureCase {
-        name: "edge",
-        about: "T10: a straight edge perpendicular to the motion appears as a hyperbola",
-        scene: include_str!("../../scenes/edge.ug"),
-        size: [600, 450],
-        lens: Lens::Pinhole,
-        options: SHAPE,
-        measure: edge::measure,
-    },
-    PictureCase {
-        name: "depth",
-        about: "T36: occlusion is determined in the frame of the eye",
-        scene: include_str!("../../scenes/depth.ug"),
-        size: [400, 400],
-        lens: Lens::Pinhole,
-        options: SHAPE,
-        measure: depth::measure,
-    },
-    PictureCase {
-        name: "wide",
-        about: "T19: D depends on the direction, not on the aspect ratio of the picture",
-        scene: include_str!("../../scenes/wide.ug"),
-        size: [640, 360],
-        lens: Lens::Pinhole,
-        options: DrawOptions { shift: true, samples: 2, ..SHAPE },
-        measure: colours::measure_wide,
-    },
-    PictureCase {
-        name: "shift",
-        about: "T22: the shift is applied once",
-        scene: include_str!("../../scenes/shift.ug"),
-        size: [400, 200],
-        lens: Lens::Pinhole,
-        options: DrawOptions { shift: true, samples: 2, ..SHAPE },
-        measure: colours::measure_shift,
-    },
-    PictureCase {
-        name: "blackbody",
-        about: "T22: a moving black body has the colour of a hotter or colder one",
-        scene: include_str!("../../scenes/blackbody.ug"),
-        size: [400, 100],
-        lens: Lens::Pinhole,
-        options: DrawOptions { shift: true, spectral: true, samples: 2 },
-        measure: colours::measure_moving,
-    },
-    PictureCase {
-        name: "colours",
-        about: "T22: black bodies and greys on an sRGB screen",
-        scene: include_str!("../../scenes/colours.ug"),
-        size: [600, 200],
-        lens: Lens::Pinhole,
-        options: DrawOptions { samples: 2, ..SHAPE },
-        measure: colours::measure_patches,
-    },
-];
+pub const CASES: [PictureCase; 9] = cases! {
+    "sphere" [600, 600] Pinhole SHAPE sphere::measure:
+        "T11: the outline of a moving sphere is a circle on the sphere of directions";
+    "panorama" [2000, 1000] Panorama SHAPE sphere::measure_panorama:
+        "T11: the same outline in a panorama, in both hemispheres";
+    "cube" [800, 800] Pinhole SHAPE cube::measure:
+        "T08, T09: a distant cube seen at right angles to its motion looks rotated by asin 0.8";
+    "edge" [600, 450] Pinhole SHAPE edge::measure:
+        "T10: a straight edge perpendicular to the motion appears as a hyperbola";
+    "depth" [400, 400] Pinhole SHAPE depth::measure:
+        "T36: occlusion is determined in the frame of the eye";
+    "wide" [640, 360] Pinhole SHIFTED colours::measure_wide:
+        "T19: D depends on the direction, not on the aspect ratio of the picture";
+    "shift" [400, 200] Pinhole SHIFTED colours::measure_shift:
+        "T22: the shift is applied once";
+    "blackbody" [400, 100] Pinhole SPECTRA colours::measure_moving:
+        "T22: a moving black body has the colour of a hotter or colder one";
+    "colours" [600, 200] Pinhole PATCHES colours::measure_patches:
+        "T22: black bodies and greys on an sRGB screen";
+};
 
 /// Finds a case by its name.
 pub fn case(name: &str) -> Option<&'static PictureCase> {

@@ -175,22 +175,6 @@ mod tests {
     }
 
     #[test]
-    fn the_mean_of_equal_pictures_is_the_picture() {
-        let pixel = |idx: u8| [0.1, 1e-7 * f32::from(idx), 345.678, f32::from(idx) / 7.0];
-        let opaque = |idx: u8| [0.1, 1e-7 * f32::from(idx), 345.678, 1.0];
-        for (is_opaque, pixels) in
-            [(false, (1..8).map(pixel).collect::<Vec<_>>()), (true, (1..8).map(opaque).collect())]
-        {
-            for n_pictures in [1, 3, 16, 17, 1000] {
-                let frame = LinearFrame::new([7, 1], is_opaque, pixels.clone());
-                let mut sum = Sum::default();
-                (0..n_pictures).for_each(|_| sum.add(&frame));
-                assert_eq!(sum.mean().pixels(), frame.pixels(), "{n_pictures}");
-            }
-        }
-    }
-
-    #[test]
     fn what_is_not_covered_has_no_colour() {
         let mut sum = Sum::default();
         sum.add(&LinearFrame::new([1, 1], false, vec![[0.5, 0.25, 1.0, 1.0]]));

@@ -15,28 +15,3 @@ pub fn encode(frame: &LinearFrame) -> Vec<u8> {
     }
     file
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn samples_have_the_position_and_byte_order_of_the_format() {
-        for frame in crate::test_frames::linear_frames() {
-            let file = encode(&frame);
-            let (width, height) = (frame.width() as usize, frame.height() as usize);
-            let data = &file[file.len() - 12 * width * height..];
-            assert_eq!(file[..file.len() - data.len()], *format!("PF\n{width} {height}\n-1.0\n").as_bytes());
-            for y in 0..height {
-                for x in 0..width {
-                    let at = 12 * ((height - 1 - y) * width + x);
-                    for (bytes, light) in
-                        data[at..at + 12].chunks(4).zip(frame.light_of(frame.pixels()[y * width + x]))
-                    {
-                        assert_eq!(f32::from_le_bytes(bytes.try_into().unwrap()), light);
-                    }
-                }
-            }
-        }
-    }
-}

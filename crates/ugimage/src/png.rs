@@ -186,7 +186,6 @@ fn add_text(encoder: &mut Encoder<'_, &mut Vec<u8>>, key: &str, text: &str) -> R
 mod tests {
     use super::*;
     use crate::PanoramaArea;
-    use crate::test_frames::frames;
 
     /// Decodes with the `png` crate: pixels, texts, and the colour type.
     fn decode(file: &[u8]) -> (png::OutputInfo, Vec<u8>, png::Info<'static>) {
@@ -195,23 +194,6 @@ mod tests {
         let output = reader.next_frame(&mut pixels).unwrap();
         reader.finish().unwrap();
         (output, pixels, reader.info().clone())
-    }
-
-    #[test]
-    fn pixels_round_trip() {
-        for frame in frames() {
-            let (output, pixels, info) = decode(&encode(&frame, &Metadata::default(), Compression::Fast));
-            assert_eq!((output.width, output.height), (frame.width(), frame.height()));
-            assert_eq!(info.srgb, Some(SrgbRenderingIntent::Perceptual));
-            let expected: Vec<u8> = if frame.is_opaque() {
-                assert_eq!(output.color_type, ColorType::Rgb);
-                frame.pixels().iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect()
-            } else {
-                assert_eq!(output.color_type, ColorType::Rgba);
-                frame.pixels().as_flattened().to_vec()
-            };
-            assert_eq!(pixels, expected);
-        }
     }
 
     /// A smooth image, as rendered images usually are.

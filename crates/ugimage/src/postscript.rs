@@ -176,74 +176,10 @@ fn digits(word: u32) -> [u8; 5] {
     [52_200_625, 614_125, 7_225, 85, 1].map(|unit| b'!' + (word / unit % 85) as u8)
 }
 
-/// Independent decoders, so that the writers are not tested against themselves.
-#[cfg(test)]
-mod decode {
-    /// The text between the lines `start` and `end`.
-    pub fn between<'a>(file: &'a [u8], start: &str, end: &str) -> &'a [u8] {
-        let find = |from: usize, text: &str| {
-            from + file[from..].windows(text.len()).position(|window| window == text.as_bytes()).unwrap()
-        };
-        let from = find(0, start) + start.len();
-        &file[from..find(from, end)]
-    }
-
-    pub fn ascii85(text: &[u8]) -> Vec<u8> {
-        let mut bytes = Vec::new();
-        let mut group = Vec::new();
-        for &c in text.iter().filter(|c| !c.is_ascii_whitespace()) {
-            match c {
-                b'z' => bytes.extend([0; 4]),
-                b'!'..=b'u' => group.push(c - b'!'),
-                _ => panic!("{c} is no base 85 digit"),
-            }
-            if group.len() == 5 {
-                bytes.extend(value(&group).to_be_bytes());
-                group.clear();
-            }
-        }
-        if !group.is_empty() {
-            let n_bytes = group.len() - 1;
-            group.resize(5, 84);
-            bytes.extend(&value(&group).to_be_bytes()[..n_bytes]);
-        }
-        bytes
-    }
-
-    fn value(group: &[u8]) -> u32 {
-        let value = group.iter().fold(0u64, |value, &digit| value * 85 + u64::from(digit));
-        u32::try_from(value).unwrap()
-    }
-
-    pub fn run_length(bytes: &[u8]) -> Vec<u8> {
-        let mut out = Vec::new();
-        let mut bytes = bytes.iter().copied();
-        loop {
-            match bytes.next().unwrap() {
-                128 => break,
-                n @ 0..128 => out.extend(bytes.by_ref().take(usize::from(n) + 1)),
-                n => out.extend(std::iter::repeat_n(bytes.next().unwrap(), 257 - usize::from(n))),
-            }
-        }
-        assert_eq!(bytes.next(), None, "nothing follows the end mark");
-        out
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::test_frames::frames;
-
-    #[test]
-    fn pixels_round_trip() {
-        for frame in frames() {
-            let image = color_image(&frame);
-            let runs = decode::ascii85(decode::between(&image, "UgImage\n", "~>"));
-            let pixels = decode::run_length(&runs);
-            assert_eq!(pixels, over_white(&frame).as_flattened());
-        }
-    }
 
     #[test]
     fn runs_are_coded() {

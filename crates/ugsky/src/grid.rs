@@ -102,8 +102,6 @@ pub(crate) struct Lines {
     pub root: Vec<f32>,
     /// `root` times `cos_square`.
     pub root_cos_square: Vec<f32>,
-    /// [`Row::ladder`].
-    pub ladder: Vec<u32>,
 }
 
 impl Lines {
@@ -117,7 +115,6 @@ impl Lines {
             cos_square: list(|row| row.cos * row.cos),
             root: list(|row| f64::from(row.area).sqrt()),
             root_cos_square: list(|row| f64::from(row.area).sqrt() * row.cos * row.cos),
-            ladder: rows.iter().map(|row| row.ladder as u32).collect(),
         }
     }
 }

@@ -6,7 +6,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f32x16};
 use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, hue_to_wavelength, wavelength_to_hue};
 
-use crate::flat::Seen;
+use crate::sample::Seen;
 use crate::transfer::{decode, encode};
 
 /// Pixels in one SIMD vector.

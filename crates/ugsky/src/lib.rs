@@ -35,7 +35,6 @@
 mod arrangement;
 mod blocks;
 mod cube;
-mod flat;
 mod footprint;
 mod grid;
 mod hues;
@@ -55,15 +54,14 @@ mod window;
 
 pub use arrangement::Arrangement;
 pub use cube::CubeMap;
-pub use flat::{FlatFilm, Seen};
 pub use grid::Extent;
 pub use observer::{Observer, SkyRay};
 pub use panorama::{Panorama, PanoramaError};
 pub use pictures::DecodedPicture;
-pub use sample::Sampler;
+pub use sample::{Sampler, Seen};
 pub use shade::{Shade, SkyColors};
 pub use sky::{Band, Layer, Sky, VISIBLE_NM};
 pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
 pub use stars::{Star, StarLight, StarOptions};
 pub use texels::Texels;
-pub use view::{SkyLight, SkyView};
+pub use view::{FlatFilm, SkyLight, SkyView};

@@ -145,38 +145,6 @@ impl Panorama {
 mod tests {
     use super::*;
 
-    /// All levels have the mean of the panorama, weighted by area, odd sizes too.
-    #[test]
-    fn levels_keep_the_mean() {
-        for (size, alpha) in [([256, 128], 1.0), ([256, 128], 0.5), ([301, 147], 0.2), ([288, 133], 1.0)] {
-            let n_texels = size[0] as usize * size[1] as usize;
-            let texel = |idx: usize| {
-                let alpha = if idx.is_multiple_of(3) { alpha } else { 1.0 };
-                [(idx as f32 * 0.618_034).fract(), (idx / 7 % 5) as f32, 1.0, alpha]
-            };
-            let texels = Texels::Light((0..n_texels).map(texel).collect());
-            let panorama = Panorama::new(size, texels, Extent::FULL).unwrap();
-            let mean = |level: usize| {
-                let (mut sum, mut total) = ([0.0_f64; 4], 0.0);
-                for (at, row) in panorama.grids[level].rows.iter().enumerate() {
-                    for idx in 0..panorama.ladder[row.ladder].n {
-                        let area = f64::from(row.area);
-                        let texel = panorama.pyramid.texels(level, at, idx, 1).get(0);
-                        (0..4).for_each(|i| sum[i] += area * f64::from(texel[i]));
-                        total += area;
-                    }
-                }
-                sum.map(|sum| sum / total)
-            };
-            let all: Vec<_> = (0..panorama.grids.len()).map(mean).collect();
-            assert!(all.len() >= 2, "{size:?}");
-            for level in &all {
-                let near = |i: usize| (level[i] - all[0][i]).abs() < 2e-5 * all[0][i];
-                assert!((0..4).all(near), "{size:?}: {all:?}");
-            }
-        }
-    }
-
     #[test]
     fn what_is_no_panorama_is_refused() {
         let new = |size: [u32; 2], n: usize, extent: Extent| {

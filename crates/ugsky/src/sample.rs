@@ -9,13 +9,13 @@ use crate::footprint::{CURVED, Ellipse, Kernel, SLACK, correction_of, near_atan2
 use crate::grid::{CHUNK, Columns, Grid, PAD, Row};
 use crate::observer::SkyRay;
 use crate::panorama::Panorama;
-use crate::window::{self, Buffers};
+use crate::window::{self, Buffers, EACH, Footprints};
 
 /// Finds the light of footprints in a panorama.
 pub struct Sampler<'a> {
-    pub(crate) panorama: &'a Panorama,
-    pub(crate) simd: Level,
-    pub(crate) buffers: Buffers,
+    panorama: &'a Panorama,
+    simd: Level,
+    buffers: Buffers,
     runs: Vec<Run>,
     /// The weights of all runs, each in whole chunks.
     chunks: Vec<Weights>,
@@ -23,6 +23,22 @@ pub struct Sampler<'a> {
     /// The sum of all weights of a footprint much larger than the panorama, of which only the
     /// texels are weighed.
     total: Option<f32>,
+}
+
+/// The light of sixteen footprints in the frame of the sky.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seen {
+    /// Red, green and blue times alpha, and alpha.
+    pub light: [[f32; EACH]; 4],
+    /// The Doppler factors.
+    pub doppler: [f32; EACH],
+    /// False for footprints that have to be divided.
+    pub is_found: [bool; EACH],
+}
+
+impl Seen {
+    /// Number of footprints.
+    pub const N: usize = EACH;
 }
 
 /// Weights of neighbouring texels, which are 0 after the end of a run.
@@ -75,20 +91,47 @@ impl Sampler<'_> {
     /// seam at the date line or the poles.
     #[must_use]
     pub fn light(&mut self, ray: &SkyRay, spread: f64) -> Option<[f32; 4]> {
-        dispatch!(self.simd, simd => self.light_on(simd, ray, spread))
+        let mut rays = [None; Seen::N];
+        rays[0] = Some(*ray);
+        let seen = self.see(&rays, spread);
+        seen.is_found[0].then(|| seen.light.map(|channel| channel[0]))
+    }
+
+    /// Like [`Sampler::light`], of several footprints; black without a ray.
+    #[must_use]
+    pub fn see(&mut self, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
+        dispatch!(self.simd, simd => self.see_on(simd, rays, spread))
     }
 
     #[inline(always)]
-    fn light_on<S: Simd>(&mut self, simd: S, ray: &SkyRay, spread: f64) -> Option<[f32; 4]> {
-        let ellipse = Ellipse::new(ray, spread);
-        if !ellipse.is_small() {
-            return None;
-        }
+    fn see_on<S: Simd>(&mut self, simd: S, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
         let sky = self.panorama;
-        let level = sky.level_of(ellipse.small_square());
-        let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
-        let light = window::light(simd, sky, level, &kernel, ray.direction, &mut self.buffers);
-        light.or_else(|| Some(self.light_anywhere(level, &kernel, ray.direction)))
+        let mut seen = Seen { doppler: [1.0; Seen::N], is_found: [true; Seen::N], ..Seen::default() };
+        let mut footprints = Footprints::default();
+        // Beside poles and edges.
+        let mut others = [None; Seen::N];
+        for (idx, ray) in rays.iter().enumerate() {
+            let Some(ray) = ray else { continue };
+            seen.doppler[idx] = ray.doppler as f32;
+            let ellipse = Ellipse::new(ray, spread);
+            if !ellipse.is_small() {
+                seen.is_found[idx] = false;
+                continue;
+            }
+            let level = sky.level_of(ellipse.small_square());
+            let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
+            if !footprints.set(idx, sky, level, &kernel, ray.direction) {
+                others[idx] = Some((level, kernel));
+            }
+        }
+        seen.light = window::lights(simd, sky, &footprints, &mut self.buffers);
+        for (idx, (other, ray)) in others.iter().zip(rays).enumerate() {
+            if let (Some((level, kernel)), Some(ray)) = (other, ray) {
+                let light = self.light_anywhere(*level, kernel, ray.direction);
+                (0..4).for_each(|channel| seen.light[channel][idx] = light[channel]);
+            }
+        }
+        seen
     }
 
     /// The light of a footprint of any shape, beside poles and edges too.

@@ -8,8 +8,8 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16};
 use ugphysics::{Brightness, Velocity};
 
-use crate::flat::Seen;
 use crate::hues::Hues;
+use crate::sample::Seen;
 use crate::spectral::{Basis, BasisError, SpectralTable};
 
 /// How the colours of a sky change with the Doppler factor D.

@@ -132,33 +132,6 @@ fn ln_relative(kelvin: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ugphysics::linear_srgb_to_xyz;
-    use ugphysics::spectrum::planck;
-
-    /// Irradiance by Planck's law and the CIE's tables, with no table over D, up to a constant.
-    fn exact(kelvin: f64, doppler: f64) -> [f64; 3] {
-        let fifth = doppler * doppler * doppler * doppler * doppler;
-        let radiance = |nm: f64| fifth * planck(nm * doppler, kelvin);
-        let rest = ugphysics::spectrum::integrate(|nm| planck(nm, kelvin))[1];
-        ugphysics::spectrum::integrate(radiance).map(|part| part / rest / (doppler * doppler))
-    }
-
-    #[test]
-    fn irradiance_is_that_of_a_smaller_disc() {
-        for kelvin in [2500.0, 3500.0, 5800.0, 10_000.0, 30_000.0] {
-            let star = Star { direction: DVec3::Y, magnitude: 2.0, kelvin };
-            let light = StarLight::new(&[star], [true, true], 2.7);
-            for ln in [-2.65, -1.47, -0.55, -0.01, 0.0, 0.3, 0.549, 1.472, 2.647] {
-                let doppler = libm::exp(ln);
-                let seen = linear_srgb_to_xyz(light.irradiance(&star, doppler));
-                for (found, expected) in seen.iter().zip(exact(kelvin, doppler)) {
-                    let expected = expected * libm::exp10(-0.8);
-                    let error = (found / expected - 1.0).abs();
-                    assert!(error < 1e-5, "{kelvin} K, ln D {ln}: {found} {expected}");
-                }
-            }
-        }
-    }
 
     /// The parts of the effect: the shift alone, and brightness alone.
     #[test]

@@ -2,9 +2,8 @@
 
 use glam::DVec3;
 
-use crate::flat::{FlatFilm, Seen};
 use crate::observer::{Observer, SkyRay};
-use crate::sample::Sampler;
+use crate::sample::{Sampler, Seen};
 use crate::shade::Shade;
 
 /// Half the distance of the places whose directions are compared, in samples: less than a half, so
@@ -13,6 +12,17 @@ const HALF_STEP: f64 = 0.49;
 
 /// How often the footprint of a sample is divided at most, if it is large on the sky.
 const MOST_DIVISIONS: u32 = 24;
+
+/// Directions seen by the places of a flat film: corner + x across + y down, of any length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlatFilm {
+    /// Direction of the origin.
+    pub corner: DVec3,
+    /// Its change per column.
+    pub across: DVec3,
+    /// Its change per row.
+    pub down: DVec3,
+}
 
 /// How the samples of a picture see a sky, apart from the lens.
 pub struct SkyView {
@@ -29,8 +39,8 @@ pub struct SkyView {
 pub struct SkyLight<'a, 's, F> {
     /// The observer and the picture.
     pub view: &'a SkyView,
-    /// The direction seen at a place, in samples from the upper left corner: of length 1, or any
-    /// length if the lens is flat. `None` where it shows nothing.
+    /// The direction seen at a place, in samples from the upper left corner, of length 1, unless
+    /// the lens is flat. `None` where it shows nothing.
     pub film: F,
     /// How colours change.
     pub shade: &'a Shade,
@@ -42,39 +52,17 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
     /// The light seen in `n` samples of a row: red, green and blue times the covered part, and that
     /// part. It is exact at poles, at edges and for samples that see most of the sky.
     pub fn row(&mut self, found: &mut [Seen], [left, y]: [f64; 2], n: usize) {
-        let SkyView { observer, spread, flat } = self.view;
-        match flat {
-            Some(flat) => self.sampler.flat_row(observer, flat, [left, y], *spread, found),
-            None => found.fill(Seen::default()),
-        }
         for (first, seen) in found.iter_mut().enumerate() {
             let place = |idx: usize| [left + (first * Seen::N + idx) as f64, y];
             let n = Seen::N.min(n - first * Seen::N);
-            if seen.is_found != [true; Seen::N] {
-                for idx in 0..n {
-                    if !seen.is_found[idx]
-                        && let Some((light, doppler)) = self.sample(place(idx))
-                    {
-                        seen.set(idx, light, doppler);
-                    }
-                }
-            }
+            let rays = std::array::from_fn(|idx| if idx < n { self.ray(place(idx), 1.0) } else { None });
+            *seen = self.sampler.see(&rays, self.view.spread);
             self.shade.see(&mut seen.light, &seen.doppler);
-            if seen.is_found != [true; Seen::N] {
-                for idx in 0..n {
-                    if !seen.is_found[idx] {
-                        seen.set(idx, self.divided(place(idx), 1.0, 0), 1.0);
-                    }
-                }
+            for idx in (0..n).filter(|idx| !seen.is_found[*idx]) {
+                let light = self.divided(place(idx), 1.0, 0);
+                (0..4).for_each(|channel| seen.light[channel][idx] = light[channel]);
             }
         }
-    }
-
-    /// The light of a sample, and its Doppler factor; `None` where its footprint is too large.
-    #[inline]
-    fn sample(&mut self, place: [f64; 2]) -> Option<([f32; 4], f64)> {
-        let Some(ray) = self.ray(place, 1.0) else { return Some(([0.0; 4], 1.0)) };
-        self.sampler.light(&ray, self.view.spread).map(|light| (light, ray.doppler))
     }
 
     /// The light of a square of the film, `side` samples wide, as seen.
@@ -108,18 +96,15 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
     #[inline]
     fn ray(&self, [x, y]: [f64; 2], side: f64) -> Option<SkyRay> {
         let (seen, observer) = (&self.film, &self.view.observer);
-        let direction = seen([x, y])?;
-        let step = HALF_STEP * side;
-        if self.view.flat.is_some() {
-            // Directions of depth 1 are linear in the place on the film.
+        if let Some(FlatFilm { corner, across, down }) = self.view.flat {
+            let direction = corner + x * across + y * down;
             let inverse = 1.0 / direction.length();
             let unit = direction * inverse;
-            let slope = |place: [f64; 2]| {
-                let difference = (seen(place).unwrap_or(direction) - direction) * (inverse / HALF_STEP);
-                difference - unit.dot(difference) * unit
-            };
-            return Some(observer.ray(unit, [slope([x + step, y]), slope([x, y + step])]));
+            let slope = |step: DVec3| (step - unit.dot(step) * unit) * (inverse * side);
+            return Some(observer.ray(unit, [across, down].map(slope)));
         }
+        let direction = seen([x, y])?;
+        let step = HALF_STEP * side;
         let slope = |[right, below]: [f64; 2]| {
             let ends = [-1.0, 1.0].map(|sign| seen([x + sign * right * step, y + sign * below * step]));
             let difference = match ends {

@@ -30,54 +30,7 @@ pub(crate) struct Footprints {
     pub b: [[f32; EACH]; 3],
     pub c: [f32; EACH],
     /// Their texels.
-    pub windows: Windows,
-}
-
-/// The windows of sixteen footprints, each number of all together, as they are computed.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Windows {
-    /// A bit for each footprint that can be summed here.
-    pub is_window: u64,
-    pub level: [u32; EACH],
-    pub ladder: [u32; EACH],
-    pub row: [u32; EACH],
-    pub column: [u32; EACH],
-    pub n_rows: [u32; EACH],
-    pub n_columns: [u32; EACH],
-}
-
-impl Windows {
-    #[inline(always)]
-    fn get(&self, idx: usize) -> Option<Window> {
-        (self.is_window >> idx & 1 == 1).then(|| Window {
-            level: self.level[idx],
-            ladder: self.ladder[idx],
-            row: self.row[idx],
-            column: self.column[idx],
-            n_rows: self.n_rows[idx],
-            n_columns: self.n_columns[idx],
-        })
-    }
-
-    fn set(&mut self, idx: usize, window: Window) {
-        self.is_window |= 1 << idx;
-        self.level[idx] = window.level;
-        self.ladder[idx] = window.ladder;
-        self.row[idx] = window.row;
-        self.column[idx] = window.column;
-        self.n_rows[idx] = window.n_rows;
-        self.n_columns[idx] = window.n_columns;
-    }
-
-    /// The footprints that can be summed here.
-    #[inline(always)]
-    pub fn are_windows(&self) -> [bool; EACH] {
-        let mut are = [false; EACH];
-        for (idx, is) in are.iter_mut().enumerate() {
-            *is = self.is_window >> idx & 1 == 1;
-        }
-        are
-    }
+    pub windows: [Option<Window>; EACH],
 }
 
 /// An angle not below asin r, as asin r < r + 0.21 r³ for r < 0.6.
@@ -134,7 +87,7 @@ impl Window {
 
 /// True if indices are below `n` and not more than `most`.
 #[inline(always)]
-pub(crate) fn is_window(first: f64, last: f64, n: usize, most: usize) -> bool {
+fn is_window(first: f64, last: f64, n: usize, most: usize) -> bool {
     first >= 0.0 && last < n as f64 && last >= first && last - first < most as f64
 }
 
@@ -158,22 +111,17 @@ impl Buffers {
     }
 }
 
-/// The mean light of an ellipse: light times alpha, and alpha. `None` where it has no window.
-#[inline(always)]
-pub(crate) fn light<S: Simd>(
-    simd: S,
-    sky: &Panorama,
-    level: usize,
-    kernel: &Kernel,
-    center: DVec3,
-    buffers: &mut Buffers,
-) -> Option<[f32; 4]> {
-    let mut one = Footprints::default();
-    one.windows.set(0, Window::new(sky, level, kernel, center)?);
-    let (a, b) = (kernel.a.as_vec3().to_array(), kernel.b.as_vec3().to_array());
-    (0..3).for_each(|axis| (one.a[axis][0], one.b[axis][0]) = (a[axis], b[axis]));
-    one.c[0] = kernel.c;
-    Some(lights(simd, sky, &one, buffers).map(|channel| channel[0]))
+impl Footprints {
+    /// Sets a footprint, and returns whether it has a window.
+    #[inline(always)]
+    pub fn set(&mut self, idx: usize, sky: &Panorama, level: usize, kernel: &Kernel, center: DVec3) -> bool {
+        let Some(window) = Window::new(sky, level, kernel, center) else { return false };
+        let (a, b) = (kernel.a.as_vec3().to_array(), kernel.b.as_vec3().to_array());
+        (0..3).for_each(|axis| (self.a[axis][idx], self.b[axis][idx]) = (a[axis], b[axis]));
+        self.c[idx] = kernel.c;
+        self.windows[idx] = Some(window);
+        true
+    }
 }
 
 /// The mean light of sixteen ellipses: red, green and blue times alpha, and alpha. Nothing where
@@ -187,7 +135,7 @@ pub(crate) fn lights<S: Simd>(
 ) -> [[f32; EACH]; 4] {
     let Buffers { weights, sums, blocks } = buffers;
     for (idx, (sums, weights)) in sums.iter_mut().zip(weights.iter_mut()).enumerate() {
-        match footprints.windows.get(idx) {
+        match footprints.windows[idx] {
             Some(window) => weigh(simd, sky, footprints, idx, &window, weights, sums),
             None => *sums = [[0.0; CHUNK]; 5],
         }
@@ -197,7 +145,7 @@ pub(crate) fn lights<S: Simd>(
 
     // The sums of footprints without a window stay 0.
     for (idx, (sums, weights)) in sums.iter_mut().zip(weights.iter()).enumerate() {
-        if let Some(window) = footprints.windows.get(idx) {
+        if let Some(window) = footprints.windows[idx] {
             sum(simd, sky, &window, weights, [across[idx], along[idx]], blocks, sums);
         }
     }
@@ -408,17 +356,21 @@ mod tests {
                 let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
                 let simd = fearless_simd::Level::new();
                 let mut buffers = Buffers::new();
-                let found = fearless_simd::dispatch!(simd, simd =>
-                    light(simd, &sky, level, &kernel, direction, &mut buffers));
                 n += 1;
-                let Some(found) = found else { continue };
+                let (lane, mut footprints) = (n % EACH, Footprints::default());
+                if !footprints.set(lane, &sky, level, &kernel, direction) {
+                    continue;
+                }
+                let found =
+                    fearless_simd::dispatch!(simd, simd => lights(simd, &sky, &footprints, &mut buffers));
+                let found = found.map(|channel| channel[lane]);
                 n_windows += 1;
                 let expected = sampler.light_anywhere(level, &kernel, direction);
                 let error = (0..4).map(|i| (found[i] - expected[i]).abs()).fold(0.0, f32::max);
                 assert!(error < 5e-5, "{direction} {size}: {found:?}, not {expected:?}");
             }
             let least = if extent == Extent::FULL { 0.9 } else { 0.3 };
-            assert!(f64::from(n_windows) > least * f64::from(n), "{n_windows} of {n}");
+            assert!(f64::from(n_windows) > least * n as f64, "{n_windows} of {n}");
         }
     }
 }

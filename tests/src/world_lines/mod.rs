@@ -4,7 +4,7 @@
 //! - [`statement`]: motions as text, and random ones;
 //! - [`curve`]: splines through events;
 //! - [`integrated`]: the world line of a body, by the method of Runge and Kutta;
-//! - [`sight`]: what is seen of it, by bisection, and along a ray by small steps into the past.
+//! - [`sight`]: what is seen of it, by bisection.
 //!
 //! No function of the programs is used. Events are (t, x, y, z), the metric is (−+++).
 
@@ -14,7 +14,7 @@ pub mod sight;
 pub mod statement;
 
 pub use integrated::Body;
-pub use sight::{Hit, Observer, Sighting, Triangle, View};
+pub use sight::{Observer, Sighting, Triangle};
 pub use statement::{Path, Statement, Stretch};
 
 /// An event or a 4-vector.

@@ -15,30 +15,6 @@ fn cloud(random: &mut Random, n: usize) -> (String, Vec<DVec3>) {
     (text(&vertices, &faces), vertices)
 }
 
-/// The slow way: follow the contracted point back in time until its light just reaches the eye.
-#[test]
-fn vertices_agree_with_bisection_of_their_world_line() {
-    let mut random = Random(2);
-    for speed in [0.1, 0.5, 0.9, 0.99] {
-        let (text, vertices) = cloud(&mut random, 10);
-        let direction = random.direction();
-        let scene = seen(&text, &moving(direction * speed));
-        for (idx, &p) in vertices.iter().enumerate() {
-            let along = p.dot(direction);
-            let now = p + direction * along * ((1.0 - speed * speed).sqrt() - 1.0);
-            let at = |t: f64| now + direction * speed * t;
-            let (mut early, mut late) = (-1e5, 0.0);
-            for _ in 0..200 {
-                let t = (early + late) / 2.0;
-                // Light from an early event has arrived before the picture.
-                *(if at(t).length() < -t { &mut early } else { &mut late }) = t;
-            }
-            let found = scene.vertices[idx].position;
-            assert!((found - at(early)).length() < 1e-9, "{found} {}", at(early));
-        }
-    }
-}
-
 #[test]
 fn nothing_changes_at_rest() {
     let mut random = Random(3);

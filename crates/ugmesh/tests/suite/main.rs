@@ -5,7 +5,6 @@
 mod cli;
 mod common;
 mod found_files;
-mod hostile;
 mod reading;
 mod round_trip;
 mod textures;

@@ -43,22 +43,6 @@ fn point(value: &Value) -> DVec3 {
 }
 
 #[test]
-fn spectra_that_emit_are_not_lit() {
-    for (color, is_lit) in [("bands", false), ("paint", true)] {
-        let scene = format!(
-            "c_spd bands 455 0 460 2 465 0; c_spd narrow 498 0 500 50 502 0; c_rgb paint .8 .7 .6;
-            v a -5 10 -5; v b 5 10 -5; v c 5 10 5; v d -5 10 5; f (a b c d) {color};
-            l sun 1 0 -1 1 narrow; cam -ep 0 0 0 -vc 0 1 0 -va 30;"
-        );
-        let told = of_scene("--explain 30,22 --format json", &scene);
-        let told: Value = serde_json::from_slice(&told).unwrap();
-        let surface = &told["sample"]["surfaces"][0];
-        assert_eq!(surface["color"]["is_lit"], is_lit, "{told}");
-        assert_eq!(surface["lamps"].as_array().unwrap().len(), usize::from(is_lit), "{told}");
-    }
-}
-
-#[test]
 fn the_last_step_is_the_picture() {
     let mut seen = [0; 5];
     for options in [
@@ -198,26 +182,4 @@ fn bad_usage_is_told() {
     check("--explain 2,3 -dt exr", "give --format json, or leave --format out");
     check("--explain 2,3 -crop 0 0 9 9", "-crop");
     check("--format json", "add --explain X,Y");
-}
-
-#[test]
-fn lights_have_their_names() {
-    let names = |lights: &str| {
-        let scene = SCENE.replace("l 0.3; l 0.6 0.5 -2 1; l 0.5 -2 3 4;", lights);
-        assert!(scene.contains(lights));
-        let told: Value = serde_json::from_slice(&of_scene("--explain 50,22 --format json", &scene)).unwrap();
-        let lamps = told["sample"]["surfaces"][0]["lamps"].as_array().unwrap().clone();
-        let text = String::from_utf8(of_scene("--explain 50,22", &scene)).unwrap();
-        lamps
-            .into_iter()
-            .map(|lamp| {
-                let name = lamp["light"].as_str().unwrap().to_owned();
-                assert!(text.contains(&format!(" {name}: level")), "{name}: {text}");
-                name
-            })
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(names("l .3; l sun .6 .5 -2 1; l .5 -2 -3 4 0;"), ["ambient 1", "sun", "local 1"]);
-    assert_eq!(names("l sky .3; l .6 .5 -2 1; l lamp .5 -2 -3 4 0;"), ["sky", "directional 1", "lamp"]);
-    assert_eq!(names(""), ["ambient 1", "directional 1"]);
 }

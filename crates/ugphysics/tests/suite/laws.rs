@@ -32,58 +32,12 @@ fn points() -> impl Strategy<Value = DVec3> {
     (unit_vectors(), 0.1..100.0_f64).prop_map(|(direction, distance)| distance * direction)
 }
 
-fn rotations() -> impl Strategy<Value = DQuat> {
-    (unit_vectors(), -1.0..1.0_f64)
-        .prop_map(|(axis, w)| DQuat::from_xyzw(axis.x, axis.y, axis.z, w).normalize())
-}
-
 /// A tolerance of a few roundings, magnified by `factor`.
 fn rounding(factor: f64) -> f64 {
     1e-15 * factor
 }
 
-/// The distance of the emission event (`t`, `x`) from the past light cone of the eye.
-fn off_light_cone(event: Event) -> f64 {
-    (event.t + event.x.length()).abs() / event.x.length()
-}
-
 proptest! {
-    /// (P1) and then (P2), with p = p₀ + w v, are (P3).
-    #[test]
-    fn contraction_and_flight_are_one_boost(p in points(), v in velocities()) {
-        let now = contracted(p, v);
-        let w = flight_time(now, v);
-        let seen = seen_event(p, v);
-        // p₀ and w v are up to γ² longer than their sum.
-        let tolerance = rounding(4.0 * v.gamma() * v.gamma());
-        near_vector("place", now + w * v.beta(), seen.x, tolerance);
-        near("time", w / seen.t, 1.0, tolerance);
-    }
-
-    /// (P3) is the 4×4 boost of the emission event.
-    #[test]
-    fn vector_formulas_are_the_matrix(p in points(), v in velocities()) {
-        let by_matrix = Lorentz::boost(v).apply(Event { t: -p.length(), x: p });
-        let seen = seen_event(p, v);
-        let tolerance = rounding(8.0 * v.gamma() * v.gamma());
-        near_vector("place", by_matrix.x, seen.x, tolerance);
-        near("time", by_matrix.t / seen.t, 1.0, tolerance);
-        let back = Lorentz::boost(v).inverse().apply(seen);
-        near_vector("rest place", back.x, p, tolerance);
-    }
-
-    #[test]
-    fn what_is_seen_is_on_the_light_cone(p in points(), v in velocities()) {
-        prop_assert!(off_light_cone(seen_event(p, v)) <= rounding(2.0));
-    }
-
-    /// (P4) undoes (P3); a rounding of the direction costs a factor γ at most each way.
-    #[test]
-    fn rest_and_seen_are_inverse(p in points(), v in velocities()) {
-        let tolerance = rounding(8.0 * v.gamma());
-        near_vector("rest of seen", rest_position(seen_position(p, v), v), p, tolerance);
-        near_vector("seen of rest", seen_position(rest_position(p, v), v), p, tolerance);
-    }
 
     /// (P6) as written, and as the direction of (P3) and (P4).
     #[test]
@@ -95,24 +49,6 @@ proptest! {
         let seen = seen_position(5.0 * d, v).normalize();
         near_vector("direction of (P3)", aberrate(d, -v), seen, rounding(4.0));
         near("unit", aberrate(d, v).length(), 1.0, rounding(1.0));
-    }
-
-    /// D is the energy of a photon in S that has energy 1 in S', and the ratio of the two
-    /// distances.
-    #[test]
-    fn doppler_is_photon_energy(p in points(), v in velocities()) {
-        let photon = Event { t: 1.0, x: -p.normalize() };
-        let observed = Lorentz::boost(v).apply(photon);
-        let doppler = doppler_at(seen_position(p, v), v);
-        near("energy", observed.t / doppler, 1.0, rounding(8.0 * v.gamma() * v.gamma()));
-        near("r = r' D", seen_position(p, v).length() / (p.length() * doppler), 1.0, rounding(8.0 * v.gamma()));
-    }
-
-    /// (P10) as written.
-    #[test]
-    fn doppler_is_the_plain_formula(n in unit_vectors(), v in velocities()) {
-        let plain = 1.0 / (v.gamma() * (1.0 - v.beta().dot(n)));
-        near("D", doppler_factor(n, v) / plain, 1.0, rounding(8.0 * v.gamma() * v.gamma()));
     }
 
     /// Light out of a moving body and into another that moves with it is not shifted.
@@ -182,27 +118,6 @@ proptest! {
         prop_assert!((interval(moved) - interval(event)).abs() <= tolerance * size);
     }
 
-    /// What a moving camera sees does not depend on the frame F of the computation: the body's rest
-    /// axes are rotated by the Wigner rotation, seen in F, and boosted back to the camera.
-    #[test]
-    fn picture_does_not_depend_on_the_frame(
-        p in points(), u in velocities_up_to(1.5), camera in velocities_up_to(1.5),
-    ) {
-        let frame_from_body = Lorentz::boost(u).then(Lorentz::boost(camera));
-        let in_frame = compose(u, camera);
-        let wigner = Lorentz::boost(in_frame).inverse() * frame_from_body;
-        let turned = wigner.apply(Event { t: 0.0, x: p });
-        // Five matrices, each of which magnifies rounding by its γ of up to 2.4, two of them by up
-        // to 10.
-        let tolerance = 1e-12;
-        near("a rotation", turned.x.length() / p.length(), 1.0, tolerance);
-        prop_assert!(turned.t.abs() <= tolerance * p.length());
-        let in_camera = Lorentz::boost(camera).inverse().apply(seen_event(turned.x, in_frame));
-        let want = seen_event(p, u);
-        prop_assert!((in_camera.x - want.x).length() <= tolerance * p.length());
-        prop_assert!((in_camera.t - want.t).abs() <= tolerance * p.length());
-    }
-
     /// Two boosts are the boost of the composed velocity, after the Wigner rotation. (P25)
     #[test]
     fn two_boosts_are_a_rotation_and_a_boost(
@@ -230,14 +145,6 @@ proptest! {
     }
 
     #[test]
-    fn rotations_commute(p in points(), v in velocities(), r in rotations()) {
-        let turned = Velocity::from_rapidity(r * v.direction(), v.rapidity()).unwrap();
-        let tolerance = rounding(16.0 * v.gamma());
-        near_vector("seen", seen_position(r * p, turned), r * seen_position(p, v), tolerance);
-        near("D", doppler_factor(r * p, turned) / doppler_factor(p, v), 1.0, tolerance);
-    }
-
-    #[test]
     fn scale_does_not_matter(p in points(), v in velocities(), exponent in -900..900_i32) {
         let scale = libm::ldexp(1.0, exponent);
         prop_assert_eq!(seen_position(p * scale, v), seen_position(p, v) * scale);
@@ -245,30 +152,6 @@ proptest! {
         prop_assert_eq!(flight_time(p * scale, v), flight_time(p, v) * scale);
         prop_assert_eq!(doppler_at(p * scale, v), doppler_at(p, v));
         prop_assert_eq!(aberrate(p * scale, v), aberrate(p, v));
-    }
-
-    /// (P5): the event seen at t_o is on the worldline of the point and on the light cone of the
-    /// eye at t_o.
-    #[test]
-    fn a_later_picture_shows_the_same_worldline(p in points(), v in velocities(), t_o in -50.0..50.0_f64) {
-        let seen = seen_event(p + observer_shift(v, t_o), v);
-        prop_assert!(off_light_cone(seen) <= rounding(2.0));
-        let absolute = Event { t: seen.t + t_o, x: seen.x };
-        let in_body = Lorentz::boost(v).inverse().apply(absolute);
-        let size = (p.length() + v.gamma() * t_o.abs()) * v.gamma() * v.gamma();
-        prop_assert!((in_body.x - p).length() <= rounding(16.0) * size);
-    }
-
-    /// The outline of every sphere is a circle: its directions lie in a plane.
-    #[test]
-    fn sphere_outlines_are_circles(centre in unit_vectors(), sine in 0.01..0.99_f64, v in velocities()) {
-        let outline = sphere_outline(centre, sine, v, 36);
-        let (axis, radius_deg) = circle_through(&outline);
-        // The plane of a small circle is less well determined.
-        let tolerance = 5e-15 / libm::sin(radius_deg.to_radians());
-        for d in outline {
-            near("in the plane", d.dot(axis), libm::cos(radius_deg.to_radians()), tolerance);
-        }
     }
 }
 
@@ -347,25 +230,9 @@ fn every_size_and_speed_gives_a_finite_answer() {
 }
 
 #[test]
-fn small_speeds_act_to_first_order() {
-    // p = p' − β|p'|û, D = 1 + β cos θ, both to β² and rounding.
-    for speed in [1e-4, 1e-6, 1e-9, 1e-12] {
-        for axis in directions() {
-            let v = Velocity::from_beta(speed * axis).unwrap();
-            for d in directions() {
-                let bound = 2.0 * speed * speed + 1e-15;
-                near_vector("seen", seen_position(d, v), d - speed * axis, bound);
-                near("D", doppler_factor(d, v), 1.0 + speed * d.dot(axis), bound);
-                near_vector("contracted", contracted(d, v), d, bound);
-            }
-        }
-    }
+fn coordinates_across_an_axis_pass_to_the_bit() {
     // There is no threshold: even the smallest velocity displaces a point abeam.
     assert_eq!(seen_position(DVec3::Y, along_x(1e-300)).x, -1e-300);
-}
-
-#[test]
-fn coordinates_across_an_axis_pass_to_the_bit() {
     for speed in [0.1, 0.3, 0.9, 0.999_999] {
         for p in directions() {
             let p = 0.3 * p;

@@ -134,25 +134,6 @@ fn middle(lines: &[[Point; 2]], area: [Range<f64>; 2]) -> Point {
 mod tests {
     use super::*;
 
-    /// The lines of x² + y² = r² on a grid are as long as the circle, and lie on it.
-    #[test]
-    fn circles_are_round() {
-        let (radius, mut lines) = (20.3, Vec::new());
-        let value = |x: f64, y: f64| x * x + y * y - radius * radius;
-        for row in -30..30 {
-            for column in -30..30 {
-                let [x, y] = [column, row].map(f64::from);
-                let corners = [value(x, y), value(x + 1.0, y), value(x + 1.0, y + 1.0), value(x, y + 1.0)];
-                push_lines(corners, [x, y], &mut lines);
-            }
-        }
-        let length: f64 = lines.iter().map(|[a, b]| libm::hypot(b[0] - a[0], b[1] - a[1])).sum();
-        assert!((length / (std::f64::consts::TAU * radius) - 1.0).abs() < 1e-3, "{length}");
-        for [x, y] in lines.concat() {
-            assert!((libm::hypot(x, y) - radius).abs() < 0.01, "{x} {y}");
-        }
-    }
-
     #[test]
     fn a_saddle_has_two_lines() {
         for values in [[1.0, -2.0, 1.0, -2.0], [2.0, -1.0, 2.0, -1.0]] {

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use ugparse::{Limit, Limits, Options, Source};
 use ugscene::{Vertex, VertexId};
 
-use crate::language::{TRIANGLE, errors, flat, parse, write};
+use crate::language::{TRIANGLE, errors, flat, parse};
 
 /// Far above the need of any row, and far below that of an expanded scene.
 const SOON: Duration = Duration::from_secs(20);
@@ -229,43 +229,4 @@ fn definitions_nest_up_to_the_largest_limit() {
     let n = Limit::Nesting.most() as usize;
     let text = format!("{}v p 0 0 0;{}", "def d;".repeat(n), "end;".repeat(n));
     assert_eq!(limited(&text, Limit::Nesting, n as u64), None);
-}
-
-/// A scene with one statement of every kind.
-const EVERYTHING: &str = "{ head {nested} }\nc red 1 0; c_rgb g .5 1 0 .25; c .5 200 .5; surf s .5 .25 .125 1.5 30;\n( escape (nested) )\n\
-    v a 0 0 0; v b 1 0 0 red; v c 0 1 0 0 0 1; v d 1 1 0 g 0 0 -1.5e-3; { behind }\n\
-    f roof (a b d c) (a c b) red .5 <.1 -.2 0>; f (a b c) red s;\nw edge (a b) (c d) g;\n\
-    def part; def inner; v p 1 2 3; v q 2 2 3; v r 2 3 3; f (p q r); end;\n\
-    i (inner red -M3 1 0 0 0 2 0 0 0 1) <0 0 .5>; a row (inner -rx 90) 3 -tx 5 -mx; end;\n\
-    i car (part -M4 1 0 0 0 0 1 0 0 0 0 1 0 3 4 5 1); l sun .7 1 -1 2 g; l .3; l lamp 1 0 0 5 .25 <0 0 .1>;\n\
-    cam eye -ep 0 -12 3 -vc 0 0 0 -ud 0 0 1 -cl 1 99 -ph 0 0 1 1 -va 40 30 -ps; { end }";
-
-/// A truncated scene is either valid or has an error with a location.
-#[test]
-fn truncated_scenes_are_read_or_refused() {
-    let mut scenes = vec![EVERYTHING.as_bytes().to_vec()];
-    // Every byte of every scene would take minutes; small ones show it as well.
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-    for name in ["cubes", "dice", "glass", "grid", "lattice", "rainbow"] {
-        scenes.push(std::fs::read(format!("{folder}/{name}.ug")).unwrap());
-    }
-    let (mut read, mut refused) = (0, 0);
-    for text in &scenes {
-        let whole = parse(text);
-        for end in 0..text.len() {
-            match ugparse::parse(&Source::new("cut.ug", &text[..end]), &Options::default()) {
-                Ok(parsed) => {
-                    read += 1;
-                    assert!(parsed.scene.vertices.len() <= whole.vertices.len());
-                    parse(write(&parsed.scene));
-                }
-                Err(found) => {
-                    refused += 1;
-                    assert!(found.list.iter().all(|finding| finding.span.end as usize <= end));
-                    assert!(found.render(false).contains("--> cut.ug:"));
-                }
-            }
-        }
-    }
-    assert!(read > 100 && refused > 1000, "{read} {refused}");
 }

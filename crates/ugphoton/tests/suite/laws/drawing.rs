@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use glam::{DMat3, DMat4, DVec3, DVec4};
-use ugimage::{Format, Frame, LinearFrame, Metadata, Samples};
-use ugphoton::{CameraOptions, Channel, ColorShift, Config, HueShift, Output, PictureOptions, light};
+use glam::DVec3;
+use ugimage::{Format, Frame, LinearFrame, Metadata};
+use ugphoton::{CameraOptions, ColorShift, Config, HueShift, PictureOptions, light};
 use ugphysics::{Brightness, srgb_encode};
 
 /// Colours, surfaces, and no light but that of faces with a level.
@@ -62,18 +62,6 @@ pub fn seen_with(text: &str, toward: DVec3, base: Config) -> DVec3 {
     DVec3::new(red.into(), green.into(), blue.into())
 }
 
-/// The distance of the emission event in a direction.
-pub fn distance(text: &str, toward: DVec3) -> f64 {
-    let mut config = config([1, 1], toward, 1e-3);
-    config.picture.output = Output::Color(Format::Exr);
-    config.picture.channels = vec![Channel::Distance];
-    let frame = drawn(text, &config);
-    match &frame.planes()[0].samples {
-        Samples::Float(distances) => distances[0].into(),
-        Samples::Whole(_) => panic!("distances are not whole numbers"),
-    }
-}
-
 /// Options with a brightness law, and wavelengths as they are.
 pub fn by_law(law: Brightness) -> Config {
     Config { shift: ColorShift::Hues(HueShift { doppler: false, law }), ..Config::default() }
@@ -87,11 +75,6 @@ pub fn by_spectra() -> Config {
 /// The value of a grey seen in a direction: a number, of which a picture shows the light.
 pub fn value(text: &str, toward: DVec3, base: Config) -> f64 {
     srgb_encode(seen_with(text, toward, base).y)
-}
-
-/// The linear light of a grey seen in a direction: what a law that names a quantity multiplies.
-pub fn grey_light(text: &str, toward: DVec3, base: Config) -> f64 {
-    seen_with(text, toward, base).y
 }
 
 /// Vertices and a face. `rest` follows the corners in its statement.
@@ -120,58 +103,4 @@ pub fn surroundings(name: &str, half: f64, rest: &str) -> String {
 /// A velocity as a scene states it.
 pub fn velocity(v: DVec3) -> String {
     format!("<{} {} {}>", v.x, v.y, v.z)
-}
-
-/// A square that shows the place of a point on it, in its rest frame.
-#[derive(Clone, Copy, Debug)]
-pub struct Chart {
-    /// Its middle.
-    pub center: DVec3,
-    /// From there to the middles of two of its sides.
-    pub axes: [DVec3; 2],
-    /// Its velocity.
-    pub velocity: DVec3,
-}
-
-impl Chart {
-    /// Its statements. Along one of its axes the value of its grey increases from 0.2 to 0.8.
-    fn text(&self, axis: usize) -> String {
-        let [u, v] = self.axes;
-        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let mut text = String::from("c low 0.2; c high 0.8;\n");
-        for (at, (a, b)) in corners.into_iter().enumerate() {
-            let place = self.center + a * u + b * v;
-            let color = if [a, b][axis] > 0.0 { "high" } else { "low" };
-            text += &format!("v chart{at} {} {} {} {color};\n", place.x, place.y, place.z);
-        }
-        text + &format!("f (chart0 chart1 chart2 chart3) white 1 {};\n", velocity(self.velocity))
-    }
-
-    /// The place in its rest frame that is seen in a direction; `None` if something else is seen.
-    pub fn place(&self, others: &str, toward: DVec3) -> Option<DVec3> {
-        let along = |axis: usize| {
-            let text = format!("{HEAD}{others}{}", self.text(axis));
-            let value = value(&text, toward, by_law(Brightness::None));
-            (value > 0.19).then_some((value - 0.5) / 0.3)
-        };
-        let [u, v] = self.axes;
-        Some(self.center + along(0)? * u + along(1)? * v)
-    }
-}
-
-/// The boost from the rest frame of a body with velocity `v`; events are (x, y, z, t).
-pub fn boost(v: DVec3) -> DMat4 {
-    let speed = v.length();
-    if speed == 0.0 {
-        return DMat4::IDENTITY;
-    }
-    let (gamma, axis) = (1.0 / (1.0 - speed * speed).sqrt(), v / speed);
-    let column = |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));
-    DMat4::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z), DVec4::from((gamma * v, gamma)))
-}
-
-/// Velocity and rotation of a boost times a rotation.
-pub fn factors(matrix: DMat4) -> (DVec3, DMat3) {
-    let v = matrix.w_axis.truncate() / matrix.w_axis.w;
-    (v, DMat3::from_mat4(boost(-v) * matrix))
 }

@@ -2,8 +2,6 @@
 
 mod beaming;
 mod drawing;
-mod frames;
-mod report;
 mod textures;
 
 use glam::DVec3;
@@ -11,33 +9,7 @@ use ugphoton::{ColorShift, Config, RayOptions};
 use ugphysics::spectrum::Spectrum;
 use ugphysics::{Velocity, WaveVector, srgb_decode, xyz_to_linear_srgb};
 
-use drawing::{HEAD, by_spectra, seen, seen_with, square, value};
-
-/// What a mirror at rest shows is what an eye behind it sees: also a wall under a lamp that passes
-/// it, or that it passes. The mirror is at z = −2, so that eye is at z = −4. All motion is along x,
-/// so both eyes contract bodies alike.
-#[test]
-fn a_mirror_shows_what_an_eye_behind_it_sees() {
-    // Its highlights are too small to be met.
-    let mirror = square("m", DVec3::NEG_Z * 2.0, DVec3::Z, 50.0, "white plane");
-    for (of_lamp, of_wall) in [
-        ("", ""),
-        ("<0.9 0 0>", "<0 0 0>"),
-        ("<0 0 0>", "<0.9 0 0>"),
-        ("<-0.7 0 0>", "<0.6 0 0>"),
-        ("", "<0.8 0 0>"),
-    ] {
-        let wall = square("w", DVec3::Z * 3.0, DVec3::NEG_Z, 500.0, &format!("white {of_wall}"));
-        let scene = format!("{HEAD}surf plane 0 1 0 1 1e9; l 1 0.4 0.3 1 0 {of_lamp};\n{wall}");
-        for slope in [DVec3::ZERO, DVec3::X * 0.7, DVec3::new(-0.9, 0.5, 0.0)] {
-            let behind = format!("{scene}cam -ep 0 0 -4;");
-            let in_mirror = seen_with(&format!("{scene}{mirror}"), slope - DVec3::Z, by_spectra());
-            let direct = seen_with(&behind, slope + DVec3::Z - DVec3::Z * 4.0, by_spectra());
-            let difference = (in_mirror - direct).abs().max_element() / direct.max_element();
-            assert!(difference < 1e-5, "{of_lamp} {of_wall} {slope}: {in_mirror} {direct}");
-        }
-    }
-}
+use drawing::{HEAD, seen, seen_with, square, value};
 
 /// Frequencies change by (1 + β)/(1 − β) at a mirror that approaches, T27.
 #[test]
@@ -151,63 +123,6 @@ fn bodies_may_be_faster_than_light_in_glass() {
         let factor = 0.5 / (gamma * (1.0 - 1.5 * beta).abs());
         let found = value(&format!("{HEAD}{}{wall}", slab(0.5, 300.0, "")), DVec3::NEG_Z, Config::default());
         assert!((found / factor - 1.0).abs() < 1e-6, "{beta}: {found} {factor}");
-    }
-}
-
-/// Twelve solids within each other, more than half of the light of each transmitted: all are kept
-/// track of, so light leaves the innermost and the outermost as it entered them.
-#[test]
-fn many_solids_may_be_within_each_other() {
-    let surfaces: String =
-        (0..12).map(|at| format!("surf g{at} 0 0 1 {};\n", 1.1 + 0.05 * f64::from(at))).collect();
-    let solid = |at: i32| {
-        let (half, rest) = (12.5 - f64::from(at), format!("white g{at}"));
-        let (top, bottom) = (DVec3::Z * (half - 20.0), DVec3::Z * (-half - 20.0));
-        let top = square(&format!("t{at}"), top, DVec3::Z, 900.0, &rest);
-        top + &square(&format!("b{at}"), bottom, DVec3::NEG_Z, 900.0, &rest)
-    };
-    let solids: String = (0..12).map(solid).collect();
-    // A plane-parallel stack leaves the direction as it is. It shifts the ray sideways, by
-    // thickness times tangent of every layer.
-    let sin = 0.6_f64;
-    let tan = |index: f64| sin / (index * index - sin * sin).sqrt();
-    let layers = (0..12).map(|at| (if at == 11 { 3.0 } else { 2.0 }) * tan(1.1 + 0.05 * f64::from(at)));
-    let across = layers.sum::<f64>() + 15.0 * tan(1.0);
-    for (offset, is_lit) in [(1e-6, true), (-1e-6, false)] {
-        let wall = format!(
-            "v a {x} -9 -40; v b {x} 9 -40; v c -99 9 -40; v d -99 -9 -40; f (a b c d) white 1;",
-            x = across + offset
-        );
-        let config = Config { rays: RayOptions { depth: 30, ..RayOptions::default() }, ..Config::default() };
-        let found = seen_with(&format!("{HEAD}{surfaces}{solids}{wall}"), DVec3::new(sin, 0.0, -0.8), config);
-        assert_eq!(found.x > 0.0, is_lit, "{offset}: {found}");
-    }
-}
-
-/// Glass within the same glass changes nothing, neither what is seen through it nor shadows: of
-/// solids within each other the innermost absorbs. The lamp is above, the eye beside the solids.
-#[test]
-fn a_solid_within_the_same_solid_changes_nothing() {
-    let head = "c white 1; surf a 0 0 1 1.3 20 .5; surf b 0 0 1 1.3 20 .5; l 1 0 0 9 0;\n";
-    let floor = square("g", DVec3::NEG_Z * 5.0, DVec3::Z, 90.0, "white");
-    let solid = |name: &str, half: f64, velocity: &str| -> String {
-        let rest = format!("white {name} {velocity}");
-        let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
-        let side = |(at, n): (usize, &DVec3)| square(&format!("{name}{at}s"), half * *n, *n, half, &rest);
-        sides.iter().enumerate().map(side).collect()
-    };
-    for velocity in ["", "<0.3 0.1 -0.2>"] {
-        let outer = solid("a", 2.0, velocity);
-        let nested = format!("{outer}{}", solid("b", 1.0, velocity));
-        let both = [outer, nested].map(|solids| {
-            let text = format!("{head}{floor}{solids}cam -ep 20 1 3;");
-            [DVec3::new(0.2, 0.1, -5.0), DVec3::new(-0.4, 0.9, -5.0), DVec3::new(0.1, 0.3, 0.4)]
-                .map(|place| seen_with(&text, place, by_spectra()))
-        });
-        for (alone, within) in both[0].iter().zip(both[1]) {
-            assert!(alone.max_element() > 0.0, "{alone}");
-            assert!((*alone - within).abs().max_element() < 1e-6 * alone.max_element(), "{alone} {within}");
-        }
     }
 }
 

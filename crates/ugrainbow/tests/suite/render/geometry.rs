@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 use ugrainbow::CameraOptions;
-use ugtesting::Random;
 
 use crate::common::{draw, with};
-use crate::render::{assert_near, level, map, plain};
+use crate::render::{assert_near, map, plain};
 
 #[test]
 fn orthographic_squares_are_where_they_should() {
@@ -60,35 +59,6 @@ fn film_angles_and_size_agree() {
         [12..20, 12..20],
     );
     check("-va 90 90", CameraOptions { is_orthographic: true, ..none() }, [32, 32], [12..20, 12..20]);
-}
-
-/// Mean squared differences hide a shift; a line of pixels does not.
-#[test]
-fn faces_cut_through_each_other_where_their_planes_meet() {
-    // The planes z = x and z = −x/2 + 1.2, seen from +z, meet at x = 0.8.
-    let text = |camera: &str| {
-        format!(
-            "c red 1 0; c green 1 120; l 1;
-             v a -3 -3 -3 red; v b 3 -3 3 red; v c 3 3 3 red; v d -3 3 -3 red; f (a b c d);
-             v e -3 -3 2.7 green; v f 3 -3 -.3 green; v g 3 3 -.3 green; v h -3 3 2.7 green; f (e f g h); {camera}"
-        )
-    };
-    let (camera, config) = map(80, 8);
-    let frame = draw(&text(&camera), &config);
-    for x in 10..70 {
-        // Pixel centres are a tenth of a unit apart.
-        let place = (f64::from(x) + 0.5) / 10.0 - 4.0;
-        let expected = if place > 0.8 { [255, 0, 0, 255] } else { [0, 255, 0, 255] };
-        assert_eq!(frame.pixel(x, 4), expected, "column {x}");
-    }
-    // In perspective from (0, 0, 10) the line x = 0.8, z = 0.8 is seen at x/(10 − z) = 0.8/9.2.
-    let frame = draw(&text("cam -ep 0 0 10 -vc 0 0 0 -ud 0 1 0 -va 40 40;"), &config);
-    let half = libm::tan(20.0_f64.to_radians());
-    let meeting = 40.0 + 40.0 * (0.8 / 9.2) / half;
-    for x in 20..58 {
-        let expected = if f64::from(x) + 0.5 > meeting { [255, 0, 0, 255] } else { [0, 255, 0, 255] };
-        assert_eq!(frame.pixel(x, 4), expected, "column {x}, line at {meeting}");
-    }
 }
 
 /// A floor that passes under the eye and behind it, against a ray through each pixel.
@@ -166,63 +136,4 @@ fn wires_are_seen_in_front_and_hidden_behind() {
         assert_eq!(frame.pixel(10, y), red, "row {y}");
         assert_eq!(frame.pixel(8, y)[0], 0, "row {y}");
     }
-}
-
-/// Triangles through each other, round the eye and behind it, against a ray through every pixel.
-#[test]
-fn triangles_are_where_rays_meet_them() {
-    let mut random = Random(7);
-    // Colours 0…119 as levels of red and green, so that a pixel names its triangle.
-    let triangles: Vec<[DVec3; 3]> = (0..120)
-        .map(|_| {
-            let center = random.in_cube(6.0);
-            [(); 3].map(|()| center + random.in_cube(4.0))
-        })
-        .collect();
-    let mut text = String::from("l 1; cam -ep 0 0 0 -vc 1 2 .5 -va 80 80;");
-    for (idx, triangle) in triangles.iter().enumerate() {
-        let [red, green] = [idx % 11, idx / 11].map(|part| 0.1 + 0.08 * part as f64);
-        text += &format!("c_rgb k{idx} {red} {green} 0;");
-        for (corner, p) in triangle.iter().enumerate() {
-            text += &format!("v p{idx}_{corner} {} {} {} k{idx};", p.x, p.y, p.z);
-        }
-        text += &format!("f (p{idx}_0 p{idx}_1 p{idx}_2);");
-    }
-    let (width, height) = (160, 120);
-    let frame = draw(&text, &plain(width, height));
-    let forward = DVec3::new(1.0, 2.0, 0.5).normalize();
-    let right = forward.cross(DVec3::Z).normalize();
-    let up = right.cross(forward);
-    let half = libm::tan(40.0_f64.to_radians());
-    let (mut n_hits, mut n_wrong) = (0, 0);
-    for y in 0..height {
-        for x in 0..width {
-            let across = ((f64::from(x) + 0.5) / f64::from(width) * 2.0 - 1.0) * half;
-            let down = ((f64::from(y) + 0.5) * 2.0 - f64::from(height)) / f64::from(width) * half;
-            let ray = forward + across * right - down * up;
-            let hits = triangles.iter().enumerate().filter_map(|(idx, t)| Some((hit(ray, t)?, idx)));
-            let nearest = hits.min_by(|a, b| a.0.total_cmp(&b.0));
-            let expected = nearest.map_or([0; 3], |(_, idx)| {
-                [level(0.1 + 0.08 * (idx % 11) as f64), level(0.1 + 0.08 * (idx / 11) as f64), 0]
-            });
-            n_hits += u32::from(nearest.is_some());
-            n_wrong += u32::from(frame.pixel(x, y)[..3] != expected);
-        }
-    }
-    assert!(n_hits > 10_000, "{n_hits}");
-    // Depth keys are in single precision: a pixel within 1e-7 of a line where faces meet may
-    // go either way. Such are rarer than one in a picture.
-    assert!(n_wrong <= 1, "{n_wrong} pixels of {n_hits}");
-}
-
-/// Distance along `ray` from the origin to a triangle (Möller and Trumbore 1997).
-fn hit(ray: DVec3, [a, b, c]: &[DVec3; 3]) -> Option<f64> {
-    let (ab, ac) = (b - a, c - a);
-    let p = ray.cross(ac);
-    let scale = 1.0 / ab.dot(p);
-    let u = -a.dot(p) * scale;
-    let q = (-a).cross(ab);
-    let v = ray.dot(q) * scale;
-    let distance = ac.dot(q) * scale;
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && distance > 0.0).then_some(distance)
 }

@@ -1,11 +1,8 @@
 //! Errors and notes about pictures that cannot be drawn or show nothing.
 
-use ugimage::{LinearFrame, Samples};
 use ugphysics::Hsv;
 use ugpipe::Words;
-use ugrainbow::{
-    Background, CameraOptions, Channel, Config, Error, HueScale, PictureOptions, Wireframe, light, render,
-};
+use ugrainbow::{Background, Config, Error, HueScale, Wireframe, render};
 
 use crate::common::{SQUARE, scene, with};
 use crate::render::{BLACK, notes, plain};
@@ -176,55 +173,4 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         &config,
         &["no lights in the scene: drawn with ambient light 0.3 and a light of 0.7 from the eye"],
     );
-}
-
-#[test]
-fn no_scene_makes_it_panic() {
-    // Coordinates near the ends of the number range, needles, points, folded faces.
-    let corners =
-        ["0 0 0", "1e308 0 0", "-1e308 1e308 0", "1e-308 0 1e-320", "0 5 0", "1e154 1e154 1e154", "3 4 5"];
-    let mut vertices = String::new();
-    for (idx, place) in corners.iter().enumerate() {
-        vertices += &format!("v p{idx} {place};");
-    }
-    let mut n_drawn = 0;
-    for a in 0..corners.len() {
-        for b in 0..corners.len() {
-            let text = format!(
-                "{vertices} l 1; l 1 1 2 3 4; f (p{a} p{b} p4 p6) (p{b} p2 p5); w (p{a} p{b}); w (p{a} p{a});
-                 cam -ep {} -vc {};",
-                corners[a], corners[b]
-            );
-            let source = ugparse::Source::new("test.ug", text);
-            let Ok(parsed) = ugparse::parse(&source, &ugparse::Options::default()) else { continue };
-            for is_orthographic in [false, true] {
-                let camera = CameraOptions { is_orthographic, ..CameraOptions::default() };
-                let config = with(&plain(16, 16), |picture| picture.camera = camera);
-                n_drawn += usize::from(render(&parsed.scene, &config).is_ok());
-                let picture = PictureOptions { channels: Channel::ALL.to_vec(), ..config.picture.clone() };
-                let Ok(frame) = light(&parsed.scene, &Config { picture, ..config }) else { continue };
-                assert_finite(&frame);
-            }
-        }
-    }
-    assert!(n_drawn > 10, "{n_drawn}");
-}
-
-/// Every number is finite where something is drawn.
-#[track_caller]
-fn assert_finite(frame: &LinearFrame) {
-    let drawn: Vec<bool> = frame
-        .planes()
-        .iter()
-        .find_map(|plane| match &plane.samples {
-            Samples::Whole(ids) => Some(ids.iter().map(|&id| id > 0).collect()),
-            Samples::Float(_) => None,
-        })
-        .unwrap();
-    assert!(frame.pixels().iter().flatten().all(|number| number.is_finite()));
-    for plane in frame.planes() {
-        let Samples::Float(numbers) = &plane.samples else { continue };
-        let is_finite = numbers.iter().zip(&drawn).all(|(number, drawn)| !drawn || number.is_finite());
-        assert!(is_finite, "{}: {numbers:?}", plane.name);
-    }
 }
