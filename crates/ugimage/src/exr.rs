@@ -16,8 +16,8 @@ pub fn encode(frame: &LinearFrame, metadata: &Metadata) -> Vec<u8> {
     let attributes = LayerAttributes {
         software_name: text(&metadata.software),
         comments: text(&metadata.comment),
-        world_to_camera: metadata.camera.map(|[camera, _]| single(camera)),
-        world_to_normalized_device: metadata.camera.map(|[_, device]| single(device)),
+        world_to_camera: metadata.camera.as_ref().map(|both| single(both[0])),
+        world_to_normalized_device: metadata.camera.as_ref().map(|both| single(both[1])),
         ..LayerAttributes::default()
     };
     let size = (frame.width() as usize, frame.height() as usize);
@@ -93,7 +93,7 @@ mod tests {
         let metadata = Metadata {
             software: "ug 1".into(),
             comment: "ug é\nug γ".into(),
-            camera: Some([[2.0; 16], [3.0; 16]]),
+            camera: Some(Box::new([[2.0; 16], [3.0; 16]])),
             ..Metadata::default()
         };
         for mut frame in linear_frames() {

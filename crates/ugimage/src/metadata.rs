@@ -13,5 +13,5 @@ pub struct Metadata {
     pub panorama: Option<PanoramaArea>,
     /// From the scene to the axes of the camera, and to normalized device coordinates: matrices for
     /// row vectors, row after row. They are written to EXR files alone.
-    pub camera: Option<[[f64; 16]; 2]>,
+    pub camera: Option<Box<[[f64; 16]; 2]>>,
 }

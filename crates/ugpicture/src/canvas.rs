@@ -89,7 +89,7 @@ impl Canvas {
     ) -> Result<Rendering, E> {
         let Drawn { content, brightest, mut notes, annotated } = drawn;
         let camera = match annotated.subject {
-            Subject::Surfaces { view, wires: Some(_), .. } => view.matrices(),
+            Subject::Surfaces { view, wires: Some(_), .. } => view.matrices().map(Box::new),
             _ => None,
         };
         let metadata = Metadata { camera, ..metadata };
