@@ -267,7 +267,9 @@ impl Script {
         context: &Context,
     ) -> Result<(), Failure> {
         self.stated_sky = stated.cloned();
-        let mut pipe = Pipe::new(self.programs(1.0)?);
+        // Frames that are wrong are reported when they are drawn.
+        let Ok(programs) = self.programs(1.0) else { return Ok(()) };
+        let mut pipe = Pipe::new(programs);
         if let Some(sky) = pipe.sky() {
             sky.or_stated(stated);
             sky.open(common, context)?;

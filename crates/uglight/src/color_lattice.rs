@@ -2,7 +2,7 @@
 //!
 //! The reflectance of a colour (P20) is found by iteration, which takes too long for every texel. It
 //! depends on the ratios of the channels and, in infrared, on the largest, so a lattice is enough:
-//! for each channel that may be the largest, four levels of it, and the other two as parts of it. A
+//! for each channel that may be the largest, seven levels of it, and the other two as parts of it. A
 //! colour is a mixture of the three corners of the triangle of ratios that it is in, one of which is
 //! taken at two levels, with the same red, green and blue at rest. A mixture of reflectances is a
 //! reflectance, so it can be lit, shifted and filtered as one. Eq. (P51)
@@ -13,7 +13,7 @@ use glam::DVec3;
 const N: usize = 65;
 
 /// The levels of the largest channel. Above and below, the spectrum of a colour grows with it.
-const LEVELS: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
+const LEVELS: [f64; 7] = [0.03, 0.055, 0.1, 0.18, 0.32, 0.57, 1.0];
 
 /// Corners with one level.
 const N_RATIOS: usize = 3 * N * N;

@@ -98,7 +98,8 @@ impl Appearance {
         if swatches == [first; 3] {
             return even;
         }
-        let rows = std::array::from_fn(|at| (rows[at], weights[at]));
+        let [a, b, c] = std::array::from_fn(|at| (rows[at], weights[at]));
+        let rows = [a, b, c, (0, 0.0)];
         SurfaceColor { swatch: Swatch::mean(&swatches, weights), rows }
     }
 
