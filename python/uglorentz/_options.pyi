@@ -123,6 +123,8 @@ class Doppler(TypedDict, total=False):
     """The same as spectral."""
     no_doppler: bool | None
     """True. Leave wavelengths as they are"""
+    infrared_rule: float | str | None
+    """RULE. Infrared of surfaces of which only the colour is known: measured, constant [default: measured]"""
     no_flux: bool | None
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
     repeat_vertices: bool | None
@@ -242,7 +244,7 @@ class Render(TypedDict, total=False):
     pz: bool | None
     """The same as pack."""
     channels: str | Sequence[str] | None
-    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction, position, ray"""
     ch: str | Sequence[str] | None
     """The same as channels."""
     cull_back_faces: bool | None
@@ -283,6 +285,8 @@ class Render(TypedDict, total=False):
     """The same as spectral."""
     no_doppler: bool | None
     """True. Leave wavelengths as they are"""
+    infrared_rule: float | str | None
+    """RULE. Infrared of surfaces of which only the colour is known: measured, constant [default: measured]"""
     no_flux: bool | None
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
     look: Text | None
@@ -315,6 +319,12 @@ class Render(TypedDict, total=False):
     """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
     ts: float | str | None
     """The same as text_size."""
+    unit: float | str | None
+    """UNIT. What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'"""
+    speed_of_light: float | str | None
+    """SPEED. The speed of light in legends and captions, as 30km/h [default: as in vacuum]"""
+    c: float | str | None
+    """The same as speed_of_light."""
 
 class Photon(TypedDict, total=False):
     velocity: Vector | None
@@ -349,6 +359,8 @@ class Photon(TypedDict, total=False):
     """The same as spectral."""
     no_doppler: bool | None
     """True. Leave wavelengths as they are"""
+    infrared_rule: float | str | None
+    """RULE. Infrared of surfaces of which only the colour is known: measured, constant [default: measured]"""
     no_flux: bool | None
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
     interpolate_wavelength: bool | None
@@ -442,7 +454,7 @@ class Photon(TypedDict, total=False):
     pz: bool | None
     """The same as pack."""
     channels: str | Sequence[str] | None
-    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction, position, ray"""
     ch: str | Sequence[str] | None
     """The same as channels."""
     sky: Text | None
@@ -497,6 +509,12 @@ class Photon(TypedDict, total=False):
     """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
     ts: float | str | None
     """The same as text_size."""
+    unit: float | str | None
+    """UNIT. What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'"""
+    speed_of_light: float | str | None
+    """SPEED. The speed of light in legends and captions, as 30km/h [default: as in vacuum]"""
+    c: float | str | None
+    """The same as speed_of_light."""
 
 class Warp(Reading, total=False):
     velocity: Vector | None
@@ -551,6 +569,8 @@ class Warp(Reading, total=False):
     """The same as spectral."""
     no_doppler: bool | None
     """True. Leave wavelengths as they are"""
+    infrared_rule: float | str | None
+    """RULE. Infrared of surfaces of which only the colour is known: measured, constant [default: measured]"""
     no_flux: bool | None
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
     basis: Vector | float | str | None
@@ -616,7 +636,7 @@ class Warp(Reading, total=False):
     pz: bool | None
     """The same as pack."""
     channels: str | Sequence[str] | None
-    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction, position, ray"""
     ch: str | Sequence[str] | None
     """The same as channels."""
     look: Text | None
@@ -649,6 +669,12 @@ class Warp(Reading, total=False):
     """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
     ts: float | str | None
     """The same as text_size."""
+    unit: float | str | None
+    """UNIT. What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'"""
+    speed_of_light: float | str | None
+    """SPEED. The speed of light in legends and captions, as 30km/h [default: as in vacuum]"""
+    c: float | str | None
+    """The same as speed_of_light."""
 
 class Film(Reading, total=False):
     frames: float | str | None
@@ -675,6 +701,8 @@ class Film(Reading, total=False):
     """TIME. Motion blur: average the light of the film over TIME, in times between two frames"""
     moments: float | str | None
     """N. Moments that are averaged with blur= [default: 16]"""
+    across: Text | None
+    """NAME N. On a page (output FILE.html), a second slider with N values of option NAME"""
     sheet: float | str | bool | None
     """N. Draw N frames spread over the film, or those of only=, on one sheet"""
     format: Text | None
@@ -775,6 +803,8 @@ class Film(Reading, total=False):
     """The same as spectral."""
     no_doppler: bool | None
     """True. Leave wavelengths as they are"""
+    infrared_rule: float | str | None
+    """RULE. Infrared of surfaces of which only the colour is known: measured, constant [default: measured]"""
     no_flux: bool | None
     """True. Leave brightness as it is; with spectral=True omit the factor D^5"""
     color_tolerance: float | str | None
@@ -844,7 +874,7 @@ class Film(Reading, total=False):
     pz: bool | None
     """The same as pack."""
     channels: str | Sequence[str] | None
-    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction"""
+    """LIST. Channels to add to an EXR picture, separated by commas: D, time, distance, Z, id, velocity, direction, position, ray"""
     ch: str | Sequence[str] | None
     """The same as channels."""
     cull_back_faces: bool | None
@@ -903,6 +933,12 @@ class Film(Reading, total=False):
     """PIXELS. Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of size=]"""
     ts: float | str | None
     """The same as text_size."""
+    unit: float | str | None
+    """UNIT. What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'"""
+    speed_of_light: float | str | None
+    """SPEED. The speed of light in legends and captions, as 30km/h [default: as in vacuum]"""
+    c: float | str | None
+    """The same as speed_of_light."""
     depth: float | str | None
     """N. Most reflections and refractions along a path"""
     rd: float | str | None

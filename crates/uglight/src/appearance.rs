@@ -7,14 +7,11 @@ use ugscene::Scene;
 
 use crate::color::{encoded_hsv, shown_light};
 use crate::hue_table::HueTable;
-use crate::spectra::Spectra;
+use crate::spectra::{Spectra, SpectralRows};
 use crate::{
     ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette,
     SpectralFilter, SurfaceAttributes, Swatch,
 };
-
-/// Rows of spectra with their weights: of the corners of a face, or of the mixture of a texel.
-pub type SpectralRows = [(u32, f64); 4];
 
 /// A colour at rest at a point of a surface.
 #[derive(Clone, Copy, Debug)]

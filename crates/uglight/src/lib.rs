@@ -55,7 +55,7 @@ mod spectral;
 mod surface_attributes;
 mod vertex_color;
 
-pub use appearance::{Appearance, ColorFilter, Illumination, SpectralRows, SurfaceColor};
+pub use appearance::{Appearance, ColorFilter, Illumination, SurfaceColor};
 pub use color::{
     ColorForm, Mixing, RestColor, color_form, display_hue, hsv, hsv_and_factor, mean_hue, spectra_note,
     spectrum,
@@ -71,6 +71,7 @@ pub use lighting::Lighting;
 pub use own_time::{freeze_colors_at_zero, mean_color};
 pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
+pub use spectra::SpectralRows;
 pub use spectral::{SpectralColor, SpectralFilter, SpectralShift};
 pub use surface_attributes::SurfaceAttributes;
 pub use vertex_color::{VertexColor, vertex_colors};

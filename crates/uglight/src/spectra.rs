@@ -8,9 +8,11 @@ use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, ColorMix, Scene};
 
-use crate::appearance::SpectralRows;
 use crate::color_lattice::{N_CORNERS, corner, mixture};
 use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
+
+/// Rows of spectra with their weights: of the corners of a face, or of the mixture of a texel.
+pub type SpectralRows = [(u32, f64); 4];
 
 /// The apparent light of mixtures of spectra as a function of the Doppler factor.
 pub struct Spectra {
