@@ -17,7 +17,7 @@ import zlib
 
 import numpy as np
 
-# The suite describes these by polygons; they are exact here: centre and radius in the frame of the body.
+# The suite has polygons; these are exact: centre and radius in the frame of the body.
 SPHERES = {"sphere": ([0, 3, 0], 1), "panorama": ([3 * np.cos(np.pi / 6), 3 * np.sin(np.pi / 6), 0], 1)}
 
 

@@ -59,8 +59,8 @@ fn equal_steps_are_constant_proper_acceleration() {
 }
 
 /// A sun and a sky on a motion light an event as their body moves at the time of the event in the
-/// frame of the scene, whoever looks. The sun rests at time 0; at −5 its rapidity is −asinh 1.5, and
-/// D = γ(1 − β·n). So is the light on a body that accelerates itself.  Eq. (P14)
+/// frame of the scene, whoever looks. The sun rests at time 0; at −5 its rapidity is −asinh 1.5,
+/// and D = γ(1 − β·n). So is the light on a body that accelerates itself.  Eq. (P14)
 #[test]
 fn a_sun_on_a_motion_shines_by_the_clock_of_the_scene() {
     let toward = DVec3::new(0.6, -1.0, 0.0).normalize();

@@ -112,8 +112,8 @@ fn compare(rays: &Drawn, other: &Drawn, tolerance: f64) -> (usize, usize, f64) {
     (n, n_wrong, most)
 }
 
-/// Worlds at rest and in motion, in several units, with the eye before the bodies and among them. At
-/// rest nothing is cut, so there the pipe has only its own precision.
+/// Worlds at rest and in motion, in several units, with the eye before the bodies and among them.
+/// At rest nothing is cut, so there the pipe has only its own precision.
 #[test]
 fn pictures_are_those_of_rays() {
     let mut n_all = [0; 2];

@@ -62,7 +62,8 @@ const PICTURES: [(&str, &str); 36] = [
         "doppler-alone-tunnel-0.6c",
         "uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -sp --no-flux | ugrainbow -sz 160 120",
     ),
-    // Approaching, at rest and receding, all at 3000 K: they appear as 3674, 3000 and 2449 K, with D⁵.
+    // Approaching, at rest and receding, all at 3000 K: they appear as 3674, 3000 and 2449 K, with
+    // D⁵.
     (
         "filmic-black-bodies-0.2c",
         "bodies | uglorentz -in | ugdoppler -sp | ugrainbow -ex auto -tc filmic -sz 160 120",

@@ -360,8 +360,8 @@ fn meshes_are_read_in_place_of_scenes() {
     assert!(messages.contains(missing), "{messages}");
 }
 
-/// Rays and exact pictures draw the same textures: of inertial bodies and of those that turn, from a
-/// mesh and from a scene with its picture beside it, through a pipe.
+/// Rays and exact pictures draw the same textures: of inertial bodies and of those that turn, from
+/// a mesh and from a scene with its picture beside it, through a pipe.
 #[test]
 fn textures_are_drawn_alike() {
     let shell = Shell::new(&["crate.gltf"]);

@@ -157,8 +157,8 @@ fn sum_of_light(frame: &LinearFrame) -> f64 {
 }
 
 /// A mirror that fills the picture and recedes or approaches with β shows the sky as the mirrored
-/// eye sees it, which moves with 2β/(1 + β²) and looks the other way, with left and right exchanged.
-/// Stars in it keep the sum of their light.
+/// eye sees it, which moves with 2β/(1 + β²) and looks the other way, with left and right
+/// exchanged. Stars in it keep the sum of their light.
 #[test]
 fn a_mirror_shows_the_sky_of_the_mirrored_eye() {
     for beta in [0.0, 0.3, -0.5] {
@@ -260,8 +260,8 @@ fn lit_square(normal: DVec3, beta: f64, level: f32, shift: ColorShift, samples: 
     f64::from(ugphoton::light(parsed(&text), &config).unwrap().pixels()[0][1])
 }
 
-/// The mean over a hemisphere around `normal`, weighted by the cosine, of D⁴, where D is the Doppler
-/// factor of what is seen by an observer who moves with β along y.
+/// The mean over a hemisphere around `normal`, weighted by the cosine, of D⁴, where D is the
+/// Doppler factor of what is seen by an observer who moves with β along y.
 fn mean_of_beamed_light(normal: DVec3, beta: f64) -> f64 {
     const N: usize = 400;
     let across = normal.any_orthonormal_vector();

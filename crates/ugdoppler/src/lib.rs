@@ -209,8 +209,8 @@ fn color(
 }
 
 /// The irradiance of every vertex, if it is asked for and the scene has lamps, and the Doppler
-/// factor of every vertex. Vertices where the irradiance differs between faces are repeated, together
-/// with their row of `of_vertex`.
+/// factor of every vertex. Vertices where the irradiance differs between faces are repeated,
+/// together with their row of `of_vertex`.
 fn light_vertices<T: Clone>(
     scene: &mut Scene,
     config: &Config,

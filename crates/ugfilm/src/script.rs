@@ -160,8 +160,8 @@ impl Script {
         self.across.as_ref().map_or(1, |(_, n_values)| *n_values)
     }
 
-    /// Draws with a ray for every sample (`-xc`), as textures need it, in place of the pipe of three
-    /// programs, unless an option forbids it.
+    /// Draws with a ray for every sample (`-xc`), as textures need it, in place of the pipe of
+    /// three programs, unless an option forbids it.
     pub fn draw_exactly(&mut self) {
         /// Options of the programs that exclude `-xc`.
         const SCANLINE: [&str; 4] = ["cb", "og", "nc", "no-flight-time"];

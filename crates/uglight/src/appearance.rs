@@ -122,8 +122,9 @@ impl Appearance {
         self.spectra.as_ref().is_none_or(|spectra| strongest(spectra, color.rows).is_surface())
     }
 
-    /// The colour of a point of a texture with this linear red, green and blue, on a body that moves
-    /// or not. It is drawn as a `c_rgb` is: as light at rest, and as its hue or spectrum in motion.
+    /// The colour of a point of a texture with this linear red, green and blue, on a body that
+    /// moves or not. It is drawn as a `c_rgb` is: as light at rest, and as its hue or spectrum in
+    /// motion.
     pub fn texel(&self, light: DVec3, translucency: f64, is_moving: bool) -> SurfaceColor {
         if let Some(spectra) = &self.spectra {
             let swatch = Swatch { translucency, ..self.palette.white() };

@@ -1,11 +1,11 @@
 //! Spectra of arbitrary surface colours as mixtures of a few, which are tabulated.
 //!
-//! The reflectance of a colour (P20) is found by iteration, which takes too long for every texel. It
-//! depends on the ratios of the channels and, in infrared, on the largest, so a lattice is enough:
-//! for each channel that may be the largest, seven levels of it, and the other two as parts of it. A
-//! colour is a mixture of the three corners of the triangle of ratios that it is in, one of which is
-//! taken at two levels, with the same red, green and blue at rest. A mixture of reflectances is a
-//! reflectance, so it can be lit, shifted and filtered as one. Eq. (P51)
+//! The reflectance of a colour (P20) is found by iteration, which takes too long for every texel.
+//! It depends on the ratios of the channels and, in infrared, on the largest, so a lattice is
+//! enough: for each channel that may be the largest, seven levels of it, and the other two as parts
+//! of it. A colour is a mixture of the three corners of the triangle of ratios that it is in, one
+//! of which is taken at two levels, with the same red, green and blue at rest. A mixture of
+//! reflectances is a reflectance, so it can be lit, shifted and filtered as one. Eq. (P51)
 
 use glam::DVec3;
 
@@ -62,8 +62,8 @@ pub(crate) fn mixture(light: DVec3) -> [(u32, f64); 4] {
     let (middle, shares) =
         if x >= y { (corner(1, 0), [1.0 - x, x - y, y]) } else { (corner(0, 1), [1.0 - y, y - x, x]) };
     let corners = [corner(0, 0), middle, corner(1, 1)];
-    // The first corners have the upper level, the last ones the lower, and one has both, so that the
-    // shares of the levels interpolate between them.
+    // The first corners have the upper level, the last ones the lower, and one has both, so that
+    // the shares of the levels interpolate between them.
     let low = LEVELS.iter().rposition(|level| *level <= brightest).unwrap_or(0).min(LEVELS.len() - 2);
     let ends = [LEVELS[low], LEVELS[low + 1]];
     let part = ((brightest - ends[0]) / (ends[1] - ends[0])).clamp(0.0, 1.0);

@@ -255,8 +255,8 @@ impl Lamp {
         }
     }
 
-    /// A light at infinity. `toward`: a unit vector; `linear`: red, green and blue of its light on a
-    /// white surface across it; `kelvin`: of the black body that it is, if it is one.
+    /// A light at infinity. `toward`: a unit vector; `linear`: red, green and blue of its light on
+    /// a white surface across it; `kelvin`: of the black body that it is, if it is one.
     pub fn afar(
         toward: DVec3,
         linear: DVec3,

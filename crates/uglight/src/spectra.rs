@@ -26,8 +26,8 @@ pub struct Spectra {
     reach: f64,
     /// The lamps of the scene; `None` if all of these are daylight.
     lamps: Option<Lamps>,
-    /// The corners of the lattice, behind the colours; made at first use, since a texture has few of
-    /// all colours. Empty without textures.
+    /// The corners of the lattice, behind the colours; made at first use, since a texture has few
+    /// of all colours. Empty without textures.
     lattice: Vec<OnceLock<SpectralColor>>,
     /// For each colour and lamp, the colour under the lamp, tabulated.
     lit: Vec<OnceLock<DopplerTable>>,

@@ -198,7 +198,8 @@ fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>
     ids.iter().any(Option::is_some).then(|| ids.into_iter().map(color).collect())
 }
 
-/// Multiplies colours that tint textures by the parts of factors above 1, which formats do not have.
+/// Multiplies colours that tint textures by the parts of factors above 1, which formats do not
+/// have.
 fn apply_factors(scene: &Scene, colors: &mut [[f64; 4]]) {
     let mut is_done = vec![false; colors.len()];
     for face in &scene.faces {

@@ -11,8 +11,8 @@ use crate::scope::Scope;
 use crate::source::Span;
 use crate::token::{begins_identifier, ends_word, is_blank, is_identifier, number, number32, short_decimal};
 
-/// Parses `v ID x y z [color] [(u v)] ;` or `f [ID] contours [color] [< x y z >] ;` at `start` and returns
-/// the position after it; `None` for everything else.
+/// Parses `v ID x y z [color] [(u v)] ;` or `f [ID] contours [color] [< x y z >] ;` at `start` and
+/// returns the position after it; `None` for everything else.
 #[inline]
 pub(crate) fn statement<'t>(text: &'t [u8], start: usize, scope: &mut Scope<'t>) -> Option<usize> {
     let cursor = Cursor { text, at: start + 1 };

@@ -89,13 +89,11 @@ pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;
 pub use flatness::FLAT;
 pub use include::include;
-#[cfg(feature = "cli")]
-pub use mesh::name_pictures;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
 #[cfg(feature = "triangles")]
 pub use read::read;
-pub use request::{Request, RequestError, RequestKind};
+pub use request::{Request, RequestError, RequestKind, name_pictures};
 pub use rest_shapes::rest_shapes_warning;
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};

@@ -11,7 +11,7 @@ use crate::diagnostic::Diagnostic;
 use crate::diagnostics::Diagnostics;
 use crate::expand::Origins;
 use crate::options::Options;
-use crate::request::{Request, RequestError, RequestKind, relative_to};
+use crate::request::{Request, RequestError, RequestKind, name_pictures};
 use crate::source::{Source, Span};
 use crate::{Parsed, check_length, flatness};
 
@@ -67,18 +67,6 @@ fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let bent = ugscene::bent_faces(&scene);
     findings.extend(flatness::warning(source, &origins, &bent));
     Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) }
-}
-
-/// Names the pictures of a mesh, which are files beside it or within it, by paths from the current
-/// folder. Those within a mesh from standard input have no name.
-pub fn name_pictures(scene: &mut Scene, mesh: &str) {
-    let is_named = !mesh.starts_with('<');
-    for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
-        let beside = |file: String| relative_to(mesh, &file).to_string_lossy().into_owned();
-        let within = || (is_named && image.row.is_some()).then(|| mesh.to_owned());
-        let path = image.file.take().map(beside).or_else(within);
-        image.file = path.filter(|path| !path.contains(['"', '\n']));
-    }
 }
 
 fn origins(source: &Source, lines: &Lines) -> Origins {

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
+use ugscene::Scene;
+
 /// The kind of a requested text or picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RequestKind {
@@ -50,6 +52,18 @@ impl From<io::Error> for RequestError {
 /// The path of `name`, relative to the folder of `file`.
 pub(crate) fn relative_to(file: &str, name: &str) -> PathBuf {
     without_dots(&Path::new(file).parent().unwrap_or(Path::new("")).join(name))
+}
+
+/// Names the pictures of a mesh, which are files beside it or within it, by paths from the current
+/// folder. Those within a mesh from standard input have no name.
+pub fn name_pictures(scene: &mut Scene, mesh: &str) {
+    let is_named = !mesh.starts_with('<');
+    for image in scene.textures.iter_mut().map(|texture| &mut texture.image) {
+        let beside = |file: String| relative_to(mesh, &file).to_string_lossy().into_owned();
+        let within = || (is_named && image.row.is_some()).then(|| mesh.to_owned());
+        let path = image.file.take().map(beside).or_else(within);
+        image.file = path.filter(|path| !path.contains(['"', '\n']));
+    }
 }
 
 /// The path without `.`; a path of nothing else is `.`. A `..` stays: after a link, it is not the

@@ -515,7 +515,8 @@ impl<'t> BodyTable<'t> {
         motion.map_or(self.bodies.unstated(), |motion| self.of_reference(text, motion, DVec3::ZERO))
     }
 
-    /// The body with this motion; adds it if it is new. `at`: the reference point if none is stated.
+    /// The body with this motion; adds it if it is new. `at`: the reference point if none is
+    /// stated.
     pub fn of_reference(&mut self, text: &'t [u8], motion: MotionReference, at: DVec3) -> BodyId {
         match motion {
             MotionReference::Frame(frame) => self.moving_with(frame.about(at)),

@@ -39,8 +39,8 @@ pub struct Config {
     /// by no more, their mean stands for the others. The contrast of light is the greatest
     /// difference of a channel divided by the greatest sum of the least and the most of one.
     pub adaptive: Option<f64>,
-    /// What is behind the scene and in its mirrors (`-sky`). A picture with a transparent background
-    /// shows it in mirrors only.
+    /// What is behind the scene and in its mirrors (`-sky`). A picture with a transparent
+    /// background shows it in mirrors only.
     pub sky: SceneSky,
     /// Put a ground below the scene (`--stage`), see [`ugscene::add_ground`].
     pub ground: bool,

@@ -195,8 +195,8 @@ impl<'a> Scenery<'a> {
         !self.scene.lights.is_empty() || self.sky_lamps.is_some()
     }
 
-    /// The rows of the lamps whose light a sample receives: all, but of the points of a sky one set,
-    /// another for each sample of a pixel.
+    /// The rows of the lamps whose light a sample receives: all, but of the points of a sky one
+    /// set, another for each sample of a pixel.
     pub fn lamps_of(&self, sample: u64) -> [Range<usize>; 2] {
         let Some(sky) = &self.sky_lamps else { return [0..self.lamps.len(), 0..0] };
         let [across, n] = self.grid.map(u64::from);

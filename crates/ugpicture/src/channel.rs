@@ -30,11 +30,11 @@ pub enum Channel {
     /// `direction.X`, `direction.Y`, `direction.Z`: unit vector to what is seen, in the rest
     /// frame of the body and the axes of the scene (P6), (P25); 0 where nothing is visible.
     Direction,
-    /// `position.X`, `position.Y`, `position.Z`: the emission event in the scene, in the frame of the
-    /// camera; 0 where nothing is visible.
+    /// `position.X`, `position.Y`, `position.Z`: the emission event in the scene, in the frame of
+    /// the camera; 0 where nothing is visible.
     Position,
-    /// `ray.X`, `ray.Y`, `ray.Z`: unit vector from the eye to the emission event, in the frame of the
-    /// camera and the axes of the scene; 0 where nothing is visible.
+    /// `ray.X`, `ray.Y`, `ray.Z`: unit vector from the eye to the emission event, in the frame of
+    /// the camera and the axes of the scene; 0 where nothing is visible.
     Ray,
 }
 
@@ -78,8 +78,8 @@ impl Channel {
     }
 }
 
-/// The planes of a channel in a picture of `n_pixels`. `eye`: in scene coordinates; `seen`: what is seen at a pixel, counted row
-/// after row.
+/// The planes of a channel in a picture of `n_pixels`. `eye`: in scene coordinates; `seen`: what is
+/// seen at a pixel, counted row after row.
 pub fn channel_planes(
     channel: Channel,
     n_pixels: usize,

@@ -58,7 +58,8 @@ pub struct PictureArgs {
           help_heading = PICTURE)]
     fl: Filter,
 
-    /// Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: black]
+    /// Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default:
+    /// black]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           visible_alias = "background", help_heading = PICTURE)]
     bg: Option<Vec<String>>,
@@ -94,8 +95,8 @@ pub struct PictureArgs {
     ///
     /// Doppler factor, emission time, distance of the emission event, depth along the view, number
     /// of the face, velocity of the body, direction of the emission event in the frame of the body
-    /// and the axes of the scene; position of that event, and the direction to it, in the frame of the
-    /// camera; all at the middle of the pixel.
+    /// and the axes of the scene; position of that event, and the direction to it, in the frame of
+    /// the camera; all at the middle of the pixel.
     #[arg(long, value_name = "LIST", value_parser = channels, visible_alias = "channels", help_heading = PICTURE)]
     ch: Option<Channels>,
 }
@@ -248,8 +249,8 @@ pub struct AnnotationArgs {
     /// What a length of 1 in the scene is: m, km, ls (a light-second) ...; with a number, as '20 m'
     ///
     /// Legend, grid, scale and lines, and {t} and {speed} in captions of films, then have units:
-    /// speeds in km/s, times as long as light takes. Units are nm, um, mm, cm, m, km, ft, mi, au, ly,
-    /// pc, and lns, ls, lmin, lh, the way of light in such a time.
+    /// speeds in km/s, times as long as light takes. Units are nm, um, mm, cm, m, km, ft, mi, au,
+    /// ly, pc, and lns, ls, lmin, lh, the way of light in such a time.
     #[arg(long, value_name = "UNIT", help_heading = ANNOTATIONS)]
     unit: Option<String>,
 

@@ -163,7 +163,8 @@ fn is_exact(matches: &ArgMatches) -> bool {
     is_given(matches, "xc")
 }
 
-/// The options of [`ShiftArgs`] need `-xc`. clap does not require it beside `-vec`, which excludes it.
+/// The options of [`ShiftArgs`] need `-xc`. clap does not require it beside `-vec`, which excludes
+/// it.
 fn with_exact(arg: Arg) -> Arg {
     match arg.get_id().as_str() {
         "br" | "sp" | "no_doppler" | "no_flux" => arg.requires("xc").conflicts_with("vec"),

@@ -188,8 +188,8 @@ impl SceneBuilder {
         self.sampled(name, samples, false)
     }
 
-    /// Adds the colour of a surface by its reflectance, in the same form; outside, the reflectance is
-    /// that of the nearer end.
+    /// Adds the colour of a surface by its reflectance, in the same form; outside, the reflectance
+    /// is that of the nearer end.
     ///
     /// # Errors
     /// See [`BuildError`].

@@ -198,7 +198,8 @@ pub struct ShiftArgs {
     #[arg(long)]
     pub no_doppler: bool,
 
-    /// Infrared of surfaces of which only the colour is known: measured, constant [default: measured]
+    /// Infrared of surfaces of which only the colour is known: measured, constant [default:
+    /// measured]
     ///
     /// With -sp. measured: what measured surfaces of this colour reflect. constant: the reflectance
     /// at 780 nm goes on. Spectra that are given (c_refl) need no rule.

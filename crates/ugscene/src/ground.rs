@@ -10,15 +10,15 @@ use crate::{BodyId, Color, ColorId, ColorValue, Face, Scene, StatedMotion, Verte
 /// Corners of the ground.
 const CORNERS: usize = 128;
 
-/// Its radius, as a multiple of the size of the scene: the horizon is then a third of a degree below
-/// eye level.
+/// Its radius, as a multiple of the size of the scene: the horizon is then a third of a degree
+/// below eye level.
 const RADIUS: f64 = 400.0;
 
 /// Display-encoded grey of the ground.
 const GREY: f64 = 0.6;
 
-/// Adds a level disc of grey below everything: at the lowest z of the vertices. It rests in the frame
-/// of the scene, whatever moves. A scene without vertices stays as it is.
+/// Adds a level disc of grey below everything: at the lowest z of the vertices. It rests in the
+/// frame of the scene, whatever moves. A scene without vertices stays as it is.
 pub fn add_ground(scene: &mut Scene) {
     let places = scene.vertices.iter().map(|vertex| vertex.position);
     let Some((low, high)) = places.fold(None, |ends: Option<(DVec3, DVec3)>, at| {

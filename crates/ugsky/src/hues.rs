@@ -128,8 +128,8 @@ fn attenuation<S: Simd>(simd: S, nm: f32x16<S>) -> f32x16<S> {
     violet.min(red).max(number(0.0)).min(number(1.0))
 }
 
-/// Rounding error of a Doppler factor of 1 in single precision. Magentas are no wavelengths, so they
-/// would change with it.
+/// Rounding error of a Doppler factor of 1 in single precision. Magentas are no wavelengths, so
+/// they would change with it.
 const ROUNDING: f32 = 1e-6;
 
 /// Cells of a [`Table`].

@@ -35,8 +35,8 @@ pub(crate) fn turned(turn: DQuat, velocity: Velocity) -> Velocity {
 }
 
 impl SkyAround {
-    /// `turn`: from the axes of the sky to those of the scene. `velocity`: of the camera in the frame
-    /// of the scene. `keeps_light`: see [`Shade::new`].
+    /// `turn`: from the axes of the sky to those of the scene. `velocity`: of the camera in the
+    /// frame of the scene. `keeps_light`: see [`Shade::new`].
     ///
     /// # Errors
     /// [`BasisError`].
@@ -102,11 +102,12 @@ pub struct SkyRays<'a> {
 }
 
 impl SkyRays<'_> {
-    /// Linear red, green and blue, and the covered part, of the light that arrives from a direction,
-    /// a unit vector in the frame of the camera and the axes of the scene.
+    /// Linear red, green and blue, and the covered part, of the light that arrives from a
+    /// direction, a unit vector in the frame of the camera and the axes of the scene.
     ///
-    /// `width`: angle of the sample at the eye, radians. `frequency`: of the light on this ray in the frame of the camera, where it is 1 at the eye:
-    /// mirrors in motion change it, and with it the angle of a sample, which is divided by it.
+    /// `width`: angle of the sample at the eye, radians. `frequency`: of the light on this ray in
+    /// the frame of the camera, where it is 1 at the eye: mirrors in motion change it, and with it
+    /// the angle of a sample, which is divided by it.
     pub fn light(&mut self, toward: DVec3, width: f64, frequency: f64) -> [f32; 4] {
         let around = self.around;
         let toward = around.sky_from_scene * toward;

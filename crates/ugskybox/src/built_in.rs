@@ -108,8 +108,8 @@ fn black_bodies() -> Vec<[f64; 3]> {
 }
 
 impl ClearSky {
-    /// Luminance by the CIE standard general sky, type 12, clear with low turbidity (ISO 15469:2004),
-    /// up to a factor.
+    /// Luminance by the CIE standard general sky, type 12, clear with low turbidity (ISO
+    /// 15469:2004), up to a factor.
     fn luminance(&self, direction: DVec3) -> f64 {
         let from_sun = libm::acos(direction.dot(self.sun).clamp(-1.0, 1.0));
         let gradation = 1.0 - libm::exp(-0.32 / direction.z.max(0.01));

@@ -37,8 +37,8 @@ pub struct SkyPicture {
     pub stars: StarOptions,
 }
 
-/// How the colours of a sky change where those of a scene change by `shift`. `basis`: the spectra of
-/// colours, if spectra are shifted.
+/// How the colours of a sky change where those of a scene change by `shift`. `basis`: the spectra
+/// of colours, if spectra are shifted.
 #[must_use]
 pub fn sky_colors(shift: ColorShift, basis: Basis) -> SkyColors {
     match shift {

@@ -25,8 +25,8 @@ pub struct SkyLamp {
 pub struct SkyLamps {
     /// Stars, the sun above all.
     pub stars: Vec<SkyLamp>,
-    /// Points of the panorama in sets, one after the other, of which each is spread over the sky. In
-    /// the mean of all sets the light is that of the panorama.
+    /// Points of the panorama in sets, one after the other, of which each is spread over the sky.
+    /// In the mean of all sets the light is that of the panorama.
     pub points: Vec<SkyLamp>,
     /// Number of sets.
     pub n_sets: usize,

@@ -13,8 +13,9 @@
 //!   infinite or NaN;
 //! - the number of threads changes no byte.
 //!
-//! Full disks, closed pipes, signals and limits of the shell are the business of ugpipe, whose tests
-//! have them. [`memory`] has what must hold in memory, for fuzz targets, whose inputs are [`File`]s.
+//! Full disks, closed pipes, signals and limits of the shell are the business of ugpipe, whose
+//! tests have them. [`memory`] has what must hold in memory, for fuzz targets, whose inputs are
+//! [`File`]s.
 
 mod bytes;
 mod files;

@@ -580,8 +580,8 @@ fn pieces_are_bounded_at_every_speed() {
     }
 }
 
-/// Texture coordinates are linear in the rest frame, however a face is cut: also of instances and of
-/// bodies that turn and accelerate.
+/// Texture coordinates are linear in the rest frame, however a face is cut: also of instances and
+/// of bodies that turn and accelerate.
 #[test]
 fn texture_coordinates_are_linear_at_rest() {
     let vertex = |name: &str, [x, y]: [f64; 2], [u, v]: [f64; 2]| format!("v {name} {x} 3 {y} ({u} {v});\n");

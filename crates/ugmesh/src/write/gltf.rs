@@ -307,8 +307,8 @@ impl Buffer {
         self.add(&bytes, rows.len(), FLOAT, kind, ARRAY_BUFFER)
     }
 
-    /// Appends a picture, padded to four bytes, and describes it by a view. Returns the index of the
-    /// view.
+    /// Appends a picture, padded to four bytes, and describes it by a view. Returns the index of
+    /// the view.
     fn picture(&mut self, bytes: &[u8]) -> usize {
         self.views.push(json!({
             "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len(),

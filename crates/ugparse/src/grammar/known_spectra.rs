@@ -2,8 +2,8 @@
 
 use crate::token::Reason;
 
-/// Reflectances from 400 to 2450 nm: medians of measured spectra, of foliage of simulated ones. From
-/// earthlib 1.1.0; its licence is in `surfaces.license`.
+/// Reflectances from 400 to 2450 nm: medians of measured spectra, of foliage of simulated ones.
+/// From earthlib 1.1.0; its licence is in `surfaces.license`.
 const SURFACES: &str = include_str!("../surfaces.csv");
 
 /// The sun above the air and on the ground (ASTM G-173-03) to 2500 nm, beyond it by Planck's law at

@@ -11,8 +11,9 @@ use crate::spectrum::weighted_daylight::WeightedDaylight;
 /// Step of a table in ln D. A step shifts wavelengths by one percent, about 5 nm.
 ///
 /// Interpolation errors, measured on 125 surfaces from greys to the primaries and on black bodies,
-/// are below 3·10⁻⁴ of the largest of X, Y and Z: a colour difference ΔE*ab below 0.1. Half of that comes from
-/// summing over whole nanometres, across the corners of the piecewise linear daylight table.
+/// are below 3·10⁻⁴ of the largest of X, Y and Z: a colour difference ΔE*ab below 0.1. Half of that
+/// comes from summing over whole nanometres, across the corners of the piecewise linear daylight
+/// table.
 pub const LN_STEP: f64 = 0.01;
 
 /// Number of extra points at each end of the table, for the cubic interpolation.

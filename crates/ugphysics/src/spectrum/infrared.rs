@@ -46,7 +46,8 @@ pub(crate) const N_LEVELS: usize = 4;
 /// The wavelengths of the levels, nm: the middles of the bands that the fit used.
 const LEVELS_NM: [f64; N_LEVELS] = [845.0, 1150.0, 1640.0, 2200.0];
 
-/// For each level, the coefficients of a fit to measured surfaces of 23 kinds, docs/physics/infrared.py.
+/// For each level, the coefficients of a fit to measured surfaces of 23 kinds,
+/// docs/physics/infrared.py.
 const FIT: [[f64; 3]; N_LEVELS] =
     [[0.9, -1.06, 1.2], [0.5, -0.12, 1.36], [-0.25, 1.32, 0.81], [0.48, 2.54, -0.3]];
 
@@ -68,8 +69,8 @@ pub(crate) fn levels(rgb: [f64; 3]) -> [f64; N_LEVELS] {
     })
 }
 
-/// The share of the curve of a colour in the reflectance at a wavelength, nm, and that of each level.
-/// They add up to 1. Interpolated linearly between whole nanometres.
+/// The share of the curve of a colour in the reflectance at a wavelength, nm, and that of each
+/// level. They add up to 1. Interpolated linearly between whole nanometres.
 pub(crate) fn parts(wavelength_nm: f64) -> (f64, [f64; N_LEVELS]) {
     static ROWS: LazyLock<Vec<[f64; N_LEVELS]>> = LazyLock::new(|| {
         let last = LEVELS_NM[N_LEVELS - 1] as usize + 1;

@@ -69,8 +69,8 @@ impl Spectrum {
         Self(Kind::Samples(samples.into()))
     }
 
-    /// A surface under daylight by samples of its reflectance (nm, value) at increasing wavelengths,
-    /// interpolated linearly between them; outside, the value of the nearer end.
+    /// A surface under daylight by samples of its reflectance (nm, value) at increasing
+    /// wavelengths, interpolated linearly between them; outside, the value of the nearer end.
     ///
     /// ```
     /// use ugphysics::spectrum::Spectrum;

@@ -25,8 +25,8 @@ const MAX_DAMPED_STEPS: usize = 200;
 /// Largest number of final Newton steps; each divides the error by about a thousand.
 const MAX_NEWTON_STEPS: usize = 4;
 
-/// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB, by
-/// the Levenberg–Marquardt method: first on nodes every 20 nm, then every 4 nm, then on every
+/// The curve whose colour under daylight, together with the infrared levels, is this linear sRGB,
+/// by the Levenberg–Marquardt method: first on nodes every 20 nm, then every 4 nm, then on every
 /// nanometre. `None` if no curve is found.
 pub(crate) fn solve(color: [f64; 3], rule: InfraredRule, levels: [f64; N_LEVELS]) -> Option<Coefficients> {
     let (coarse, middle, fine) = grids(rule);

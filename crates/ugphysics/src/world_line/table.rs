@@ -65,8 +65,8 @@ struct Step {
 }
 
 /// A step of the sixth order, by the rule of Gauss and Legendre with three nodes. For the turn it
-/// is that of Magnus: dR/dt = [ω]× R with ω = γ²/(γ + 1) dv/dt × v (Thomas). Commutators of [a]× and
-/// [b]× are [a × b]×, so they are cross products.  Eq. (P48)
+/// is that of Magnus: dR/dt = [ω]× R with ω = γ²/(γ + 1) dv/dt × v (Thomas). Commutators of [a]×
+/// and [b]× are [a × b]×, so they are cross products.  Eq. (P48)
 fn step(row: &Row, from: f64, to: f64) -> Step {
     let length = to - from;
     let reach = 15.0_f64.sqrt() / 10.0;

@@ -30,8 +30,8 @@ pub struct Faces<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> Faces<'a, N> {
-    /// The faces of a scene for which `is_drawn` returns true. `planes`: the plane of each face, see
-    /// [`ugscene::shared_planes`].
+    /// The faces of a scene for which `is_drawn` returns true. `planes`: the plane of each face,
+    /// see [`ugscene::shared_planes`].
     pub fn new(
         painter: Painter<'a>,
         planes: &[u32],

@@ -32,8 +32,8 @@ pub struct Look {
     row: u32,
     /// The colour of the face, if it is a picture.
     texture: Option<ColorId>,
-    /// Triangles between the corners, if colours or normals differ between these, or for a picture. Values at a point
-    /// are interpolated linearly in the rest frame.
+    /// Triangles between the corners, if colours or normals differ between these, or for a picture.
+    /// Values at a point are interpolated linearly in the rest frame.
     triangles: Box<[Triangle]>,
 }
 

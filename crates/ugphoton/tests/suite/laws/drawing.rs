@@ -22,8 +22,8 @@ pub fn drawn(text: &str, config: &Config) -> LinearFrame {
     light(scene, config).unwrap()
 }
 
-/// The picture that a name describes: `rgb_R_G_B` is one pixel, `checks_N_M` are N x N checks of M x
-/// M pixels, black at the upper left.
+/// The picture that a name describes: `rgb_R_G_B` is one pixel, `checks_N_M` are N x N checks of M
+/// x M pixels, black at the upper left.
 fn picture(path: &Path) -> Vec<u8> {
     let name = path.to_str().unwrap();
     let numbers: Vec<u32> = name.split('_').skip(1).map(|number| number.parse().unwrap()).collect();
