@@ -380,7 +380,6 @@ fn a_scene_states_its_sky() {
     let none = SceneSky::default();
     let mut option = none.clone();
     option.or_stated(Some(&stated));
-    option.open_built_in();
     let shift = ColorShift::SPECTRA;
     let expected = by_rays(BEHIND, &option, beta, shift, Lens::Pinhole);
     assert_eq!(by_rays(&text, &none, beta, shift, Lens::Pinhole), expected);

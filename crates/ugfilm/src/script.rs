@@ -134,7 +134,7 @@ impl Script {
         }
     }
 
-    /// Gives an option a slider of its own with so many values.
+    /// Moves an option to a second slider of a page. `n_values`: positions of that slider.
     ///
     /// # Errors
     /// The option does not change over the film, no other does, or a caption has speeds of the

@@ -29,8 +29,9 @@ pub struct Spectra {
     /// The corners of the lattice, behind the colours; made at first use, since a texture has few
     /// of all colours. Empty without textures.
     lattice: Vec<OnceLock<SpectralColor>>,
-    /// For each colour and lamp, the colour under the lamp, tabulated.
-    lit: Vec<OnceLock<DopplerTable>>,
+    /// For each colour, what it is under each lamp, tabulated; made at first use, since few colours
+    /// are seen under each lamp.
+    lit: Vec<OnceLock<Box<[OnceLock<DopplerTable>]>>>,
 }
 
 impl Spectra {
@@ -56,7 +57,7 @@ impl Spectra {
         }
         let lamps = Lamps::new(scene, eye, true);
         let n_colors = self.colors.len() + self.lattice.len();
-        let lit = std::iter::repeat_with(OnceLock::new).take(n_colors * lamps.len()).collect();
+        let lit = std::iter::repeat_with(OnceLock::new).take(n_colors).collect();
         Self { lamps: Some(lamps), lit, ..self }
     }
 
@@ -99,8 +100,8 @@ impl Spectra {
         for (at, lamp) in lamps.iter().enumerate() {
             let level = lamp.intensity * lamp.level_at_rest(point, normal, shift);
             if level > 0.0 {
-                // Made at first use, since few colours are seen under each lamp.
-                let table = self.lit[row * lamps.len() + at].get_or_init(|| {
+                let under_lamps = || std::iter::repeat_with(OnceLock::new).take(lamps.len()).collect();
+                let table = self.lit[row].get_or_init(under_lamps)[at].get_or_init(|| {
                     let surface = self.color(row).spectrum();
                     let lit = |doppler: f64| surface.under(lamp.spectrum(), doppler, 1.0);
                     self.grid.table_of(|doppler| lit(doppler).unwrap_or_default())

@@ -198,7 +198,7 @@ impl<'t> Scope<'t> {
         self.push_vertex(Name::new(name.of(text)), name, row);
     }
 
-    /// Adds a vertex, whose own name is not set.
+    /// Adds a vertex. `name`, not that of `vertex`, is its name.
     pub fn push_vertex(&mut self, name: Name<'t>, span: Span, vertex: Vertex) {
         let row = self.vertices.len() as u32;
         let number = self.vertex_names.enter(name) as usize;

@@ -339,7 +339,7 @@ pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     }
 }
 
-const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
+pub(crate) const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
 
 /// The input after the next `;` outside comments.
 pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, SyntaxError<'_>> {

@@ -452,7 +452,7 @@ impl<'s> Writer<'s> {
         self.text(";");
     }
 
-    /// A picture. One within a mesh has no file that a text could name.
+    /// Writes `c_tex`; nothing for a picture inside a mesh from standard input, which has no name.
     fn texture(&mut self, texture: &Texture) {
         let Texture { color, image, wrap, factor, alpha } = texture;
         let Some(file) = &image.file else { return };

@@ -121,7 +121,6 @@ impl PreparedScene {
         let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
         let mut config = config.on(&canvas);
         config.sky.or_stated(scene.sky.as_ref());
-        config.sky.open_built_in();
         let (mut scene, mut notes) = (scene, Vec::new());
         if config.ground {
             // The camera of a scene that has none shows the scene, not the ground.

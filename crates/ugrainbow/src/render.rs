@@ -45,7 +45,6 @@ pub fn light(scene: &Scene, config: &Config) -> Result<LinearFrame, Error> {
     config.picture.keep_light();
     config.picture.check()?;
     config.sky.or_stated(scene.sky.as_ref());
-    config.sky.open_built_in();
     let setup = prepare(scene, &config)?;
     let layers = RenderLayers::new(&setup, &config);
     Ok(pixels::light_with_sky(&setup, &layers, &config, &())?.0)
@@ -95,7 +94,6 @@ fn draw(
     progress.step("preparing", 0);
     let mut config = Config { picture: canvas.options().clone(), ..config.with_textures(scene) };
     config.sky.or_stated(scene.sky.as_ref());
-    config.sky.open_built_in();
     let config = &config;
     let drawn = match config.picture.output {
         Output::Vector(format) => vector::draw(scene, config, format, progress)?,

@@ -66,7 +66,7 @@ impl SkyAround {
         Self { stars, ..self }
     }
 
-    /// Finds the light of rays. Make one for each thread.
+    /// A sampler of the sky, one for each thread.
     #[must_use]
     pub fn rays(&self) -> SkyRays<'_> {
         let panorama = self.opened.panorama.as_ref();
@@ -95,7 +95,7 @@ pub(crate) fn light_around(
     [0.0; 4]
 }
 
-/// Finds the light of rays that leave a scene.
+/// Samples the sky along rays that leave a scene.
 pub struct SkyRays<'a> {
     around: &'a SkyAround,
     sampler: Option<Sampler<'a>>,

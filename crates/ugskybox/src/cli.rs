@@ -42,9 +42,7 @@ impl SkyArgs {
         let turn = self.sky_turn.as_deref().map_or(DQuat::IDENTITY, turn);
         SceneSky { source, turn, ..SceneSky::default() }
     }
-}
 
-impl SkyArgs {
     /// As [`SkyArgs::sky`]; without one, a sky without a file.
     pub fn sky_or(&self, sky: BuiltIn) -> SceneSky {
         let found = self.sky();
@@ -54,13 +52,12 @@ impl SkyArgs {
 }
 
 impl SceneSky {
-    /// Opens its file, unless it is open. One that a scene names has to be in its folder or below.
-    /// `common`: for the limit of memory.
+    /// Opens its file, unless it is open ([`SceneSky::or_stated`] makes one without a file). One
+    /// that a scene names has to be in its folder or below. `common`: for the limit of memory.
     ///
     /// # Errors
     /// A file that cannot be read, or is neither a panorama nor a list of stars.
     pub fn open(&mut self, common: &CommonArgs, context: &Context) -> Result<(), Failure> {
-        self.open_built_in();
         let file = match &self.source {
             SkySource::File(path) => context.input_file(path)?,
             SkySource::Stated(path) => {

@@ -98,16 +98,13 @@ pub struct SkyCamera<'a> {
 }
 
 impl SceneSky {
-    /// Changes it to the sky that a scene states, unless there is one.
+    /// Changes it to the sky that a scene states, unless there is one, and makes one without a
+    /// file.
     pub fn or_stated(&mut self, stated: Option<&StatedSky>) {
         if let (Some(StatedSky { file, turn: degrees }), SkySource::None) = (stated, &self.source) {
             self.source = SkySource::Stated(file.into());
             self.turn = turn(degrees);
         }
-    }
-
-    /// Opens a sky without a file.
-    pub fn open_built_in(&mut self) {
         if let SkySource::File(path) | SkySource::Stated(path) = &self.source
             && let Some(sky) = path.to_str().and_then(BuiltIn::from_name)
         {

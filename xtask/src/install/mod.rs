@@ -139,6 +139,7 @@ pub fn pages(root: &Path) -> io::Result<Vec<String>> {
         "LICENSE-APACHE",
         "LICENSE-MIT",
         "conformance/README.md",
+        "conformance/renderer.py",
         "python/README.md",
         "web/README.md",
         "crates/ugrainbow/examples/in_memory.rs",

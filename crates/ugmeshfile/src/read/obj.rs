@@ -179,7 +179,8 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// A texture coordinate that is no number is NaN, and dropped with its vertex.
+    /// `vt u [v]`. If a coordinate is not a number, vertices that use it have no texture
+    /// coordinates.
     fn uv(&mut self, rest: &str) {
         let mut parts = rest.split_whitespace().map_while(any_number);
         let (u, v) = (parts.next().unwrap_or(f64::NAN), parts.next().unwrap_or(0.0));

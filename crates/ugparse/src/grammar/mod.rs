@@ -25,12 +25,13 @@ use crate::statement::{
     Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{
-    Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, mark, number, number32,
-    point, require, wanted, word,
+    FILE_NAME, Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, mark, number,
+    number32, point, require, wanted, word,
 };
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam motion sky def end i a include execute";
+pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam \
+                                   motion sky def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t> {
@@ -356,10 +357,7 @@ impl<'t> Grammar<'t> {
 
     /// `sky FILE [-ra x y z]`
     fn sky<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let at = blank(input)?.0;
-        let (input, name) = file_name(input)?;
-        let start = self.position(at) + u32::from(at.starts_with(b"\""));
-        let file = Span { start, end: start + name.len() as u32 };
+        let (input, FileStatement { name: file, .. }) = self.file(input, FILE_NAME)?;
         let (input, turn) = match opt(option_word).parse(input)? {
             (rest, Some(b"ra")) => require(numbers(rest))?,
             (_, Some(_)) => return fail(blank(input)?.0, Reason::Expected("`-ra` or `;`")),
