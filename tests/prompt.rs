@@ -405,9 +405,23 @@ fn textures_are_drawn_alike() {
     let output = shell.output("ugrainbow --explain 30,20 -sz 60 45 crate.ug");
     let messages = String::from_utf8(output.stderr).unwrap();
     assert!(messages.contains("faces with textures are drawn by rays"), "{messages}");
-    let output = shell.output("uglorentz -vel .5 0 0 crate.ug | ugdoppler | ugrainbow");
+    let output = shell.output("uglorentz -vel .5 0 0 crate.ug | ugdoppler -ir | ugrainbow");
     let messages = String::from_utf8(output.stderr).unwrap();
-    assert!(messages.contains("plain colour; leave out ugdoppler and give -xc here"), "{messages}");
+    assert!(messages.contains("plain colour; leave out -vel, -gw, -ir"), "{messages}");
+    // ugdoppler leaves textures to rays, which draw as without it.
+    let moved = "uglorentz -vel .5 0 0 -in -ep 4 -6 3 crate.ug";
+    for shift in ["", "-sp", "-sp --infrared-rule constant --no-flux", "-br photon"] {
+        shell.run(&format!("{moved} | ugdoppler -qt {shift} | ugrainbow -qt {view} > pipe.png"));
+        shell.run(&format!("{moved} | ugrainbow -qt -xc {shift} {view} > exact.png"));
+        assert!(pixels("pipe.png") == pixels("exact.png"), "{shift}");
+    }
+    for (picture, remedy) in [("ugrainbow -cb", "--no-textures"), ("ugmesh -dt ply", "--no-textures")] {
+        let output = shell.output(&format!("{moved} | ugdoppler -qt | {picture}"));
+        assert!(!output.status.success());
+        assert!(String::from_utf8_lossy(&output.stderr).contains(remedy));
+        let output = shell.output(&format!("{moved} | ugdoppler -qt --no-textures | {picture}"));
+        assert!(output.status.success() && !output.stdout.is_empty());
+    }
     let output = shell.output("uglorentz -vel .5 0 0 < crate.gltf");
     let messages = String::from_utf8(output.stderr).unwrap();
     assert!(messages.contains("textures within a mesh on standard input are left out"), "{messages}");
@@ -417,11 +431,11 @@ fn textures_are_drawn_alike() {
     let printed =
         String::from_utf8(shell.output(&format!("{film} --print -fo shell_%d.png crate.gltf")).stdout);
     let printed = printed.unwrap();
-    assert!(printed.contains(" -xc ") && !printed.contains("ugdoppler"), "{printed}");
+    assert!(!printed.contains("--no-textures"), "{printed}");
     printed.lines().for_each(|line| drop(shell.run(line)));
     assert!(pixels("film_2.png") == pixels("shell_2.png"));
-    let plain = shell.output(&format!("{film} -li --print -fo shell_%d.png crate.gltf")).stdout;
-    assert!(String::from_utf8(plain).unwrap().contains("ugdoppler"));
+    let plain = shell.output(&format!("{film} -cb --print -fo shell_%d.png crate.gltf")).stdout;
+    assert!(String::from_utf8(plain).unwrap().contains("--no-textures"));
     // A scene in a folder, of which programs see only that.
     std::fs::create_dir(shell.path("sub")).unwrap();
     shell.write("sub/a.ug", b"c w 1; c_tex w \"../crate_texture1.png\";");

@@ -71,6 +71,13 @@ pub struct Args {
     #[arg(long, visible_alias = "keep-intensities")]
     hd: bool,
 
+    /// Give faces with textures their mean colour
+    ///
+    /// Without it, the colours of a scene with textures are shifted by the renderer, with a ray for
+    /// each sample. Pictures in vectors, -og, -cb and mesh files need colours at vertices.
+    #[arg(long)]
+    no_textures: bool,
+
     #[command(flatten)]
     look: LookArgs,
 
@@ -124,6 +131,7 @@ impl Args {
             iris: self.ir,
             light: self.li,
             keep: self.hd,
+            no_textures: self.no_textures,
         })
     }
 
@@ -195,6 +203,10 @@ impl Words for Note {
             Self::TakenAsSeen => remedies::MOVE_FIRST.replacen("{}", &self.to_string(), 1),
             Self::AllMove => format!("{self}, so -vel has no effect"),
             Self::NoLights => "no lights in the scene, so -li puts none into its colours".to_owned(),
+            Self::PlainTextures { .. } => format!(
+                "{self}; leave out -vel, -gw, -ir, -hd, -li with moving lights, and orthographic cameras"
+            ),
+            Self::DeferredTextures { .. } => format!("{self}; --no-textures shifts mean colours here"),
             Self::Scaled(_) | Self::Clipped(_) | Self::TooSaturated { .. } => self.to_string(),
         }
     }

@@ -29,6 +29,9 @@ pub struct Config {
     pub light: bool,
     /// Keep values above 1, instead of clipping them (`-hd`).
     pub keep: bool,
+    /// Shift the mean colour of textures, which are left to the renderer otherwise
+    /// (`--no-textures`).
+    pub no_textures: bool,
 }
 
 /// The default of [`Config::tolerance`]. A tenth of a nanometre moves the hue by less than one
@@ -55,6 +58,7 @@ impl Default for Config {
             iris: false,
             light: false,
             keep: false,
+            no_textures: false,
         }
     }
 }

@@ -14,6 +14,9 @@
 //! given by samples. Each is shifted as a whole and multiplied by D⁵ (P12), and written as the X,
 //! Y, Z that the eye makes of it (P19).
 //!
+//! Textures have no colours at vertices: where a face has one, the stage of the output says how the
+//! renderer shifts the colours of the scene, with a ray for each sample.
+//!
 //! The input is what `uglorentz` writes: vertices where they are seen, faces with their velocity,
 //! the eye in the camera.
 //!
@@ -51,8 +54,8 @@ use uglight::{
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, ColorMix, DefaultCamera, Provenance, RelativeMotion,
-    RestFrames, Scene, SeenVertices, ShownEffects,
+    Camera, CameraError, CameraOptions, ColorId, ColorMix, ColorStage, DefaultCamera, HueScale, Projection,
+    Provenance, RelativeMotion, RestFrames, Scene, SeenVertices, ShownEffects,
 };
 
 #[cfg(feature = "cli")]
@@ -107,7 +110,14 @@ pub fn apply_with(
     let mut bodies = scene.faces.iter().map(|face| face.body).chain(scene.wires.iter().map(|wire| wire.body));
     let all_move =
         !config.velocity.is_zero() && bodies.all(|body| scene.bodies.stated_velocity(body).is_some());
-    let (mut scene, mut notes) = color(scene, config, eye, &frames, progress)?;
+    let textures_note = textures_note(&scene, config);
+    let (mut scene, mut notes) = if let Some(Note::DeferredTextures { .. }) = textures_note {
+        scene.stage.colors = ColorStage::Deferred(config.shift.seen_colors(HueScale::Degrees, false));
+        (scene, Vec::new())
+    } else {
+        color(scene, config, eye, &frames, progress)?
+    };
+    notes.extend(textures_note);
     if is_taken_as_seen {
         notes.push(Note::TakenAsSeen);
     }
@@ -123,6 +133,21 @@ pub fn apply_with(
         set_eye(&mut scene, eye)?;
     }
     Ok((scene, notes))
+}
+
+/// What becomes of the textures of a scene: the renderer shifts all colours, unless something needs
+/// colours at vertices.
+fn textures_note(scene: &Scene, config: &Config) -> Option<Note> {
+    let color = scene.drawn_texture_name().filter(|_| !config.no_textures)?.to_owned();
+    let projection = scene.camera().and_then(|camera| camera.projection);
+    let needs_vertices = config.wavelengths
+        || config.iris
+        || config.keep
+        || !config.velocity.is_zero()
+        || config.light && ugscene::has_moving_lights(scene)
+        || projection == Some(Projection::Orthographic)
+        || ShownEffects::of(scene) != ShownEffects::default();
+    Some(if needs_vertices { Note::PlainTextures { color } } else { Note::DeferredTextures { color } })
 }
 
 /// Writes the eye into the scene's camera if positions are as seen from it, so that programs

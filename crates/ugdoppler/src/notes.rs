@@ -22,6 +22,16 @@ pub enum Note {
     TakenAsSeen,
     /// The configuration has a velocity for bodies that have none, and all have one.
     AllMove,
+    /// Colours at vertices are needed, so faces with textures have plain colours.
+    PlainTextures {
+        /// The name of one.
+        color: String,
+    },
+    /// The renderer shifts the colours, since a face has a texture.
+    DeferredTextures {
+        /// The name of its colour.
+        color: String,
+    },
     /// The light of the scene is to be put into its colours, and there is none.
     NoLights,
 }
@@ -40,6 +50,12 @@ impl fmt::Display for Note {
             ),
             Self::TakenAsSeen => f.write_str("positions in this scene are taken as seen already"),
             Self::AllMove => f.write_str("every face of this scene has a velocity of its own"),
+            Self::PlainTextures { color } => {
+                write!(f, "textures are left out: faces of colour `{color}` have its plain colour")
+            }
+            Self::DeferredTextures { color } => {
+                write!(f, "`{color}` is a texture: the renderer shifts colours, with a ray for each sample")
+            }
             Self::NoLights => f.write_str("no lights in the scene, so its colours contain none"),
         }
     }

@@ -457,9 +457,8 @@ impl Read {
         if !parsed.warnings.is_empty() {
             context.report(&parsed.warnings.report());
         }
-        let colors = parsed.scene.faces.iter().filter_map(|face| face.color);
-        if colors.into_iter().any(|color| parsed.scene.texture_of(color).is_some()) {
-            script.draw_exactly();
+        if parsed.scene.drawn_texture_name().is_some() {
+            script.draw_textures();
         }
         script.open_sky(parsed.scene.sky.as_ref(), &args.common, context)?;
         if let Some(camera) = default_camera(&parsed.scene, script)? {

@@ -10,7 +10,7 @@ use ugpipe::{CommonArgs, Context, Failure, shell_word};
 use ugscene::StatedSky;
 use ugskybox::SkySource;
 
-use crate::options::{EXACT_PIPE, Given, PIPE, ParsedCommand, TOOLS, Tool};
+use crate::options::{Given, PIPE, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
 use crate::program::Program;
 use crate::timeline::{Ease, Quantity, Timeline};
@@ -160,20 +160,13 @@ impl Script {
         self.across.as_ref().map_or(1, |(_, n_values)| *n_values)
     }
 
-    /// Draws with a ray for every sample (`-xc`), as textures need it, in place of the pipe of
-    /// three programs, unless an option forbids it.
-    pub fn draw_exactly(&mut self) {
-        /// Options of the programs that exclude `-xc`.
-        const SCANLINE: [&str; 4] = ["cb", "og", "nc", "no-flight-time"];
-        let fits = |Setting { name, .. }: &Setting| {
-            !SCANLINE.contains(&name.as_str()) && EXACT_PIPE.iter().any(|tool| tool.has(name))
-        };
-        if self.tools.len() == PIPE.len() && self.options.iter().all(fits) {
-            self.tools = EXACT_PIPE;
-            for row in 0..self.options.len() {
-                self.options[row].owners = self.owners(&self.options[row].name);
-            }
-            self.set("xc", Vec::new());
+    /// Leaves textures to rays in the pipe of three programs, unless an option excludes rays.
+    pub fn draw_textures(&mut self) {
+        /// Options of `ugrainbow` that need colours at vertices.
+        const SCANLINE: [&str; 4] = ["cb", "og", "vec", "wf"];
+        let needs_vertices = |Setting { name, .. }: &Setting| SCANLINE.contains(&name.as_str());
+        if self.tools.len() == PIPE.len() && self.options.iter().any(needs_vertices) {
+            self.set("no-textures", Vec::new());
         }
     }
 

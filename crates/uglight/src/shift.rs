@@ -83,9 +83,18 @@ impl ColorShift {
     pub fn seen_colors(self, unit: HueScale, lights: bool) -> SeenColors {
         let scale = match self {
             Self::Hues(shift) => ColorScale::Hues { unit, law: shift.law },
-            Self::Spectra(shift) => ColorScale::Spectra { flux: shift.flux },
+            Self::Spectra(SpectralShift { flux, infrared, .. }) => ColorScale::Spectra { flux, infrared },
         };
         SeenColors { scale, doppler: self.shifts_wavelengths(), lights }
+    }
+
+    /// The shift of colours of a stage.
+    #[must_use]
+    pub fn of_stage(&SeenColors { scale, doppler, .. }: &SeenColors) -> Self {
+        match scale {
+            ColorScale::Hues { law, .. } => Self::hues(doppler, law),
+            ColorScale::Spectra { flux, infrared } => Self::spectra(doppler, flux).with_infrared(infrared),
+        }
     }
 
     /// True if wavelengths are divided by D.

@@ -240,6 +240,9 @@ fn read_beside(context: &Context, mesh: Option<&Path>, name: &str, limit: u64) -
 
 impl Words for Error {
     fn words(&self) -> String {
+        if let Self::Stage(error) = self {
+            return error.words();
+        }
         let remedy = match self {
             Self::UnknownFormat { foreign: None, .. } => "; give it with -if ug, obj, ply, stl, off or gltf",
             Self::NothingToConvert => "; choose an output format with -dt obj, ply, gltf, glb or vtp",
@@ -247,7 +250,10 @@ impl Words for Error {
             Self::Overflow => "; choose another -scale or -fit",
             Self::OutOfRange => "; make the mesh smaller (-fit 1) or write PLY (-dt ply)",
             Self::TooLarge => "; write PLY (-dt ply)",
-            Self::UnknownFormat { foreign: Some(_), .. } | Self::Malformed { .. } | Self::Scene(_) => "",
+            Self::UnknownFormat { foreign: Some(_), .. }
+            | Self::Malformed { .. }
+            | Self::Scene(_)
+            | Self::Stage(_) => "",
         };
         format!("{self}{remedy}")
     }

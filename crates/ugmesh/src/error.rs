@@ -5,6 +5,7 @@ use std::fmt;
 use thiserror::Error;
 use ugmeshfile::Foreign;
 use ugparse::Diagnostics;
+use ugscene::StageError;
 
 use ugmeshfile::{MeshFormat, Problem};
 
@@ -33,6 +34,8 @@ pub enum Error {
     },
     /// The UniGrafix text has errors.
     Scene(#[from] Diagnostics),
+    /// The colours of the scene are left to a renderer.
+    Stage(#[from] StageError),
     /// Scaling made a coordinate infinite, or the scale factor underflows to 0.
     Overflow,
     /// A coordinate exceeds the range of 32-bit floats, which glTF uses.
@@ -58,6 +61,7 @@ impl fmt::Display for Error {
                 f.write_str(what)
             }
             Self::Scene(findings) => findings.fmt(f),
+            Self::Stage(error) => error.fmt(f),
             Self::Overflow => f.write_str("scaled coordinates are out of range"),
             Self::OutOfRange => f.write_str("coordinates do not fit glTF"),
             Self::TooLarge => f.write_str("the mesh is too large for one glTF file"),

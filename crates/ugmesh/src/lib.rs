@@ -172,6 +172,9 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
         return Err(Error::NotMesh);
     }
     let Loaded { mut scene, warnings, diagnostics } = load(config, format, input)?;
+    if config.target != Target::Ug {
+        ugscene::refuse_deferred_colors(&scene)?;
+    }
     // Meshes show no times.
     uglight::freeze_colors_at_zero(&mut scene);
     if config.target != Target::Ug && !config.rest_normals {

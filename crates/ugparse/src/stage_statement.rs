@@ -6,6 +6,7 @@
 //! ```
 
 use glam::DVec3;
+use ugphysics::spectrum::InfraredRule;
 use ugphysics::{Brightness, Velocity};
 use ugscene::{
     ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,
@@ -27,6 +28,7 @@ const VERSION: &str = "1";
 
 const AT_REST: &str = "at-rest";
 const AS_SEEN: &str = "as-seen";
+const DEFERRED: &str = "deferred";
 const GEOMETRY: &str = "geometry";
 const COLORS: &str = "colors";
 const MIXTURES: &str = "mixtures";
@@ -42,6 +44,7 @@ const SPECTRA: &str = "spectra";
 const LAW: &str = "law";
 const NO_DOPPLER: &str = "no-doppler";
 const NO_FLUX: &str = "no-flux";
+const CONSTANT_INFRARED: &str = "constant-infrared";
 const LIGHTS: &str = "lights";
 
 /// Escapes of earlier versions, which had these first and second words.
@@ -163,14 +166,16 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
 }
 
 fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
-    if !words.is_as_seen()? {
+    let stage = words.choice(&[AT_REST, AS_SEEN, DEFERRED])?;
+    if stage == AT_REST {
         return Ok(ColorStage::AtRest);
     }
     let scales = [HUES, WAVELENGTHS, SPECTRA];
     let scale = words.choice(&scales)?;
     let is_spectral = scale == SPECTRA;
-    let (mut law, mut flux) = (None, true);
-    let mut seen = SeenColors { scale: ColorScale::Spectra { flux }, doppler: true, lights: false };
+    let (mut law, mut flux, mut infrared) = (None, true, InfraredRule::Measured);
+    let spectra = |flux, infrared| ColorScale::Spectra { flux, infrared };
+    let mut seen = SeenColors { scale: spectra(flux, infrared), doppler: true, lights: false };
     while let Some(word) = words.next_of_part() {
         words.once(word)?;
         match word.as_str() {
@@ -179,6 +184,7 @@ fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
                 law = Brightness::from_name(name);
             }
             NO_FLUX if is_spectral => flux = false,
+            CONSTANT_INFRARED if is_spectral => infrared = InfraredRule::Constant,
             NO_DOPPLER => seen.doppler = false,
             LIGHTS => seen.lights = true,
             _ => {
@@ -188,13 +194,13 @@ fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
         }
     }
     seen.scale = if is_spectral {
-        ColorScale::Spectra { flux }
+        spectra(flux, infrared)
     } else {
         let unit = if scale == WAVELENGTHS { HueScale::Wavelengths } else { HueScale::Degrees };
         let law = law.ok_or_else(|| words.missing("the brightness law of hues as seen", "law report"))?;
         ColorScale::Hues { unit, law }
     };
-    Ok(ColorStage::AsSeen(seen))
+    Ok(if stage == DEFERRED { ColorStage::Deferred(seen) } else { ColorStage::AsSeen(seen) })
 }
 
 /// The error for an unexpected word.
@@ -389,19 +395,22 @@ pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer
             add(NO_FLIGHT_TIME, &[]);
         }
     }
-    if let Some(seen) = stage.seen_colors() {
+    if let ColorStage::AsSeen(seen) | ColorStage::Deferred(seen) = &stage.colors {
         add(COLORS, &[]);
-        add(AS_SEEN, &[]);
+        add(if stage.deferred_colors().is_some() { DEFERRED } else { AS_SEEN }, &[]);
         match seen.scale {
             ColorScale::Hues { unit, law } => {
                 add(if unit == HueScale::Degrees { HUES } else { WAVELENGTHS }, &[]);
                 add(LAW, &[]);
                 add(law.name(), &[]);
             }
-            ColorScale::Spectra { flux } => {
+            ColorScale::Spectra { flux, infrared } => {
                 add(SPECTRA, &[]);
                 if !flux {
                     add(NO_FLUX, &[]);
+                }
+                if infrared == InfraredRule::Constant {
+                    add(CONSTANT_INFRARED, &[]);
                 }
             }
         }

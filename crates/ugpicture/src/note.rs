@@ -27,8 +27,6 @@ pub enum Note {
     PlainTextures {
         /// Its name.
         color: String,
-        /// Its colours are as seen already.
-        is_seen: bool,
     },
     /// Vertices are to be repeated, but have colours as seen.
     NotRepeated,
@@ -177,7 +175,7 @@ impl fmt::Display for Note {
             Self::MovingLights { .. } => {
                 "velocities of lights are left out: each light rests with the faces it lights"
             }
-            Self::PlainTextures { color, .. } => {
+            Self::PlainTextures { color } => {
                 return write!(f, "textures are not drawn: faces of colour `{color}` have its plain colour");
             }
             Self::NotRepeated => "vertices with colours as seen are not repeated",

@@ -19,6 +19,10 @@ pub const MOVE_FIRST: &str = "{}; for a scene at rest give -vel to uglorentz";
 pub const SEEN_COLORS: &str = "start again from the scene before ugdoppler; \
      the order is uglorentz, ugdoppler, ugrainbow, each once; ugphoton and ugfilm do the work of all three";
 
+/// Textures are to be shifted by rays that the picture or file excludes.
+pub const DEFERRED_COLORS: &str = "give ugdoppler --no-textures for their mean colours; \
+     rays exclude -cb, -og, -vec, lines without faces and mesh files";
+
 /// Bodies move whose positions are still at rest.
 pub const GEOMETRY_AT_REST: &str =
     "give the scene to uglorentz first (with -nc and --no-flight-time to keep rest shapes)";
@@ -31,15 +35,11 @@ pub const SHIFT_SPECTRA: &str = "`ugdoppler -sp` shifts them as spectra";
 
 /// Exact mode shifts colours itself.
 pub const EXACT_SEEN_COLORS: &str = "-xc shifts colours itself, at every sample, and those of this scene have been shifted by ugdoppler: \
-     leave ugdoppler out, and give -sp, -br, --no-doppler or --no-flux here; or, for ugdoppler -li, leave out -xc";
+     leave ugdoppler out, and give -sp, -br, --no-doppler or --no-flux here; or leave out -xc";
 
 /// Only polygons are explained.
 pub const EXPLAIN_EXACT: &str = "--explain works in scanline mode only: leave out -xc; \
      faces with textures are drawn by rays, which `ugphoton --explain` explains";
-
-/// Textures are drawn before colours are shifted.
-pub const DRAW_TEXTURES: &str =
-    "{}; leave out ugdoppler and give -xc here, which shifts them itself, or use ugphoton";
 
 /// Exact mode follows rays through both effects of motion on shape.
 pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \

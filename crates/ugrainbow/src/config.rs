@@ -4,7 +4,7 @@ use uglight::{ColorShift, Interpolation};
 use ugphysics::{Brightness, Hsv};
 use ugpicture::{Output, PictureOptions};
 use ugraster::DepthFade;
-use ugscene::{ColorScale, HueScale, Projection, Scene, SeenColors, ShownEffects};
+use ugscene::{HueScale, Projection, Scene, ShownEffects};
 use ugskybox::SceneSky;
 
 /// Everything besides the scene that affects the bytes of a picture.
@@ -74,22 +74,19 @@ impl Config {
         }
     }
 
-    /// The same for a scene: faces with textures are drawn by rays, without a shift of colours that
-    /// was not asked for, where rays can draw the scene.
+    /// The same for a scene: faces with textures are drawn by rays where rays can draw the scene, with
+    /// the shift of colours that `ugdoppler` left to them.
     pub(crate) fn with_textures(&self, scene: &Scene) -> Self {
         let camera = scene.camera().and_then(|camera| camera.projection);
         let is_orthographic = self.picture.camera.is_orthographic || camera == Some(Projection::Orthographic);
-        let are_drawn = scene.faces.iter().any(|face| {
-            let texture = face.color.and_then(|color| scene.texture_of(color));
-            texture.is_some_and(|texture| !texture.image.bytes.is_empty())
-        });
         let may_be_exact = self.draw_mode().has_faces()
             && !(self.cull || is_orthographic)
             && matches!(self.picture.output, Output::Color(_))
             && scene.stage.seen_colors().is_none()
             && ShownEffects::of(scene) == ShownEffects::default()
             && ugscene::require_seen_geometry(scene).is_ok();
-        let exact = self.exact.or((are_drawn && may_be_exact).then_some(ColorShift::NONE));
+        let shift = scene.stage.deferred_colors().map_or(ColorShift::NONE, ColorShift::of_stage);
+        let exact = self.exact.or((may_be_exact && scene.drawn_texture_name().is_some()).then_some(shift));
         Self { exact, ..self.clone() }
     }
 
@@ -98,10 +95,7 @@ impl Config {
         match (self.exact, scene.stage.seen_colors()) {
             (Some(shift), _) => shift,
             (None, None) => ColorShift::NONE,
-            (None, Some(&SeenColors { scale, doppler, .. })) => match scale {
-                ColorScale::Hues { law, .. } => ColorShift::hues(doppler, law),
-                ColorScale::Spectra { flux } => ColorShift::new(true, doppler, flux, None),
-            },
+            (None, Some(seen)) => ColorShift::of_stage(seen),
         }
     }
 

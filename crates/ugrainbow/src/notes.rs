@@ -38,14 +38,11 @@ fn scene_notes(scene: &Scene, is_exact: bool, notes: &mut Vec<Note>) {
     if scene.lights.iter().any(|light| light.motion.body().is_some()) {
         notes.push(Note::MovingLights { is_exact });
     }
-    let textured = scene.faces.iter().filter_map(|face| face.color);
-    let textured = || textured.clone().find(|&color| scene.texture_of(color).is_some());
     if !is_exact
-        && !scene.textures.is_empty()
-        && let Some(color) = textured()
+        && scene.stage.seen_colors().is_none()
+        && let Some(color) = scene.drawn_texture_name()
     {
-        let color = scene.names.get(scene.colors[color.index()].name).to_owned();
-        notes.push(Note::PlainTextures { color, is_seen: scene.stage.seen_colors().is_some() });
+        notes.push(Note::PlainTextures { color: color.to_owned() });
     }
     notes.extend(ugscene::Note::mixed_colors(scene).map(Note::Scene));
     // Exact pictures have spectra at rest only, which are not shifted.

@@ -44,6 +44,8 @@ impl<'a> Setup<'a> {
         }
         if config.exact.is_some() {
             ugscene::require_seen_geometry(scene)?;
+        } else {
+            ugscene::refuse_deferred_colors(scene)?;
         }
         let mut scene = drawable(scene);
         if !scene.color_tables.is_empty() {
@@ -75,8 +77,8 @@ impl<'a> Setup<'a> {
         let lighting = Lighting::new(&scene, view.eye, view.forward, law);
         let palette = &appearance.palette;
         let keeps_highlights = palette.has_light || config.picture.keeps_light();
-        if config.exact.is_some() {
-            check_exact(&scene, &view)?;
+        if let Some(shift) = config.exact {
+            check_exact(&scene, &view, shift)?;
             if appearance.surface.has_moving_spectra(&scene, &scene.wires, shift) {
                 return Err(Error::ExactMovingSpectrum);
             }
@@ -131,8 +133,9 @@ impl<'a> Setup<'a> {
 }
 
 /// Refuses orthographic projection and scenes whose colours would be shifted twice.
-fn check_exact(scene: &Scene, view: &View) -> Result<(), Error> {
-    if scene.stage.seen_colors().is_some() {
+fn check_exact(scene: &Scene, view: &View, shift: ColorShift) -> Result<(), Error> {
+    let deferred = scene.stage.deferred_colors().map(ColorShift::of_stage);
+    if scene.stage.seen_colors().is_some() || deferred.is_some_and(|deferred| deferred != shift) {
         return Err(Error::ExactSeenColors);
     }
     if ShownEffects::of(scene) != ShownEffects::default() {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use ugphysics::{Hsv, hue_to_wavelength};
 
 use crate::words::point;
-use crate::{BodyId, ColorScale, ColorValue, HueScale, Scene, Tint};
+use crate::{BodyId, ColorScale, ColorStage, ColorValue, HueScale, Scene, Tint};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,6 +16,8 @@ pub enum StageError {
     GeometryAsSeen,
     /// Colours at rest are required, but colours are as seen.
     ColorsAsSeen,
+    /// Colours as seen are required, and the renderer is to shift those of textures.
+    ColorsDeferred,
     /// Positions as seen are required, but bodies move and have their rest shapes.
     GeometryAtRest,
     /// Wavelengths are required, but colours as seen are hues.
@@ -34,6 +36,7 @@ impl fmt::Display for StageError {
         f.write_str(match self {
             Self::GeometryAsSeen => "positions in this scene are as seen already, so its rest shapes are not known",
             Self::ColorsAsSeen => "colours in this scene are as seen already",
+            Self::ColorsDeferred => "textures in this scene are shifted where they are drawn, by a ray for each sample",
             Self::GeometryAtRest => "bodies in this scene move, and their positions are not as seen yet",
             Self::NotWavelengths => "colours in this scene are as seen, and are not written as wavelengths",
             Self::OtherEye { made_for, asked } => {
@@ -72,12 +75,20 @@ pub fn require_geometry_at_rest(scene: &Scene) -> Result<(), StageError> {
     scene.stage.seen_geometry().map_or(Ok(()), |_| Err(StageError::GeometryAsSeen))
 }
 
-/// Refuses apparent colours.
+/// Refuses apparent colours, deferred ones included.
 ///
 /// # Errors
 /// [`StageError::ColorsAsSeen`].
 pub fn require_colors_at_rest(scene: &Scene) -> Result<(), StageError> {
-    scene.stage.seen_colors().map_or(Ok(()), |_| Err(StageError::ColorsAsSeen))
+    if scene.stage.colors == ColorStage::AtRest { Ok(()) } else { Err(StageError::ColorsAsSeen) }
+}
+
+/// Refuses deferred colours.
+///
+/// # Errors
+/// [`StageError::ColorsDeferred`].
+pub fn refuse_deferred_colors(scene: &Scene) -> Result<(), StageError> {
+    scene.stage.deferred_colors().map_or(Ok(()), |_| Err(StageError::ColorsDeferred))
 }
 
 /// Refuses moving bodies with rest shapes.

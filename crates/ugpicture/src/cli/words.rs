@@ -66,8 +66,7 @@ impl Words for Note {
                 let remedy = if *is_exact { "leave out -xc: " } else { "" };
                 return format!("{self}; {remedy}{}", remedies::MOVING_LIGHTS);
             }
-            Self::PlainTextures { is_seen: false, .. } => "{}; -xc draws them",
-            Self::PlainTextures { is_seen: true, .. } => remedies::DRAW_TEXTURES,
+            Self::PlainTextures { .. } => "{}; -xc draws them",
             Self::NotRepeated => remedies::REPEAT_EARLIER,
             Self::UpReplaced => "{}; choose one with -ud",
             Self::NothingInFront => remedies::NOTHING_IN_FRONT,

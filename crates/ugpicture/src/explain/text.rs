@@ -127,8 +127,10 @@ impl ExplanationText {
         };
         let (law, power) = match seen.scale {
             ColorScale::Hues { law, .. } => (format!("by the law `{}`", law.name()), law.factor(doppler)),
-            ColorScale::Spectra { flux: true } => ("D^5 per wavelength".to_owned(), libm::pow(doppler, 5.0)),
-            ColorScale::Spectra { flux: false } => ("by the law `none`".to_owned(), 1.0),
+            ColorScale::Spectra { flux: true, .. } => {
+                ("D^5 per wavelength".to_owned(), libm::pow(doppler, 5.0))
+            }
+            ColorScale::Spectra { flux: false, .. } => ("by the law `none`".to_owned(), 1.0),
         };
         let lights = if seen.lights { "; the light of lamps is in them (P14)" } else { "" };
         let power = number(power);
@@ -172,8 +174,8 @@ impl ExplanationText {
 pub(super) fn law_name<S: Serializer>(colors: &Option<SeenColors>, out: S) -> Result<S::Ok, S::Error> {
     let name = colors.map(|seen| match seen.scale {
         ColorScale::Hues { law, .. } => law.name(),
-        ColorScale::Spectra { flux: true } => "D^5",
-        ColorScale::Spectra { flux: false } => "none",
+        ColorScale::Spectra { flux: true, .. } => "D^5",
+        ColorScale::Spectra { flux: false, .. } => "none",
     });
     name.serialize(out)
 }

@@ -385,6 +385,14 @@ impl Scene {
         Some(&self.textures[row])
     }
 
+    /// The name of the first colour of a face that is a picture, which was read.
+    pub fn drawn_texture_name(&self) -> Option<&str> {
+        let faces = if self.textures.is_empty() { &[][..] } else { &self.faces };
+        let mut textures = faces.iter().filter_map(|face| self.texture_of(face.color?));
+        let texture = textures.find(|texture| !texture.image.bytes.is_empty())?;
+        Some(self.names.get(self.colors[texture.color.index()].name))
+    }
+
     /// True if the colour of a face or wire changes with own time.
     pub fn has_changing_surfaces(&self) -> bool {
         let changes = |color: Option<ColorId>| color.is_some_and(|color| self.table_of(color).is_some());

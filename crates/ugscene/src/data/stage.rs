@@ -1,6 +1,7 @@
 //! The stage of a scene: which transformations its positions and colours have undergone.
 
 use glam::DVec3;
+use ugphysics::spectrum::InfraredRule;
 use ugphysics::{Brightness, Velocity};
 
 /// The changes that filters have made to a scene. An original scene is at rest in both parts.
@@ -95,6 +96,9 @@ pub enum ColorStage {
     AtRest,
     /// Every vertex has its observed colour.
     AsSeen(SeenColors),
+    /// Colours are at rest: the renderer shifts them so at every sample, since textures have no
+    /// colours at vertices.
+    Deferred(SeenColors),
 }
 
 /// Parameters of observed colours.
@@ -122,6 +126,8 @@ pub enum ColorScale {
     Spectra {
         /// The radiance per wavelength was multiplied by D⁵.  Eq. (P12)
         flux: bool,
+        /// What surfaces were assumed to reflect in infrared.  Eq. (P20)
+        infrared: InfraredRule,
     },
 }
 
@@ -152,8 +158,16 @@ impl Stage {
     /// Parameters of observed colours; `None` at rest.
     pub fn seen_colors(&self) -> Option<&SeenColors> {
         match &self.colors {
-            ColorStage::AtRest => None,
             ColorStage::AsSeen(seen) => Some(seen),
+            ColorStage::AtRest | ColorStage::Deferred(_) => None,
+        }
+    }
+
+    /// How the renderer shifts colours, if it does.
+    pub fn deferred_colors(&self) -> Option<&SeenColors> {
+        match &self.colors {
+            ColorStage::Deferred(seen) => Some(seen),
+            ColorStage::AtRest | ColorStage::AsSeen(_) => None,
         }
     }
 

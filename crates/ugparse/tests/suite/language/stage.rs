@@ -1,6 +1,7 @@
 //! The stage of a scene, which records changes of positions and colours.
 
 use glam::DVec3;
+use ugphysics::spectrum::InfraredRule;
 use ugphysics::{Brightness, Velocity};
 use ugscene::{
     ColorScale, ColorStage, ColorValue, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry,
@@ -29,14 +30,17 @@ fn every_stage_reads_back() {
         let seen = SeenGeometry { time: -0.1, camera_velocity: third, contraction, flight_time, ..SEEN };
         geometries.push(GeometryStage::AsSeen(seen));
     }
-    let mut scales = vec![ColorScale::Spectra { flux: true }, ColorScale::Spectra { flux: false }];
+    let mut scales: Vec<_> = [(true, InfraredRule::Measured), (false, InfraredRule::Constant)]
+        .map(|(flux, infrared)| ColorScale::Spectra { flux, infrared })
+        .to_vec();
     for unit in [HueScale::Degrees, HueScale::Wavelengths] {
         scales.extend(Brightness::ALL.map(|law| ColorScale::Hues { unit, law }));
     }
     let mut colors = vec![ColorStage::AtRest];
     for scale in scales {
         for (doppler, lights) in [(true, false), (false, true)] {
-            colors.push(ColorStage::AsSeen(SeenColors { scale, doppler, lights }));
+            let seen = SeenColors { scale, doppler, lights };
+            colors.extend([ColorStage::AsSeen(seen), ColorStage::Deferred(seen)]);
         }
     }
     for &geometry in &geometries {
