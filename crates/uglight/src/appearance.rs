@@ -5,7 +5,7 @@ use ugphysics::spectrum::Spectrum;
 use ugphysics::{Hsv, wavelength_to_hue};
 use ugscene::Scene;
 
-use crate::color::{encoded_hsv, shown_light};
+use crate::color::{shown_light, texel_hsv};
 use crate::hue_table::HueTable;
 use crate::spectra::{Spectra, SpectralRows};
 use crate::{
@@ -131,7 +131,7 @@ impl Appearance {
             return SurfaceColor { swatch, rows: spectra.texel_rows(light) };
         }
         let form = if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
-        let swatch = Swatch { form, translucency, ..self.palette.swatch(encoded_hsv(light)) };
+        let swatch = Swatch { form, translucency, ..self.palette.swatch(texel_hsv(light)) };
         SurfaceColor::even(swatch, 0)
     }
 

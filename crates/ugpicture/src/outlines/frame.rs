@@ -89,10 +89,17 @@ impl PictureRays {
         self.rest(row + x * self.rays[1])
     }
 
-    /// The rays of the samples across and down from that with the ray `rest`.
-    pub fn neighbours(&self, rest: DVec3) -> [DVec3; 2] {
+    /// The same with its stretch.
+    pub fn stretched_ray(&self, row: DVec3, x: f64) -> RestRay {
+        let seen = row + x * self.rays[1];
+        let rest = self.rest(seen);
+        RestRay { rest, stretch: rest.length() / seen.length() }
+    }
+
+    /// The rays `across` samples across and one down from that with the ray `rest`.
+    pub fn neighbours(&self, rest: DVec3, across: f64) -> [DVec3; 2] {
         let seen = self.seen(rest);
-        [self.rays[1], self.rays[2]].map(|step| self.rest(seen + step))
+        [across * self.rays[1], self.rays[2]].map(|step| self.rest(seen + step))
     }
 
     /// The ray at the middle of a column. `length`: of the apparent ray.

@@ -8,6 +8,9 @@ use ugscene::Wrap;
 /// The most probes along the long axis of a footprint. A longer one is blurred across.
 const MOST_PROBES: f64 = 16.0;
 
+/// Length of the long axis of a footprint, in texels, up to which one probe is enough.
+const POINT: f64 = 0.25;
+
 /// A picture, and the same with half as many texels on each side, and so on down to one.
 #[derive(Debug)]
 pub struct Levels {
@@ -85,10 +88,12 @@ impl Levels {
         let texel = if !length.is_finite() || length > 2.0 * sides.max_element() {
             // A sample of many repetitions, as at a horizon, or without a finite footprint.
             self.trilinear(uv, f64::MAX, wrap)
-        } else if length <= 1.0 {
+        } else if length <= POINT {
             self.bilinear(0, uv, wrap)
         } else {
-            let n_probes = (length / width.max(1.0)).round().clamp(1.0, MOST_PROBES);
+            // Two show where within the footprint an edge between texels is.
+            let fewest = if width <= 1.0 { 2.0 } else { 1.0 };
+            let n_probes = (length / width.max(1.0)).round().clamp(fewest, MOST_PROBES);
             let level = libm::log2((length / n_probes).max(width).max(1.0));
             let along = long / sides;
             let mut sum = [0.0; 4];

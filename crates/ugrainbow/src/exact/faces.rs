@@ -85,10 +85,17 @@ impl<'a, const N: usize> Faces<'a, N> {
                 let (keys, lengths) = found.of_run(&run);
                 let Run { row, columns, face } = run;
                 let first = columns.start;
+                if self.looks[face as usize].n_together > 1 {
+                    let mut of_pixel = self.of_pixels::<SPECTRAL>(face, row, columns.clone());
+                    tile.draw_each(row, columns, shape.item, |column, _| {
+                        Some((keys[(column - first) as usize] as f32, of_pixel(column)))
+                    });
+                    continue;
+                }
                 tile.draw_each(row, columns, shape.item, |column, _| {
                     let at = (column - first) as usize;
                     let ray = frame.ray_of_length(rays, column, lengths[at]);
-                    Some((keys[at] as f32, self.values::<SPECTRAL>(face, shape, frame, &ray)))
+                    Some((keys[at] as f32, self.values::<SPECTRAL>(face, shape, frame, (&ray, 1))))
                 });
             }
         });
@@ -116,6 +123,30 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
+    /// The values of a textured face in columns of a row of samples: they are found once for each
+    /// pixel, in the middle of its samples among these.
+    fn of_pixels<const SPECTRAL: bool>(
+        &self,
+        number: u32,
+        row: u32,
+        Range { start, end }: Range<u32>,
+    ) -> impl FnMut(u32) -> [f32; N] {
+        let shape = &self.outlines.shapes()[number as usize];
+        let (frame, n_together) = (self.outlines.frame(shape), self.looks[number as usize].n_together);
+        let rays = frame.row_of_samples(row);
+        let (mut upto, mut values) = (0, [0.0; N]);
+        move |column| {
+            if column >= upto {
+                let first = column / n_together * n_together;
+                upto = (first + n_together).min(end);
+                let first = first.max(start);
+                let ray = frame.stretched_ray(rays, 0.5 * f64::from(first + upto));
+                values = self.values::<SPECTRAL>(number, shape, frame, (&ray, upto - first));
+            }
+            values
+        }
+    }
+
     #[inline]
     fn packed(&self, (color, level): (Swatch, DVec3)) -> [f32; N] {
         (self.pack)(&color, level).map(|number| number as f32)
@@ -128,10 +159,10 @@ impl<'a, const N: usize> Faces<'a, N> {
         number: u32,
         shape: &OutlinedFace,
         frame: &PictureRays,
-        ray: &RestRay,
+        (ray, n_samples): (&RestRay, u32),
     ) -> [f32; N] {
         let look = &self.looks[number as usize];
-        self.packed(look.at::<SPECTRAL>(&self.painter, frame, ray, shape.key(ray.rest)))
+        self.packed(look.at::<SPECTRAL>(&self.painter, frame, (ray, n_samples), shape.key(ray.rest)))
     }
 }
 
@@ -151,10 +182,18 @@ impl Faces<'_, TRANSPARENT_VALUES> {
         self.outlines.for_each_run([0, band as u32], area, |number, row, columns, ray| {
             let shape = &self.outlines.shapes()[number as usize];
             let frame = self.outlines.frame(shape);
+            if self.looks[number as usize].n_together > 1 {
+                let mut of_pixel = self.of_pixels::<SPECTRAL>(number, row, columns.clone());
+                writer.draw_each(row, columns, shape.item, |column, occluder_key| {
+                    let key = ray(column).1 as f32;
+                    (key > occluder_key).then(|| (key, of_pixel(column)))
+                });
+                return;
+            }
             writer.draw_each(row, columns, shape.item, |column, occluder_key| {
                 let (ray, key) = ray(column);
                 let key = key as f32;
-                (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(number, shape, frame, &ray)))
+                (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(number, shape, frame, (&ray, 1))))
             });
         });
         self.draw_moving::<SPECTRAL, _>(writer, |moving, ray| moving.all(ray));

@@ -32,6 +32,8 @@ pub struct Look {
     row: u32,
     /// The colour of the face, if it is a picture.
     texture: Option<ColorId>,
+    /// Samples in a row of a pixel, for which a texel is found once.
+    pub n_together: u32,
     /// Triangles between the corners, if colours or normals differ between these, or for a picture.
     /// Values at a point are interpolated linearly in the rest frame.
     triangles: Box<[Triangle]>,
@@ -147,6 +149,7 @@ impl Look {
             has_colors,
             has_tints: texture.is_some() || corners.iter().any(|corner| corner.0.tint != first.0.tint),
             texture,
+            n_together: if texture.is_some() { painter.grid.samples } else { 1 },
             has_normals,
             color: first.0,
             wavelength_nm: appearance.wavelength_nm(first.0.tint),
@@ -156,19 +159,23 @@ impl Look {
     }
 
     /// Apparent colour and light level where a ray meets the plane of the face. `key`: the inverse
-    /// of the ray parameter there. `SPECTRAL`: colours are spectra; a constant, so that the loop
+    /// of the ray parameter there. `n_samples`: in a row, in whose middle the ray is. `SPECTRAL`: colours are spectra; a constant, so that the loop
     /// over hues has no call in it.
     #[inline(always)] // Called for every sample: otherwise the ray is passed in memory.
     pub fn at<const SPECTRAL: bool>(
         &self,
         painter: &Painter<'_>,
         frame: &PictureRays,
-        ray: &RestRay,
+        (ray, n_samples): (&RestRay, u32),
         key: f64,
     ) -> (Swatch, DVec3) {
         let spot = (!self.triangles.is_empty()).then(|| self.spot(ray.rest));
         let mixed = spot.filter(|_| self.has_colors);
-        let texel = if self.texture.is_some() { self.texel(painter, frame, ray.rest, spot) } else { None };
+        let texel = if self.texture.is_some() {
+            self.texel(painter, frame, (ray.rest, n_samples), spot)
+        } else {
+            None
+        };
         let color = match &texel {
             Some(texel) => Some(texel.swatch),
             None => mixed.map(|(triangle, weights)| triangle.color(weights)),
@@ -198,13 +205,13 @@ impl Look {
         &self,
         painter: &Painter<'_>,
         frame: &PictureRays,
-        ray: DVec3,
+        (ray, n_samples): (DVec3, u32),
         spot: Option<(&Triangle, [f64; 3])>,
     ) -> Option<SurfaceColor> {
         let (triangle, weights) = spot?;
         let [_, second, third] = triangle.weights(ray);
         let steps = || {
-            frame.neighbours(ray).map(|ray| {
+            frame.neighbours(ray, f64::from(n_samples)).map(|ray| {
                 let [_, b, c] = triangle.weights(ray);
                 [b - second, c - third]
             })
