@@ -48,7 +48,7 @@ flyby() {
     local name=$1 rows=() time row
     for time in 07 12 17 22; do
         row=$out/rows/$name-$time.png
-        ugphoton -look 1988 -qt -vel .95 0 0 -ti $time --no-doppler -va 90 -ex "$3" -tc filmic -sz "$width" $((height / 4 - 3)) -fo "$row" "$2"
+        ugphoton -look 1988 -qt "${backdrop[@]}" -vel .95 0 0 -ti $time --no-doppler -va 90 -ex "$3" -tc filmic -sz "$width" $((height / 4 - 3)) -fo "$row" "$2"
         rows+=("$row")
     done
     tile "$out/$name.png" 1 "${rows[@]}"
@@ -81,11 +81,20 @@ sheet() {
     ugsheet -qt "${labels[@]}" -cap "$title" -bg .25 -cols 4 -fo "$out/sheet-$name.png" "$@"
 }
 
+# The colour around bodies.
+backdrop=(-bg .8 210 .25)
+
+# in_space COMMAND [ARGUMENT...]: the same before black
+in_space() {
+    local backdrop=()
+    "$@"
+}
+
 # draw NAME [OPTION...]: the last stage, to OUTDIR/NAME.png
 draw() {
     local name=$1
     shift
-    ugrainbow -qt -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    ugrainbow -qt "${backdrop[@]}" -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -93,7 +102,7 @@ draw() {
 trace() {
     local name=$1
     shift
-    ugphoton -look 1988 -qt --no-doppler --no-flux -bg .8 210 .25 -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    ugphoton -look 1988 -qt --no-doppler --no-flux "${backdrop[@]}" -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -101,7 +110,7 @@ trace() {
 shine() {
     local name=$1
     shift
-    ugphoton -look 1988 -qt --no-doppler -tc filmic -sz "$width" "$height" "$@" -fo "$out/$name.png"
+    ugphoton -look 1988 -qt --no-doppler -tc filmic "${backdrop[@]}" -sz "$width" "$height" "$@" -fo "$out/$name.png"
     announce "$name"
 }
 
@@ -117,7 +126,7 @@ warp() {
 page() { sed -n 's/^    \([a-z_]*() {.*\)/\1/p' ../docs/gallery.md; }
 
 # Nguyen 1988, figure 1: the rainbow.
-draw nguyen-01-rainbow -wi rainbow.ug
+in_space draw nguyen-01-rainbow -wi rainbow.ug
 
 # Nguyen 1988, figure 2: the ship at rest and at 0.3, 0.6 and 0.9c. Then in colour: at 0.6c the
 # stern still comes nearer while the bow goes away; head-on, much above 0.2c much of the ship
@@ -158,7 +167,7 @@ for speed in .95 .999; do
     rows=()
     for time in 07 12 17 22; do
         row=$out/rows/teapot-$speed-$time.png
-        uglorentz -vel $speed 0 0 -ti $time teapot.ug | ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+        uglorentz -vel $speed 0 0 -ti $time teapot.ug | ugrainbow -qt "${backdrop[@]}" -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
         rows+=("$row")
     done
     tile "$out/chang-10-0${speed}c.png" 1 "${rows[@]}"
@@ -198,7 +207,7 @@ rows=()
 for time in 00 09 17 28; do
     row=$out/rows/bands-$time.png
     sed "s/^c .*/$bands/" teapot.ug | uglorentz -vel .5 0 0 -ti $time | ugdoppler -qt -sp -ir |
-        ugrainbow -qt -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
+        ugrainbow -qt "${backdrop[@]}" -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
     rows+=("$row")
 done
 tile "$out/chang-17-bands-0.5c.png" 1 "${rows[@]}"
@@ -214,16 +223,16 @@ uglorentz -vel 0 -.9 0 -ep 0 .109 0 grid.ug | draw howard-05c-through-0.9c
 
 # Weiskopf 2000, figure 1: a textured sphere of directions, at rest and at 0.9c. Its texture is made
 # of faces.
-ugrainbow -qt -sz "$width" $((width * 14 / 27)) -fo "$out/weiskopf-01-directions.png" directions.ug
+ugrainbow -qt "${backdrop[@]}" -sz "$width" $((width * 14 / 27)) -fo "$out/weiskopf-01-directions.png" directions.ug
 announce weiskopf-01-directions
 
 # Weiskopf 2000, figure 3: a tunnel of black bodies at 3500, 5900 and 10000 K: at rest; flying
 # through it at 0.6c with the shape alone, with the Doppler effect, and with the searchlight effect
 # as well, at a tenth of the exposure (-3.32 stops).
-uglorentz tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03a-rest
-uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | draw weiskopf-03b-0.6c-shape
-uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | draw weiskopf-03c-0.6c-doppler
-uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | draw weiskopf-03d-0.6c-searchlight -ex -3.32
+uglorentz tunnel.ug | ugdoppler -qt -sp | in_space draw weiskopf-03a-rest
+uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-doppler --no-flux | in_space draw weiskopf-03b-0.6c-shape
+uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp --no-flux | in_space draw weiskopf-03c-0.6c-doppler
+uglorentz -cv 0 .6 0 tunnel.ug | ugdoppler -qt -sp | in_space draw weiskopf-03d-0.6c-searchlight -ex -3.32
 
 # The same four from a panorama of the tunnel at rest.
 ugphoton -look 1988 -qt -sp -pan -aa 2 -sz 4096 2048 -dt exr tunnel.ug -fo "$out/rows/tunnel.exr"
@@ -240,13 +249,13 @@ for speed in 0.0 0.5 0.9 0.99; do
 done
 
 # Our own: the lattice in shape and colour, mixed colours at a vertex, five speeds in one picture.
-uglorentz -vel 0 -.9 0 lattice.ug | draw lattice-0.9c-shape -va 120
-uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | draw lattice-0.9c-colours -wi -va 120
+uglorentz -vel 0 -.9 0 lattice.ug | in_space draw lattice-0.9c-shape -va 120
+uglorentz -vel 0 -.9 0 lattice.ug | ugdoppler -qt -gw | in_space draw lattice-0.9c-colours -wi -va 120
 ugdoppler -qt halves.ug | draw halves-mixed
 ugdoppler -qt -vr halves.ug | draw halves-repeated
 uglorentz -in dice.ug | draw dice
-uglorentz lamp.ug | ugdoppler -qt | draw lamp-at-rest
-uglorentz lamp.ug | ugdoppler -qt -li | draw lamp-moving
+uglorentz lamp.ug | ugdoppler -qt | in_space draw lamp-at-rest
+uglorentz lamp.ug | ugdoppler -qt -li | in_space draw lamp-moving
 
 # With rays, by the gallery's scenes.
 eval "$(page)"
