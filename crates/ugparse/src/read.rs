@@ -1,14 +1,16 @@
-//! Reading for programs that move or draw faces: bent faces become triangles.
+//! Reading for programs that move or draw faces: bent faces become triangles, and round ones
+//! polygons.
 
 use std::ops::Range;
 
 use ugscene::{Face, Item, Scene, VertexId};
 
-use crate::{Diagnostics, Options, Parsed, Source};
+use crate::{Diagnostic, Diagnostics, Options, Parsed, Source};
 
 /// Reads a scene and cuts bent faces ([`Parsed::bent`]) into their triangles, since their shape
 /// would depend on the side they are seen from. The triangles keep all properties of the face,
-/// including its name.
+/// including its name. So do the polygons of round faces, see [`Parsed::cut_rounds`], unless
+/// `options` keeps them.
 ///
 /// `camera`: the name of the camera to use, see [`Parsed::choose_camera`].
 ///
@@ -23,7 +25,42 @@ pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<
     if !rows.is_empty() {
         cut_faces(&mut parsed, &rows);
     }
+    if !options.keeps_rounds {
+        parsed.cut_rounds(source)?;
+    }
     Ok(parsed)
+}
+
+impl Parsed {
+    /// Cuts round faces into polygons that differ from them by up to a thousandth of their radius.
+    ///
+    /// # Errors
+    /// There are too many, or the scene is one as seen, where round faces are no longer round.
+    pub fn cut_rounds(&mut self, source: &Source) -> Result<(), Diagnostics> {
+        let Self { scene, origins, .. } = self;
+        let Some(first) = scene.faces.iter().position(|face| face.shape.is_round()) else { return Ok(()) };
+        let span = origins.faces.get(first).copied().unwrap_or_default();
+        if scene.stage.seen_geometry().is_some() {
+            let message = "round faces of a scene as seen cannot be cut into polygons";
+            let finding = Diagnostic::error(span, message).label("such a face");
+            #[cfg(feature = "report")]
+            let finding = finding.help(ugpipe::remedies::CUT_ROUNDS);
+            return Err(Diagnostics::one(source, finding));
+        }
+        let n_vertices = scene.vertices.len();
+        let cut = ugscene::cut_rounds(scene, |_, _| Some(ugscene::DEFAULT_SAGITTA));
+        let first_pieces = cut.map_err(|error| {
+            let finding = Diagnostic::error(span, error.to_string()).label("the first of them");
+            Diagnostics::one(source, finding.help("split the scene"))
+        })?;
+        let spans = std::mem::take(&mut origins.faces);
+        for (&span, end) in spans.iter().zip(&first_pieces[1..]) {
+            origins.faces.resize(*end as usize, span);
+        }
+        origins.vertices.resize(n_vertices, span);
+        origins.vertices.resize(scene.vertices.len(), span);
+        Ok(())
+    }
 }
 
 /// Triangulates the faces of these rows, which are in order, where possible.

@@ -45,6 +45,9 @@ pub fn thickness(scene: &Scene, face: &Face) -> f64 {
 pub fn bent_faces(scene: &Scene) -> Vec<BentFace> {
     let bent = |row: usize| {
         let face = &scene.faces[row];
+        if face.shape.is_round() {
+            return None;
+        }
         // Triangles are flat.
         if face.contours.len() == 1 && scene.contours.get(face.contours.start).len() == 3 {
             return None;

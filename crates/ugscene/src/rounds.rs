@@ -1,0 +1,192 @@
+//! Round faces cut into polygons.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec3;
+
+use crate::{Contours, Face, Item, RoundShape, Scene, Shape, UniqueNames, Vertex, VertexId};
+
+/// The sagitta of round faces where no eye is known, relative to their radius: the greatest
+/// distance of a polygon from the surface.
+pub const DEFAULT_SAGITTA: f64 = 1e-3;
+
+/// The same where pictures need it to be invisible, but cannot be drawn with the exact shape.
+pub const FINE_SAGITTA: f64 = 2.5e-4;
+
+/// Round faces may become so many polygons in all.
+const MOST_POLYGONS: usize = 4_000_000;
+
+/// The round faces of a scene would become more than four million polygons: so many.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TooManyPolygons(pub usize);
+
+impl std::fmt::Display for TooManyPolygons {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the round faces of the scene would become {} polygons, of {MOST_POLYGONS} at most", self.0)
+    }
+}
+
+impl std::error::Error for TooManyPolygons {}
+
+/// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
+/// returns the row of the first polygon of each face, and the number of all faces.
+///
+/// `sagitta`: of the face in this row, relative to the radius, how far a polygon may be from the
+/// surface, at least 1.9·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the face. The scene is at
+/// rest.
+///
+/// # Errors
+/// Too many polygons; the scene is unchanged.
+pub fn cut_rounds(
+    scene: &mut Scene,
+    sagitta: impl Fn(usize, &Face) -> Option<f64>,
+) -> Result<Vec<u32>, TooManyPolygons> {
+    let cut = |(row, face): (usize, &Face)| {
+        let shape = scene.round_shape(face, |vertex| scene.vertices[vertex.index()].position)?;
+        Some((shape, n_segments(face.shape, sagitta(row, face)?)))
+    };
+    let cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
+    let polygons = |(round, n): &(RoundShape, usize)| match round.shape {
+        Shape::Sphere => n * n / 2,
+        Shape::Cylinder => n + 2,
+        Shape::Tube => *n,
+        Shape::Disc | Shape::Polygon => 1,
+    };
+    let n_polygons = cuts.iter().flatten().map(polygons).sum();
+    if n_polygons > MOST_POLYGONS {
+        return Err(TooManyPolygons(n_polygons));
+    }
+    let names = scene.vertices.iter().map(|vertex| scene.names.get(vertex.name));
+    let mut names: UniqueNames = names.collect();
+    let mut first_pieces = Vec::with_capacity(cuts.len() + 1);
+    for (face, cut) in std::mem::take(&mut scene.faces).into_iter().zip(cuts) {
+        // Scenes have fewer than 2^32 faces.
+        first_pieces.push(scene.faces.len() as u32);
+        match cut {
+            Some((round, n)) => {
+                let corners = scene.contours.corners(face.contours.clone()).iter().copied();
+                let corners = round.units().into_iter().zip(corners).collect();
+                Cutter { scene, names: &mut names, face, round, n, corners }.cut();
+            }
+            None => scene.faces.push(face),
+        }
+    }
+    first_pieces.push(scene.faces.len() as u32);
+    for comment in &mut scene.remarks.comments {
+        if let Item::Face(row) = &mut comment.at {
+            // A trailing comment follows the last piece.
+            let at = *row as usize;
+            *row = if comment.trailing { first_pieces[at + 1] - 1 } else { first_pieces[at] };
+        }
+    }
+    Ok(first_pieces)
+}
+
+/// Segments of a full circle, a multiple of 4, so that the extreme points are corners.
+fn n_segments(shape: Shape, sagitta: f64) -> usize {
+    // A quadrilateral at the equator of a sphere is cos² of half a segment from its centre.
+    let (angle, most) = match shape {
+        Shape::Sphere => (libm::asin(sagitta.clamp(0.0, 1.0).sqrt()), 512),
+        _ => (libm::acos(1.0 - sagitta.clamp(0.0, 1.0)), 1024),
+    };
+    // The cast saturates.
+    let n = (PI / angle).ceil().clamp(8.0, f64::from(most)) as usize;
+    n.next_multiple_of(4)
+}
+
+/// Cosine and sine of `at` of `n` parts of a circle, exact at quarters.
+fn circle(at: usize, n: usize) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(TAU * (at % (n / 4)) as f64 / n as f64);
+    match at / (n / 4) % 4 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
+}
+
+struct Cutter<'a> {
+    scene: &'a mut Scene,
+    names: &'a mut UniqueNames,
+    face: Face,
+    round: RoundShape,
+    n: usize,
+    /// The corners of the face, which become corners of polygons, by place in the unit shape.
+    corners: Vec<(DVec3, VertexId)>,
+}
+
+impl Cutter<'_> {
+    fn cut(&mut self) {
+        let n = self.n;
+        let rim = |z: f64| (0..n).map(move |at| DVec3::from((glam::DVec2::from(circle(at, n)), z)));
+        let side = |unit: DVec3| Some(unit.with_z(0.0));
+        match self.round.shape {
+            Shape::Polygon => {}
+            Shape::Sphere => {
+                let rings: Vec<Vec<VertexId>> = (0..=n / 2)
+                    .map(|row| {
+                        let [z, radius] = circle(row, n);
+                        let ring = rim(z).map(|unit| DVec3::new(radius * unit.x, radius * unit.y, z));
+                        // The rings of the poles are single vertices.
+                        let len = if radius == 0.0 { 1 } else { n };
+                        ring.take(len).map(|unit| self.vertex(unit, Some(unit))).collect()
+                    })
+                    .collect();
+                rings.windows(2).for_each(|rings| self.band(&rings[1], &rings[0]));
+            }
+            Shape::Cylinder | Shape::Tube => {
+                let [foot, head] =
+                    [0.0, 1.0].map(|z| rim(z).map(|unit| self.vertex(unit, side(unit))).collect::<Vec<_>>());
+                self.band(&foot, &head);
+                if self.round.shape == Shape::Cylinder {
+                    let ends = [0.0, 1.0].map(|z| rim(z).map(|unit| self.vertex(unit, None)).collect::<Vec<_>>());
+                    self.polygon(ends[0].iter().rev().copied());
+                    self.polygon(ends[1].iter().copied());
+                }
+            }
+            Shape::Disc => {
+                let rim: Vec<VertexId> = rim(0.0).map(|unit| self.vertex(unit, None)).collect();
+                self.polygon(rim.into_iter());
+            }
+        }
+    }
+
+    fn vertex(&mut self, unit: DVec3, normal: Option<DVec3>) -> VertexId {
+        let normal = normal.map(|normal| self.round.normal(normal));
+        if let Some(at) = self.corners.iter().position(|corner| corner.0 == unit) {
+            // Ends of a cylinder repeat the corners of its side.
+            let (_, corner) = self.corners.swap_remove(at);
+            self.scene.vertices[corner.index()].normal = normal;
+            return corner;
+        }
+        let first = self.scene.contours.corners(self.face.contours.clone())[0];
+        let first = self.scene.vertices[first.index()];
+        let name = self.names.add_copy(first.name, &mut self.scene.names);
+        self.scene.add_vertex(Vertex {
+            name,
+            normal,
+            ..Vertex::at(self.round.place(unit), first.color)
+        })
+    }
+
+    /// The polygons between two rings, each of which may be a single vertex.
+    fn band(&mut self, below: &[VertexId], above: &[VertexId]) {
+        for at in 0..self.n {
+            let of = |ring: &[VertexId], at: usize| ring[at % ring.len()];
+            let mut corners = vec![of(below, at), of(below, at + 1), of(above, at + 1), of(above, at)];
+            corners.dedup();
+            self.polygon(corners.into_iter());
+        }
+    }
+
+    /// Adds a polygon, counterclockwise seen from outside unless the shape is mirrored.
+    fn polygon(&mut self, corners: impl DoubleEndedIterator<Item = VertexId>) {
+        let contours: &mut Contours = &mut self.scene.contours;
+        let rows = if self.round.axes.determinant() < 0.0 {
+            contours.push_all([corners.rev().collect::<Vec<_>>()])
+        } else {
+            contours.push_all([corners.collect::<Vec<_>>()])
+        };
+        self.scene.faces.push(Face { contours: rows, shape: Shape::Polygon, ..self.face.clone() });
+    }
+}
