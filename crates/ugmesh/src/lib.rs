@@ -219,7 +219,7 @@ fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
     let source = (input.resolve_includes)(source)?;
     let mut parsed = ugparse::parse(&source, &config.reading)?;
     if config.target != Target::Ug {
-        parsed.cut_rounds(&source)?;
+        parsed.cut_rounds(&source, None)?;
     }
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }

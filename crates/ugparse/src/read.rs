@@ -3,6 +3,7 @@
 
 use std::ops::Range;
 
+use glam::DVec3;
 use ugscene::{Face, Item, Scene, VertexId};
 
 use crate::{Diagnostic, Diagnostics, Options, Parsed, Source};
@@ -26,17 +27,19 @@ pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<
         cut_faces(&mut parsed, &rows);
     }
     if !options.keeps_rounds {
-        parsed.cut_rounds(source)?;
+        let eye = parsed.scene.camera().and_then(|camera| camera.eye);
+        parsed.cut_rounds(source, eye)?;
     }
     Ok(parsed)
 }
 
 impl Parsed {
-    /// Cuts round faces into polygons that differ from them by up to a thousandth of their radius.
+    /// Cuts round faces into polygons that differ from them by up to 0.1 milliradians at the eye,
+    /// or without an eye by up to a thousandth of their radius.
     ///
     /// # Errors
     /// There are too many, or the scene is one as seen, where round faces are no longer round.
-    pub fn cut_rounds(&mut self, source: &Source) -> Result<(), Diagnostics> {
+    pub fn cut_rounds(&mut self, source: &Source, eye: Option<DVec3>) -> Result<(), Diagnostics> {
         let Self { scene, origins, .. } = self;
         let Some(first) = scene.faces.iter().position(|face| face.shape.is_round()) else { return Ok(()) };
         let span = origins.faces.get(first).copied().unwrap_or_default();
@@ -48,8 +51,7 @@ impl Parsed {
             return Err(Diagnostics::one(source, finding));
         }
         let n_vertices = scene.vertices.len();
-        let cut = ugscene::cut_rounds(scene, |_, _| Some(ugscene::DEFAULT_SAGITTA));
-        let first_pieces = cut.map_err(|error| {
+        let first_pieces = ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
             let finding = Diagnostic::error(span, error.to_string()).label("the first of them");
             Diagnostics::one(source, finding.help("split the scene"))
         })?;

@@ -19,6 +19,9 @@ pub enum Error {
     /// The scene has no faces.
     #[error("the scene has no faces, so rays meet nothing")]
     Empty,
+    /// Round faces on world lines would become too many polygons.
+    #[error(transparent)]
+    TooManyPolygons(#[from] ugscene::TooManyPolygons),
     /// The motions of the scene are invalid, or it is not at rest.
     #[error(transparent)]
     Motion(#[from] MotionError),

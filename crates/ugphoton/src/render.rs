@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 use ugimage::{LinearFrame, Metadata};
-use ugparse::{Diagnostics, Source};
+use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::WorldLineError;
 use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, metadata,
@@ -103,7 +103,7 @@ impl PreparedScene {
     ) -> Result<(Self, Diagnostics), Error> {
         let canvas = config.canvas()?;
         progress.step("reading", 0);
-        let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+        let parsed = read(config, source)?;
         let boxes = notes_view.then(|| BodyBoxes::new(&parsed.scene));
         let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
         Ok((Self { boxes, ..drawing }, parsed.warnings))
@@ -132,6 +132,7 @@ impl PreparedScene {
             }
             ugscene::add_ground(&mut scene);
         }
+        notes.extend(scene.has_rounds_on_world_lines().then_some(Note::CutRounds));
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
         Ok(Self { config, canvas, scenery, metadata, notes, boxes: None })
     }
@@ -220,9 +221,19 @@ impl PreparedScene {
     }
 }
 
+/// Reads a scene with its round faces.
+pub fn read(config: &Config, source: &Source) -> Result<Parsed, Diagnostics> {
+    let options = ugparse::Options { keeps_rounds: true, ..config.reading };
+    ugparse::read(source, &options, config.picture.camera.name.as_deref())
+}
+
 /// The scene with its vertices where they are seen and where they rest, and the stage that says so.
 pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     scene.infrared = config.shift.infrared();
+    if config.picture.annotations.outline {
+        ugscene::cut_rounds(&mut scene, |_, _, _| Some(ugscene::FINE_SAGITTA))?;
+    }
+    ugscene::cut_rounds_on_world_lines(&mut scene)?;
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;

@@ -70,7 +70,9 @@ pub fn run_with(
 ) -> Result<PictureFile, Error> {
     let canvas = Canvas::new(&config.picture)?;
     progress.step("reading", 0);
-    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let keeps_rounds = config.exact.is_some() && !config.picture.annotations.outline;
+    let reading = ugparse::Options { keeps_rounds, ..config.reading };
+    let parsed = ugparse::read(source, &reading, config.picture.camera.name.as_deref())?;
     let rendering = draw(&parsed.scene, config, &canvas, provenance, progress)?;
     Ok(rendering.pack(warnings(source, parsed), progress))
 }

@@ -78,7 +78,9 @@ pub use requirements::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, require_colors_at_rest,
     require_eye, require_geometry_at_rest, require_seen_geometry, write_display_as_hues,
 };
-pub use rounds::{DEFAULT_SAGITTA, FINE_SAGITTA, TooManyPolygons, cut_rounds};
+pub use rounds::{
+    FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest, cut_rounds_on_world_lines, seen_sagitta,
+};
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;

@@ -8,7 +8,10 @@ use crate::{Contours, Face, Item, RoundShape, Scene, Shape, UniqueNames, Vertex,
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest
 /// distance of a polygon from the surface.
-pub const DEFAULT_SAGITTA: f64 = 1e-3;
+const DEFAULT_SAGITTA: f64 = 1e-3;
+
+/// The angle of it at the eye, if one is known: 0.1 milliradians, in radians.
+const DEFAULT_ERROR: f64 = 1e-4;
 
 /// The same where pictures need it to be invisible, but cannot be drawn with the exact shape.
 pub const FINE_SAGITTA: f64 = 2.5e-4;
@@ -31,7 +34,7 @@ impl std::error::Error for TooManyPolygons {}
 /// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
 /// returns the row of the first polygon of each face, and the number of all faces.
 ///
-/// `sagitta`: of the face in this row, relative to the radius, how far a polygon may be from the
+/// `sagitta`: of a face and its row, relative to the radius, how far a polygon may be from the
 /// surface, at least 1.9·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the face. The scene is at
 /// rest.
 ///
@@ -39,11 +42,11 @@ impl std::error::Error for TooManyPolygons {}
 /// Too many polygons; the scene is unchanged.
 pub fn cut_rounds(
     scene: &mut Scene,
-    sagitta: impl Fn(usize, &Face) -> Option<f64>,
+    sagitta: impl Fn(usize, &Face, &RoundShape) -> Option<f64>,
 ) -> Result<Vec<u32>, TooManyPolygons> {
     let cut = |(row, face): (usize, &Face)| {
         let shape = scene.round_shape(face, |vertex| scene.vertices[vertex.index()].position)?;
-        Some((shape, n_segments(face.shape, sagitta(row, face)?)))
+        Some((shape, n_segments(face.shape, sagitta(row, face, &shape)?)))
     };
     let cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
     let polygons = |(round, n): &(RoundShape, usize)| match round.shape {
@@ -80,6 +83,44 @@ pub fn cut_rounds(
         }
     }
     Ok(first_pieces)
+}
+
+/// The sagitta of a shape at rest, relative to its radius, that is seen from `eye` within the angle
+/// `error`, radians; at most a hundredth.
+pub fn seen_sagitta(round: &RoundShape, eye: DVec3, error: f64) -> f64 {
+    /// Coarser shapes would be shaded unevenly.
+    const COARSEST: f64 = 1e-2;
+    let [low, high] = round.bounds();
+    let radius = round.stretch();
+    let beside_box = ugphysics::length(eye.clamp(low, high) - eye);
+    let distance = match round.shape {
+        Shape::Sphere => (ugphysics::length(eye - round.origin) - radius).abs().max(beside_box),
+        _ => beside_box,
+    };
+    (error * (distance / radius)).min(COARSEST)
+}
+
+/// Cuts all round faces of a scene at rest: within 0.1 milliradians at the eye, or if that is not
+/// known within a thousandth of their radius.
+///
+/// # Errors
+/// See [`cut_rounds`].
+pub fn cut_rounds_at_rest(scene: &mut Scene, eye: Option<DVec3>) -> Result<Vec<u32>, TooManyPolygons> {
+    cut_rounds(scene, |_, _, round| {
+        Some(eye.map_or(DEFAULT_SAGITTA, |eye| seen_sagitta(round, eye, DEFAULT_ERROR)))
+    })
+}
+
+/// Cuts the round faces of bodies on world lines.
+///
+/// # Errors
+/// See [`cut_rounds`].
+pub fn cut_rounds_on_world_lines(scene: &mut Scene) -> Result<(), TooManyPolygons> {
+    if !scene.has_rounds_on_world_lines() {
+        return Ok(());
+    }
+    let on_line: Vec<bool> = scene.bodies.ids().map(|body| scene.bodies.is_on_world_line(body)).collect();
+    cut_rounds(scene, |_, face, _| on_line[face.body.index()].then_some(FINE_SAGITTA)).map(|_| ())
 }
 
 /// Segments of a full circle, a multiple of 4, so that the extreme points are corners.

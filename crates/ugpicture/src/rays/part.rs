@@ -12,6 +12,7 @@ use ugscene::{Face, Scene, VertexId, unit_normal};
 
 use super::moving_boxes::MovingBox;
 use super::path::{PastRay, Start};
+use super::rounds::{Round, Rounds};
 use super::sphere::Outline;
 use super::world_line_part::{CurveHit, Next, WorldLineMotion};
 
@@ -27,8 +28,11 @@ pub struct Part {
     pub motion: Option<WorldLineMotion>,
     pub(super) bvh: Bvh,
     pub(super) triangles: Vec<FaceTriangle>,
+    /// Round faces, whose rows follow those of the triangles.
+    pub(super) rounds: Rounds,
+    bounds: Option<(DVec3, DVec3)>,
     pub(super) clearance: f64,
-    /// `None` if there are no triangles.
+    /// `None` if there are no faces.
     pub(super) outline: Option<Outline>,
 }
 
@@ -69,7 +73,7 @@ pub struct Intersection {
     pub s: f64,
     /// The own time of a body on a world line; 0 for others.
     pub own_time: f64,
-    /// The triangle of the face.
+    /// The triangle of the face; of a round face, one of three of its corners.
     pub triangle: FaceTriangle,
     /// Its row in the part.
     pub(super) row: u32,
@@ -78,7 +82,8 @@ pub struct Intersection {
 }
 
 impl Intersection {
-    /// Barycentric weights of the corners of the triangle.
+    /// Barycentric weights of the corners of the triangle; of a round face, those of its first
+    /// corner.
     #[inline]
     pub fn weights(&self) -> [f64; 3] {
         let [second, third] = self.weights;
@@ -94,16 +99,28 @@ impl Part {
         rows: &[u32],
         known: &mut [u32],
     ) -> Self {
+        let is_round = |row: &u32| scene.faces[*row as usize].shape.is_round();
+        let round = |row: &u32| {
+            let face = &scene.faces[*row as usize];
+            let shape = scene.round_shape(face, |vertex| rest[vertex.index()])?;
+            let corners = *scene.contours.corners(face.contours.clone()).first_chunk()?;
+            Some((FaceTriangle { face: *row, corners, is_loose: false }, shape))
+        };
+        let rounds = Rounds::new(rows.iter().filter_map(round).collect());
+        let polygons: Vec<u32> = rows.iter().copied().filter(|row| !is_round(row)).collect();
+        let rows = if polygons.len() == rows.len() { rows } else { &polygons };
         let triangle = |&row: &u32| whole_triangle(scene, row);
         let cut = |&row: &u32| face_triangles(scene, rest, row);
         let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
         let triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
         let (places, corners) = vertices(&triangles, rest, known);
         let bvh = Bvh::new(&places, &corners);
-        let reach = bvh.bounds().map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
-        let outline = bvh.bounds().map(|bounds| Outline::new(bounds, &frame));
+        let join = |(a, b): (DVec3, DVec3), (c, d): (DVec3, DVec3)| (a.min(c), b.max(d));
+        let bounds = bvh.bounds().into_iter().chain(rounds.bounds()).reduce(join);
+        let reach = bounds.map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
+        let outline = bounds.map(|bounds| Outline::new(bounds, &frame));
         let motion = line.and_then(|line| WorldLineMotion::new(line, &bvh, &places, &corners));
-        Self { frame, motion, bvh, triangles, clearance: CLEARANCE * reach, outline }
+        Self { frame, motion, bvh, triangles, rounds, bounds, clearance: CLEARANCE * reach, outline }
     }
 
     /// The nearest hit on a body on a world line.
@@ -176,12 +193,39 @@ impl Part {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        self.bvh.visit(&ray, 0.0..1.0, visit).is_break()
+        let on_round = |_, row: u32| match self.rounds.get(row as usize) {
+            Some(round) if blocks(round.triangle.face) => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        self.bvh.visit(&ray, 0.0..1.0, visit).is_break() || self.rounds.visit(&ray, 0.0..1.0, on_round).is_break()
+    }
+
+    /// The round face of a hit, if it is on one.
+    pub(super) fn round(&self, found: &Intersection) -> Option<&Round> {
+        self.rounds.get((found.row as usize).checked_sub(self.triangles.len())?)
+    }
+
+    /// The place where a ray meets a round face, and the unit normal on the outside there, in the
+    /// rest frame; `None` for polygons. `ray`: origin and step.
+    #[inline]
+    pub fn round_surface(&self, found: &Intersection, (origin, step): (DVec3, DVec3)) -> Option<(DVec3, DVec3)> {
+        Some(self.round(found)?.surface(origin + found.s * step))
+    }
+
+    /// The least and greatest coordinates of each face, in the rest frame. `place`: of a corner.
+    pub fn boxes(&self, place: impl Fn(VertexId) -> DVec3) -> impl Iterator<Item = (u32, [DVec3; 2])> {
+        let of_triangle = move |triangle: &FaceTriangle| {
+            let places = triangle.corners.map(&place);
+            let bounds = [places.into_iter().reduce(DVec3::min), places.into_iter().reduce(DVec3::max)];
+            (triangle.face, bounds.map(Option::unwrap_or_default))
+        };
+        let of_round = |round: &Round| (round.triangle.face, round.bounds());
+        self.triangles.iter().map(of_triangle).chain(self.rounds.all().iter().map(of_round))
     }
 
     /// The box around the part, in the frame of the camera.
     pub(super) fn moving_box(&self) -> MovingBox {
-        let Some((low, high)) = self.bvh.bounds() else { return MovingBox::EMPTY };
+        let Some((low, high)) = self.bounds else { return MovingBox::EMPTY };
         let corner = |idx: usize| {
             let at = |axis: usize| if idx >> axis & 1 == 0 { low[axis] } else { high[axis] };
             self.frame.contracted(DVec3::new(at(0), at(1), at(2)))
@@ -206,14 +250,44 @@ impl Part {
         range: Range<f64>,
     ) -> Option<Intersection> {
         let ray = ugbvh::Ray { origin, direction: step };
-        let mut range = self.range(step, range);
+        let range = self.range(step, range);
+        let flat = self.closest_flat(faces, row, &ray, range.clone());
+        self.closest_round(row, &ray, range.start..flat.map_or(range.end, |flat| flat.s)).or(flat)
+    }
+
+    #[inline(always)]
+    fn closest_flat(
+        &self,
+        faces: Faces<'_>,
+        row: usize,
+        ray: &ugbvh::Ray,
+        mut range: Range<f64>,
+    ) -> Option<Intersection> {
         loop {
-            let found = self.intersection(row, self.bvh.closest(&ray, range.clone())?);
+            let found = self.intersection(row, self.bvh.closest(ray, range.clone())?);
             if !found.triangle.is_loose || self.is_inside(faces, &found) {
                 return Some(found);
             }
             range.start = found.s;
         }
+    }
+
+    #[inline]
+    pub(super) fn closest_round(
+        &self,
+        part: usize,
+        ray: &ugbvh::Ray,
+        range: Range<f64>,
+    ) -> Option<Intersection> {
+        let (s, row) = self.rounds.closest(ray, range)?;
+        self.round_intersection(part, s, row)
+    }
+
+    pub(super) fn round_intersection(&self, part: usize, s: f64, row: u32) -> Option<Intersection> {
+        let triangle = self.rounds.get(row as usize)?.triangle;
+        // Scenes have fewer than 2^32 faces.
+        let row = self.triangles.len() as u32 + row;
+        Some(Intersection { part, s, own_time: 0.0, triangle, row, weights: [0.0; 2] })
     }
 
     pub(super) fn intersection(&self, part: usize, hit: ugbvh::Hit) -> Intersection {

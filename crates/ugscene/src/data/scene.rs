@@ -383,6 +383,12 @@ impl Scene {
         self.faces.iter().any(|face| face.shape.is_round())
     }
 
+    /// True if a face is round whose body accelerates, turns or runs on a circle. There, rays are
+    /// curves, which programs follow to polygons only.
+    pub fn has_rounds_on_world_lines(&self) -> bool {
+        self.faces.iter().any(|face| face.shape.is_round() && self.bodies.is_on_world_line(face.body))
+    }
+
     /// The parts of a colour that is a mixture where colours are spectra; else nothing.
     pub fn mix_of(&self, color: ColorId) -> &[(ColorId, f64)] {
         match self.mixes.binary_search_by_key(&color, |mix| mix.color) {
