@@ -92,7 +92,8 @@ impl DefaultCamera {
     }
 }
 
-/// The positions and bodies of all vertices that are drawn; of all vertices if nothing is.
+/// The positions and bodies of all vertices that are drawn, and of points of round faces; of all
+/// vertices if nothing is drawn.
 fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
     let mut bodies = vec![None; scene.vertices.len()];
     for FaceOrWire { contours, body, .. } in scene.drawn() {
@@ -104,7 +105,13 @@ fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
         bodies.fill(Some(scene.bodies.unstated()));
     }
     let vertices = scene.vertices.iter().zip(bodies);
-    vertices.filter_map(|(vertex, body)| Some((vertex.position, body?))).collect()
+    let vertices = vertices.filter_map(|(vertex, body)| Some((vertex.position, body?)));
+    let on_rounds = scene.faces.iter().flat_map(|face| {
+        let round = scene.round_shape(face, |vertex| scene.vertices[vertex.index()].position);
+        let points = round.map(|round| round.points()).unwrap_or_default();
+        points.into_iter().map(|point| (point, face.body))
+    });
+    vertices.chain(on_rounds).collect()
 }
 
 const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

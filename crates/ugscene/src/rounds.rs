@@ -1,9 +1,10 @@
 //! Round faces cut into polygons.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
+use crate::data::circle;
 use crate::{Contours, Face, Item, RoundShape, Scene, Shape, UniqueNames, Vertex, VertexId};
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest
@@ -135,17 +136,6 @@ fn n_segments(shape: Shape, sagitta: f64) -> usize {
     n.next_multiple_of(4)
 }
 
-/// Cosine and sine of `at` of `n` parts of a circle, exact at quarters.
-fn circle(at: usize, n: usize) -> [f64; 2] {
-    let (sin, cos) = libm::sincos(TAU * (at % (n / 4)) as f64 / n as f64);
-    match at / (n / 4) % 4 {
-        0 => [cos, sin],
-        1 => [-sin, cos],
-        2 => [-cos, -sin],
-        _ => [sin, -cos],
-    }
-}
-
 struct Cutter<'a> {
     scene: &'a mut Scene,
     names: &'a mut UniqueNames,
@@ -159,7 +149,7 @@ struct Cutter<'a> {
 impl Cutter<'_> {
     fn cut(&mut self) {
         let n = self.n;
-        let rim = |z: f64| (0..n).map(move |at| DVec3::from((glam::DVec2::from(circle(at, n)), z)));
+        let rim = |z: f64| (0..n).map(move |at| DVec2::from(circle(at, n)).extend(z));
         let side = |unit: DVec3| Some(unit.with_z(0.0));
         match self.round.shape {
             Shape::Polygon => {}

@@ -1,6 +1,8 @@
 //! Shapes of faces: polygons, and round ones.
 
-use glam::{DMat3, DVec3};
+use std::f64::consts::TAU;
+
+use glam::{DMat3, DVec2, DVec3};
 
 /// The shape of a face. Contours of a round face hold points that determine it, and that move with
 /// its body as all vertices do.
@@ -111,6 +113,22 @@ impl RoundShape {
         }
     }
 
+    /// Points all over it.
+    pub(crate) fn points(&self) -> Vec<DVec3> {
+        const PARTS: usize = 32;
+        let rim = |z: f64, radius: f64| {
+            (0..PARTS).map(move |at| (radius * DVec2::from(circle(at, PARTS))).extend(z)).collect::<Vec<_>>()
+        };
+        let rings = match self.shape {
+            Shape::Sphere => {
+                (0..=PARTS / 2).map(|row| circle(row, PARTS)).flat_map(|[z, radius]| rim(z, radius)).collect()
+            }
+            Shape::Cylinder | Shape::Tube => [rim(0.0, 1.0), rim(1.0, 1.0)].concat(),
+            Shape::Disc | Shape::Polygon => rim(0.0, 1.0),
+        };
+        rings.into_iter().map(|unit| self.place(unit)).collect()
+    }
+
     /// Where a point of the unit shape is.
     #[inline]
     pub fn place(&self, unit: DVec3) -> DVec3 {
@@ -153,5 +171,16 @@ impl RoundShape {
         // Gershgorin's bound of the greatest eigenvalue of the products of the axes.
         let row = |a: &DVec3| axes.iter().map(|b| (*a / longest).dot(*b / longest).abs()).sum::<f64>();
         longest * axes.iter().map(row).fold(0.0, f64::max).sqrt()
+    }
+}
+
+/// Cosine and sine of `at` of `n` parts of a circle, exact at quarters.
+pub(crate) fn circle(at: usize, n: usize) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(TAU * (at % (n / 4)) as f64 / n as f64);
+    match at / (n / 4) % 4 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
     }
 }
