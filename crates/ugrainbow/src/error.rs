@@ -23,6 +23,12 @@ pub enum Error {
     /// A pixel of an exact picture is to be explained.
     #[error("only pixels of scanline mode can be explained")]
     ExplainExact,
+    /// Round faces as seen, which only rays meet.
+    #[error("round faces of a scene as seen are drawn by rays only")]
+    SeenRounds,
+    /// Round faces would become too many polygons.
+    #[error(transparent)]
+    TooManyPolygons(#[from] ugscene::TooManyPolygons),
     /// An exact picture of colours as seen.
     #[error("exact pictures shift colours themselves, and those of this scene are as seen already")]
     ExactSeenColors,

@@ -106,11 +106,7 @@ fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
     }
     let vertices = scene.vertices.iter().zip(bodies);
     let vertices = vertices.filter_map(|(vertex, body)| Some((vertex.position, body?)));
-    let on_rounds = scene.faces.iter().flat_map(|face| {
-        let round = scene.round_shape(face, |vertex| scene.vertices[vertex.index()].position);
-        let points = round.map(|round| round.points()).unwrap_or_default();
-        points.into_iter().map(|point| (point, face.body))
-    });
+    let on_rounds = scene.rounds().flat_map(|(body, round)| round.points().map(move |point| (point, body)));
     vertices.chain(on_rounds).collect()
 }
 

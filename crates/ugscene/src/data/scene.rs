@@ -378,6 +378,13 @@ impl Scene {
         RoundShape::from_corners(face.shape, &corners)
     }
 
+    /// The shapes of all round faces in the scene, with their bodies.
+    pub fn rounds(&self) -> impl Iterator<Item = (BodyId, RoundShape)> {
+        self.faces.iter().filter_map(|face| {
+            Some((face.body, self.round_shape(face, |vertex| self.vertices[vertex.index()].position)?))
+        })
+    }
+
     /// True if a face is round.
     pub fn has_rounds(&self) -> bool {
         self.faces.iter().any(|face| face.shape.is_round())

@@ -114,19 +114,19 @@ impl RoundShape {
     }
 
     /// Points all over it.
-    pub(crate) fn points(&self) -> Vec<DVec3> {
+    pub(crate) fn points(self) -> impl Iterator<Item = DVec3> {
         const PARTS: usize = 32;
         let rim = |z: f64, radius: f64| {
             (0..PARTS).map(move |at| (radius * DVec2::from(circle(at, PARTS))).extend(z)).collect::<Vec<_>>()
         };
-        let rings = match self.shape {
+        let rings: Vec<DVec3> = match self.shape {
             Shape::Sphere => {
                 (0..=PARTS / 2).map(|row| circle(row, PARTS)).flat_map(|[z, radius]| rim(z, radius)).collect()
             }
             Shape::Cylinder | Shape::Tube => [rim(0.0, 1.0), rim(1.0, 1.0)].concat(),
             Shape::Disc | Shape::Polygon => rim(0.0, 1.0),
         };
-        rings.into_iter().map(|unit| self.place(unit)).collect()
+        rings.into_iter().map(move |unit| self.place(unit))
     }
 
     /// Where a point of the unit shape is.
