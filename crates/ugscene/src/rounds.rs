@@ -49,7 +49,11 @@ pub fn cut_rounds(
         let shape = scene.round_shape(face, |vertex| scene.vertices[vertex.index()].position)?;
         Some((shape, n_segments(face.shape, sagitta(row, face, &shape)?)))
     };
+    // Scenes have fewer than 2^32 faces.
     let cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
+    if cuts.iter().all(Option::is_none) {
+        return Ok((0..=cuts.len() as u32).collect());
+    }
     let polygons = |(round, n): &(RoundShape, usize)| match round.shape {
         Shape::Sphere => n * n / 2,
         Shape::Cylinder => n + 2,
@@ -64,7 +68,6 @@ pub fn cut_rounds(
     let mut names: UniqueNames = names.collect();
     let mut first_pieces = Vec::with_capacity(cuts.len() + 1);
     for (face, cut) in std::mem::take(&mut scene.faces).into_iter().zip(cuts) {
-        // Scenes have fewer than 2^32 faces.
         first_pieces.push(scene.faces.len() as u32);
         match cut {
             Some((round, n)) => {
@@ -170,7 +173,14 @@ impl Cutter<'_> {
                     [0.0, 1.0].map(|z| rim(z).map(|unit| self.vertex(unit, side(unit))).collect::<Vec<_>>());
                 self.band(&foot, &head);
                 if self.round.shape == Shape::Cylinder {
-                    let ends = [0.0, 1.0].map(|z| rim(z).map(|unit| self.vertex(unit, None)).collect::<Vec<_>>());
+                    // Ends have corners without normals at the same places.
+                    let ends = [foot, head].map(|rim| {
+                        let copies = rim.iter().map(|&corner| {
+                            let position = self.scene.vertices[corner.index()].position;
+                            self.add(position, None)
+                        });
+                        copies.collect::<Vec<_>>()
+                    });
                     self.polygon(ends[0].iter().rev().copied());
                     self.polygon(ends[1].iter().copied());
                 }
@@ -185,19 +195,17 @@ impl Cutter<'_> {
     fn vertex(&mut self, unit: DVec3, normal: Option<DVec3>) -> VertexId {
         let normal = normal.map(|normal| self.round.normal(normal));
         if let Some(at) = self.corners.iter().position(|corner| corner.0 == unit) {
-            // Ends of a cylinder repeat the corners of its side.
-            let (_, corner) = self.corners.swap_remove(at);
+            let corner = self.corners[at].1;
             self.scene.vertices[corner.index()].normal = normal;
             return corner;
         }
-        let first = self.scene.contours.corners(self.face.contours.clone())[0];
-        let first = self.scene.vertices[first.index()];
+        self.add(self.round.place(unit), normal)
+    }
+
+    fn add(&mut self, position: DVec3, normal: Option<DVec3>) -> VertexId {
+        let first = self.scene.vertices[self.corners[0].1.index()];
         let name = self.names.add_copy(first.name, &mut self.scene.names);
-        self.scene.add_vertex(Vertex {
-            name,
-            normal,
-            ..Vertex::at(self.round.place(unit), first.color)
-        })
+        self.scene.add_vertex(Vertex { name, normal, ..Vertex::at(position, first.color) })
     }
 
     /// The polygons between two rings, each of which may be a single vertex.
