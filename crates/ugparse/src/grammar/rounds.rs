@@ -71,8 +71,8 @@ const NO_LENGTH: Reason =
 
 const OUT_OF_RANGE: Reason = Reason::Impossible(
     1,
-    "this shape cannot be told from a point, or reaches beyond all numbers",
-    "use a radius and coordinates of more similar size",
+    "coordinates of this shape are lost in rounding, or too large",
+    "use a radius and coordinates of similar size",
 );
 
 /// Two unit vectors at right angles to a unit vector and to each other, in axes of the scene if it
