@@ -1,7 +1,9 @@
 //! Round faces cut into polygons, before subdivision.
 
 use glam::DVec3;
-use ugscene::{CameraOptions, Face, PlacedBodies, RelativeMotion, RoundShape, Scene, cut_rounds, seen_sagitta};
+use ugscene::{
+    CameraOptions, Face, PlacedBodies, RelativeMotion, RoundShape, Scene, cut_rounds, seen_sagitta,
+};
 
 use crate::{Config, DEFAULT_ERROR, Error, Pieces};
 

@@ -11,8 +11,8 @@ use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
     Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, LightKind,
-    LightMotion, Mix, NameId, Names, RoundShape, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture, TextureImage,
-    Tint, Vertex, VertexId, Wire,
+    LightMotion, Mix, NameId, Names, RoundShape, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture,
+    TextureImage, Tint, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;

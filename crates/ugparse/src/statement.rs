@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Camera, RoundShape, Shape, SurfaceProperties, Texture};
+use ugscene::{Camera, FaceShape, RoundShape, SurfaceProperties, Texture};
 
 use crate::source::Span;
 use crate::transform::Transform;
@@ -123,7 +123,7 @@ pub(crate) struct FaceStatement {
     pub color: Option<Span>,
     pub shading: Option<ShadingStatement>,
     pub motion: Option<MotionReference>,
-    pub shape: Shape,
+    pub shape: FaceShape,
     /// A round face by its numbers; then it has no contours.
     pub round: Option<RoundShape>,
 }

@@ -92,9 +92,16 @@ impl DefaultCamera {
     }
 }
 
-/// The positions and bodies of all vertices that are drawn, and of points of round faces; of all
-/// vertices if nothing is drawn.
+/// The positions and bodies of all vertices that are drawn; of all vertices if nothing is.
 fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
+    /// The sagitta of polygons in place of round faces.
+    const COARSE: f64 = 1e-2;
+    if scene.has_rounds() {
+        let mut scene = scene.clone();
+        if crate::cut_rounds(&mut scene, |_, _, _| Some(COARSE)).is_ok() {
+            return points(&scene);
+        }
+    }
     let mut bodies = vec![None; scene.vertices.len()];
     for FaceOrWire { contours, body, .. } in scene.drawn() {
         for corner in scene.contours.corners(contours) {
@@ -105,9 +112,7 @@ fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
         bodies.fill(Some(scene.bodies.unstated()));
     }
     let vertices = scene.vertices.iter().zip(bodies);
-    let vertices = vertices.filter_map(|(vertex, body)| Some((vertex.position, body?)));
-    let on_rounds = scene.rounds().flat_map(|(body, round)| round.points().map(move |point| (point, body)));
-    vertices.chain(on_rounds).collect()
+    vertices.filter_map(|(vertex, body)| Some((vertex.position, body?))).collect()
 }
 
 const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);

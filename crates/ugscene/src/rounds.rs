@@ -1,11 +1,10 @@
 //! Round faces cut into polygons.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use crate::data::circle;
-use crate::{Contours, Face, Item, RoundShape, Scene, Shape, UniqueNames, Vertex, VertexId};
+use crate::{Contours, Face, FaceShape, Item, RoundShape, Scene, UniqueNames, Vertex, VertexId};
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest
 /// distance of a polygon from the surface.
@@ -55,10 +54,10 @@ pub fn cut_rounds(
         return Ok((0..=cuts.len() as u32).collect());
     }
     let polygons = |(round, n): &(RoundShape, usize)| match round.shape {
-        Shape::Sphere => n * n / 2,
-        Shape::Cylinder => n + 2,
-        Shape::Tube => *n,
-        Shape::Disc | Shape::Polygon => 1,
+        FaceShape::Sphere => n * n / 2,
+        FaceShape::Cylinder => n + 2,
+        FaceShape::Tube => *n,
+        FaceShape::Disc | FaceShape::Polygon => 1,
     };
     let n_polygons = cuts.iter().flatten().map(polygons).sum();
     if n_polygons > MOST_POLYGONS {
@@ -98,7 +97,7 @@ pub fn seen_sagitta(round: &RoundShape, eye: DVec3, error: f64) -> f64 {
     let radius = round.stretch();
     let beside_box = ugphysics::length(eye.clamp(low, high) - eye);
     let distance = match round.shape {
-        Shape::Sphere => (ugphysics::length(eye - round.origin) - radius).abs().max(beside_box),
+        FaceShape::Sphere => (ugphysics::length(eye - round.origin) - radius).abs().max(beside_box),
         _ => beside_box,
     };
     (error * (distance / radius)).min(COARSEST)
@@ -128,15 +127,26 @@ pub fn cut_rounds_on_world_lines(scene: &mut Scene) -> Result<(), TooManyPolygon
 }
 
 /// Segments of a full circle, a multiple of 4, so that the extreme points are corners.
-fn n_segments(shape: Shape, sagitta: f64) -> usize {
+fn n_segments(shape: FaceShape, sagitta: f64) -> usize {
     // A quadrilateral at the equator of a sphere is cos² of half a segment from its centre.
     let (angle, most) = match shape {
-        Shape::Sphere => (libm::asin(sagitta.clamp(0.0, 1.0).sqrt()), 512),
+        FaceShape::Sphere => (libm::asin(sagitta.clamp(0.0, 1.0).sqrt()), 512),
         _ => (libm::acos(1.0 - sagitta.clamp(0.0, 1.0)), 1024),
     };
     // The cast saturates.
     let n = (PI / angle).ceil().clamp(8.0, f64::from(most)) as usize;
     n.next_multiple_of(4)
+}
+
+/// Cosine and sine of `at` of `n` parts of a circle, exact at quarters.
+fn circle(at: usize, n: usize) -> [f64; 2] {
+    let (sin, cos) = libm::sincos(TAU * (at % (n / 4)) as f64 / n as f64);
+    match at / (n / 4) % 4 {
+        0 => [cos, sin],
+        1 => [-sin, cos],
+        2 => [-cos, -sin],
+        _ => [sin, -cos],
+    }
 }
 
 struct Cutter<'a> {
@@ -155,8 +165,8 @@ impl Cutter<'_> {
         let rim = |z: f64| (0..n).map(move |at| DVec2::from(circle(at, n)).extend(z));
         let side = |unit: DVec3| Some(unit.with_z(0.0));
         match self.round.shape {
-            Shape::Polygon => {}
-            Shape::Sphere => {
+            FaceShape::Polygon => {}
+            FaceShape::Sphere => {
                 let rings: Vec<Vec<VertexId>> = (0..=n / 2)
                     .map(|row| {
                         let [z, radius] = circle(row, n);
@@ -168,11 +178,11 @@ impl Cutter<'_> {
                     .collect();
                 rings.windows(2).for_each(|rings| self.band(&rings[1], &rings[0]));
             }
-            Shape::Cylinder | Shape::Tube => {
+            FaceShape::Cylinder | FaceShape::Tube => {
                 let [foot, head] =
                     [0.0, 1.0].map(|z| rim(z).map(|unit| self.vertex(unit, side(unit))).collect::<Vec<_>>());
                 self.band(&foot, &head);
-                if self.round.shape == Shape::Cylinder {
+                if self.round.shape == FaceShape::Cylinder {
                     // Ends have corners without normals at the same places.
                     let ends = [foot, head].map(|rim| {
                         let copies = rim.iter().map(|&corner| {
@@ -185,7 +195,7 @@ impl Cutter<'_> {
                     self.polygon(ends[1].iter().copied());
                 }
             }
-            Shape::Disc => {
+            FaceShape::Disc => {
                 let rim: Vec<VertexId> = rim(0.0).map(|unit| self.vertex(unit, None)).collect();
                 self.polygon(rim.into_iter());
             }
@@ -226,6 +236,6 @@ impl Cutter<'_> {
         } else {
             contours.push_all([corners.collect::<Vec<_>>()])
         };
-        self.scene.faces.push(Face { contours: rows, shape: Shape::Polygon, ..self.face.clone() });
+        self.scene.faces.push(Face { contours: rows, shape: FaceShape::Polygon, ..self.face.clone() });
     }
 }

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{BodyId, ColorId, Face, RestFrames, Scene, ShadingId, Shape, unit_normal};
+use crate::{BodyId, ColorId, Face, FaceShape, RestFrames, Scene, ShadingId, unit_normal};
 
 /// Distance from a plane up to which a corner counts as being in it, relative to the largest
 /// coordinate of its face. Rest positions that (P4) recovers from text have errors of 10⁻¹⁵.
@@ -127,7 +127,7 @@ impl PlacedFace<'_> {
     /// nearly the same planes; NaN if it has no area, or is not flat.
     #[inline(always)] // Runs for every face of a scene.
     fn number(&self, reach: f64) -> f64 {
-        if !matches!(self.face.shape, Shape::Polygon | Shape::Disc) {
+        if !matches!(self.face.shape, FaceShape::Polygon | FaceShape::Disc) {
             return f64::NAN;
         }
         let outline = self.scene.contours.get(self.face.contours.start);

@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugscene::{
-    Camera, Face, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, Shape, VertexId, Wire, newell_normal,
+    Camera, Face, FaceShape, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId, Wire,
+    newell_normal,
 };
 
 use super::Expander;
@@ -108,7 +109,7 @@ impl Expander<'_, '_> {
                 has_three(&corners)
             });
         let is_whole = match face.shape {
-            Shape::Polygon => newell_normal(outline.map(position)) != DVec3::ZERO,
+            FaceShape::Polygon => newell_normal(outline.map(position)) != DVec3::ZERO,
             shape => {
                 let corners = face.contours.clone().flat_map(|row| placement.corners(row)).map(position);
                 RoundShape::from_corners(shape, &corners.collect::<Vec<_>>()).is_some()

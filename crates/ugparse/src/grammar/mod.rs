@@ -17,7 +17,7 @@ use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::{Velocity, VelocityError};
-use ugscene::{Camera, ColorValue, RoundShape, Shape, SurfaceNumber, SurfaceProperties, Tint};
+use ugscene::{Camera, ColorValue, FaceShape, RoundShape, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
 use crate::statement::{
@@ -72,10 +72,10 @@ impl<'t> Grammar<'t> {
             b"v" => self.vertex(input),
             b"f" => self.face(input, references),
             b"w" => self.wire(input, references),
-            b"sphere" => self.round(Shape::Sphere, input, references),
-            b"cylinder" => self.round(Shape::Cylinder, input, references),
-            b"tube" => self.round(Shape::Tube, input, references),
-            b"disc" => self.round(Shape::Disc, input, references),
+            b"sphere" => self.round(FaceShape::Sphere, input, references),
+            b"cylinder" => self.round(FaceShape::Cylinder, input, references),
+            b"tube" => self.round(FaceShape::Tube, input, references),
+            b"disc" => self.round(FaceShape::Disc, input, references),
             b"c" => self.color(input),
             b"c_rgb" => self.rgb(input),
             b"c_xyz" => self.xyz(input),
@@ -146,7 +146,7 @@ impl<'t> Grammar<'t> {
     fn face<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = self.contours(input, references)?;
-        self.behind_shape(input, name, Shape::Polygon, None)
+        self.behind_shape(input, name, FaceShape::Polygon, None)
     }
 
     /// `[color] [shading] [< x y z >]`
@@ -154,7 +154,7 @@ impl<'t> Grammar<'t> {
         &self,
         input: Input<'a>,
         name: Option<Span>,
-        shape: Shape,
+        shape: FaceShape,
         round: Option<RoundShape>,
     ) -> Parsed<'a, Statement> {
         let (input, color) = self.optional_name(input)?;
@@ -178,7 +178,7 @@ impl<'t> Grammar<'t> {
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let (shading, shape, round) = (None, Shape::Polygon, None);
+        let (shading, shape, round) = (None, FaceShape::Polygon, None);
         Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round })))
     }
 

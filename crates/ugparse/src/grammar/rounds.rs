@@ -1,7 +1,7 @@
 //! `sphere`, `cylinder`, `tube` and `disc`.
 
 use glam::{DMat3, DVec3};
-use ugscene::{RoundShape, Shape};
+use ugscene::{FaceShape, RoundShape};
 
 use super::{Grammar, number_from, zero_vector};
 use crate::statement::{References, Statement};
@@ -12,7 +12,7 @@ impl Grammar<'_> {
     /// `disc [ID] x y z nx ny nz radius …`; or with contours in place of the numbers
     pub(super) fn round<'a>(
         &self,
-        shape: Shape,
+        shape: FaceShape,
         input: Input<'a>,
         references: &mut References,
     ) -> Parsed<'a, Statement> {
@@ -30,22 +30,23 @@ impl Grammar<'_> {
         let (input, origin) = require(point(input))?;
         let end = blank(input)?.0;
         let (input, second) = match shape {
-            Shape::Sphere => (input, DVec3::Z),
+            FaceShape::Sphere => (input, DVec3::Z),
             _ => require(point(input))?,
         };
         let radius_at = blank(input)?.0;
         let radius = number_from(f64::MIN_POSITIVE, f64::INFINITY, "a radius is above 0");
         let (input, radius) = require(radius(input))?;
-        let axis = if matches!(shape, Shape::Cylinder | Shape::Tube) { second - origin } else { second };
+        let axis =
+            if matches!(shape, FaceShape::Cylinder | FaceShape::Tube) { second - origin } else { second };
         let direction = ugphysics::unit_or_zero(axis);
         if axis == DVec3::ZERO {
-            return fail(end, if shape == Shape::Disc { zero_vector(3) } else { NO_LENGTH });
+            return fail(end, if shape == FaceShape::Disc { zero_vector(3) } else { NO_LENGTH });
         }
         let axes = match shape {
-            Shape::Sphere => DMat3::from_diagonal(DVec3::splat(radius)),
+            FaceShape::Sphere => DMat3::from_diagonal(DVec3::splat(radius)),
             _ => {
                 let (a, b) = across(direction);
-                let along = if shape == Shape::Disc { radius * direction } else { axis };
+                let along = if shape == FaceShape::Disc { radius * direction } else { axis };
                 DMat3::from_cols(radius * a, radius * b, along)
             }
         };

@@ -7,7 +7,11 @@ use crate::Error;
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
-            Self::Text(_) | Self::Empty | Self::TooManyPolygons(_) | Self::MovingMedium { .. } | Self::WorldLine { .. } => "{}",
+            Self::Text(_)
+            | Self::Empty
+            | Self::TooManyPolygons(_)
+            | Self::MovingMedium { .. }
+            | Self::WorldLine { .. } => "{}",
             Self::Motion(error) => return error.words(),
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),

@@ -12,7 +12,7 @@ use ugscene::{Face, Scene, VertexId, unit_normal};
 
 use super::moving_boxes::MovingBox;
 use super::path::{PastRay, Start};
-use super::rounds::{Round, Rounds};
+use super::rounds::Rounds;
 use super::sphere::Outline;
 use super::world_line_part::{CurveHit, Next, WorldLineMotion};
 
@@ -28,7 +28,7 @@ pub struct Part {
     pub motion: Option<WorldLineMotion>,
     pub(super) bvh: Bvh,
     pub(super) triangles: Vec<FaceTriangle>,
-    /// Round faces, whose rows follow those of the triangles.
+    /// Round faces. Triangles of their corners are the last ones.
     pub(super) rounds: Rounds,
     bounds: Option<(DVec3, DVec3)>,
     pub(super) clearance: f64,
@@ -100,21 +100,22 @@ impl Part {
         known: &mut [u32],
     ) -> Self {
         let is_round = |row: &u32| scene.faces[*row as usize].shape.is_round();
-        let round = |row: &u32| {
-            let face = &scene.faces[*row as usize];
-            let shape = scene.round_shape(face, |vertex| rest[vertex.index()])?;
-            let corners = *scene.contours.corners(face.contours.clone()).first_chunk()?;
-            Some((FaceTriangle { face: *row, corners, is_loose: false }, shape))
-        };
-        let rounds = Rounds::new(rows.iter().filter_map(round).collect());
-        let polygons: Vec<u32> = rows.iter().copied().filter(|row| !is_round(row)).collect();
-        let rows = if polygons.len() == rows.len() { rows } else { &polygons };
+        let (round_rows, rows): (Vec<u32>, Vec<u32>) = rows.iter().partition(|row| is_round(row));
         let triangle = |&row: &u32| whole_triangle(scene, row);
         let cut = |&row: &u32| face_triangles(scene, rest, row);
         let triangles: Option<Vec<FaceTriangle>> = rows.par_iter().map(triangle).collect();
-        let triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
+        let mut triangles = triangles.unwrap_or_else(|| rows.par_iter().flat_map_iter(cut).collect());
         let (places, corners) = vertices(&triangles, rest, known);
         let bvh = Bvh::new(&places, &corners);
+        let round = |row: u32| {
+            let face = &scene.faces[row as usize];
+            let shape = scene.round_shape(face, |vertex| rest[vertex.index()])?;
+            let corners = *scene.contours.corners(face.contours.clone()).first_chunk()?;
+            Some((FaceTriangle { face: row, corners, is_loose: false }, shape))
+        };
+        let (corners_of_rounds, shapes): (Vec<_>, _) = round_rows.into_iter().filter_map(round).unzip();
+        triangles.extend(corners_of_rounds);
+        let rounds = Rounds::new(shapes);
         let join = |(a, b): (DVec3, DVec3), (c, d): (DVec3, DVec3)| (a.min(c), b.max(d));
         let bounds = bvh.bounds().into_iter().chain(rounds.bounds()).reduce(join);
         let reach = bounds.map_or(0.0, |(low, high)| low.abs().max(high.abs()).max_element());
@@ -193,34 +194,41 @@ impl Part {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        let on_round = |_, row: u32| match self.rounds.get(row as usize) {
-            Some(round) if blocks(round.triangle.face) => ControlFlow::Break(()),
-            _ => ControlFlow::Continue(()),
+        let on_round = |_, row: u32| match blocks(self.triangles[self.first_round() + row as usize].face) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
         };
-        self.bvh.visit(&ray, 0.0..1.0, visit).is_break() || self.rounds.visit(&ray, 0.0..1.0, on_round).is_break()
+        self.bvh.visit(&ray, 0.0..1.0, visit).is_break()
+            || self.rounds.visit(&ray, 0.0..1.0, on_round).is_break()
     }
 
-    /// The round face of a hit, if it is on one.
-    pub(super) fn round(&self, found: &Intersection) -> Option<&Round> {
-        self.rounds.get((found.row as usize).checked_sub(self.triangles.len())?)
+    /// The row of the triangle of the first round face.
+    fn first_round(&self) -> usize {
+        self.triangles.len() - self.rounds.len()
     }
 
     /// The place where a ray meets a round face, and the unit normal on the outside there, in the
     /// rest frame; `None` for polygons. `ray`: origin and step.
     #[inline]
-    pub fn round_surface(&self, found: &Intersection, (origin, step): (DVec3, DVec3)) -> Option<(DVec3, DVec3)> {
-        Some(self.round(found)?.surface(origin + found.s * step))
+    pub fn round_surface(
+        &self,
+        found: &Intersection,
+        (origin, step): (DVec3, DVec3),
+    ) -> Option<(DVec3, DVec3)> {
+        let row = (found.row as usize).checked_sub(self.first_round())?;
+        Some(self.rounds.surface(row, origin + found.s * step))
     }
 
-    /// The least and greatest coordinates of each face, in the rest frame. `place`: of a corner.
+    /// The least and greatest coordinates of each triangle or round face, in the rest frame, with
+    /// the row of the face. `place`: of a corner.
     pub fn boxes(&self, place: impl Fn(VertexId) -> DVec3) -> impl Iterator<Item = (u32, [DVec3; 2])> {
-        let of_triangle = move |triangle: &FaceTriangle| {
-            let places = triangle.corners.map(&place);
-            let bounds = [places.into_iter().reduce(DVec3::min), places.into_iter().reduce(DVec3::max)];
-            (triangle.face, bounds.map(Option::unwrap_or_default))
-        };
-        let of_round = |round: &Round| (round.triangle.face, round.bounds());
-        self.triangles.iter().map(of_triangle).chain(self.rounds.all().iter().map(of_round))
+        let first_round = self.first_round();
+        self.triangles.iter().enumerate().map(move |(row, triangle)| {
+            let [a, b, c] = triangle.corners.map(&place);
+            let of_triangle = || [a.min(b).min(c), a.max(b).max(c)];
+            let round = row.checked_sub(first_round).map(|row| self.rounds.bounds_of(row));
+            (triangle.face, round.unwrap_or_else(of_triangle))
+        })
     }
 
     /// The box around the part, in the frame of the camera.
@@ -280,14 +288,13 @@ impl Part {
         range: Range<f64>,
     ) -> Option<Intersection> {
         let (s, row) = self.rounds.closest(ray, range)?;
-        self.round_intersection(part, s, row)
+        Some(self.round_intersection(part, s, row))
     }
 
-    pub(super) fn round_intersection(&self, part: usize, s: f64, row: u32) -> Option<Intersection> {
-        let triangle = self.rounds.get(row as usize)?.triangle;
+    pub(super) fn round_intersection(&self, part: usize, s: f64, row: u32) -> Intersection {
         // Scenes have fewer than 2^32 faces.
-        let row = self.triangles.len() as u32 + row;
-        Some(Intersection { part, s, own_time: 0.0, triangle, row, weights: [0.0; 2] })
+        let row = self.first_round() as u32 + row;
+        self.intersection(part, ugbvh::Hit { t: s, triangle: row, u: 0.0, v: 0.0 })
     }
 
     pub(super) fn intersection(&self, part: usize, hit: ugbvh::Hit) -> Intersection {

@@ -7,9 +7,7 @@ use std::ops::{ControlFlow, Range};
 
 use glam::{DMat3, DVec3};
 use ugbvh::{Bvh, Ray};
-use ugscene::{RoundShape, Shape};
-
-use super::part::FaceTriangle;
+use ugscene::{FaceShape, RoundShape};
 
 /// A ray starts on a shape if it starts this close to it, in radii.
 const ON_SURFACE: f64 = 1e-9;
@@ -20,9 +18,7 @@ const MARGIN: f64 = 1e-9;
 
 /// A round face in its rest frame, relative to the eye.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Round {
-    /// Three of its corners.
-    pub triangle: FaceTriangle,
+struct Round {
     shape: RoundShape,
     unit_from_rest: DMat3,
 }
@@ -36,18 +32,15 @@ pub(super) struct Rounds {
 }
 
 impl Rounds {
-    pub fn new(shapes: Vec<(FaceTriangle, RoundShape)>) -> Self {
-        let round = |(triangle, shape): (FaceTriangle, RoundShape)| Round {
-            triangle,
-            shape,
-            unit_from_rest: shape.axes.inverse(),
-        };
+    pub fn new(shapes: Vec<RoundShape>) -> Self {
+        let round = |shape: RoundShape| Round { shape, unit_from_rest: shape.axes.inverse() };
         let all: Vec<Round> = shapes.into_iter().map(round).collect();
         let corners = all.iter().flat_map(|round| {
             let [low, high] = round.shape.bounds();
             let margin = MARGIN * ((high - low).max_element() + low.abs().max(high.abs()).max_element());
             let ends = [low - margin, high + margin];
-            let corner = move |idx: usize| DVec3::from_array([0, 1, 2].map(|axis| ends[idx >> axis & 1][axis]));
+            let corner =
+                move |idx: usize| DVec3::from_array([0, 1, 2].map(|axis| ends[idx >> axis & 1][axis]));
             (0..8).map(corner)
         });
         // Sides of a box; the numbers of corners have a bit for each axis.
@@ -61,12 +54,18 @@ impl Rounds {
         Self { all, boxes }
     }
 
-    pub fn get(&self, row: usize) -> Option<&Round> {
-        self.all.get(row)
+    pub fn len(&self) -> usize {
+        self.all.len()
     }
 
-    pub fn all(&self) -> &[Round] {
-        &self.all
+    /// [`RoundShape::bounds`]
+    pub fn bounds_of(&self, row: usize) -> [DVec3; 2] {
+        self.all[row].shape.bounds()
+    }
+
+    /// [`Round::surface`]
+    pub fn surface(&self, row: usize, hit: DVec3) -> (DVec3, DVec3) {
+        self.all[row].surface(hit)
     }
 
     /// The least and greatest coordinates.
@@ -117,19 +116,16 @@ impl Rounds {
 }
 
 impl Round {
-    /// The least and greatest coordinates.
-    pub fn bounds(&self) -> [DVec3; 2] {
-        self.shape.bounds()
-    }
-
     /// The place on the surface nearest to a hit, and the unit normal on the outside there.
-    pub fn surface(&self, hit: DVec3) -> (DVec3, DVec3) {
+    fn surface(&self, hit: DVec3) -> (DVec3, DVec3) {
         let at = self.unit_from_rest * (hit - self.shape.origin);
         let around = at.with_z(0.0).normalize_or_zero();
         let (place, normal) = match self.shape.shape {
-            Shape::Sphere => (at.normalize_or_zero(), at),
-            Shape::Disc => (at.with_z(0.0), DVec3::Z),
-            Shape::Cylinder if at.z.abs().min((at.z - 1.0).abs()) < (at.with_z(0.0).length() - 1.0).abs() => {
+            FaceShape::Sphere => (at.normalize_or_zero(), at),
+            FaceShape::Disc => (at.with_z(0.0), DVec3::Z),
+            FaceShape::Cylinder
+                if at.z.abs().min((at.z - 1.0).abs()) < (at.with_z(0.0).length() - 1.0).abs() =>
+            {
                 let end = if at.z < 0.5 { 0.0 } else { 1.0 };
                 (at.with_z(end), DVec3::Z * (2.0 * end - 1.0))
             }
@@ -143,17 +139,17 @@ impl Round {
         let from = self.unit_from_rest * (ray.origin - self.shape.origin);
         let step = self.unit_from_rest * ray.direction;
         match self.shape.shape {
-            Shape::Polygon => [None; 2],
-            Shape::Sphere => roots(from, step).map_or([None; 2], |roots| roots.map(Some)),
-            Shape::Disc => {
+            FaceShape::Polygon => [None; 2],
+            FaceShape::Sphere => roots(from, step).map_or([None; 2], |roots| roots.map(Some)),
+            FaceShape::Disc => {
                 let t = at_plane(from.z, step.z);
                 [Some(t).filter(|t| (from + *t * step).with_z(0.0).length_squared() <= 1.0), None]
             }
-            Shape::Tube => {
+            FaceShape::Tube => {
                 let Some(roots) = around_axis(from, step) else { return [None; 2] };
                 roots.map(|t| Some(t).filter(|t| (0.0..=1.0).contains(&(from.z + t * step.z))))
             }
-            Shape::Cylinder => {
+            FaceShape::Cylinder => {
                 let Some([enters, leaves]) = around_axis(from, step) else { return [None; 2] };
                 let ends = if step.z == 0.0 {
                     let is_between = (0.0..=1.0).contains(&from.z);

@@ -99,7 +99,7 @@ impl World {
         Self { parts, n_inertial, planes, outside, triangles_of, boxes }
     }
 
-    /// All triangles, with the rows of their parts. Round faces have none.
+    /// All triangles, with the rows of their parts; of a round face one of its corners.
     pub fn triangles(&self) -> impl Iterator<Item = (usize, &FaceTriangle)> {
         let parts = self.parts.iter().enumerate();
         parts.flat_map(|(row, part)| part.triangles.iter().map(move |triangle| (row, triangle)))
@@ -370,7 +370,7 @@ impl World {
                 part.closest(faces, row, DVec3::ZERO, step, found.s..end).or(*best)
             };
         }
-        if part.rounds.all().is_empty() {
+        if part.rounds.len() == 0 {
             return;
         }
         for (&idx, &direction) in rows.iter().zip(&*directions) {
@@ -428,10 +428,7 @@ impl World {
                 }
                 visit_any(found)
             })?;
-            part.rounds.visit(&ray, range, |s, round| match part.round_intersection(row, s, round) {
-                Some(found) => visit_any(found),
-                None => ControlFlow::Continue(()),
-            })
+            part.rounds.visit(&ray, range, |s, round| visit_any(part.round_intersection(row, s, round)))
         };
         let inertial = match self.boxes_for(ray, &range) {
             None => (0..self.n_inertial).try_for_each(&mut visit),

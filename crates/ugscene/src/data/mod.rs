@@ -26,8 +26,7 @@ pub use scene::{
     Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
     Shading, StatedSky, Tint, Vertex, Wire,
 };
-pub(crate) use shape::circle;
-pub use shape::{RoundShape, Shape};
+pub use shape::{FaceShape, RoundShape};
 pub use stage::{
     ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,
 };

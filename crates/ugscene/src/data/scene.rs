@@ -21,7 +21,7 @@ use super::contours::Contours;
 use super::ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 use super::names::Names;
 use super::remarks::Remarks;
-use super::shape::{RoundShape, Shape};
+use super::shape::{FaceShape, RoundShape};
 use super::stage::{HueScale, Stage};
 use super::surface::SurfaceProperties;
 use super::texture::Texture;
@@ -227,7 +227,7 @@ pub struct Face {
     /// The body it is part of.
     pub body: BodyId,
     /// What its contours determine.
-    pub shape: Shape,
+    pub shape: FaceShape,
 }
 
 /// The light level or surface of a face.

@@ -1,13 +1,11 @@
 //! Shapes of faces: polygons, and round ones.
 
-use std::f64::consts::TAU;
-
-use glam::{DMat3, DVec2, DVec3};
+use glam::{DMat3, DVec3};
 
 /// The shape of a face. Contours of a round face hold points that determine it, and that move with
 /// its body as all vertices do.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Shape {
+pub enum FaceShape {
     /// `f`: a flat polygon.
     #[default]
     Polygon,
@@ -22,10 +20,7 @@ pub enum Shape {
     Disc,
 }
 
-impl Shape {
-    /// All round shapes.
-    pub const ROUND: [Self; 4] = [Self::Sphere, Self::Cylinder, Self::Tube, Self::Disc];
-
+impl FaceShape {
     /// The keyword of its statement.
     pub fn keyword(self) -> &'static str {
         match self {
@@ -61,7 +56,7 @@ impl Shape {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoundShape {
     /// The kind of shape.
-    pub shape: Shape,
+    pub shape: FaceShape,
     /// Where the origin is.
     pub origin: DVec3,
     /// Where the axes are, relative to the origin; they are independent of each other.
@@ -70,7 +65,7 @@ pub struct RoundShape {
 
 impl RoundShape {
     /// `None` if it has no volume, a disc without area, or a number is not finite.
-    pub fn new(shape: Shape, origin: DVec3, axes: DMat3) -> Option<Self> {
+    pub fn new(shape: FaceShape, origin: DVec3, axes: DMat3) -> Option<Self> {
         /// Axes closer than this to one plane are dependent up to rounding.
         const LEAST: f64 = 1e-12;
         let units = [axes.x_axis, axes.y_axis, axes.z_axis].map(ugphysics::unit_or_zero);
@@ -80,16 +75,21 @@ impl RoundShape {
     }
 
     /// From the corners of a round face, contour after contour; `None` as in [`RoundShape::new`].
-    pub fn from_corners(shape: Shape, corners: &[DVec3]) -> Option<Self> {
+    pub fn from_corners(shape: FaceShape, corners: &[DVec3]) -> Option<Self> {
         let half = |a: usize, b: usize| Some(0.5 * *corners.get(a)? - 0.5 * *corners.get(b)?);
         let middle = |first: usize| Some(corners.get(first)?.midpoint(*corners.get(first + 2)?));
         let (origin, axes) = match shape {
-            Shape::Polygon => return None,
-            Shape::Sphere => (corners.first()?.midpoint(*corners.get(3)?), [half(0, 3)?, half(1, 4)?, half(2, 5)?]),
-            Shape::Cylinder | Shape::Tube => (middle(0)?, [half(0, 2)?, half(1, 3)?, middle(4)? - middle(0)?]),
-            Shape::Disc => {
+            FaceShape::Polygon => return None,
+            FaceShape::Sphere => {
+                (corners.first()?.midpoint(*corners.get(3)?), [half(0, 3)?, half(1, 4)?, half(2, 5)?])
+            }
+            FaceShape::Cylinder | FaceShape::Tube => {
+                (middle(0)?, [half(0, 2)?, half(1, 3)?, middle(4)? - middle(0)?])
+            }
+            FaceShape::Disc => {
                 let (a, b) = (half(0, 2)?, half(1, 3)?);
-                let normal = ugphysics::unit_or_zero(ugphysics::unit_or_zero(a).cross(ugphysics::unit_or_zero(b)));
+                let normal =
+                    ugphysics::unit_or_zero(ugphysics::unit_or_zero(a).cross(ugphysics::unit_or_zero(b)));
                 (middle(0)?, [a, b, ugphysics::length(a) * normal])
             }
         };
@@ -106,27 +106,11 @@ impl RoundShape {
         let (a, b) = ([1.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, -1.0]);
         let rim = |z: f64| (0..4).map(move |at| DVec3::new(a[at], b[at], z));
         match self.shape {
-            Shape::Polygon => Vec::new(),
-            Shape::Sphere => DVec3::AXES.into_iter().chain(DVec3::AXES.map(|axis| -axis)).collect(),
-            Shape::Cylinder | Shape::Tube => rim(0.0).chain(rim(1.0)).collect(),
-            Shape::Disc => rim(0.0).collect(),
+            FaceShape::Polygon => Vec::new(),
+            FaceShape::Sphere => DVec3::AXES.into_iter().chain(DVec3::AXES.map(|axis| -axis)).collect(),
+            FaceShape::Cylinder | FaceShape::Tube => rim(0.0).chain(rim(1.0)).collect(),
+            FaceShape::Disc => rim(0.0).collect(),
         }
-    }
-
-    /// Points all over it.
-    pub(crate) fn points(self) -> impl Iterator<Item = DVec3> {
-        const PARTS: usize = 32;
-        let rim = |z: f64, radius: f64| {
-            (0..PARTS).map(move |at| (radius * DVec2::from(circle(at, PARTS))).extend(z)).collect::<Vec<_>>()
-        };
-        let rings: Vec<DVec3> = match self.shape {
-            Shape::Sphere => {
-                (0..=PARTS / 2).map(|row| circle(row, PARTS)).flat_map(|[z, radius]| rim(z, radius)).collect()
-            }
-            Shape::Cylinder | Shape::Tube => [rim(0.0, 1.0), rim(1.0, 1.0)].concat(),
-            Shape::Disc | Shape::Polygon => rim(0.0, 1.0),
-        };
-        rings.into_iter().map(move |unit| self.place(unit))
     }
 
     /// Where a point of the unit shape is.
@@ -150,11 +134,11 @@ impl RoundShape {
         let [a, b, c] = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
         let across = DVec3::from_array([0, 1, 2].map(|at| libm::hypot(a[at], b[at])));
         let half = match self.shape {
-            Shape::Sphere => DVec3::from_array([0, 1, 2].map(|at| libm::hypot(across[at], c[at]))),
+            FaceShape::Sphere => DVec3::from_array([0, 1, 2].map(|at| libm::hypot(across[at], c[at]))),
             _ => across,
         };
         match self.shape {
-            Shape::Cylinder | Shape::Tube => {
+            FaceShape::Cylinder | FaceShape::Tube => {
                 let head = self.origin + c;
                 [self.origin.min(head) - half, self.origin.max(head) + half]
             }
@@ -166,21 +150,10 @@ impl RoundShape {
     pub fn stretch(&self) -> f64 {
         let axes = [self.axes.x_axis, self.axes.y_axis, self.axes.z_axis];
         // Along the axis of a cylinder it is exact.
-        let axes = if self.shape == Shape::Sphere { &axes[..] } else { &axes[..2] };
+        let axes = if self.shape == FaceShape::Sphere { &axes[..] } else { &axes[..2] };
         let longest = axes.iter().map(|axis| ugphysics::length(*axis)).fold(0.0, f64::max);
         // Gershgorin's bound of the greatest eigenvalue of the products of the axes.
         let row = |a: &DVec3| axes.iter().map(|b| (*a / longest).dot(*b / longest).abs()).sum::<f64>();
         longest * axes.iter().map(row).fold(0.0, f64::max).sqrt()
-    }
-}
-
-/// Cosine and sine of `at` of `n` parts of a circle, exact at quarters.
-pub(crate) fn circle(at: usize, n: usize) -> [f64; 2] {
-    let (sin, cos) = libm::sincos(TAU * (at % (n / 4)) as f64 / n as f64);
-    match at / (n / 4) % 4 {
-        0 => [cos, sin],
-        1 => [-sin, cos],
-        2 => [-cos, -sin],
-        _ => [sin, -cos],
     }
 }

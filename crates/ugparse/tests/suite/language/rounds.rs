@@ -37,6 +37,8 @@ fn vertices_are_named_after_their_face() {
     check_rest(
         "c red 0 0 0; surf s 0 1 0; tube 0 0 0 0 0 1 1 red s <0.5 0 0>; cylinder a 0 0 0 0 0 1 1 red 0.5;",
         &[
+            "c red 0;",
+            "surf s 0 1 0;",
             "tube (tube#1 tube#2 tube#3 tube#4) (tube#5 tube#6 tube#7 tube#8) red s <0.5 0 0>;",
             "cylinder a (a#1 a#2 a#3 a#4) (a#5 a#6 a#7 a#8) red 0.5;",
         ],
@@ -65,7 +67,8 @@ fn shapes_are_where_the_numbers_and_instances_put_them() {
 /// Vertices without a name of their own in texts that are read in parts.
 #[test]
 fn large_texts_are_read_alike_on_any_number_of_threads() {
-    let statement = |row: usize| format!("sphere b{row} {row} 0 0 .5; v v{row} 0 0 {row}; disc {row} 1 1 0 0 1 1;\n");
+    let statement =
+        |row: usize| format!("sphere b{row} {row} 0 0 .5; v v{row} 0 0 {row}; disc {row} 1 1 0 0 1 1;\n");
     let text: String = (0..30_000).map(statement).collect();
     assert!(text.len() > 4 << 19);
     let read = |n_threads: usize| {
