@@ -38,18 +38,11 @@ impl Parsed {
     /// or without an eye by up to a thousandth of their radius.
     ///
     /// # Errors
-    /// There are too many, or the scene is one as seen, where round faces are no longer round.
+    /// There are too many.
     pub fn cut_rounds(&mut self, source: &Source, eye: Option<DVec3>) -> Result<(), Diagnostics> {
         let Self { scene, origins, .. } = self;
         let Some(first) = scene.faces.iter().position(|face| face.shape.is_round()) else { return Ok(()) };
         let span = origins.faces.get(first).copied().unwrap_or_default();
-        if scene.stage.seen_geometry().is_some() {
-            let message = "round faces of a scene as seen cannot be cut into polygons";
-            let finding = Diagnostic::error(span, message).label("such a face");
-            #[cfg(feature = "report")]
-            let finding = finding.help(ugpipe::remedies::CUT_ROUNDS);
-            return Err(Diagnostics::one(source, finding));
-        }
         let n_vertices = scene.vertices.len();
         let first_pieces = ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
             let finding = Diagnostic::error(span, error.to_string()).label("the first of them");

@@ -45,9 +45,6 @@ pub const DRAW_TEXTURES: &str =
 pub const EXACT_PARTIAL_GEOMETRY: &str = "-xc follows rays through contraction and time of flight, and uglorentz left one of them out: \
      leave out -xc, or -nc and --no-flight-time";
 
-/// Round faces are whole in a scene as seen.
-pub const CUT_ROUNDS: &str = "leave out -sd 1 of uglorentz, which then cuts them, or draw the scene with `ugrainbow -xc`, without ugdoppler";
-
 /// Lights that move are drawn at rest.
 pub const MOVING_LIGHTS: &str = "`ugdoppler -li` draws with them";
 

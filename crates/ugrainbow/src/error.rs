@@ -23,9 +23,6 @@ pub enum Error {
     /// A pixel of an exact picture is to be explained.
     #[error("only pixels of scanline mode can be explained")]
     ExplainExact,
-    /// Round faces as seen, which only rays meet.
-    #[error("round faces of a scene as seen are drawn by rays only")]
-    SeenRounds,
     /// Round faces would become too many polygons.
     #[error(transparent)]
     TooManyPolygons(#[from] ugscene::TooManyPolygons),

@@ -47,9 +47,6 @@ impl<'a> Setup<'a> {
         }
         let mut scene = drawable(scene);
         if config.exact.is_none() && scene.has_rounds() {
-            if scene.stage.seen_geometry().is_some() {
-                return Err(Error::SeenRounds);
-            }
             let of_scene = scene.camera().and_then(|camera| camera.eye);
             ugscene::cut_rounds_at_rest(scene.to_mut(), config.picture.camera.eye.or(of_scene))?;
         }

@@ -4,7 +4,10 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
-use crate::{Contours, Face, FaceShape, Item, RoundShape, Scene, UniqueNames, Vertex, VertexId};
+use crate::{
+    Contours, Face, FaceShape, Item, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames,
+    Vertex, VertexId, rest_positions,
+};
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest
 /// distance of a polygon from the surface.
@@ -32,11 +35,11 @@ impl std::fmt::Display for TooManyPolygons {
 impl std::error::Error for TooManyPolygons {}
 
 /// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
-/// returns the row of the first polygon of each face, and the number of all faces.
+/// returns the row of the first polygon of each face, and the number of all faces. In a scene as
+/// seen, the polygons are those at rest, with corners where they are seen.
 ///
-/// `sagitta`: of a face and its row, relative to the radius, how far a polygon may be from the
-/// surface, at least 1.9·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the face. The scene is at
-/// rest.
+/// `sagitta`: of a face, its row and its shape at rest, relative to the radius, how far a polygon may
+/// be from the surface, at least 9.6·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the face.
 ///
 /// # Errors
 /// Too many polygons; the scene is unchanged.
@@ -44,8 +47,17 @@ pub fn cut_rounds(
     scene: &mut Scene,
     sagitta: impl Fn(usize, &Face, &RoundShape) -> Option<f64>,
 ) -> Result<Vec<u32>, TooManyPolygons> {
+    let is_seen = scene.has_rounds() && scene.stage.seen_geometry().is_some();
+    let seen = is_seen.then(|| {
+        let (eye, frames) = (crate::eye(scene, None), RestFrames::new(scene));
+        (eye, rest_positions(scene, eye, &frames), frames)
+    });
+    let position = |vertex: VertexId| match &seen {
+        Some((eye, rest, _)) => *eye + rest[vertex.index()],
+        None => scene.vertices[vertex.index()].position,
+    };
     let cut = |(row, face): (usize, &Face)| {
-        let shape = scene.round_shape(face, |vertex| scene.vertices[vertex.index()].position)?;
+        let shape = scene.round_shape(face, position)?;
         Some((shape, n_segments(face.shape, sagitta(row, face, &shape)?)))
     };
     // Scenes have fewer than 2^32 faces.
@@ -72,7 +84,8 @@ pub fn cut_rounds(
             Some((round, n)) => {
                 let corners = scene.contours.corners(face.contours.clone()).iter().copied();
                 let corners = round.units().into_iter().zip(corners).collect();
-                Cutter { scene, names: &mut names, face, round, n, corners }.cut();
+                let seen = seen.as_ref().map(|(eye, _, frames)| (*eye, frames.motion(face.body)));
+                Cutter { scene, names: &mut names, face, round, n, corners, seen }.cut();
             }
             None => scene.faces.push(face),
         }
@@ -103,7 +116,7 @@ pub fn seen_sagitta(round: &RoundShape, eye: DVec3, error: f64) -> f64 {
     (error * (distance / radius)).min(COARSEST)
 }
 
-/// Cuts all round faces of a scene at rest: within 0.1 milliradians at the eye, or if that is not
+/// Cuts all round faces of a scene: within 0.1 milliradians at the eye, or if that is not
 /// known within a thousandth of their radius.
 ///
 /// # Errors
@@ -130,7 +143,7 @@ pub fn cut_rounds_on_world_lines(scene: &mut Scene) -> Result<(), TooManyPolygon
 fn n_segments(shape: FaceShape, sagitta: f64) -> usize {
     // A quadrilateral at the equator of a sphere is cos² of half a segment from its centre.
     let (angle, most) = match shape {
-        FaceShape::Sphere => (libm::asin(sagitta.clamp(0.0, 1.0).sqrt()), 512),
+        FaceShape::Sphere => (libm::asin(sagitta.clamp(0.0, 1.0).sqrt()), 320),
         _ => (libm::acos(1.0 - sagitta.clamp(0.0, 1.0)), 1024),
     };
     // The cast saturates.
@@ -157,6 +170,8 @@ struct Cutter<'a> {
     n: usize,
     /// The corners of the face, which become corners of polygons, by place in the unit shape.
     corners: Vec<(DVec3, VertexId)>,
+    /// In a scene as seen, the eye and the motion of the body.
+    seen: Option<(DVec3, &'a RelativeMotion)>,
 }
 
 impl Cutter<'_> {
@@ -186,8 +201,10 @@ impl Cutter<'_> {
                     // Ends have corners without normals at the same places.
                     let ends = [foot, head].map(|rim| {
                         let copies = rim.iter().map(|&corner| {
-                            let position = self.scene.vertices[corner.index()].position;
-                            self.add(position, None)
+                            let name = self.name();
+                            let copy = self.scene.copy_vertex(corner, name);
+                            self.scene.vertices[copy.index()].normal = None;
+                            copy
                         });
                         copies.collect::<Vec<_>>()
                     });
@@ -209,13 +226,27 @@ impl Cutter<'_> {
             self.scene.vertices[corner.index()].normal = normal;
             return corner;
         }
-        self.add(self.round.place(unit), normal)
+        let (name, color) = (self.name(), self.scene.vertices[self.corners[0].1.index()].color);
+        let mut position = self.round.place(unit);
+        if let Some((eye, motion)) = self.seen
+            && let Ok((seen, own_time)) = motion.light(motion.turned(position - eye))
+        {
+            // Columns of a scene that was not read from text.
+            if !self.scene.rest.is_empty() {
+                self.scene.rest.push(position - eye);
+            }
+            if !self.scene.own_times.is_empty() {
+                self.scene.own_times.push(motion.world_line().map_or(f64::NAN, |_| own_time));
+            }
+            position = eye + seen;
+        }
+        self.scene.add_vertex(Vertex { name, normal, ..Vertex::at(position, color) })
     }
 
-    fn add(&mut self, position: DVec3, normal: Option<DVec3>) -> VertexId {
-        let first = self.scene.vertices[self.corners[0].1.index()];
-        let name = self.names.add_copy(first.name, &mut self.scene.names);
-        self.scene.add_vertex(Vertex { name, normal, ..Vertex::at(position, first.color) })
+    /// A name for a vertex.
+    fn name(&mut self) -> NameId {
+        let first = self.scene.vertices[self.corners[0].1.index()].name;
+        self.names.add_copy(first, &mut self.scene.names)
     }
 
     /// The polygons between two rings, each of which may be a single vertex.

@@ -8,7 +8,6 @@ impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
             Self::Scene(_) | Self::Empty | Self::TooManyPolygons(_) => "{}",
-            Self::SeenRounds => return format!("{self}: {}", remedies::CUT_ROUNDS),
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
             Self::Sky(error) => return error.words(),
