@@ -34,6 +34,12 @@ pub enum Error {
         /// Its name.
         name: String,
     },
+    /// Radiances at wavelengths in a picture that is no EXR, or of hues.
+    #[error("radiances at wavelengths are channels of EXR files, of colours that are spectra")]
+    NoWavelengths,
+    /// Radiances at wavelengths before a sky.
+    #[error("a sky has no radiances at wavelengths")]
+    SkyWavelengths,
     /// Annotations of a part of a picture.
     #[error("annotations are for whole pictures")]
     AnnotatedPart,

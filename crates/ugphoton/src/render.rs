@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use ugimage::{LinearFrame, Metadata};
+use ugimage::{LinearFrame, Metadata, Plane, Samples};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::WorldLineError;
 use ugpicture::{
@@ -162,11 +162,33 @@ impl PreparedScene {
     /// See [`Error`].
     pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (mut frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
+        if self.config.radiances {
+            self.push_radiances(&mut frame, progress)?;
+        }
         let brightest = self.put_sky_behind(&mut frame, progress)?;
         let mut notes = notes(&self.scenery, &self.config, &statistics);
         notes.extend(self.out_of_view().map(Note::Scene));
         notes.extend(self.config.sky.notes().chain(self.notes.iter().cloned()));
         self.finish(frame, notes, brightest.max(statistics.max_light as f32), progress)
+    }
+
+    /// Adds the channels of radiances, three of which are drawn at a time.
+    fn push_radiances(&self, frame: &mut LinearFrame, progress: &dyn Progress) -> Result<(), Error> {
+        if self.config.sky.is_some() {
+            return Err(Error::SkyWavelengths);
+        }
+        for &nm in uglight::sampled_wavelengths().as_chunks::<3>().0 {
+            let mut config = Config { shift: self.config.shift.sampled(nm), ..self.config.clone() };
+            config.picture.channels.clear();
+            let scenery = Scenery::new(Cow::Borrowed(&*self.scenery.scene), &config)?;
+            let (light, _) = pixels::light(&scenery, &config, progress);
+            for (channel, nm) in nm.into_iter().enumerate() {
+                let numbers = light.pixels().iter().map(|&pixel| light.light_of(pixel)[channel]);
+                let samples = Samples::Float(numbers.collect());
+                frame.push_plane(Plane { name: format!("S0.{nm}nm"), samples });
+            }
+        }
+        Ok(())
     }
 
     /// Puts the sky behind the light of the picture. Returns its brightest channel.

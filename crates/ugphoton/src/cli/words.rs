@@ -17,6 +17,8 @@ impl Words for Error {
             Self::Stage(error) => return error.words(),
             Self::Sky(error) => return error.words(),
             Self::OutOfRange { .. } => "{}: use smaller coordinates, a smaller time (-ti) or a lower speed",
+            Self::NoWavelengths => "{}: give -sp, and -dt exr or a file that ends in .exr",
+            Self::SkyWavelengths => "{}: leave out -sky and --stage, and `sky` in the scene",
             Self::AnnotatedPart => {
                 "annotations (-cap, -lg, -dl, -gr) are for whole pictures: leave them out, or -crop"
             }
