@@ -241,3 +241,41 @@ fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result
     drop(reserved::<[f32; 4]>(n_pixels)?);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use ugframe::{LinearFrame, Plane, Samples};
+
+    use super::*;
+    use crate::{Format, Metadata};
+
+    fn file(names: &[&str]) -> Vec<u8> {
+        let mut frame = LinearFrame::new([4, 2], true, vec![[0.0, 0.5, 1.0, 1.0]; 8]);
+        for (row, name) in names.iter().enumerate() {
+            let numbers = (0..8).map(|idx| (10 * row + idx) as f32).collect();
+            frame.push_plane(Plane { name: (*name).to_owned(), samples: Samples::Float(numbers) });
+        }
+        Format::Exr.encode_linear(&frame, &Metadata::default(), crate::Compression::Fast)
+    }
+
+    #[test]
+    fn channels_are_read_in_the_order_of_wavelengths() {
+        let limits = PictureLimits::default();
+        let names = ["S0.1000nm", "S0.450nm", "S0.449,5nm", "S1.450nm", "S0.95nm", "S0.nm", "S0.-1nm"];
+        let spectral = file(&names);
+        let picture = read_spectrum(&spectral, &limits).unwrap();
+        let found: Vec<(f64, f32)> = picture.samples.iter().map(|(nm, values)| (*nm, values[7])).collect();
+        assert_eq!(
+            (picture.size, found),
+            ([4, 2], vec![(95.0, 47.0), (449.5, 27.0), (450.0, 17.0), (1000.0, 7.0)])
+        );
+        // Three are colours.
+        assert_eq!(read_spectrum(&file(&names[..3]), &limits).unwrap(), SpectralPicture::default());
+        assert_eq!(read_spectrum(b"\x89PNG", &limits).unwrap(), SpectralPicture::default());
+        for length in (4..spectral.len() - 1).step_by(5) {
+            assert!(read_spectrum(&spectral[..length], &limits).is_err(), "{length}");
+        }
+        let small = PictureLimits { bytes: 300, ..limits };
+        assert!(read_spectrum(&spectral, &small).is_err());
+    }
+}

@@ -27,14 +27,14 @@ pub struct SpectralShift {
 /// interpolated between them, it keeps the corners of daylight. Their number is a multiple of 3.
 #[must_use]
 pub fn sampled_wavelengths() -> Vec<u16> {
-    /// From wavelength to wavelength outside of the table of daylight.
-    const FACTOR: f64 = 1.03;
-    let rising = |from: f64, to: f64| {
-        let all = std::iter::successors(Some(from), |nm| Some(nm * FACTOR));
+    let rising = |from: f64, to: f64, factor: f64| {
+        let all = std::iter::successors(Some(from), move |nm| Some(nm * factor));
         all.take_while(move |nm| *nm < to).map(|nm| nm as u16)
     };
+    // In ultraviolet, the light of black bodies falls steeply.
+    let ultraviolet = rising(80.0, 297.0, 1.015);
     let mut all: Vec<u16> =
-        rising(80.0, 297.0).chain((300..=830).step_by(5)).chain(rising(850.0, 4000.0)).collect();
+        ultraviolet.chain((300..=830).step_by(5)).chain(rising(850.0, 4000.0, 1.03)).collect();
     all.truncate(all.len() / 3 * 3);
     all
 }

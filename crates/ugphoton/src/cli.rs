@@ -114,9 +114,9 @@ pub struct Args {
 
     /// Add channels of radiances at wavelengths to an EXR picture
     ///
-    /// 222 channels such as S0.450nm, from 80 to 4000 nm (Fichet et al. 2021), enough to see the
-    /// picture at up to 0.9c: `ugwarp -sp` shifts a panorama (-pan) with them as exactly as the scene.
-    /// It takes 75 times as long.
+    /// 249 channels such as S0.450nm, from 80 to 3953 nm (names as by Fichet et al. 2021): enough for
+    /// `ugwarp -sp` to show a panorama (-pan) at up to 0.9c as the scene itself would be seen. It
+    /// takes about 80 times as long.
     #[arg(long, help_heading = PICTURE)]
     radiances: bool,
 

@@ -50,6 +50,7 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     config.picture.keep_light();
     let drawing = PreparedScene::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
     let mut frame = pixels::light(&drawing.scenery, &drawing.config, &()).0;
+    drawing.push_radiances(&mut frame, &())?;
     drawing.put_sky_behind(&mut frame, &())?;
     Ok(frame)
 }
@@ -162,9 +163,7 @@ impl PreparedScene {
     /// See [`Error`].
     pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (mut frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
-        if self.config.radiances {
-            self.push_radiances(&mut frame, progress)?;
-        }
+        self.push_radiances(&mut frame, progress)?;
         let brightest = self.put_sky_behind(&mut frame, progress)?;
         let mut notes = notes(&self.scenery, &self.config, &statistics);
         notes.extend(self.out_of_view().map(Note::Scene));
@@ -172,8 +171,11 @@ impl PreparedScene {
         self.finish(frame, notes, brightest.max(statistics.max_light as f32), progress)
     }
 
-    /// Adds the channels of radiances, three of which are drawn at a time.
+    /// Adds the channels of radiances, if they are asked for; three are drawn at a time.
     fn push_radiances(&self, frame: &mut LinearFrame, progress: &dyn Progress) -> Result<(), Error> {
+        if !self.config.radiances {
+            return Ok(());
+        }
         if self.config.sky.is_some() {
             return Err(Error::SkyWavelengths);
         }

@@ -374,6 +374,16 @@ impl Args {
                     Failure::Failed(format!("`{}`: {}", input.name, Error::from(error).words()))
                 })?;
             if !spectrum.is_empty() {
+                if self.bands().next().is_some() {
+                    return Err(Failure::usage(
+                        "the panorama has radiances at wavelengths, infrared and ultraviolet among them: leave out \
+                         --infrared and --ultraviolet",
+                    ));
+                }
+                opened.notes.push(
+                    "the panorama has radiances at wavelengths, which are used in place of red, green and blue"
+                        .to_owned(),
+                );
                 (opened.panorama, opened.bands) = (None, spectrum);
             }
         }
