@@ -57,6 +57,9 @@ pub struct Args {
     light_error: Option<f64>,
 
     /// Cut every edge into N equal pieces, instead of -se, -sc and -sl
+    ///
+    /// With 1, spheres, cylinders, tubes and discs stay whole, as ugrainbow -xc draws them; else they
+    /// become polygons.
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
 

@@ -19,8 +19,11 @@ const DEFAULT_ERROR: f64 = 1e-4;
 /// The same where pictures need it to be invisible, but cannot be drawn with the exact shape.
 pub const FINE_SAGITTA: f64 = 2.5e-4;
 
-/// Round faces may become so many polygons in all.
+/// Round faces may become so many polygons in all. If they would be more, all are coarser.
 const MOST_POLYGONS: usize = 4_000_000;
+
+/// The least number of segments of a circle.
+const LEAST_SEGMENTS: usize = 8;
 
 /// The round faces of a scene would become more than four million polygons: so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +64,7 @@ pub fn cut_rounds(
         Some((shape, n_segments(face.shape, sagitta(row, face, &shape)?)))
     };
     // Scenes have fewer than 2^32 faces.
-    let cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
+    let mut cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
     if cuts.iter().all(Option::is_none) {
         return Ok((0..=cuts.len() as u32).collect());
     }
@@ -71,7 +74,14 @@ pub fn cut_rounds(
         FaceShape::Tube => *n,
         FaceShape::Disc | FaceShape::Polygon => 1,
     };
-    let n_polygons = cuts.iter().flatten().map(polygons).sum();
+    let count = |cuts: &[Option<(RoundShape, usize)>]| cuts.iter().flatten().map(polygons).sum::<usize>();
+    let n_polygons = count(&cuts);
+    if n_polygons > MOST_POLYGONS {
+        let part = (MOST_POLYGONS as f64 / n_polygons as f64).sqrt();
+        let coarser = |n: usize| (part * n as f64) as usize / 4 * 4;
+        cuts.iter_mut().flatten().for_each(|(_, n)| *n = coarser(*n).max(LEAST_SEGMENTS));
+    }
+    let n_polygons = count(&cuts);
     if n_polygons > MOST_POLYGONS {
         return Err(TooManyPolygons(n_polygons));
     }
@@ -147,7 +157,7 @@ fn n_segments(shape: FaceShape, sagitta: f64) -> usize {
         _ => (libm::acos(1.0 - sagitta.clamp(0.0, 1.0)), 1024),
     };
     // The cast saturates.
-    let n = (PI / angle).ceil().clamp(8.0, f64::from(most)) as usize;
+    let n = (PI / angle).ceil().clamp(LEAST_SEGMENTS as f64, f64::from(most)) as usize;
     n.next_multiple_of(4)
 }
 

@@ -39,7 +39,7 @@ impl Words for Error {
             Self::VertexAtEye { .. } => format!("{self}: {AT_EYE}"),
             Self::OutOfRange { .. } => format!("{self}: {OUT_OF_RANGE}"),
             Self::TooManyPolygons(_) => {
-                format!("{self}: give a larger bound (-se), or -sd 1 and draw with -xc")
+                format!("{self}: give -sd 1, and draw with -xc")
             }
             Self::Stopped(_) => self.to_string(),
         }
