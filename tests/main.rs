@@ -28,6 +28,7 @@ mod postscript;
 mod processors;
 mod prompt;
 mod reader;
+mod rounds;
 mod sky;
 mod stage;
 mod stop;

@@ -368,7 +368,7 @@ fn faces_of_scenes_are_flat() {
     let mut findings = Vec::new();
     for name in scenes::names() {
         let scene = scenes::parse(&scenes::text(&name));
-        for (row, face) in scene.faces.iter().enumerate() {
+        for (row, face) in scene.faces.iter().enumerate().filter(|(_, face)| !face.shape.is_round()) {
             let corners: Vec<_> = scene
                 .face_contours(face)
                 .flatten()

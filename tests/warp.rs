@@ -2,11 +2,11 @@
 //! methods (Weiskopf 2000).
 
 use glam::DVec3;
-use ugimage::LinearFrame;
+use ugimage::{Compression, Format, LinearFrame, Metadata, PictureLimits};
 use ugphoton::{CameraOptions, ColorShift, HueShift, Lens, MotionOptions, PictureOptions, RayOptions};
 use ugphysics::{Velocity, srgb_encode};
 use ugscene::Scene;
-use ugwarp::{Basis, Extent, Panorama, Texels};
+use ugwarp::{Arrangement, Basis, Extent, Panorama, Sky, Texels};
 
 /// A room of 6 x 6 x 6 with the eye off its middle, lit alike everywhere.
 fn room(colors: &str) -> Scene {
@@ -108,6 +108,50 @@ fn spectra_are_those_of_a_moving_camera() {
     check(bodies, shift, Basis::Planck([3500.0, 5900.0, 10_000.0]));
     // Greys are the same surfaces for both. Of other paints a panorama has only the colour.
     check("c one 0.6; c two 0.5; c three 0.4;", shift, Basis::Mixture);
+}
+
+/// Radiances at wavelengths, written to EXR and read, are seen at 0.9c as the scene itself is: light
+/// all around of black bodies, measured surfaces and paints, under a lamp with a spectrum.
+#[test]
+fn radiances_are_those_of_a_moving_camera() {
+    let shift = ColorShift::SPECTRA;
+    let size = [64, 32];
+    let output = ugphoton::Output::Color(Format::Exr);
+    for (color, lit) in
+        [("c_bb one 3000 0.5;", "1"), ("c_refl one foliage;", ""), ("c_rgb one 0.2 0.6 0.3;", "")]
+    {
+        let text = format!(
+            "{color} c_bb lamp 4000; l 0.8 lamp; sphere 0 0 0 5 one {lit};
+             cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1;"
+        );
+        let source = ugparse::Source::new("dome.ug", text);
+        let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
+        let own = |size, samples| PictureOptions { output, ..picture(size, samples) };
+        let sky = ugphoton::Config {
+            picture: own(size, 1),
+            lens: Lens::Panorama,
+            shift,
+            radiances: true,
+            ..Default::default()
+        };
+        let sky = traced(&scene, sky);
+        let file = Format::Exr.encode_linear(&sky, &Metadata::default(), Compression::Fast);
+        let limits = PictureLimits::default();
+        let bands = ugskybox::open_spectrum(&file, Arrangement::Equirectangular, None, &limits).unwrap();
+        let all = Sky { bands: &bands, ..Sky::default() };
+        let three = Panorama::new(size, Texels::Light(sky.pixels().to_vec()), Extent::FULL).unwrap();
+        for beta in [DVec3::new(0.0, 0.9, 0.0), DVec3::new(0.0, -0.9, 0.0)] {
+            let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
+            let by_rays = ugphoton::Config { picture: own([48, 36], 4), motion, shift, ..Default::default() };
+            let by_rays = traced(&scene, by_rays);
+            let velocity = Velocity::from_beta(beta).unwrap();
+            let config = ugwarp::Config { velocity, shift, picture: own([48, 36], 4), ..Default::default() };
+            let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
+            let of = |sky: Sky<'_>| psnr(&by_rays, &ugwarp::light(sky, &config).unwrap(), f64::from(peak));
+            let (found, of_three) = (of(all), of(Sky::from(&three)));
+            assert!(found > 50.0 && of_three < 25.0, "{color} {beta}: {found} dB, {of_three} dB");
+        }
+    }
 }
 
 /// A camera that runs on a circle through the room and spins, at several of its own times: rays of

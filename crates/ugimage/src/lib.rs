@@ -70,6 +70,7 @@ pub use panorama::PanoramaArea;
 pub use pixels::Pixels;
 pub use png::Compression;
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
+pub use read_exr::{SpectralPicture, read_spectrum};
 pub use read_light::{ReadPicture, check_picture, read_picture};
 pub use spelled_color::spelled_color;
 pub use ugframe::{

@@ -77,6 +77,74 @@ pub(crate) fn read(
     Ok((size, shown))
 }
 
+/// A picture of radiances at wavelengths.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SpectralPicture {
+    /// Width and height.
+    pub size: [u32; 2],
+    /// Wavelengths in nm, rising, each with the radiance of every pixel, row after row from the top.
+    pub samples: Vec<(f64, Vec<f32>)>,
+}
+
+/// The wavelength in the name of a channel of unpolarised light, such as `S0.450nm` or
+/// `S0.450,5nm` (Fichet et al. 2021).
+fn wavelength_nm(name: &str) -> Option<f64> {
+    let digits = name.strip_prefix("S0.")?.strip_suffix("nm")?;
+    digits.replace(',', ".").parse().ok().filter(|nm: &f64| *nm > 0.0 && nm.is_finite())
+}
+
+/// Reads the channels of an EXR file that are named by wavelengths; without samples if it has fewer
+/// than four, or is another file. Of a file with several layers the first counts, and the data
+/// window must be that of the display.
+///
+/// # Errors
+/// [`ReadError`] if the file is truncated or corrupt, or exceeds a limit.
+pub fn read_spectrum(file: &[u8], limits: &PictureLimits) -> Result<SpectralPicture, ReadError> {
+    const MAGIC: [u8; 4] = [0x76, 0x2f, 0x31, 0x01];
+    const LEAST: usize = 4;
+    let broken = |error: &dyn std::fmt::Display| unreadable("EXR", error);
+    if !file.starts_with(&MAGIC) {
+        return Ok(SpectralPicture::default());
+    }
+    let headers = exr::meta::MetaData::read_from_buffered(Cursor::new(file), true);
+    let headers = headers.map_err(|error| broken(&error))?.headers;
+    let names = |header: &Header| {
+        header.channels.list.iter().filter(|it| wavelength_nm(&it.name.to_string()).is_some()).count()
+    };
+    let Some(header) = headers.first().filter(|header| !header.deep && names(header) >= LEAST) else {
+        return Ok(SpectralPicture::default());
+    };
+    check_layer(header, file.len(), limits)?;
+    let [width, height] = [header.layer_size.width(), header.layer_size.height()];
+    let n_bytes = (size_of::<f32>() * header.channels.list.len()) as u64;
+    let size = limits.check([width, height], n_bytes)?;
+    let display = header.shared_attributes.display_window;
+    if display.size != header.layer_size || display.position != header.own_attributes.layer_position {
+        return Err(broken(&"a picture of wavelengths shows a part of its window"));
+    }
+    drop(reserved::<u8>(n_bytes as usize * width * height)?);
+    let image = exr_reader()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .non_parallel()
+        .from_buffered(Cursor::new(file))
+        .map_err(|error| broken(&error))?;
+    let channels = image.layer_data.channel_data.list.into_iter();
+    let mut samples: Vec<(f64, Vec<f32>)> = channels
+        .filter_map(|channel| {
+            let nm = wavelength_nm(&channel.name.to_string())?;
+            let values: Vec<f32> = channel.sample_data.values_as_f32().collect();
+            (values.len() == width * height).then_some((nm, values))
+        })
+        .collect();
+    samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+    samples.dedup_by(|a, b| a.0 == b.0);
+    Ok(SpectralPicture { size, samples })
+}
+
 /// The channels of a layer that are read.
 struct Channels {
     /// Red, green and blue, or one for all.
@@ -172,4 +240,42 @@ fn check_layer(header: &Header, n_file: usize, limits: &PictureLimits) -> Result
     // Reserved before the decoder allocates as much; it is used only for pixels that are read.
     drop(reserved::<[f32; 4]>(n_pixels)?);
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use ugframe::{LinearFrame, Plane, Samples};
+
+    use super::*;
+    use crate::{Format, Metadata};
+
+    fn file(names: &[&str]) -> Vec<u8> {
+        let mut frame = LinearFrame::new([4, 2], true, vec![[0.0, 0.5, 1.0, 1.0]; 8]);
+        for (row, name) in names.iter().enumerate() {
+            let numbers = (0..8).map(|idx| (10 * row + idx) as f32).collect();
+            frame.push_plane(Plane { name: (*name).to_owned(), samples: Samples::Float(numbers) });
+        }
+        Format::Exr.encode_linear(&frame, &Metadata::default(), crate::Compression::Fast)
+    }
+
+    #[test]
+    fn channels_are_read_in_the_order_of_wavelengths() {
+        let limits = PictureLimits::default();
+        let names = ["S0.1000nm", "S0.450nm", "S0.449,5nm", "S1.450nm", "S0.95nm", "S0.nm", "S0.-1nm"];
+        let spectral = file(&names);
+        let picture = read_spectrum(&spectral, &limits).unwrap();
+        let found: Vec<(f64, f32)> = picture.samples.iter().map(|(nm, values)| (*nm, values[7])).collect();
+        assert_eq!(
+            (picture.size, found),
+            ([4, 2], vec![(95.0, 47.0), (449.5, 27.0), (450.0, 17.0), (1000.0, 7.0)])
+        );
+        // Three are colours.
+        assert_eq!(read_spectrum(&file(&names[..3]), &limits).unwrap(), SpectralPicture::default());
+        assert_eq!(read_spectrum(b"\x89PNG", &limits).unwrap(), SpectralPicture::default());
+        for length in (4..spectral.len() - 1).step_by(5) {
+            assert!(read_spectrum(&spectral[..length], &limits).is_err(), "{length}");
+        }
+        let small = PictureLimits { bytes: 300, ..limits };
+        assert!(read_spectrum(&spectral, &small).is_err());
+    }
 }

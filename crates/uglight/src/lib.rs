@@ -72,6 +72,6 @@ pub use own_time::{freeze_colors_at_zero, mean_color};
 pub use palette::{Interpolation, Palette, Swatch};
 pub use shift::ColorShift;
 pub use spectra::SpectralRows;
-pub use spectral::{SpectralColor, SpectralFilter, SpectralShift};
+pub use spectral::{SpectralColor, SpectralFilter, SpectralShift, sampled_wavelengths};
 pub use surface_attributes::SurfaceAttributes;
 pub use vertex_color::{VertexColor, vertex_colors};

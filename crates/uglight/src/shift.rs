@@ -35,7 +35,7 @@ impl ColorShift {
     /// A shift of spectra. `doppler`: wavelengths are divided by D; `flux`: the factor D⁵.
     #[must_use]
     pub const fn spectra(doppler: bool, flux: bool) -> Self {
-        Self::Spectra(SpectralShift { doppler, flux, infrared: InfraredRule::Measured })
+        Self::Spectra(SpectralShift { doppler, flux, ..SpectralShift::NONE })
     }
 
     /// The same with a rule for what surfaces reflect in infrared.
@@ -44,6 +44,16 @@ impl ColorShift {
         match self {
             Self::Hues(_) => self,
             Self::Spectra(shift) => Self::Spectra(SpectralShift { infrared, ..shift }),
+        }
+    }
+
+    /// The same with radiances at three wavelengths, nm, in place of red, green and blue; hues stay
+    /// as they are.
+    #[must_use]
+    pub fn sampled(self, nm: [u16; 3]) -> Self {
+        match self {
+            Self::Hues(_) => self,
+            Self::Spectra(shift) => Self::Spectra(SpectralShift { sampled_nm: Some(nm), ..shift }),
         }
     }
 

@@ -77,6 +77,11 @@ impl Spectra {
         let (ln_shift, gain) = (self.shift.ln_shift(ln_doppler), self.shift.ln_gain(ln_doppler));
         self.mean(row, |row| {
             let color = self.color(row);
+            if let Some(sampled_nm) = self.shift.sampled_nm {
+                let own = libm::exp(ln_shift);
+                return libm::exp(gain)
+                    * DVec3::from(sampled_nm.map(|nm| color.radiance(f64::from(nm) * own)));
+            }
             if let (Some(lamps), Some(place), true) = (&self.lamps, place, color.spectrum().is_surface()) {
                 return libm::exp(gain) * self.xyz_under(lamps, row, ln_shift, place);
             }
@@ -154,10 +159,13 @@ impl Spectra {
         self.color(strongest.map_or(0, |(color, _)| color)).spectrum()
     }
 
-    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue. `seen`: of the
-    /// row of a colour.
+    /// The mean of X, Y, Z of the colours of a row, as linear red, green and blue, or of sampled
+    /// radiances. `seen`: of the row of a colour.
     fn mean(&self, row: u32, seen: impl Fn(usize) -> DVec3) -> DVec3 {
         let xyz: DVec3 = self.parts(row).map(|(color, share)| share * seen(color)).sum();
+        if self.shift.sampled_nm.is_some() {
+            return xyz;
+        }
         let limited = ugphysics::limited(xyz.to_array(), ugphysics::MOST_LIGHT);
         DVec3::from_array(xyz_to_linear_srgb(limited))
     }

@@ -1,5 +1,7 @@
 //! Colours as spectra, as seen in motion.
 
+use std::sync::OnceLock;
+
 use glam::DVec3;
 use ugphysics::linear_srgb_to_xyz;
 use ugphysics::spectrum::{DopplerGrid, DopplerTable, InfraredRule, LightSpectrum, SmoothCurve, Spectrum};
@@ -17,11 +19,30 @@ pub struct SpectralShift {
     pub flux: bool,
     /// What surfaces reflect in infrared.  Eq. (P20)
     pub infrared: InfraredRule,
+    /// Radiances at three wavelengths, nm, in place of red, green and blue.
+    pub sampled_nm: Option<[u16; 3]>,
+}
+
+/// Wavelengths, nm, at which a spectrum determines how it is seen at up to 0.9c: linearly
+/// interpolated between them, it keeps the corners of daylight. Their number is a multiple of 3.
+#[must_use]
+pub fn sampled_wavelengths() -> Vec<u16> {
+    let rising = |from: f64, to: f64, factor: f64| {
+        let all = std::iter::successors(Some(from), move |nm| Some(nm * factor));
+        all.take_while(move |nm| *nm < to).map(|nm| nm as u16)
+    };
+    // In ultraviolet, the light of black bodies falls steeply.
+    let ultraviolet = rising(80.0, 297.0, 1.015);
+    let mut all: Vec<u16> =
+        ultraviolet.chain((300..=830).step_by(5)).chain(rising(850.0, 4000.0, 1.03)).collect();
+    all.truncate(all.len() / 3 * 3);
+    all
 }
 
 impl SpectralShift {
     /// Spectra stay as they are at rest.
-    pub const NONE: Self = Self { doppler: false, flux: false, infrared: InfraredRule::Measured };
+    pub const NONE: Self =
+        Self { doppler: false, flux: false, infrared: InfraredRule::Measured, sampled_nm: None };
 
     /// ln of the factor that wavelengths are divided by.
     #[must_use]
@@ -53,6 +74,24 @@ impl SpectralShift {
         let flux = |factor: f64| if self.flux { factor } else { 1.0 };
         let square = doppler * doppler;
         let (own, gain) = (shift(doppler), flux(square * square * doppler));
+        if let Some(sampled_nm) = self.sampled_nm {
+            let emitted = (!surface.is_surface()).then(|| LightSpectrum::new(surface));
+            return DVec3::from(sampled_nm.map(|nm| {
+                let nm = f64::from(nm);
+                let received = |part: &Irradiance| {
+                    let lamp = &lamps[part.lamp as usize];
+                    let cube = part.doppler * part.doppler * part.doppler;
+                    part.level
+                        * lamp.intensity
+                        * flux(cube)
+                        * lamp.spectrum().at(nm * own * shift(part.doppler))
+                };
+                let lit = || surface.transmittance(nm * own) * light.iter().map(received).sum::<f64>();
+                let part = |it: &SpectralFilter<'_>| it.color.transmittance(nm * shift(it.doppler));
+                let light = emitted.as_ref().map_or_else(lit, |emitted| emitted.at(nm * own));
+                gain * filters.iter().map(part).product::<f64>() * light
+            }));
+        }
         if !surface.is_surface() && filters.is_empty() {
             return gain * DVec3::from(surface.shifted(own));
         }
@@ -90,6 +129,8 @@ pub struct SpectralColor {
     spectrum: Spectrum,
     is_exact: bool,
     table: Option<DopplerTable>,
+    /// Its light in daylight, made at first use.
+    light: OnceLock<LightSpectrum>,
 }
 
 impl SpectralColor {
@@ -100,14 +141,14 @@ impl SpectralColor {
             Some(color) => spectrum(scene, &scene.colors[color.index()]),
             None => return Self::of([1.0; 3], scene.infrared),
         };
-        Self { spectrum, is_exact, table: None }
+        Self { spectrum, is_exact, table: None, light: OnceLock::new() }
     }
 
     /// The spectrum of a surface of these linear red, green and blue.
     #[must_use]
     pub fn of(linear: [f64; 3], infrared: InfraredRule) -> Self {
         let (spectrum, is_exact) = Spectrum::with_infrared(linear_srgb_to_xyz(linear), infrared);
-        Self { spectrum, is_exact, table: None }
+        Self { spectrum, is_exact, table: None, light: OnceLock::new() }
     }
 
     /// The same, tabulated over D: soon found for many factors.
@@ -126,6 +167,12 @@ impl SpectralColor {
     #[must_use]
     pub fn spectrum(&self) -> &Spectrum {
         &self.spectrum
+    }
+
+    /// Its radiance at a wavelength, nm, in daylight.
+    #[must_use]
+    pub fn radiance(&self, nm: f64) -> f64 {
+        self.light.get_or_init(|| LightSpectrum::new(&self.spectrum)).at(nm)
     }
 
     /// Its table, if it was [tabulated](Self::tabulated).

@@ -15,7 +15,7 @@ use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
     Config, DEFAULT_ERROR, Error, Pieces, Report, adaptive, attributes, clocks, cull, distant_bodies,
-    junctions, remaining_errors, tables, uniform, viewpoint,
+    junctions, remaining_errors, rounds, tables, uniform, viewpoint,
 };
 
 /// The scene as seen, and statistics.
@@ -37,6 +37,8 @@ pub fn apply_with(
 ) -> Result<(Scene, Report), Error> {
     progress.step("moving and cutting", 0);
     check(config)?;
+    let are_rounds_cut = scene.has_rounds_on_world_lines();
+    rounds::cut(&mut scene, config)?;
     let n_faces = scene.faces.len();
     let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
     let placed = PlacedBodies::move_to_camera_frame(&mut scene, &config.motion(), &camera, config.size)?;
@@ -110,6 +112,7 @@ pub fn apply_with(
         n_uncut: outcome.n_uncut,
         n_too_deep: outcome.n_too_deep,
         n_open_junctions,
+        are_rounds_cut,
         is_full: outcome.is_full,
         max_pieces,
         remaining_errors,

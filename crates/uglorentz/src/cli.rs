@@ -57,6 +57,9 @@ pub struct Args {
     light_error: Option<f64>,
 
     /// Cut every edge into N equal pieces, instead of -se, -sc and -sl
+    ///
+    /// With 1, spheres, cylinders, tubes and discs stay whole, as ugrainbow -xc draws them; else they
+    /// become polygons.
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
 
@@ -132,7 +135,8 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let source = pipe::read(context, &reading)?;
     let steps = context.steps();
     steps.step("reading", 0);
-    let parsed = ugparse::read(&source, &reading, config.camera.name.as_deref()).map_err(pipe::refused)?;
+    let keeping = ugparse::Options { keeps_rounds: true, ..reading };
+    let parsed = ugparse::read(&source, &keeping, config.camera.name.as_deref()).map_err(pipe::refused)?;
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);

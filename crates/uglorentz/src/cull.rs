@@ -103,6 +103,9 @@ pub(crate) fn cull(
     let seen_bodies: Vec<Option<SeenBody<'_>>> =
         motions.iter().enumerate().map(|(body, motion)| SeenBody::new(motion, points, body)).collect();
     let may_be_seen = |face: &Face| {
+        if face.shape.is_round() {
+            return true;
+        }
         let corners = scene.contours.corners(face.contours.clone());
         let corners: Vec<&Point> = corners.iter().map(|corner| &points[corner.index()]).collect();
         let Some(body) = corners.first().map(|first| first.body.index()) else { return true };

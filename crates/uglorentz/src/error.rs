@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 use ugpipe::Stopped;
-use ugscene::{CameraError, MotionError};
+use ugscene::{CameraError, MotionError, TooManyPolygons};
 
 use crate::adaptive::MAX_PIECES;
 use crate::attributes::MOST_PARTS;
@@ -47,6 +47,9 @@ pub enum Error {
         /// The number of pieces it would make.
         n_pieces: usize,
     },
+    /// Round faces would become too many polygons.
+    #[error(transparent)]
+    TooManyPolygons(#[from] TooManyPolygons),
     /// So many colours meet at vertices that the mixtures of new ones would have too many parts.
     #[error("the colours of new vertices would mix more than {MOST_PARTS} colours of faces that meet")]
     TooManyParts,

@@ -27,6 +27,9 @@
 //! of other faces on it is subdivided there. Bodies at rest are not
 //! subdivided, except for the light of near lamps if that is requested.
 //!
+//! Round faces become polygons before that, within the same bound, with the normals of their shape
+//! at the corners. With [`Pieces::PerEdge`]`(1)` they stay whole, for rays.
+//!
 //! Pieces keep orientation, colour, light level, body and name of their face, and replace it in
 //! place. Vertices of the scene keep their names and rows; new ones are named `s#1`, `s#2`, … and
 //! come last.
@@ -89,6 +92,7 @@ mod refined_mesh;
 mod relative_motion;
 mod remaining_errors;
 mod report;
+mod rounds;
 mod split;
 mod tables;
 mod uniform;

@@ -20,6 +20,8 @@ pub struct Report {
     pub n_too_deep: usize,
     /// Edges with vertices of other faces on them (T-junctions), cut into equal pieces.
     pub n_open_junctions: usize,
+    /// Round faces of bodies on world lines became polygons of fixed accuracy.
+    pub are_rounds_cut: bool,
     /// Subdivision stopped at the limit of pieces.
     pub is_full: bool,
     /// The limit of pieces for a picture of this size.

@@ -220,7 +220,10 @@ fn load_scene(config: &Config, input: &MeshFile) -> Result<Loaded, Error> {
     let origin = input.origin.clone().filter(|_| !ugparse::has_history(&input.bytes));
     let source = Source::new(input.name.clone(), input.bytes.clone()).with_origin(origin);
     let source = (input.resolve_includes)(source)?;
-    let parsed = ugparse::parse(&source, &config.reading)?;
+    let mut parsed = ugparse::parse(&source, &config.reading)?;
+    if config.target != Target::Ug {
+        parsed.cut_rounds(&source, None)?;
+    }
     Ok(Loaded { scene: parsed.scene, warnings: Vec::new(), diagnostics: Some(parsed.warnings) })
 }
 

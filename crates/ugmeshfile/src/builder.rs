@@ -198,6 +198,7 @@ impl Builder {
             color,
             shading: None,
             body: self.scene.bodies.unstated(),
+            shape: ugscene::FaceShape::Polygon,
         });
         self.lines.faces.push(self.line);
         Ok(())

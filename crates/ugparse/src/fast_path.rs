@@ -4,7 +4,7 @@
 //! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
-use ugscene::{ColorId, Face, Vertex, VertexId};
+use ugscene::{ColorId, Face, FaceShape, Vertex, VertexId};
 
 use crate::numbered::Name;
 use crate::scope::Scope;
@@ -63,6 +63,7 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
         color: tail.color.map(|color| ColorId::from_index(scope.colors.names.enter(color))),
         shading: None,
         body,
+        shape: FaceShape::Polygon,
     };
     scope.n_statements += 1;
     scope.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });

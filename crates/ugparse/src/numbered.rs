@@ -94,6 +94,12 @@ impl<'t> NumberedNames<'t> {
         }
     }
 
+    /// A number for something that no name refers to.
+    pub fn enter_unnamed(&mut self) -> u32 {
+        self.len += 1;
+        self.len - 1
+    }
+
     fn enter_slowly(&mut self, name: Name<'t>) -> u32 {
         let Some(len) = name.stem else { return self.enter_other(name.text) };
         let row = self.stem(&name.text[..len]);
@@ -146,7 +152,7 @@ impl<'t> NumberedNames<'t> {
     /// Adds all names of `other`; returns their numbers in this table, indexed by their numbers in
     /// `other`.
     pub fn enter_all(&mut self, other: &NumberedNames<'t>) -> Vec<u32> {
-        let mut numbers = vec![0; other.len()];
+        let mut numbers = vec![u32::MAX; other.len()];
         for stem in &other.stems {
             let row = self.stem(stem.text);
             for (idx, &entry) in stem.entries.iter().enumerate().filter(|(_, entry)| **entry != 0) {
@@ -155,6 +161,9 @@ impl<'t> NumberedNames<'t> {
         }
         for (&name, &number) in &other.others {
             numbers[number as usize] = self.enter(Name::new(name));
+        }
+        for number in numbers.iter_mut().filter(|number| **number == u32::MAX) {
+            *number = self.enter_unnamed();
         }
         numbers
     }

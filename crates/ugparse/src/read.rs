@@ -1,14 +1,17 @@
-//! Reading for programs that move or draw faces: bent faces become triangles.
+//! Reading for programs that move or draw faces: bent faces become triangles, and round ones
+//! polygons.
 
 use std::ops::Range;
 
+use glam::DVec3;
 use ugscene::{Face, Item, Scene, VertexId};
 
-use crate::{Diagnostics, Options, Parsed, Source};
+use crate::{Diagnostic, Diagnostics, Options, Parsed, Source};
 
 /// Reads a scene and cuts bent faces ([`Parsed::bent`]) into their triangles, since their shape
 /// would depend on the side they are seen from. The triangles keep all properties of the face,
-/// including its name.
+/// including its name. So do the polygons of round faces, see [`Parsed::cut_rounds`], unless
+/// `options` keeps them.
 ///
 /// `camera`: the name of the camera to use, see [`Parsed::choose_camera`].
 ///
@@ -23,7 +26,36 @@ pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<
     if !rows.is_empty() {
         cut_faces(&mut parsed, &rows);
     }
+    if !options.keeps_rounds {
+        let eye = parsed.scene.camera().and_then(|camera| camera.eye);
+        parsed.cut_rounds(source, eye)?;
+    }
     Ok(parsed)
+}
+
+impl Parsed {
+    /// Cuts round faces into polygons that differ from them by up to 0.1 milliradians at the eye,
+    /// or without an eye by up to a thousandth of their radius.
+    ///
+    /// # Errors
+    /// There are too many.
+    pub fn cut_rounds(&mut self, source: &Source, eye: Option<DVec3>) -> Result<(), Diagnostics> {
+        let Self { scene, origins, .. } = self;
+        let Some(first) = scene.faces.iter().position(|face| face.shape.is_round()) else { return Ok(()) };
+        let span = origins.faces.get(first).copied().unwrap_or_default();
+        let n_vertices = scene.vertices.len();
+        let first_pieces = ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
+            let finding = Diagnostic::error(span, error.to_string()).label("the first of them");
+            Diagnostics::one(source, finding.help("split the scene"))
+        })?;
+        let spans = std::mem::take(&mut origins.faces);
+        for (&span, end) in spans.iter().zip(&first_pieces[1..]) {
+            origins.faces.resize(*end as usize, span);
+        }
+        origins.vertices.resize(n_vertices, span);
+        origins.vertices.resize(scene.vertices.len(), span);
+        Ok(())
+    }
 }
 
 /// Triangulates the faces of these rows, which are in order, where possible.

@@ -11,8 +11,8 @@ use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
     Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, LightKind,
-    LightMotion, Mix, NameId, Names, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture, TextureImage,
-    Tint, Vertex, VertexId, Wire,
+    LightMotion, Mix, NameId, Names, RoundShape, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture,
+    TextureImage, Tint, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;
@@ -215,15 +215,49 @@ impl<'t> Scope<'t> {
     }
 
     fn add_face(&mut self, text: &'t [u8], span: Span, face: &FaceStatement, references: &References) {
-        let contours = self.push_contours(text, references);
+        let contours = match &face.round {
+            Some(round) => self.push_round(text, span, face.name, round),
+            None => self.push_contours(text, references),
+        };
         let face = Face {
             name: self.name(text, face.name),
             contours,
             color: self.color(text, face.color),
             shading: face.shading.map(|shading| self.add_shading(text, shading)),
             body: self.bodies.of_stated(text, face.motion),
+            shape: face.shape,
         };
         self.faces.push(face, span);
+    }
+
+    /// Adds the vertices of a round face that is given by numbers, and its contours. Vertices are
+    /// named after the face and cannot be referred to.
+    fn push_round(
+        &mut self,
+        text: &'t [u8],
+        span: Span,
+        name: Option<Span>,
+        round: &RoundShape,
+    ) -> std::ops::Range<u32> {
+        let keyword = round.shape.keyword();
+        let behind_keyword = span.start + keyword.len() as u32;
+        // As of the name of a vertex, the statement is that around it.
+        let place = name.unwrap_or(Span { start: behind_keyword, end: behind_keyword });
+        let word = name.map_or(keyword, |name| as_str(name.of(text)));
+        let mut corners = round.corners().into_iter().zip(1..);
+        let first = self.contours.row_count();
+        for &len in round.shape.corners_of_contours() {
+            for (position, at) in corners.by_ref().take(len) {
+                let name = self.names.add(&format!("{word}#{at}"));
+                let number = self.vertex_names.enter_unnamed() as usize;
+                self.vertex_rows.resize(self.vertex_names.len(), NO_ROW);
+                self.vertex_rows[number] = self.vertices.len() as u32;
+                self.vertices.push(Vertex { name, ..Vertex::at(position, None) }, place);
+                self.contours.push_corner(VertexId(number as u32));
+            }
+            self.contours.end_contour();
+        }
+        first..self.contours.row_count()
     }
 
     fn add_shading(&mut self, text: &'t [u8], shading: ShadingStatement) -> ShadingId {
@@ -470,6 +504,8 @@ impl<'t> Scope<'t> {
         ];
         let mut spans: Vec<Span> = vertices.chain(others.into_iter().flatten().copied()).collect();
         spans.sort();
+        // The vertices of a round face have its span.
+        spans.dedup();
         spans
     }
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Camera, SurfaceProperties, Texture};
+use ugscene::{Camera, FaceShape, RoundShape, SurfaceProperties, Texture};
 
 use crate::source::Span;
 use crate::transform::Transform;
@@ -123,6 +123,9 @@ pub(crate) struct FaceStatement {
     pub color: Option<Span>,
     pub shading: Option<ShadingStatement>,
     pub motion: Option<MotionReference>,
+    pub shape: FaceShape,
+    /// A round face by its numbers; then it has no contours.
+    pub round: Option<RoundShape>,
 }
 
 /// The light level or surface of a face.

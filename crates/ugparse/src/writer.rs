@@ -102,7 +102,7 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.faces, Item::Face, |w, face| {
-            w.text("f");
+            w.text(face.shape.keyword());
             face.name.into_iter().for_each(|name| w.name(name));
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);

@@ -112,6 +112,14 @@ pub struct Args {
           value_parser = whole(0..=u32::MAX), help_heading = PICTURE)]
     crop: Option<Vec<u32>>,
 
+    /// Add channels of radiances at wavelengths to an EXR picture
+    ///
+    /// 249 channels such as S0.450nm, from 80 to 3953 nm (names as by Fichet et al. 2021): enough for
+    /// `ugwarp -sp` to show a panorama (-pan) at up to 0.9c as the scene itself would be seen. It
+    /// takes about 80 times as long.
+    #[arg(long, help_heading = PICTURE)]
+    radiances: bool,
+
     /// Write a coarse picture at once, and replace it by finer ones until it is done
     ///
     /// FILE (-fo) is first a picture in squares of 8 x 8 pixels with one sample each, then of 4 x 4
@@ -250,6 +258,7 @@ impl Args {
             sky: if self.stage { self.sky.sky_or(BuiltIn::Day) } else { self.sky.sky() },
             ground: self.stage,
             crop: self.crop.as_deref().and_then(|crop| crop.try_into().ok()),
+            radiances: self.radiances,
             reading: pipe::options(&self.common)?,
         })
     }

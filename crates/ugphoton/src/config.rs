@@ -47,6 +47,8 @@ pub struct Config {
     /// Draw only a part of the picture (`-crop`): its left column, upper row, width and height. The
     /// pixels are those of the whole picture.
     pub crop: Option<[u32; 4]>,
+    /// Add channels of radiances at wavelengths (`--radiances`), named as `S0.450nm`.
+    pub radiances: bool,
     /// How the scene is read.
     pub reading: ugparse::Options,
 }
@@ -59,6 +61,10 @@ impl Config {
     /// See [`Error`].
     pub(crate) fn canvas(&self) -> Result<Canvas, Error> {
         self.check_lens()?;
+        let is_exr = self.picture.output.format() == ugimage::Format::Exr;
+        if self.radiances && !(is_exr && matches!(self.shift, ColorShift::Spectra(_))) {
+            return Err(Error::NoWavelengths);
+        }
         let Some([left, top, width, height]) = self.crop else { return Ok(Canvas::new(&self.picture)?) };
         self.picture.check_size()?;
         let fits = |start: u32, length: u32, side: u32| {
@@ -187,6 +193,7 @@ impl Default for Config {
             sky: SceneSky::default(),
             ground: false,
             crop: None,
+            radiances: false,
             reading: ugparse::Options::default(),
         }
     }

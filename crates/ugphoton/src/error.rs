@@ -19,6 +19,9 @@ pub enum Error {
     /// The scene has no faces.
     #[error("the scene has no faces, so rays meet nothing")]
     Empty,
+    /// Round faces on world lines would become too many polygons.
+    #[error(transparent)]
+    TooManyPolygons(#[from] ugscene::TooManyPolygons),
     /// The motions of the scene are invalid, or it is not at rest.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -31,6 +34,12 @@ pub enum Error {
         /// Its name.
         name: String,
     },
+    /// Radiances at wavelengths in a picture that is no EXR, or of hues.
+    #[error("radiances at wavelengths are channels of EXR files, of colours that are spectra")]
+    NoWavelengths,
+    /// Radiances at wavelengths before a sky.
+    #[error("a sky has no radiances at wavelengths")]
+    SkyWavelengths,
     /// Annotations of a part of a picture.
     #[error("annotations are for whole pictures")]
     AnnotatedPart,

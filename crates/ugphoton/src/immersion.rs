@@ -36,17 +36,18 @@ impl Immersion {
     pub fn new(world: &World, faces: Faces<'_>) -> Self {
         let mut solids: Vec<(Solid, [DVec3; 2])> = Vec::new();
         let is_any = faces.scene.surfaces.iter().any(|surface| surface.transmitted > 0.0);
-        for (part, triangle) in world.triangles().filter(|_| is_any) {
-            let Some(solid) = transparent_solid(faces.scene, part, triangle.face) else { continue };
+        let parts = world.parts.iter().enumerate().filter(|_| is_any);
+        let boxes = parts.flat_map(|(row, part)| {
+            part.boxes(|corner| faces.rest[corner.index()]).map(move |(face, bounds)| (row, face, bounds))
+        });
+        for (part, face, of_face) in boxes {
+            let Some(solid) = transparent_solid(faces.scene, part, face) else { continue };
             let at = solids.iter().position(|(known, _)| *known == solid).unwrap_or_else(|| {
                 solids.push((solid, [DVec3::INFINITY, DVec3::NEG_INFINITY]));
                 solids.len() - 1
             });
             let [low, high] = &mut solids[at].1;
-            for corner in triangle.corners {
-                let place = faces.rest[corner.index()];
-                (*low, *high) = (low.min(place), high.max(place));
-            }
+            (*low, *high) = (low.min(of_face[0]), high.max(of_face[1]));
         }
         Self { solids }
     }
@@ -109,7 +110,7 @@ impl Crossing {
     pub fn new(world: &World, faces: Faces<'_>, ray: &PastRay, found: &Intersection) -> Option<Self> {
         let solid = transparent_solid(faces.scene, found.part, found.triangle.face)?;
         let step = ray.in_part(found.part, &world.parts[found.part].frame).1;
-        Some(Self { solid, is_exit: world.outside[found.triangle.face as usize].dot(step) > 0.0, s: found.s })
+        Some(Self { solid, is_exit: world.outside_at(ray, found).dot(step) > 0.0, s: found.s })
     }
 
     /// The media of the ray behind it; `None` if it leaves a solid that it is not in.

@@ -16,7 +16,9 @@ const BESIDE: f64 = 1e-3;
 pub fn open_face(world: &World, faces: Faces<'_>) -> Option<u32> {
     let matters = |face: u32| {
         let surface = faces.scene.surface(&faces.scene.faces[face as usize]);
-        surface.is_some_and(|it| it.transmitted > 0.0 && (it.refraction != 1.0 || it.absorption > 0.0))
+        let is_flat = !faces.scene.faces[face as usize].shape.is_round();
+        is_flat
+            && surface.is_some_and(|it| it.transmitted > 0.0 && (it.refraction != 1.0 || it.absorption > 0.0))
     };
     let mut of_solids: Vec<(u32, usize)> =
         world.triangles().map(|(part, triangle)| (triangle.face, part)).filter(|it| matters(it.0)).collect();

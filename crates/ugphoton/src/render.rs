@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use glam::DVec3;
-use ugimage::{LinearFrame, Metadata};
-use ugparse::{Diagnostics, Source};
+use ugimage::{LinearFrame, Metadata, Plane, Samples};
+use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::WorldLineError;
 use ugpicture::{
     Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, metadata,
@@ -50,6 +50,7 @@ pub fn light(scene: Scene, config: &Config) -> Result<LinearFrame, Error> {
     config.picture.keep_light();
     let drawing = PreparedScene::new(scene, &config, config.canvas()?, PROVENANCE, &())?;
     let mut frame = pixels::light(&drawing.scenery, &drawing.config, &()).0;
+    drawing.push_radiances(&mut frame, &())?;
     drawing.put_sky_behind(&mut frame, &())?;
     Ok(frame)
 }
@@ -103,7 +104,7 @@ impl PreparedScene {
     ) -> Result<(Self, Diagnostics), Error> {
         let canvas = config.canvas()?;
         progress.step("reading", 0);
-        let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+        let parsed = read(config, source)?;
         let boxes = notes_view.then(|| BodyBoxes::new(&parsed.scene));
         let drawing = Self::new(parsed.scene, config, canvas, provenance, progress)?;
         Ok((Self { boxes, ..drawing }, parsed.warnings))
@@ -132,6 +133,7 @@ impl PreparedScene {
             }
             ugscene::add_ground(&mut scene);
         }
+        notes.extend(scene.has_rounds_on_world_lines().then_some(Note::CutRounds));
         let scenery = Scenery::new(Cow::Owned(as_seen(scene, &config)?), &config)?;
         Ok(Self { config, canvas, scenery, metadata, notes, boxes: None })
     }
@@ -161,11 +163,34 @@ impl PreparedScene {
     /// See [`Error`].
     pub fn picture(&self, progress: &dyn Progress) -> Result<Rendering, Error> {
         let (mut frame, statistics) = pixels::light(&self.scenery, &self.config, progress);
+        self.push_radiances(&mut frame, progress)?;
         let brightest = self.put_sky_behind(&mut frame, progress)?;
         let mut notes = notes(&self.scenery, &self.config, &statistics);
         notes.extend(self.out_of_view().map(Note::Scene));
         notes.extend(self.config.sky.notes().chain(self.notes.iter().cloned()));
         self.finish(frame, notes, brightest.max(statistics.max_light as f32), progress)
+    }
+
+    /// Adds the channels of radiances, if they are asked for; three are drawn at a time.
+    fn push_radiances(&self, frame: &mut LinearFrame, progress: &dyn Progress) -> Result<(), Error> {
+        if !self.config.radiances {
+            return Ok(());
+        }
+        if self.config.sky.is_some() {
+            return Err(Error::SkyWavelengths);
+        }
+        for &nm in uglight::sampled_wavelengths().as_chunks::<3>().0 {
+            let mut config = Config { shift: self.config.shift.sampled(nm), ..self.config.clone() };
+            config.picture.channels.clear();
+            let scenery = Scenery::new(Cow::Borrowed(&*self.scenery.scene), &config)?;
+            let (light, _) = pixels::light(&scenery, &config, progress);
+            for (channel, nm) in nm.into_iter().enumerate() {
+                let numbers = light.pixels().iter().map(|&pixel| light.light_of(pixel)[channel]);
+                let samples = Samples::Float(numbers.collect());
+                frame.push_plane(Plane { name: format!("S0.{nm}nm"), samples });
+            }
+        }
+        Ok(())
     }
 
     /// Puts the sky behind the light of the picture. Returns its brightest channel.
@@ -220,9 +245,19 @@ impl PreparedScene {
     }
 }
 
+/// Reads a scene with its round faces.
+pub fn read(config: &Config, source: &Source) -> Result<Parsed, Diagnostics> {
+    let options = ugparse::Options { keeps_rounds: true, ..config.reading };
+    ugparse::read(source, &options, config.picture.camera.name.as_deref())
+}
+
 /// The scene with its vertices where they are seen and where they rest, and the stage that says so.
 pub fn as_seen(mut scene: Scene, config: &Config) -> Result<Scene, Error> {
     scene.infrared = config.shift.infrared();
+    if config.picture.annotations.outline {
+        ugscene::cut_rounds(&mut scene, |_, _, _| Some(ugscene::FINE_SAGITTA))?;
+    }
+    ugscene::cut_rounds_on_world_lines(&mut scene)?;
     let is_apart = config.repeat || scene.has_changing_surfaces();
     ugscene::repeat_vertices(&mut scene, is_apart);
     let picture = &config.picture;

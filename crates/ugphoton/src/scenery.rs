@@ -274,7 +274,7 @@ impl<'a> Scenery<'a> {
         const LEAST: u64 = 32;
         let n_samples = u64::from(tiles.size[0]) * u64::from(tiles.size[1]);
         let are_faster = n_samples >= LEAST * self.scene.faces.len() as u64;
-        if !(are_faster && self.is_seen_from_origin() && self.film.is_pinhole()) {
+        if !(are_faster && !self.scene.has_rounds() && self.is_seen_from_origin() && self.film.is_pinhole()) {
             return None;
         }
         Some(self.world.outlines(self.faces(), self.appearance.surface.frames(), &self.view, tiles))

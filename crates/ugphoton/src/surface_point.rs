@@ -65,13 +65,18 @@ impl SurfacePoint {
             return Self::on_line(scenery, (ray, sample), found, &motion.line);
         }
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
-        let place = mean(places, found.weights());
         let wave = part.frame.wave_to_rest(ray.wave);
-        let outside = scenery.world.outside[found.triangle.face as usize];
-        let step = ray.in_part(found.part, &part.frame).1;
+        let (origin, step) = ray.in_part(found.part, &part.frame);
+        let round = part.round_surface(found, (origin, step));
+        let (place, outside) = round.unwrap_or_else(|| {
+            (mean(places, found.weights()), scenery.world.outside[found.triangle.face as usize])
+        });
         let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
-        let (normal, lift) = smooth(scenery, found, (places, place), plane_normal);
+        let (normal, lift) = match round {
+            Some(_) => (plane_normal, DVec3::ZERO),
+            None => smooth(scenery, found, (places, place), plane_normal),
+        };
         let event = along(ray.origin, ray.step, found.s);
         let delay = match ray.start {
             Start::Eye => 0.0,

@@ -32,6 +32,8 @@ pub enum Note {
     NotRepeated,
     /// Rays do not meet wires.
     NoWires,
+    /// Round faces of bodies on world lines are drawn as polygons.
+    CutRounds,
     /// The up direction is zero or parallel to the view.
     UpReplaced,
     /// Everything is behind the eye or outside the clipping distances.
@@ -179,6 +181,9 @@ impl fmt::Display for Note {
                 return write!(f, "textures are not drawn: faces of colour `{color}` have its plain colour");
             }
             Self::NotRepeated => "vertices with colours as seen are not repeated",
+            Self::CutRounds => {
+                "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
+            }
             Self::NoWires => "wires are left out: rays do not meet lines",
             Self::UpReplaced => "the up direction is zero or parallel to the view, so another axis is up",
             Self::NothingInFront => {

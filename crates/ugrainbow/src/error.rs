@@ -23,6 +23,9 @@ pub enum Error {
     /// A pixel of an exact picture is to be explained.
     #[error("only pixels of scanline mode can be explained")]
     ExplainExact,
+    /// Round faces would become too many polygons.
+    #[error(transparent)]
+    TooManyPolygons(#[from] ugscene::TooManyPolygons),
     /// An exact picture of colours as seen.
     #[error("exact pictures shift colours themselves, and those of this scene are as seen already")]
     ExactSeenColors,

@@ -70,7 +70,10 @@ pub fn run_with(
 ) -> Result<PictureFile, Error> {
     let canvas = Canvas::new(&config.picture)?;
     progress.step("reading", 0);
-    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let is_by_rays = config.exact.is_some() && config.wireframe.is_none();
+    let keeps_rounds = is_by_rays && !config.picture.annotations.outline;
+    let reading = ugparse::Options { keeps_rounds, ..config.reading };
+    let parsed = ugparse::read(source, &reading, config.picture.camera.name.as_deref())?;
     let rendering = draw(&parsed.scene, config, &canvas, provenance, progress)?;
     Ok(rendering.pack(warnings(source, parsed), progress))
 }

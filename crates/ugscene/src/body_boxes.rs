@@ -86,6 +86,11 @@ impl BodyBoxes {
             bodies[body.index()].push(part);
             n_parts += 1;
         }
+        for (body, round) in scene.rounds() {
+            let [low, high] = round.bounds();
+            bodies[body.index()].push(Part { points: [low, high], ..Part::empty(body).with(low, high) });
+            n_parts += 1;
+        }
         let most = n_parts.div_ceil(N_BOXES).max(1);
         let mut boxes = Vec::new();
         bodies.iter_mut().for_each(|parts| divide(parts, most, &mut boxes));

@@ -8,8 +8,8 @@ use rustc_hash::FxHashSet;
 use ugphysics::Velocity;
 
 use crate::{
-    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
-    SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
+    BodyId, Camera, Color, ColorId, ColorValue, Face, FaceShape, Light, LightKind, Scene, Shading, ShadingId,
+    SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
 };
 
 /// The most vertices, corners or rows of any other table: ids have 32 bits, and one is for nothing.
@@ -274,7 +274,14 @@ impl SceneBuilder {
             }
             let ids = corners.iter().map(|&corner| VertexId::from_index(first + corner as usize));
             let contours = self.scene.contours.push_all([ids]);
-            self.scene.faces.push(Face { name, contours, color: mesh.color, shading, body });
+            self.scene.faces.push(Face {
+                name,
+                contours,
+                color: mesh.color,
+                shading,
+                body,
+                shape: FaceShape::Polygon,
+            });
         }
         let faces = first_face..self.scene.faces.len();
         let n_degenerate = sizes.len() - faces.len();

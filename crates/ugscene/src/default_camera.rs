@@ -94,6 +94,14 @@ impl DefaultCamera {
 
 /// The positions and bodies of all vertices that are drawn; of all vertices if nothing is.
 fn points(scene: &Scene) -> Vec<(DVec3, BodyId)> {
+    /// The sagitta of polygons in place of round faces.
+    const COARSE: f64 = 1e-2;
+    if scene.has_rounds() {
+        let mut scene = scene.clone();
+        if crate::cut_rounds(&mut scene, |_, _, _| Some(COARSE)).is_ok() {
+            return points(&scene);
+        }
+    }
     let mut bodies = vec![None; scene.vertices.len()];
     for FaceOrWire { contours, body, .. } in scene.drawn() {
         for corner in scene.contours.corners(contours) {

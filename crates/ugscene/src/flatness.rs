@@ -21,15 +21,15 @@ pub struct BentFace {
     pub thickness: f64,
 }
 
-/// The greatest distance of a corner from the plane of a face, divided by its size; both in rest
-/// coordinates.
+/// The greatest distance of a corner from the plane of a polygon, divided by its size; both in rest
+/// coordinates. Round faces have none.
 ///
 /// The plane contains the mean of all corners and is perpendicular to the outline's area vector;
 /// the size is the diagonal of the face's bounding box.
 pub fn thickness(scene: &Scene, face: &Face) -> f64 {
     let corners = scene.contours.corners(face.contours.clone());
     let positions = || corners.iter().map(|&corner| scene.vertices[corner.index()].position);
-    let Some(first) = positions().next() else { return 0.0 };
+    let Some(first) = positions().next().filter(|_| !face.shape.is_round()) else { return 0.0 };
     let mean = positions().map(|corner| corner - first).sum::<DVec3>() / corners.len() as f64 + first;
     let outline = scene.contours.get(face.contours.start).iter();
     let normal = unit_normal(outline.map(|&corner| scene.vertices[corner.index()].position));

@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use glam::DVec3;
 use ugphysics::WorldLine;
 
-use crate::{BodyId, Color, ColorId, ColorValue, Face, Scene, StatedMotion, Vertex};
+use crate::{BodyId, Color, ColorId, ColorValue, Face, FaceShape, Scene, StatedMotion, Vertex};
 
 /// Corners of the ground.
 const CORNERS: usize = 128;
@@ -46,5 +46,12 @@ pub fn add_ground(scene: &mut Scene) {
         })
         .collect();
     let contours = scene.contours.push_all([corners.into_iter()]);
-    scene.faces.push(Face { name: Some(name), contours, color, shading: None, body });
+    scene.faces.push(Face {
+        name: Some(name),
+        contours,
+        color,
+        shading: None,
+        body,
+        shape: FaceShape::Polygon,
+    });
 }

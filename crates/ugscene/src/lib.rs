@@ -9,7 +9,7 @@
 //!   [`rest_positions`], equations (P4) and (P45)).
 //! - Normals: [`smooth_normals`], and [`shading_normal`] for lighting.
 //! - The colours that meet at a vertex ([`vertex_mixes`]).
-//! - The faces that are not flat ([`bent_faces`]).
+//! - The faces that are not flat ([`bent_faces`]), and round ones as polygons ([`cut_rounds`]).
 //! - The faces that lie in one plane ([`shared_planes`]).
 //! - Motions: where bodies and lights are relative to the camera ([`PlacedBodies`]).
 //! - The camera ([`View`]), its options, the eye, and the camera of a scene without one
@@ -51,6 +51,7 @@ mod normals;
 mod note;
 mod observe;
 mod requirements;
+mod rounds;
 mod shared_planes;
 mod split;
 mod times_in_view;
@@ -77,6 +78,9 @@ pub use requirements::{
     StageError, has_moving_bodies, has_moving_lights, hue_scale, read_tints_in, refuse_deferred_colors,
     require_colors_at_rest, require_eye, require_geometry_at_rest, require_seen_geometry,
     write_display_as_hues,
+};
+pub use rounds::{
+    FINE_SAGITTA, TooManyPolygons, cut_rounds, cut_rounds_at_rest, cut_rounds_on_world_lines, seen_sagitta,
 };
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{BodyId, ColorId, Face, RestFrames, Scene, ShadingId, unit_normal};
+use crate::{BodyId, ColorId, Face, FaceShape, RestFrames, Scene, ShadingId, unit_normal};
 
 /// Distance from a plane up to which a corner counts as being in it, relative to the largest
 /// coordinate of its face. Rest positions that (P4) recovers from text have errors of 10⁻¹⁵.
@@ -124,9 +124,12 @@ struct PlacedFace<'a> {
 
 impl PlacedFace<'_> {
     /// The number of its plane: the same for both directions of the normal, and nearly the same for
-    /// nearly the same planes; NaN if it has no area.
+    /// nearly the same planes; NaN if it has no area, or is not flat.
     #[inline(always)] // Runs for every face of a scene.
     fn number(&self, reach: f64) -> f64 {
+        if !matches!(self.face.shape, FaceShape::Polygon | FaceShape::Disc) {
+            return f64::NAN;
+        }
         let outline = self.scene.contours.get(self.face.contours.start);
         let (normal, point) = if let [a, b, c] = outline {
             let [a, b, c] = [a, b, c].map(|corner| self.rest[corner.index()]);

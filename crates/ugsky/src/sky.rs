@@ -12,11 +12,13 @@ use crate::stars::Star;
 /// Wavelengths that are seen at rest, nm: those of the CIE 1931 observer.
 pub const VISIBLE_NM: Range<f64> = 360.0..830.0;
 
-/// A panorama of light outside of the visible range.
+/// A panorama of a part of the light: outside of the visible range, or at a few wavelengths.
 pub struct Band {
     /// Wavelengths at rest, nm.
     pub range_nm: Range<f64>,
-    /// The light, of which only the luminance is used.
+    /// The spectra of its channels.
+    pub basis: Basis,
+    /// The light.
     pub panorama: Panorama,
 }
 
@@ -25,7 +27,7 @@ pub struct Band {
 pub struct Sky<'s> {
     /// Light by direction.
     pub panorama: Option<&'s Panorama>,
-    /// Infrared and ultraviolet light.
+    /// Infrared and ultraviolet light, or all light, in bands.
     pub bands: &'s [Band],
     /// Points of light in front of it.
     pub stars: &'s [Star],
@@ -77,8 +79,7 @@ impl<'s> Sky<'s> {
             }
         }
         let visible = self.panorama.map(|panorama| (panorama, colors, &range_nm));
-        let grey = colors.on(Basis::Grey);
-        let bands = self.bands.iter().map(|band| (&band.panorama, grey, &band.range_nm));
+        let bands = self.bands.iter().map(|band| (&band.panorama, colors.on(band.basis), &band.range_nm));
         let layer = |(panorama, colors, range_nm)| {
             Ok(Layer { panorama, shade: Shade::new(colors, velocity, range_nm, keeps_light)? })
         };

@@ -22,6 +22,9 @@ pub enum Basis {
     /// Daylight, as much as the luminance of a colour: for pictures of infrared or ultraviolet
     /// light, which have no colours.
     Grey,
+    /// Radiances at the second, third and fourth of these rising wavelengths, nm, in place of red,
+    /// green and blue: each 0 at its neighbours, and linear between.
+    Samples([f64; 5]),
 }
 
 /// All wavelengths at rest, nm.
@@ -100,6 +103,7 @@ impl SpectralTable {
             Basis::Planck(kelvin) => planck(kelvin, reach, &range)?,
             Basis::Mixture => mixture(reach, &range),
             Basis::Grey => grey(reach, &range),
+            Basis::Samples(nm) => samples(nm, reach),
         };
         Ok(Self { doppler, flux, kind })
     }
@@ -161,6 +165,24 @@ fn grey(reach: f64, range: &Range<f64>) -> Kind {
     let map = |idx: usize| {
         let seen = xyz_to_linear_srgb(shifted(&daylight, range, first + STEP * idx as f64));
         seen.map(|part| weights.map(|weight| (part * weight) as f32))
+    };
+    Kind::Linear { first, maps: (0..n).into_par_iter().map(map).collect() }
+}
+
+fn samples(nm: [f64; 5], reach: f64) -> Kind {
+    let (first, n) = range_of(reach, STEP);
+    let map = |idx: usize| {
+        let doppler = libm::exp(first + STEP * idx as f64);
+        let of_sample = |at: usize| {
+            let rises = |rest_nm: f64| (rest_nm - nm[at]) / (nm[at + 1] - nm[at]);
+            let falls = |rest_nm: f64| (nm[at + 2] - rest_nm) / (nm[at + 2] - nm[at + 1]);
+            xyz_to_linear_srgb(integrate(|seen_nm| {
+                let rest_nm = seen_nm * doppler;
+                rises(rest_nm).min(falls(rest_nm)).max(0.0)
+            }))
+        };
+        let columns = [0, 1, 2].map(of_sample);
+        std::array::from_fn(|i| columns.map(|column| column[i] as f32))
     };
     Kind::Linear { first, maps: (0..n).into_par_iter().map(map).collect() }
 }

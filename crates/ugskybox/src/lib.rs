@@ -41,7 +41,7 @@ mod warp;
 pub use around::{SkyAround, SkyRays};
 pub use built_in::BuiltIn;
 pub use error::{OpenError, SkyError};
-pub use open::{Opened, open};
+pub use open::{Opened, open, open_spectrum};
 pub use picture::{SkyPicture, sky_colors};
 pub use scene_sky::{SceneSky, SkyCamera, SkySource, drawn_on};
 pub use sky_light::{SkyLamp, SkyLamps};

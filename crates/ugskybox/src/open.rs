@@ -2,9 +2,9 @@
 
 use core::f64::consts::{PI, TAU};
 
-use ugimage::{PictureLimits, Pixels, read_picture};
+use ugimage::{PictureLimits, Pixels, SpectralPicture, read_picture, read_spectrum};
 use ugscene::Scene;
-use ugsky::{Arrangement, Band, Extent, Panorama, PanoramaError, Sky, Star, Texels};
+use ugsky::{Arrangement, Band, Basis, Extent, Panorama, PanoramaError, Sky, Star, Texels};
 
 use crate::error::OpenError;
 
@@ -96,6 +96,40 @@ pub fn open(
     let panorama = Panorama::arranged(pictures, arrangement, extent)?;
     let highlights = highlights.filter(|_| is_clipped);
     Ok(Opened { panorama: Some(panorama), highlights, notes, ..Opened::default() })
+}
+
+/// Reads the channels of an EXR file that are named by wavelengths as bands of three each; nothing if
+/// it has fewer than four, or is another file.
+///
+/// # Errors
+/// As [`open`].
+pub fn open_spectrum(
+    file: &[u8],
+    arrangement: Arrangement,
+    extent: Option<Extent>,
+    limits: &PictureLimits,
+) -> Result<Vec<Band>, OpenError> {
+    /// Light at the first and last wavelength ends this part of them further.
+    const BEYOND: f64 = 0.05;
+    let picture = read_spectrum(file, limits).map_err(|error| OpenError::Read { idx: 0, error })?;
+    let SpectralPicture { size, samples } = picture;
+    let wavelength = |at: isize| -> f64 {
+        let last = samples.len() as isize - 1;
+        let beyond = BEYOND * (at - at.clamp(0, last)) as f64;
+        samples[at.clamp(0, last) as usize].0 * (1.0 + beyond)
+    };
+    let band = |first: usize| {
+        let channels: Vec<&[f32]> = samples[first..].iter().take(3).map(|(_, values)| &values[..]).collect();
+        let texel = |idx: usize| {
+            let channel = |at: usize| channels.get(at).map_or(0.0, |values| values[idx].max(0.0));
+            [channel(0), channel(1), channel(2), 1.0]
+        };
+        let texels = (0..size[0] as usize * size[1] as usize).map(texel).collect();
+        let nm = std::array::from_fn(|at| wavelength((first + at) as isize - 1));
+        let panorama = Panorama::arranged(vec![(size, Texels::Light(texels))], arrangement, extent)?;
+        Ok(Band { range_nm: ugsky::ALL_NM, basis: Basis::Samples(nm), panorama })
+    };
+    (0..samples.len()).step_by(3).map(band).collect()
 }
 
 /// The note on highlights that are not clipped.

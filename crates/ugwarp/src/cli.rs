@@ -25,7 +25,7 @@ use ugpipe::{
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
 use ugsky::{Arrangement, Band, Basis, Extent, StarOptions, VISIBLE_NM};
-use ugskybox::{OpenError, Opened, StarList, is_star_list, open, read_stars};
+use ugskybox::{OpenError, Opened, StarList, is_star_list, open, open_spectrum, read_stars};
 
 use crate::config::Config;
 use crate::error::Error;
@@ -367,6 +367,26 @@ impl Args {
                 }
             })?;
         opened.others.extend(others.iter().map(|other| sha256(&other.text)));
+        let is_spectral = matches!(self.color_shift(), ColorShift::Spectra(_)) && self.basis.is_none();
+        if is_spectral && arrangement != Arrangement::Sides {
+            let spectrum =
+                open_spectrum(&input.text, arrangement, self.extent(), &limits).map_err(|error| {
+                    Failure::Failed(format!("`{}`: {}", input.name, Error::from(error).words()))
+                })?;
+            if !spectrum.is_empty() {
+                if self.bands().next().is_some() {
+                    return Err(Failure::usage(
+                        "the panorama has radiances at wavelengths, infrared and ultraviolet among them: leave out \
+                         --infrared and --ultraviolet",
+                    ));
+                }
+                opened.notes.push(
+                    "the panorama has radiances at wavelengths, which are used in place of red, green and blue"
+                        .to_owned(),
+                );
+                (opened.panorama, opened.bands) = (None, spectrum);
+            }
+        }
         for (path, range_nm) in self.bands() {
             if arrangement == Arrangement::Sides {
                 return Err(Failure::usage(
@@ -380,7 +400,11 @@ impl Args {
                     Failure::Failed(format!("`{}`: {}", file.name, Error::from(error).words()))
                 })?;
             opened.notes.extend(band.notes);
-            opened.bands.extend(band.panorama.map(|panorama| Band { range_nm, panorama }));
+            opened.bands.extend(band.panorama.map(|panorama| Band {
+                range_nm,
+                basis: Basis::Grey,
+                panorama,
+            }));
         }
         context.detail("decoded the panorama");
         Ok(opened)

@@ -218,7 +218,7 @@ impl<'s> Prepared<'s> {
         let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, mut notes) = (statistics.max_light, notes(config, *is_up_replaced, &statistics));
-        if sky.panorama.is_none() && sky.stars.is_empty() {
+        if sky.panorama.is_none() && sky.bands.is_empty() && sky.stars.is_empty() {
             notes = vec![Note::NoStars];
         }
         canvas.finish(Drawn { content, brightest, notes, annotated }, metadata.clone(), progress)

@@ -168,6 +168,9 @@ pub fn panorama(seed: u64, bytes: &[u8]) -> Result<(), String> {
     let mut random = Random(seed);
     let arrangement = *random.pick(&ugwarp::Arrangement::ALL);
     let config = quick(&mut random, seed);
+    if let Ok(bands) = ugskybox::open_spectrum(bytes, arrangement, None, &LIMITS) {
+        sky(ugwarp::Sky { bands: &bands, ..ugwarp::Sky::default() }, &config, seed)?;
+    }
     let Ok(opened) = ugwarp::open(&[bytes], Some(arrangement), None, None, LIMITS) else { return Ok(()) };
     sky((&opened).into(), &config, seed)
 }

@@ -125,7 +125,8 @@ impl Picture {
     }
 
     fn scene(&self) -> Result<Scene, String> {
-        let parsed = ugparse::read(&Source::new("world.ug", self.text.as_str()), &Options::default(), None);
+        let options = Options { keeps_rounds: true, ..Options::default() };
+        let parsed = ugparse::read(&Source::new("world.ug", self.text.as_str()), &options, None);
         parsed.map(|parsed| parsed.scene).map_err(words)
     }
 

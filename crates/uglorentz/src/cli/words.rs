@@ -38,6 +38,9 @@ impl Words for Error {
             ),
             Self::VertexAtEye { .. } => format!("{self}: {AT_EYE}"),
             Self::OutOfRange { .. } => format!("{self}: {OUT_OF_RANGE}"),
+            Self::TooManyPolygons(_) => {
+                format!("{self}: give -sd 1, and draw with -xc")
+            }
             Self::Stopped(_) => self.to_string(),
         }
     }
@@ -115,7 +118,11 @@ impl Report {
                 self.n_open_junctions
             )
         });
-        camera.into_iter().chain(junctions).collect()
+        let rounds = self.are_rounds_cut.then(|| {
+            "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
+                .to_owned()
+        });
+        camera.into_iter().chain(junctions).chain(rounds).collect()
     }
 
     /// Statistics, for `-vb`.

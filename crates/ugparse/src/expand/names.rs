@@ -28,11 +28,11 @@ impl Expander<'_, '_> {
     /// one in the table is renamed.
     pub(super) fn make_names_unique(&mut self) {
         let is_flat = self.scopes.len() == 1;
-        let Scene { names, vertices, colors, surfaces, .. } = &mut self.scene;
+        let Scene { names, vertices, faces, colors, surfaces, .. } = &mut self.scene;
         rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
         rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
-        // The vertex names of a flat file are unique already.
-        if !is_flat {
+        // The vertex names of a flat file are unique already, but for those of round faces.
+        if !is_flat || faces.iter().any(|face| face.shape.is_round()) {
             rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
         }
     }

@@ -3,7 +3,10 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{Camera, Face, Item, Light, LightKind, LightMotion, ShadingId, VertexId, Wire, newell_normal};
+use ugscene::{
+    Camera, Face, FaceShape, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId, Wire,
+    newell_normal,
+};
 
 use super::Expander;
 use super::cameras::NestedCamera;
@@ -57,6 +60,7 @@ impl Expander<'_, '_> {
             color: placement.color(face.color, row, |default| default.first_face),
             shading: face.shading.map(|row| ShadingId::from_index(placement.first_shading + row.index())),
             body: placement.bodies[face.body.index()],
+            shape: face.shape,
         };
         self.scene.faces.push(placed);
         self.origins.faces.push(span);
@@ -104,13 +108,21 @@ impl Expander<'_, '_> {
                     placement.corners(row).map(|idx| placement.corner(idx)).collect();
                 has_three(&corners)
             });
-        if has_three && newell_normal(outline.map(position)) != DVec3::ZERO {
+        let is_whole = match face.shape {
+            FaceShape::Polygon => newell_normal(outline.map(position)) != DVec3::ZERO,
+            shape => {
+                let corners = face.contours.clone().flat_map(|row| placement.corners(row)).map(position);
+                RoundShape::from_corners(shape, &corners.collect::<Vec<_>>()).is_some()
+            }
+        };
+        if has_three && is_whole {
             return true;
         }
         let text = self.text;
         self.degenerate.entry(span.start).or_insert_with(|| {
             let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
-            Diagnostic::warning(shown, "face has no area where it is placed")
+            let kind = if face.shape.is_round() { face.shape.keyword() } else { "face" };
+            Diagnostic::warning(shown, format!("{kind} has no area where it is placed"))
                 .label("omitted")
                 .help("correct the transformations of its instance")
         });

@@ -6,6 +6,7 @@
 mod cameras;
 mod known_spectra;
 mod motions;
+mod rounds;
 mod tables;
 mod transforms;
 
@@ -16,7 +17,7 @@ use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::{Velocity, VelocityError};
-use ugscene::{Camera, ColorValue, SurfaceNumber, SurfaceProperties, Tint};
+use ugscene::{Camera, ColorValue, FaceShape, RoundShape, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
 use crate::statement::{
@@ -30,7 +31,7 @@ use crate::token::{
 };
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam \
+pub(crate) const KEYWORDS: &str = "v w f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam \
                                    motion sky def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
@@ -71,6 +72,10 @@ impl<'t> Grammar<'t> {
             b"v" => self.vertex(input),
             b"f" => self.face(input, references),
             b"w" => self.wire(input, references),
+            b"sphere" => self.round(FaceShape::Sphere, input, references),
+            b"cylinder" => self.round(FaceShape::Cylinder, input, references),
+            b"tube" => self.round(FaceShape::Tube, input, references),
+            b"disc" => self.round(FaceShape::Disc, input, references),
             b"c" => self.color(input),
             b"c_rgb" => self.rgb(input),
             b"c_xyz" => self.xyz(input),
@@ -141,10 +146,21 @@ impl<'t> Grammar<'t> {
     fn face<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = self.contours(input, references)?;
+        self.behind_shape(input, name, FaceShape::Polygon, None)
+    }
+
+    /// `[color] [shading] [< x y z >]`
+    fn behind_shape<'a>(
+        &self,
+        input: Input<'a>,
+        name: Option<Span>,
+        shape: FaceShape,
+        round: Option<RoundShape>,
+    ) -> Parsed<'a, Statement> {
         let (input, color) = self.optional_name(input)?;
         let (input, shading) = self.shading(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Face(FaceStatement { name, color, shading, motion })))
+        Ok((input, Statement::Face(FaceStatement { name, color, shading, motion, shape, round })))
     }
 
     /// `number` or `surface`
@@ -162,7 +178,8 @@ impl<'t> Grammar<'t> {
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Wire(FaceStatement { name, color, shading: None, motion })))
+        let (shading, shape, round) = (None, FaceShape::Polygon, None);
+        Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round })))
     }
 
     /// One or more `( vertex … )`.

@@ -1,7 +1,7 @@
 //! Removes degenerate faces and wires, which would draw nothing.
 
 use rayon::prelude::*;
-use ugscene::{Contours, Face, Vertex, VertexId, Wire, newell_normal};
+use ugscene::{Contours, Face, RoundShape, Vertex, VertexId, Wire, newell_normal};
 
 use super::corners::{LEAST_ROWS, is_linked};
 use super::undefined::{read_again, show};
@@ -51,6 +51,11 @@ pub(super) fn remove_short_wires(
 pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
     if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
+    }
+    if face.shape.is_round() {
+        let corners = contours.corners(face.contours.clone()).iter();
+        let corners: Vec<_> = corners.map(|corner| vertices[corner.index()].position).collect();
+        return RoundShape::from_corners(face.shape, &corners).is_none().then_some("has no area");
     }
     let outline = contours.get(face.contours.start);
     let corners = outline.iter().map(|corner| vertices[corner.index()].position);

@@ -7,12 +7,18 @@ use crate::Error;
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
-            Self::Text(_) | Self::Empty | Self::MovingMedium { .. } | Self::WorldLine { .. } => "{}",
+            Self::Text(_)
+            | Self::Empty
+            | Self::TooManyPolygons(_)
+            | Self::MovingMedium { .. }
+            | Self::WorldLine { .. } => "{}",
             Self::Motion(error) => return error.words(),
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
             Self::Sky(error) => return error.words(),
             Self::OutOfRange { .. } => "{}: use smaller coordinates, a smaller time (-ti) or a lower speed",
+            Self::NoWavelengths => "{}: give -sp, and -dt exr or a file that ends in .exr",
+            Self::SkyWavelengths => "{}: leave out -sky and --stage, and `sky` in the scene",
             Self::AnnotatedPart => {
                 "annotations (-cap, -lg, -dl, -gr) are for whole pictures: leave them out, or -crop"
             }

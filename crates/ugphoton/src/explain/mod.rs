@@ -105,7 +105,7 @@ pub fn explain(
     source: &Source,
     pixel: [u32; 2],
 ) -> Result<(Explanation<TracedSample>, Diagnostics), Error> {
-    let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
+    let parsed = crate::render::read(config, source)?;
     if config.sky.is_some() || parsed.scene.sky.is_some() {
         return Err(SkyError::Explained.into());
     }

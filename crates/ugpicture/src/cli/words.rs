@@ -98,6 +98,7 @@ impl Words for Note {
             Self::Source(_)
             | Self::NoLights { .. }
             | Self::NoWires
+            | Self::CutRounds
             | Self::NoLight { .. }
             | Self::OpenSolid(_)
             | Self::ReversedSolid(_)

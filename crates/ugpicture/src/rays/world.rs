@@ -99,10 +99,21 @@ impl World {
         Self { parts, n_inertial, planes, outside, triangles_of, boxes }
     }
 
-    /// All triangles, with the rows of their parts.
+    /// All triangles, with the rows of their parts; of a round face one of its corners.
     pub fn triangles(&self) -> impl Iterator<Item = (usize, &FaceTriangle)> {
         let parts = self.parts.iter().enumerate();
         parts.flat_map(|(row, part)| part.triangles.iter().map(move |triangle| (row, triangle)))
+    }
+
+    /// The unit normal on the outside of an inertial face where a ray meets it, in the rest
+    /// frame.
+    #[inline]
+    pub fn outside_at(&self, ray: &PastRay, found: &Intersection) -> DVec3 {
+        let part = &self.parts[found.part];
+        match part.round_surface(found, ray.in_part(found.part, &part.frame)) {
+            Some((_, outside)) => outside,
+            None => self.outside[found.triangle.face as usize],
+        }
     }
 
     /// The latest event of the past at which light that follows the ray left a face, (P22), for
@@ -359,6 +370,20 @@ impl World {
                 part.closest(faces, row, DVec3::ZERO, step, found.s..end).or(*best)
             };
         }
+        if part.rounds.len() == 0 {
+            return;
+        }
+        for (&idx, &direction) in rows.iter().zip(&*directions) {
+            let best = &mut first[idx];
+            let end = match best {
+                Some(best) if row < best.part => best.s.next_up(),
+                Some(best) => best.s,
+                None => range.end,
+            };
+            let ray = ugbvh::Ray { origin: DVec3::ZERO, direction };
+            let found = part.closest_round(row, &ray, range.start..end);
+            *best = found.or(*best);
+        }
     }
 
     /// False if a ray in the rest frame of a part misses it.
@@ -395,13 +420,15 @@ impl World {
                 return ControlFlow::Continue(());
             }
             let ray = ugbvh::Ray { origin, direction: step };
-            part.bvh.visit(&ray, part.range(step, range.clone()), |hit| {
+            let range = part.range(step, range.clone());
+            part.bvh.visit(&ray, range.clone(), |hit| {
                 let found = part.intersection(row, hit);
                 if found.triangle.is_loose && !part.is_inside(faces, &found) {
                     return ControlFlow::Continue(());
                 }
                 visit_any(found)
-            })
+            })?;
+            part.rounds.visit(&ray, range, |s, round| visit_any(part.round_intersection(row, s, round)))
         };
         let inertial = match self.boxes_for(ray, &range) {
             None => (0..self.n_inertial).try_for_each(&mut visit),

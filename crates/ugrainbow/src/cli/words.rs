@@ -7,7 +7,7 @@ use crate::Error;
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
-            Self::Scene(_) | Self::Empty => "{}",
+            Self::Scene(_) | Self::Empty | Self::TooManyPolygons(_) => "{}",
             Self::Picture(error) => return error.words(),
             Self::Stage(error) => return error.words(),
             Self::Sky(error) => return error.words(),

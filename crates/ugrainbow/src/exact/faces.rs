@@ -23,7 +23,7 @@ pub struct Faces<'a, const N: usize> {
     outlines: Outlines,
     /// Of each shape of the outlines.
     looks: Vec<Look>,
-    /// Faces of bodies that accelerate or turn.
+    /// Round faces, and those of bodies that accelerate or turn.
     moving: Option<MovingFaces<'a>>,
     /// How many faces are left after clipping.
     pub clip_counts: ClipCounts,
@@ -45,7 +45,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         let tile = [size[0], painter.grid.bands().sample_rows()];
         let outlines =
             Outlines::new(faces, painter.view, Tiles { size, start: [0; 2], tile, margin: 0 }, |face| {
-                surface.frames().world_line(face.body).is_none() && is_drawn(face)
+                !face.shape.is_round() && surface.frames().world_line(face.body).is_none() && is_drawn(face)
             });
         let look = |shape: &OutlinedFace| {
             Look::new(&painter, Some(outlines.frame(shape)), &painter.scene.faces[shape.item as usize])

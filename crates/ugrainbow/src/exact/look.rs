@@ -97,10 +97,14 @@ impl Triangle {
 }
 
 impl Look {
-    /// The appearance of `face`. `frame`: rays in its rest frame; `None` on a world line.
+    /// The appearance of `face`. `frame`: rays in its rest frame; `None` on a world line, or for a
+    /// round face.
     pub fn new(painter: &Painter<'_>, frame: Option<&PictureRays>, face: &Face) -> Self {
         let (appearance, lighting) = (painter.appearance, painter.lighting);
-        let is_moving = frame.is_none_or(|frame| !frame.velocity.is_zero());
+        let is_moving = match frame {
+            Some(frame) => !frame.velocity.is_zero(),
+            None => appearance.surface.frames().is_moving(face.body),
+        };
         let mut colors = appearance.face_colors_in_motion(painter.scene, face, is_moving);
         let texture = face.color.filter(|_| painter.textures.has(face.color));
         if texture.is_some() && !appearance.is_spectral() {
@@ -127,7 +131,7 @@ impl Look {
         let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
         let (keeps_light, is_light) = (colors.mixing != Mixing::Hue, colors.mixing == Mixing::Light);
         let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && lighting.is_colored();
-        // A body on a world line turns.
+        // A body on a world line turns, and a round face has all normals.
         let has_directions = (has_normals || frame.is_none()) && lighting.needs_geometry();
         let is_even = has_level || !(lighting.needs_places() || has_directions);
         let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)

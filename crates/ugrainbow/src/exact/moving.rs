@@ -1,4 +1,5 @@
-//! Faces of bodies that accelerate, spin or orbit: their hits are found along each ray.
+//! Round faces, and faces of bodies that accelerate, spin or orbit: their hits are found along each
+//! ray.
 
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
@@ -14,7 +15,7 @@ use ugscene::{Face, VertexId, shading_normal};
 use super::look::{Look, mean};
 use crate::painter::Painter;
 
-/// The faces of a scene that are on world lines.
+/// The faces of a scene that are round or on world lines.
 pub struct MovingFaces<'a> {
     painter: Painter<'a>,
     world: World,
@@ -26,7 +27,9 @@ impl<'a> MovingFaces<'a> {
     /// Those for which `is_drawn` returns true; `None` if there are none.
     pub fn new(painter: Painter<'a>, planes: &[u32], is_drawn: impl Fn(&Face) -> bool) -> Option<Self> {
         let (scene, surface) = (painter.scene, &painter.appearance.surface);
-        let is_traced = |face: &Face| surface.frames().world_line(face.body).is_some() && is_drawn(face);
+        let is_found_by_rays =
+            |face: &Face| face.shape.is_round() || surface.frames().world_line(face.body).is_some();
+        let is_traced = |face: &Face| is_found_by_rays(face) && is_drawn(face);
         // The text of a scene is below 4 GiB, so row numbers fit.
         let faces = (0..).zip(&scene.faces).filter(|(_, face)| is_traced(face));
         let looks: BTreeMap<u32, Look> =
@@ -96,7 +99,7 @@ impl<'a> MovingFaces<'a> {
         let Painter { scene, appearance, .. } = self.painter;
         let face = found.triangle.face;
         let Some(line) = appearance.surface.frames().world_line(scene.faces[face as usize].body) else {
-            return (Swatch::WHITE, DVec3::ZERO);
+            return self.round_shaded::<SPECTRAL>(ray, found);
         };
         let (corners, weights, own_time) = (found.triangle.corners, found.weights(), found.own_time);
         let place = mean(weights, corners.map(|corner| appearance.surface.rest(corner)));
@@ -132,6 +135,22 @@ impl<'a> MovingFaces<'a> {
             // It is lit as it stands in the scene if it only turned.
             let (place, turn) = line.standing(place, own_time);
             [place, turn * normal, DVec3::ZERO]
+        })
+    }
+
+    /// The same on a round face of an inertial body.
+    fn round_shaded<const SPECTRAL: bool>(&self, ray: &PastRay, found: &Intersection) -> (Swatch, DVec3) {
+        let face = found.triangle.face;
+        let frame = &self.world.parts[found.part].frame;
+        let at = ray.in_part(found.part, frame);
+        let Some((place, outside)) = self.world.parts[found.part].round_surface(found, at) else {
+            return (Swatch::WHITE, DVec3::ZERO);
+        };
+        let stretch = frame.wave_to_rest(ray.wave).frequency;
+        self.looks[&face].shaded::<SPECTRAL>(&self.painter, (None, || None), stretch, || {
+            let seen = if outside.dot(at.1) <= 0.0 { outside } else { -outside };
+            let body = self.painter.scene.faces[face as usize].body;
+            [place, seen, self.painter.appearance.surface.frames().lamp_shift(body)]
         })
     }
 }

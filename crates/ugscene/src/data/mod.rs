@@ -9,6 +9,7 @@ mod motion;
 mod names;
 mod remarks;
 mod scene;
+mod shape;
 mod stage;
 mod surface;
 mod texture;
@@ -25,6 +26,7 @@ pub use scene::{
     Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
     Shading, StatedSky, Tint, Vertex, Wire,
 };
+pub use shape::{FaceShape, RoundShape};
 pub use stage::{
     ColorScale, ColorStage, GeometryStage, HueScale, MixtureNames, SeenColors, SeenGeometry, Stage,
 };

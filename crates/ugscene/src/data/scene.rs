@@ -21,6 +21,7 @@ use super::contours::Contours;
 use super::ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 use super::names::Names;
 use super::remarks::Remarks;
+use super::shape::{FaceShape, RoundShape};
 use super::stage::{HueScale, Stage};
 use super::surface::SurfaceProperties;
 use super::texture::Texture;
@@ -211,7 +212,7 @@ impl Vertex {
     }
 }
 
-/// A planar polygon, with holes if it has more than one contour (even-odd rule).
+/// A planar polygon, with holes if it has more than one contour (even-odd rule), or a round shape.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Face {
     /// Its name, if it has one; need not be unique.
@@ -225,6 +226,8 @@ pub struct Face {
     pub shading: Option<ShadingId>,
     /// The body it is part of.
     pub body: BodyId,
+    /// What its contours determine.
+    pub shape: FaceShape,
 }
 
 /// The light level or surface of a face.
@@ -363,6 +366,34 @@ impl Scene {
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(face.contours.clone())
+    }
+
+    /// The shape of a round face whose vertices are at these positions; `None` for a polygon.
+    pub fn round_shape(&self, face: &Face, position: impl Fn(VertexId) -> DVec3) -> Option<RoundShape> {
+        if !face.shape.is_round() {
+            return None;
+        }
+        let corners = self.contours.corners(face.contours.clone());
+        let corners: Vec<DVec3> = corners.iter().map(|&corner| position(corner)).collect();
+        RoundShape::from_corners(face.shape, &corners)
+    }
+
+    /// The shapes of all round faces in the scene, with their bodies.
+    pub fn rounds(&self) -> impl Iterator<Item = (BodyId, RoundShape)> {
+        self.faces.iter().filter_map(|face| {
+            Some((face.body, self.round_shape(face, |vertex| self.vertices[vertex.index()].position)?))
+        })
+    }
+
+    /// True if a face is round.
+    pub fn has_rounds(&self) -> bool {
+        self.faces.iter().any(|face| face.shape.is_round())
+    }
+
+    /// True if a face is round whose body accelerates, turns or runs on a circle. There, rays are
+    /// curves, which programs follow to polygons only.
+    pub fn has_rounds_on_world_lines(&self) -> bool {
+        self.faces.iter().any(|face| face.shape.is_round() && self.bodies.is_on_world_line(face.body))
     }
 
     /// The parts of a colour that is a mixture where colours are spectra; else nothing.

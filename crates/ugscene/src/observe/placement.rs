@@ -150,8 +150,8 @@ fn eye_shift(motion: &RelativeMotion, observer: &Observer, time: f64) -> DVec3 {
     }
 }
 
-/// The centre of the bounding box of each body, in scene coordinates: of its vertices, or of its
-/// lamps if it has no vertices.
+/// The centre of the bounding box of each body, in scene coordinates: of its vertices and round
+/// faces, or of its lamps if it has neither.
 pub(super) fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     const EMPTY: (DVec3, DVec3) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): &mut (DVec3, DVec3), position: DVec3| {
@@ -162,6 +162,9 @@ pub(super) fn centers(scene: &Scene, bodies: &[BodyId]) -> Vec<DVec3> {
     let mut lamp_boxes = boxes.clone();
     for (vertex, body) in scene.vertices.iter().zip(bodies) {
         grow(&mut boxes[body.index()], vertex.position);
+    }
+    for (body, round) in scene.rounds() {
+        round.bounds().into_iter().for_each(|corner| grow(&mut boxes[body.index()], corner));
     }
     for light in &scene.lights {
         if let LightKind::Local { position, .. } = light.kind {

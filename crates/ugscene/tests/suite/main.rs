@@ -10,6 +10,7 @@ mod default_camera;
 mod geometry;
 mod history;
 mod normals;
+mod rounds;
 mod view;
 
 use ugscene::{Scene, shorten};

@@ -311,7 +311,7 @@ fn the_brightest_light_is_a_number() {
 #[test]
 fn infrared_and_ultraviolet_light_is_seen_in_motion() {
     let sky = |level: f64| panorama(256, move |_| [level; 3]);
-    let band = |range_nm, level| Band { range_nm, panorama: sky(level) };
+    let band = |range_nm, level| Band { range_nm, basis: Basis::Grey, panorama: sky(level) };
     let shift = ColorShift::spectra(true, true);
     let config = Config { shift, ..geometry(ahead(0.6), [64, 32], Lens::Panorama) };
     let seen = |visible: f64, bands: &[Band]| {

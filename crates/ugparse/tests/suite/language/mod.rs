@@ -10,6 +10,7 @@ mod files;
 mod limits;
 mod paths;
 mod round_trip;
+mod rounds;
 mod scopes;
 mod stage;
 mod statements;

@@ -1,0 +1,87 @@
+//! `sphere`, `cylinder`, `tube` and `disc`.
+
+use glam::{DMat3, DVec3};
+use ugscene::{FaceShape, RoundShape};
+
+use super::{Grammar, number_from, zero_vector};
+use crate::statement::{References, Statement};
+use crate::token::{Input, Parsed, Reason, blank, fail, point, require};
+
+impl Grammar<'_> {
+    /// `sphere [ID] x y z radius …`, `cylinder [ID] x y z x y z radius …` and `tube` alike,
+    /// `disc [ID] x y z nx ny nz radius …`; or with contours in place of the numbers
+    pub(super) fn round<'a>(
+        &self,
+        shape: FaceShape,
+        input: Input<'a>,
+        references: &mut References,
+    ) -> Parsed<'a, Statement> {
+        let (input, name) = self.optional_name(input)?;
+        let at = blank(input)?.0;
+        if at.starts_with(b"(") {
+            let (rest, ()) = self.contours(input, references)?;
+            let numbers = references.contours().map(|contour| contour.len());
+            if !numbers.eq(shape.corners_of_contours().iter().copied()) {
+                return fail(at, Reason::Impossible(1, "this is not the number of vertices", CONTOURS));
+            }
+            return self.behind_shape(rest, name, shape, None);
+        }
+        references.clear();
+        let (input, origin) = require(point(input))?;
+        let end = blank(input)?.0;
+        let (input, second) = match shape {
+            FaceShape::Sphere => (input, DVec3::Z),
+            _ => require(point(input))?,
+        };
+        let radius_at = blank(input)?.0;
+        let radius = number_from(f64::MIN_POSITIVE, f64::INFINITY, "a radius is above 0");
+        let (input, radius) = require(radius(input))?;
+        let axis =
+            if matches!(shape, FaceShape::Cylinder | FaceShape::Tube) { second - origin } else { second };
+        let direction = ugphysics::unit_or_zero(axis);
+        if axis == DVec3::ZERO {
+            return fail(end, if shape == FaceShape::Disc { zero_vector(3) } else { NO_LENGTH });
+        }
+        let axes = match shape {
+            FaceShape::Sphere => DMat3::from_diagonal(DVec3::splat(radius)),
+            _ => {
+                let (a, b) = across(direction);
+                let along = if shape == FaceShape::Disc { radius * direction } else { axis };
+                DMat3::from_cols(radius * a, radius * b, along)
+            }
+        };
+        let round = RoundShape { shape, origin, axes };
+        // Positions are rounded: a shape that is too small far away is lost.
+        let placed = RoundShape::from_corners(shape, &round.corners());
+        let is_kept = |placed: RoundShape| (placed.stretch() / radius - 1.0).abs() < MOST_ROUNDED;
+        if !placed.is_some_and(is_kept) {
+            return fail(radius_at, OUT_OF_RANGE);
+        }
+        self.behind_shape(input, name, shape, Some(round))
+    }
+}
+
+/// Rounding may change a radius by this part of it.
+const MOST_ROUNDED: f64 = 1e-6;
+
+const CONTOURS: &str = "a sphere has contours of 3 and 3 vertices, a cylinder or tube of 4 and 4, a disc one \
+                        of 4; or give numbers, such as `sphere ball 0 0 1 0.5 ;`";
+
+const NO_LENGTH: Reason =
+    Reason::Impossible(3, "both ends of the axis are the same", "give two different points");
+
+const OUT_OF_RANGE: Reason = Reason::Impossible(
+    1,
+    "coordinates of this shape are lost in rounding, or too large",
+    "use a radius and coordinates of similar size",
+);
+
+/// Two unit vectors at right angles to a unit vector and to each other, in axes of the scene if it
+/// is along one of them; the three are right-handed.
+fn across(direction: DVec3) -> (DVec3, DVec3) {
+    let least = direction.abs().min_position();
+    let first = DVec3::AXES[least];
+    let second = ugphysics::unit_or_zero(direction.cross(first));
+    let a = ugphysics::unit_or_zero(second.cross(direction));
+    (a, direction.cross(a))
+}
