@@ -9,7 +9,7 @@ use ugphysics::{Hsv, length, srgb_encode, unit_or_zero, xyz_to_linear_srgb};
 use ugscene::{ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
 
 use crate::color::shown_light;
-use crate::{ColorForm, color_form, hsv, spectrum};
+use crate::{ColorForm, Irradiance, color_form, hsv, spectrum};
 
 /// The intensity of the ambient light in a scene without lights.
 pub const DEFAULT_AMBIENT: f64 = 0.3;
@@ -43,6 +43,9 @@ pub struct Lamp {
     pub table: Option<Arc<LampTable>>,
     /// The row of the lamp that has this colour for a time, if it is a colour of a [`LampTable`].
     pub color_of: Option<u32>,
+    /// Rows of the lamps whose spectra, each with this level, add up to that of this lamp at level
+    /// 1. Empty unless it is a mixture.
+    pub mixture: Vec<(u32, f64)>,
 }
 
 /// The colours of a lamp over own time.
@@ -158,10 +161,32 @@ impl Lamps {
         self
     }
 
-    /// Lamps that are not in a scene.
-    pub fn of(all: Vec<Lamp>) -> Self {
-        let is_colored = all.iter().any(|lamp| lamp.is_colored);
-        Self { all, is_colored, is_daylight: !is_colored }
+    /// The same, followed by lamps that are not in the scene.
+    #[must_use]
+    pub fn and(mut self, others: Vec<Lamp>) -> Self {
+        let is_colored = others.iter().any(|lamp| lamp.is_colored);
+        self.all.extend(others);
+        Self {
+            is_colored: self.is_colored || is_colored,
+            is_daylight: self.is_daylight && !is_colored,
+            ..self
+        }
+    }
+
+    /// Adds light to that on a surface. With D_l = 1 light of a mixture is light of its parts, so
+    /// that of many lamps becomes that of few spectra.
+    pub fn collect(&self, part: Irradiance, light: &mut Vec<Irradiance>) {
+        let mixture = &self[part.lamp as usize].mixture;
+        if mixture.is_empty() || part.doppler != 1.0 {
+            return light.push(part);
+        }
+        for &(lamp, share) in mixture {
+            let level = share * part.level;
+            match light.iter_mut().find(|part| part.lamp == lamp) {
+                Some(part) => part.level += level,
+                None => light.push(Irradiance { lamp, level, ..part }),
+            }
+        }
     }
 
     /// As [`Lamps::new`]; in a scene without lights an ambient light ([`DEFAULT_AMBIENT`]) and one
@@ -252,15 +277,17 @@ impl Lamp {
             fall_off,
             table: None,
             color_of: None,
+            mixture: Vec::new(),
         }
     }
 
     /// A light at infinity. `toward`: a unit vector; `linear`: red, green and blue of its light on
-    /// a white surface across it; `kelvin`: of the black body that it is, if it is one.
+    /// a white surface across it; `spectrum`: that of its light, where colours are spectra; of a
+    /// black body the colour is that of the spectrum.
     pub fn afar(
         toward: DVec3,
         linear: DVec3,
-        kelvin: Option<f64>,
+        spectrum: &Spectrum,
         motion: LightMotion,
         is_spectral: bool,
     ) -> Lamp {
@@ -269,22 +296,24 @@ impl Lamp {
         if intensity <= 0.0 {
             return white;
         }
-        let spectrum = match kelvin {
-            Some(kelvin) => Spectrum::blackbody(kelvin, 1.0),
-            None => Spectrum::from_linear_srgb((linear / intensity).to_array()),
-        };
-        let linear = match kelvin {
-            Some(_) => intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO),
-            None => linear,
+        let linear = match spectrum.is_surface() {
+            false => intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO),
+            true => linear,
         };
         let encoded = (linear / linear.max_element()).to_array().map(srgb_encode);
         Lamp {
             color: DVec3::from(encoded) * intensity,
             linear,
             is_colored: Hsv::from_rgb(encoded).saturation > 0.0,
-            own_spectrum: is_spectral.then(|| LightSpectrum::new(&spectrum)),
+            own_spectrum: is_spectral.then(|| LightSpectrum::new(spectrum)),
             ..white
         }
+    }
+
+    /// The same with the [parts](Self::mixture) of its spectrum.
+    #[must_use]
+    pub fn mixed_of(self, mixture: Vec<(u32, f64)>) -> Lamp {
+        Self { mixture, ..self }
     }
 
     /// Its spectrum: daylight filtered by its colour, or the black body or samples that its colour

@@ -65,9 +65,7 @@ impl<'a> Shader<'a> {
         }
         let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
-        // Mirrors show a sky itself.
-        let exponent = (specular > 0.0 && scenery.sky_lamps.is_none())
-            .then(|| surface.map_or(0.0, |surface| surface.exponent));
+        let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, exponent, sample);
         let lit = |color: &SurfaceColor, light: &[Irradiance]| {
             let light = Illumination::Lamps(light, &scenery.lamps);
@@ -101,6 +99,8 @@ impl<'a> Shader<'a> {
         let has_shadows = scenery.has_lights() && scenery.rays.shadows;
         let mut add = |incident: IncidentLamp| {
             let Irradiance { level, lamp, .. } = incident.irradiance;
+            // Mirrors show a sky itself.
+            let exponent = exponent.filter(|_| (lamp as usize) < scenery.n_own_lamps);
             let is_wanted = has_shadows || exponent.is_some();
             let toward = incident.toward.filter(|_| is_wanted);
             let way = toward.map(|toward| LampWay::new(scenery, point, lamp, toward));
@@ -117,7 +117,7 @@ impl<'a> Shader<'a> {
             if part <= 0.0 {
                 return;
             }
-            diffuse.push(Irradiance { level: level * part, ..incident.irradiance });
+            scenery.lamps.collect(Irradiance { level: level * part, ..incident.irradiance }, diffuse);
             if let (Some(exponent), Some(LampWay { toward, .. })) = (exponent, way) {
                 let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
                 let cos = mirrored.dot(toward_eye).max(0.0);
