@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Camera, SurfaceProperties, Texture};
+use ugscene::{Beam, Camera, SurfaceProperties, Texture};
 
 use crate::source::Span;
 use crate::transform::Transform;
@@ -189,6 +189,7 @@ pub(crate) struct LightStatement {
     pub vector: Option<DVec3>,
     pub radius: Option<f64>,
     pub reference: Option<f64>,
+    pub beam: Beam,
     pub color: Option<Span>,
     pub motion: Option<MotionReference>,
 }

@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use uglight::{ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor};
 use ugphysics::{Event, WaveVector, srgb_encode};
+use ugscene::Beam;
 
 use crate::immersion::Crossing;
 use crate::media::{Media, Solid};
-use crate::sampling::disk_point;
+use crate::sampling::{disk_point, square_point};
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
 use ugpicture::rays::Corridor;
@@ -117,7 +118,7 @@ impl<'a> Shader<'a> {
             if part <= 0.0 {
                 return;
             }
-            scenery.lamps.collect(Irradiance { level: level * part, ..incident.irradiance }, diffuse);
+            Irradiance { level: level * part, ..incident.irradiance }.add_to(diffuse, &scenery.lamps);
             if let (Some(exponent), Some(LampWay { toward, .. })) = (exponent, way) {
                 let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
                 let cos = mirrored.dot(toward_eye).max(0.0);
@@ -129,11 +130,12 @@ impl<'a> Shader<'a> {
         };
         let lamp_shift = scenery.appearance.surface.frames().lamp_shift(element.body);
         let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
+            _ if matches!(lamp.beam, Beam::Area(_)) => Some(lamp.place_on(square_point(sample, row as u64))),
             (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
                 let toward = ugphysics::unit_or_zero(shifted - seen_from(scenery, point, row));
-                LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64))
+                Some(LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64)))
             }
-            (place, _) => place,
+            _ => None,
         };
         let frames = scenery.appearance.surface.frames();
         for rows in scenery.lamps_of(sample) {
