@@ -146,12 +146,14 @@ impl DopplerTable {
 /// Points of a [`LazyTable`] that are allocated together.
 const CHUNK: usize = 16;
 
+type Chunk = Box<[OnceLock<[f64; 3]>; CHUNK]>;
+
 /// As a [`DopplerTable`], of any X, Y, Z; points are computed when they are first read.
 #[derive(Debug)]
 pub struct LazyTable {
     first: i32,
     n_points: usize,
-    chunks: Box<[OnceLock<Box<[OnceLock<[f64; 3]>; CHUNK]>>]>,
+    chunks: Box<[OnceLock<Chunk>]>,
 }
 
 impl LazyTable {
