@@ -1,4 +1,4 @@
-//! Lamps that shine in a cone or from an area (P14).
+//! Lamps that shine in a cone, from an area (P14), or in glass (P24).
 
 use glam::DVec3;
 use ugphoton::{CameraOptions, PictureOptions};
@@ -65,7 +65,7 @@ fn a_large_area_has_the_irradiance_of_lamberts_formula() {
     let (center, normal) = (DVec3::new(9.0, 0.0, 0.0), -DVec3::X);
     let surface = square(DVec3::ZERO, DVec3::X, None, "white");
     for (distance, side, aside, of_points) in
-        [(1.0, 4.0, 0.0, 0.1), (2.0, 1.0, 0.4, 3e-4), (1.0, 1.0, 0.2, 5e-3)]
+        [(1.0, 4.0, 0.0, 0.6), (2.0, 1.0, 0.4, 3e-4), (1.0, 1.0, 0.2, 5e-3)]
     {
         let at = center + distance * normal + aside * DVec3::Y;
         let corner = |y: f64, z: f64| at + 0.5 * side * DVec3::new(0.0, y, z) - center;
@@ -208,5 +208,38 @@ fn beams_are_statements() {
     ] {
         let found = parse(text).unwrap_err().to_string();
         assert!(found.contains(expected), "{text}: {found}");
+    }
+}
+
+/// A lamp, a surface and the eye at rest in glass: a flash is seen after N times the length of its way.
+/// Without the glass, and with a lamp outside of it, it is not slowed.
+#[test]
+fn a_flash_in_glass_is_slowed() {
+    let corners = "v c0 -20 -20 -20; v c1 20 -20 -20; v c2 20 20 -20; v c3 -20 20 -20;
+                   v c4 -20 -20 20; v c5 20 -20 20; v c6 20 20 20; v c7 -20 20 20;";
+    let faces = "f (c3 c2 c1 c0) white glass; f (c4 c5 c6 c7) white glass; f (c0 c1 c5 c4) white glass;
+                 f (c1 c2 c6 c5) white glass; f (c2 c3 c7 c6) white glass; f (c3 c0 c4 c7) white glass;";
+    let solid = format!("surf glass 0 0 1 1.5;\n{corners}\n{faces}");
+    let surface = square(DVec3::ZERO, DVec3::X, None, "white");
+    for (glass, lamp, way) in
+        [("", 7.0, 11.0), (&solid[..], 7.0, 1.5 * 11.0), (&solid, -21.0, 1.5 * 9.0 + 30.0)]
+    {
+        let text = format!(
+            "c white 1; c black 0; c_time flash -step -1e3 black 0 white;\n{glass}\n{surface}
+             l 1 {lamp} 0 0 0 flash <0 0 0>;"
+        );
+        let lit = |time: f64| {
+            let camera = CameraOptions {
+                eye: Some(DVec3::ZERO),
+                center: Some(DVec3::X),
+                view_angle: Some((1e-5, None)),
+                ..CameraOptions::default()
+            };
+            let picture = PictureOptions { size: [1, 1], samples: 1, camera, ..PictureOptions::default() };
+            let motion = ugphoton::MotionOptions { time, ..Default::default() };
+            let config = ugphoton::Config { picture, motion, ..ugphoton::Config::default() };
+            ugphoton::light(scenes::parse(text.as_bytes()), &config).unwrap().pixels()[0][1] > 0.1
+        };
+        assert!(!lit(way - 0.01) && lit(way + 0.01), "{lamp} {way}");
     }
 }

@@ -96,19 +96,20 @@ impl SurfaceElement {
     #[must_use]
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
-        self.for_each_incident(lamps, frames, |_, _| None, |incident| all.push(incident.irradiance));
+        self.for_each_incident(lamps, frames, |_, _| (None, 1.0), |incident| all.push(incident.irradiance));
         all
     }
 
     /// Calls `visit` with the light of each lamp, in their order; not with those behind the
     /// surface. Moving ambient light is visited several times, once for each ring of the sky.
     /// `place`: returns a place of a lamp, from its row and itself, which stands for all of it; with
-    /// `None` it is several ([`Lamp::places`]).
+    /// `None` it is several ([`Lamp::places`]); and the refractive index of the medium between, in
+    /// which both rest, or 1.
     pub fn for_each_incident(
         &self,
         lamps: &[Lamp],
         frames: &RestFrames,
-        place: impl Fn(usize, &Lamp) -> Option<LampPlace>,
+        place: impl Fn(usize, &Lamp) -> (Option<LampPlace>, f64),
         mut visit: impl FnMut(IncidentLamp),
     ) {
         let (shift, standing) = (frames.lamp_shift(self.body), self.standing(frames));
@@ -116,12 +117,13 @@ impl SurfaceElement {
         let moving = if any_moves { MovingElement::new(self, frames) } else { None };
         // Those that follow are colours of lamps that change.
         for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
-            let sampled = place(row, lamp).map(|place| (place, 1.0));
+            let (sampled, index) = place(row, lamp);
+            let sampled = sampled.map(|place| (place, 1.0));
             let all = lamp.places().filter(|_| sampled.is_none()).chain(sampled);
             for (place, share) in all {
                 let place = lamp.shifted(place, shift);
                 let colors = match &lamp.table {
-                    Some(table) => match self.time_of(lamp, place, frames, moving.as_ref()) {
+                    Some(table) => match self.time_of(lamp, place, frames, moving.as_ref(), index) {
                         Some(own_time) => Some(table.at(own_time)),
                         None => continue,
                     },
@@ -175,7 +177,7 @@ impl SurfaceElement {
     #[must_use]
     pub fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
         let moving = MovingElement::new(self, frames);
-        self.time_of(lamp, place, frames, moving.as_ref())
+        self.time_of(lamp, place, frames, moving.as_ref(), 1.0)
     }
 
     fn time_of(
@@ -184,11 +186,12 @@ impl SurfaceElement {
         place: LampPlace,
         frames: &RestFrames,
         moving: Option<&MovingElement<'_>>,
+        index: f64,
     ) -> Option<f64> {
         let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
         if let (None, ScatteringTime::Delay(delay)) = (self.moving_body(lamp, frames), self.time) {
             let (_, distance) = self.direction_at_rest(place)?;
-            return Some(delay - ugphysics::length(self.point) - distance);
+            return Some(delay - ugphysics::length(self.point) - index * distance);
         }
         let event = moving?.event();
         match frames.world_line(own) {

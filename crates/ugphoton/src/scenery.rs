@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
@@ -63,6 +63,8 @@ pub struct Scenery<'a> {
     sky_lamps: Option<SkyLamps>,
     /// The number of the others, those of a scene, with their colours over time.
     pub n_own_lamps: usize,
+    /// For each lamp of the scene, the solid that it is in and rests with. Empty if no lamp is.
+    lamp_media: Vec<Option<Solid>>,
     /// Samples in a row of the picture, and along a side of a pixel.
     grid: [u32; 2],
     /// True if a transparent solid absorbs light.
@@ -178,6 +180,22 @@ impl<'a> Scenery<'a> {
         };
         let lamps = lamps.over_time(&scene, view.eye, is_spectral);
         let n_own_lamps = lamps.len();
+        let lamp_media = lamps[..n_own_lamps].iter().map(|lamp| {
+            let LampPlace::At(place) = lamp.place else { return None };
+            let velocity = lamp.motion.body().map(|body| appearance.surface.frames().velocity(body));
+            (0..world.parts.len()).find_map(|part| {
+                let frame = &world.parts[part].frame;
+                let rests =
+                    world.parts[part].motion.is_none() && velocity.is_none_or(|v| v == frame.velocity());
+                let event = || frame.camera_from_rest(Event { t: -place.length(), x: place });
+                let inside = rests.then(|| immersion.media(&world, faces, event()).innermost());
+                inside.flatten().filter(|solid| solid.part == part)
+            })
+        });
+        let mut lamp_media: Vec<Option<Solid>> = lamp_media.collect();
+        if lamp_media.iter().all(Option::is_none) {
+            lamp_media.clear();
+        }
         let (lamps, appearance) = match (&sky_lamps, sky_motion) {
             (Some(sky), Some(motion)) => {
                 let lamps = lamps.and(lamps_of_sky(sky, n_own_lamps, motion, is_spectral));
@@ -203,6 +221,7 @@ impl<'a> Scenery<'a> {
             sky,
             sky_lamps,
             n_own_lamps,
+            lamp_media,
             grid: [width * samples, *samples],
             has_absorption,
             appearance,
@@ -235,6 +254,19 @@ impl<'a> Scenery<'a> {
         let set = sky.set((sample / across % n * n + sample % across % n) as usize);
         let n_before = own.end + sky.stars.len();
         [own.clone(), own.end..n_before, n_before + set.start..n_before + set.end]
+    }
+
+    /// The refractive index of the solid between a lamp and a surface of `part`, if they rest in one
+    /// and the same; otherwise 1. `before`: the solid before the surface.  Eq. (P24)
+    pub fn index_before(&self, lamp: usize, before: Option<Solid>, part: usize) -> f64 {
+        let Some(solid) =
+            before.filter(|_| self.lamp_media.get(lamp).is_some_and(|of_lamp| *of_lamp == before))
+        else {
+            return 1.0;
+        };
+        let [one, other] = [&self.world.parts[part], &self.world.parts[solid.part]];
+        let rests = one.motion.is_none() && one.frame.velocity() == other.frame.velocity();
+        if rests { self.properties(solid.surface).refraction } else { 1.0 }
     }
 
     /// The faces.
