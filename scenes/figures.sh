@@ -199,14 +199,15 @@ shine chang-14a-in-0.99c -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 street.ug
 shine chang-14b-out-0.99c -vel 0 .99 0 -ep 0 -250 3 -vc 0 23 10 -ex 6 street.ug
 shine chang-16-lights-at-rest -vel 0 -.99 0 -ep 0 40 3 -ex -1.55 "$out/rows/street-lights-at-rest.ug"
 
-# Figure 17: three narrow bands around 460, 540 and 600 nm, at 0.5c from left to right, later
+# Figure 17: a surface that reflects three narrow bands around 460, 540 and 600 nm, under lamps with
+# the same power at every wavelength, at 0.5c from left to right, later
 # pictures below: blueshifted when approaching, redshifted when receding. Each row has its own
 # exposure.
-bands='c_spd 455 0 460 2 465 0 535 0 540 4.5 545 0 595 0 600 6.5 605 0 ;'
+bands='c_refl 452 0 460 .3 468 0 532 0 540 .7 548 0 592 0 600 1 608 0 ; c_spd even 100 1 10000 1 ;'
 rows=()
 for time in 00 09 17 28; do
     row=$out/rows/bands-$time.png
-    sed "s/^c .*/$bands/" teapot.ug | uglorentz -vel .5 0 0 -ti $time | ugdoppler -qt -sp -ir |
+    sed "s/^c .*/$bands/; s/^\(l .*\);/\1 even ;/" teapot.ug | uglorentz -vel .5 0 0 -ti $time | ugdoppler -qt -sp -ir |
         ugrainbow -qt "${backdrop[@]}" -va 90 -sz "$width" $((height / 4 - 3)) -fo "$row"
     rows+=("$row")
 done

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test fails by panicking, its helpers too")]
 
 mod acceleration;
+mod avenue;
 mod determinism;
 mod docs;
 mod exact;

@@ -328,6 +328,61 @@ fn skies_without_a_file_light_a_level_surface_white() {
     assert!((brightest.magnitude + 1.44).abs() < 0.05 && (brightest.direction.z + 0.287).abs() < 0.01);
 }
 
+/// A sky and the lamps of a scene add up, with and without spectra; the option leaves the lamps.
+#[test]
+fn a_sky_and_lamps_light_a_scene_together() {
+    let square = "c red .9 10 .9; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0; f (a b c d) red;
+                  cam -ep 0 -3 5 -vc 0 0 0 -va 20;";
+    let lamp = "c warm .9 40 .5; l .7 1 -2 3 warm; l .2;";
+    for shift in [ColorShift::hues(true, ugphysics::Brightness::Bolometric), ColorShift::SPECTRA] {
+        let light = |lamp: &str, sky: Option<BuiltIn>, sky_light: bool| {
+            let picture = PictureOptions { size: [1, 1], samples: 4, ..PictureOptions::default() };
+            let sky = sky.map_or_else(SceneSky::default, |sky| sky.open().into());
+            let mut config = ugphoton::Config { picture, shift, sky, ..Default::default() };
+            config.rays.sky_light = sky_light;
+            let pixel = ugphoton::light(parsed(&format!("{square}{lamp}")), &config).unwrap().pixels()[0];
+            [pixel[0], pixel[1], pixel[2]].map(f64::from)
+        };
+        let dusk = Some(BuiltIn::Dusk);
+        let [of_lamp, of_sky, both] =
+            [light(lamp, None, true), light("", dusk, true), light(lamp, dusk, true)];
+        assert!((0..3).all(|c| (of_lamp[c] + of_sky[c] - both[c]).abs() < 1e-3 * both[c]), "{both:?}");
+        assert_eq!(light(lamp, dusk, false), of_lamp);
+        assert_eq!(light("", dusk, false), light("", None, true));
+    }
+}
+
+/// The light of a sky is the same from tables, which scenes of many colours go without, and beside it
+/// while a surface begins to move, when each point of the sky is integrated on its own.
+#[test]
+fn spectra_of_a_sky_are_tabulated_and_mixed_without_loss() {
+    let square = "c red .9 10 .9; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0;
+                  cam -ep 0 -3 5 -vc 0 0 0 -va 20;";
+    let colors: String = (0..5000).map(|idx| format!("c many{idx} .5;")).collect();
+    let light = |colors: &str, of_square: f64, of_camera: f64| {
+        let text = format!("{colors}{square} f (a b c d) red <0 {of_square} 0>;");
+        let motion = MotionOptions {
+            camera_velocity: Some(DVec3::Y * of_camera),
+            in_place: true,
+            ..MotionOptions::default()
+        };
+        let picture = PictureOptions { size: [2, 2], samples: 4, ..PictureOptions::default() };
+        let sky = BuiltIn::Dusk.open().into();
+        let config =
+            ugphoton::Config { motion, picture, shift: ColorShift::SPECTRA, sky, ..Default::default() };
+        ugphoton::light(parsed(&text), &config).unwrap()
+    };
+    for [many, moved, of_camera] in [[1.0, 0.0, 0.5], [1.0, 0.0, -0.6], [0.0, 1e-5, 0.0], [0.0, 1e-5, 0.4]] {
+        let one = light("", 0.0, of_camera);
+        let other = light(if many > 0.0 { &colors } else { "" }, moved, of_camera);
+        for (one, other) in one.pixels().iter().zip(other.pixels()) {
+            let largest = one.iter().fold(0.0, |most: f32, part| most.max(*part));
+            let error = (0..3).map(|c| (one[c] - other[c]).abs() / largest).fold(0.0, f32::max);
+            assert!(error < 1e-3, "{many} {moved} {of_camera}: {one:?} {other:?}");
+        }
+    }
+}
+
 /// The ground is at the lowest point, rests while the scene moves, and is in the shadow below it.
 #[test]
 fn a_stage_rests_below_the_scene() {

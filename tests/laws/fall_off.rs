@@ -9,12 +9,12 @@ use ugtests::scenes;
 
 use super::linear_light::{ENGINES, Engine, WITH_MOVING_LAMPS, assert_light, place, seen, square};
 
-fn point(p: DVec3) -> String {
+pub fn point(p: DVec3) -> String {
     format!("{:?} {:?} {:?}", p.x, p.y, p.z)
 }
 
 /// The boost from the rest frame of a body with velocity `v`; events are (x, y, z, t).
-fn boost(v: DVec3) -> DMat4 {
+pub fn boost(v: DVec3) -> DMat4 {
     let speed = v.length();
     let (gamma, axis) = (1.0 / (1.0 - speed * speed).sqrt(), v / speed);
     let column = |unit: DVec3| (unit + (gamma - 1.0) * unit.dot(axis) * axis).extend(gamma * unit.dot(v));

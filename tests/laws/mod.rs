@@ -2,6 +2,7 @@
 //!
 //! Numbers named T08, T11… are facts listed at the end of `docs/physics.md`.
 
+mod beams;
 mod colours;
 mod culling;
 mod directions;

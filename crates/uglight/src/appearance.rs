@@ -98,6 +98,13 @@ impl Appearance {
         self
     }
 
+    /// The same with tables for the light of that many lamps; see [`Appearance::light`].
+    #[must_use]
+    pub fn with_tables(mut self, n_lamps: usize) -> Self {
+        self.spectra = self.spectra.map(|spectra| spectra.with_tables(n_lamps));
+        self
+    }
+
     /// The same with the linear light of hues clipped to white, as in 1988.
     #[must_use]
     pub fn clipped(self) -> Self {

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 use ugphysics::{
-    Event, SkyRing, Velocity, ambient_illumination, compose, illumination, illumination_along,
+    Event, Pose, SkyRing, Velocity, ambient_illumination, compose, illumination, illumination_along,
     illumination_at, illumination_from_afar,
 };
 use ugscene::{BodyId, RestFrames};
@@ -48,6 +48,24 @@ pub struct Irradiance {
     pub doppler: f64,
 }
 
+impl Irradiance {
+    /// Adds it to the light on a surface. With D_l = 1 light of a mixture is light of its parts, so
+    /// that of many lamps becomes that of few spectra.
+    pub fn add_to(self, light: &mut Vec<Irradiance>, lamps: &[Lamp]) {
+        let mixture = &lamps[self.lamp as usize].mixture;
+        if mixture.is_empty() || self.doppler != 1.0 {
+            return light.push(self);
+        }
+        for &(lamp, share) in mixture {
+            let level = share * self.level;
+            match light.iter_mut().find(|part| part.lamp == lamp) {
+                Some(part) => part.level += level,
+                None => light.push(Irradiance { lamp, level, ..self }),
+            }
+        }
+    }
+}
+
 /// Light of a lamp on a surface, and where it comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IncidentLamp {
@@ -78,18 +96,20 @@ impl SurfaceElement {
     #[must_use]
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
-        self.for_each_incident(lamps, frames, |_, lamp| lamp.place, |incident| all.push(incident.irradiance));
+        self.for_each_incident(lamps, frames, |_, _| (None, 1.0), |incident| all.push(incident.irradiance));
         all
     }
 
     /// Calls `visit` with the light of each lamp, in their order; not with those behind the
     /// surface. Moving ambient light is visited several times, once for each ring of the sky.
-    /// `place`: returns that of a lamp and its row; a lamp that is not a point has many.
+    /// `place`: returns a place of a lamp, from its row and itself, which stands for all of it; with
+    /// `None` it is several ([`Lamp::places`]); and the refractive index of the medium between, in
+    /// which both rest, or 1.
     pub fn for_each_incident(
         &self,
         lamps: &[Lamp],
         frames: &RestFrames,
-        place: impl Fn(usize, &Lamp) -> LampPlace,
+        place: impl Fn(usize, &Lamp) -> (Option<LampPlace>, f64),
         mut visit: impl FnMut(IncidentLamp),
     ) {
         let (shift, standing) = (frames.lamp_shift(self.body), self.standing(frames));
@@ -97,34 +117,40 @@ impl SurfaceElement {
         let moving = if any_moves { MovingElement::new(self, frames) } else { None };
         // Those that follow are colours of lamps that change.
         for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
-            let place = lamp.shifted(place(row, lamp), shift);
-            let colors = match &lamp.table {
-                Some(table) => match self.time_of(lamp, place, frames, moving.as_ref()) {
-                    Some(own_time) => Some(table.at(own_time)),
-                    None => continue,
-                },
-                None => None,
-            };
-            let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
-                if level <= 0.0 {
-                    return;
-                }
-                let lamp = row as u32;
-                let whole = IncidentLamp { irradiance: Irradiance { lamp, level, doppler }, toward, part };
-                match &colors {
-                    None => visit(whole),
-                    Some(colors) => whole.of_colors(colors, &mut visit),
-                }
-            };
-            match self.moving_body(lamp, frames) {
-                None => {
-                    let level = lamp.level_from(place, standing.point, standing.normal);
-                    let toward = standing.direction_at_rest(place);
-                    let part = toward.map_or(1.0, |(_, distance)| lamp.part_at(distance));
-                    add(level, 1.0, toward, part);
-                }
-                Some(body) => {
-                    moving.as_ref().and_then(|moving| moving.light_of(lamp, (place, body), &mut add));
+            let (sampled, index) = place(row, lamp);
+            let sampled = sampled.map(|place| (place, 1.0));
+            let all = lamp.places().filter(|_| sampled.is_none()).chain(sampled);
+            for (place, share) in all {
+                let place = lamp.shifted(place, shift);
+                let colors = match &lamp.table {
+                    Some(table) => match self.time_of(lamp, place, frames, moving.as_ref(), index) {
+                        Some(own_time) => Some(table.at(own_time)),
+                        None => continue,
+                    },
+                    None => None,
+                };
+                let mut add = |level: f64, doppler: f64, toward: Option<(DVec3, f64)>, part: f64| {
+                    if level <= 0.0 {
+                        return;
+                    }
+                    let lamp = row as u32;
+                    let irradiance = Irradiance { lamp, level: share * level, doppler };
+                    let whole = IncidentLamp { irradiance, toward, part: share * part };
+                    match &colors {
+                        None => visit(whole),
+                        Some(colors) => whole.of_colors(colors, &mut visit),
+                    }
+                };
+                match self.moving_body(lamp, frames) {
+                    None => {
+                        let level = lamp.level_from(place, standing.point, standing.normal);
+                        let toward = standing.direction_at_rest(place);
+                        let part = toward.map_or(1.0, |(toward, distance)| lamp.part_at(distance, -toward));
+                        add(level, 1.0, toward, part);
+                    }
+                    Some(body) => {
+                        moving.as_ref().and_then(|moving| moving.light_of(lamp, (place, body), &mut add));
+                    }
                 }
             }
         }
@@ -137,7 +163,7 @@ impl SurfaceElement {
         let place = lamp.shifted(lamp.place, frames.lamp_shift(self.body));
         let Some(body) = self.moving_body(lamp, frames) else {
             let (toward, distance) = self.standing(frames).direction_at_rest(place)?;
-            return Some((toward, 1.0, lamp.part_at(distance)));
+            return Some((toward, 1.0, lamp.part_at(distance, -toward)));
         };
         let mut light = None;
         MovingElement::new(self, frames)?.light_of(lamp, (place, body), &mut |_, doppler, toward, part| {
@@ -151,7 +177,7 @@ impl SurfaceElement {
     #[must_use]
     pub fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
         let moving = MovingElement::new(self, frames);
-        self.time_of(lamp, place, frames, moving.as_ref())
+        self.time_of(lamp, place, frames, moving.as_ref(), 1.0)
     }
 
     fn time_of(
@@ -160,11 +186,12 @@ impl SurfaceElement {
         place: LampPlace,
         frames: &RestFrames,
         moving: Option<&MovingElement<'_>>,
+        index: f64,
     ) -> Option<f64> {
         let (LampPlace::At(at), Some(own)) = (place, lamp.motion.body()) else { return None };
         if let (None, ScatteringTime::Delay(delay)) = (self.moving_body(lamp, frames), self.time) {
             let (_, distance) = self.direction_at_rest(place)?;
-            return Some(delay - ugphysics::length(self.point) - distance);
+            return Some(delay - ugphysics::length(self.point) - index * distance);
         }
         let event = moving?.event();
         match frames.world_line(own) {
@@ -262,7 +289,7 @@ impl<'a> MovingElement<'a> {
         add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
     ) -> Option<()> {
         let velocity = self.velocity;
-        let light = match place {
+        let (light, axes) = match place {
             LampPlace::Everywhere => {
                 let (motion, _) = self.motion_of(body)?;
                 let relative = compose(motion, -velocity);
@@ -273,28 +300,30 @@ impl<'a> MovingElement<'a> {
             }
             LampPlace::Afar(toward) => {
                 let (motion, axes) = self.motion_of(body)?;
-                illumination_from_afar(velocity, axes * toward, motion)
+                (illumination_from_afar(velocity, axes * toward, motion)?, axes)
             }
             LampPlace::At(place) => match (self.frames.world_line(body), self.on_line) {
                 (None, None) => {
                     let (motion, axes) = self.motion_of(body)?;
                     let (point, delay) = (self.axes * self.element.point, self.delay());
-                    illumination(point, delay, velocity, axes * place, motion)
+                    (illumination(point, delay, velocity, axes * place, motion)?, axes)
                 }
                 (None, Some(event)) => {
                     let at = self.frames.of(body).rest_from_camera(event).x;
                     let (motion, axes) = self.motion_of(body)?;
-                    illumination_at(axes * at, velocity, axes * place, motion)
+                    (illumination_at(axes * at, velocity, axes * place, motion)?, axes)
                 }
                 (Some(line), _) => {
                     let event = self.event();
                     let emission = line.emission(place, event).ok()?;
-                    illumination_along(emission.event.x - event.x, velocity, emission.velocity)
+                    let (_, axes) = axes_of(&line.pose(emission.own_time))?;
+                    let way = emission.event.x - event.x;
+                    (illumination_along(way, velocity, emission.velocity)?, axes)
                 }
             },
-        }?;
+        };
         let toward = self.axes.inverse() * light.toward;
-        let part = lamp.part_at(light.rest_distance);
+        let part = lamp.part_at(light.rest_distance, axes.inverse() * light.leaving);
         let level = part * self.normal.dot(light.toward);
         add(level, light.doppler, Some((toward, light.distance)), part);
         Some(())
@@ -306,9 +335,13 @@ impl<'a> MovingElement<'a> {
         let Some(line) = self.frames.world_line(body) else {
             return Some((self.frames.velocity(body), self.frames.of(body).boosted_from_scene()));
         };
-        let pose = line.pose(line.own_time_when(self.event(), self.frames.scene_from_camera()));
-        let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
-        let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
-        Some((velocity, carried.turn() * pose.turn))
+        axes_of(&line.pose(line.own_time_when(self.event(), self.frames.scene_from_camera())))
     }
+}
+
+/// The velocity of a body on a world line, and the turn of its directions.
+fn axes_of(pose: &Pose) -> Option<(Velocity, DQuat)> {
+    let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
+    let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
+    Some((velocity, carried.turn() * pose.turn))
 }

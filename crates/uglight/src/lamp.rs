@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 use glam::DVec3;
 use ugphysics::spectrum::{LightSpectrum, Spectrum};
 use ugphysics::{Hsv, length, srgb_encode, unit_or_zero, xyz_to_linear_srgb};
-use ugscene::{ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
+use ugscene::{Beam, ColorId, ColorTable, ColorValue, Light, LightKind, LightMotion, Scene};
 
 use crate::color::shown_light;
 use crate::{ColorForm, color_form, hsv, spectrum};
@@ -39,10 +39,15 @@ pub struct Lamp {
     pub radius: f64,
     /// How its light falls off with distance; `None` if the level is the same at any distance.
     pub fall_off: Option<FallOff>,
+    /// The directions and places from which it shines, in its rest frame.
+    pub beam: Beam,
     /// Its colours over own time, if it changes; the colour above is then that at own time 0.
     pub table: Option<Arc<LampTable>>,
     /// The row of the lamp that has this colour for a time, if it is a colour of a [`LampTable`].
     pub color_of: Option<u32>,
+    /// Rows of the lamps whose spectra, each with this level, add up to that of this lamp at level
+    /// 1. Empty unless it is a mixture.
+    pub mixture: Vec<(u32, f64)>,
 }
 
 /// The colours of a lamp over own time.
@@ -158,10 +163,16 @@ impl Lamps {
         self
     }
 
-    /// Lamps that are not in a scene.
-    pub fn of(all: Vec<Lamp>) -> Self {
-        let is_colored = all.iter().any(|lamp| lamp.is_colored);
-        Self { all, is_colored, is_daylight: !is_colored }
+    /// The same, followed by lamps that are not in the scene.
+    #[must_use]
+    pub fn and(mut self, others: Vec<Lamp>) -> Self {
+        let is_colored = others.iter().any(|lamp| lamp.is_colored);
+        self.all.extend(others);
+        Self {
+            is_colored: self.is_colored || is_colored,
+            is_daylight: self.is_daylight && !is_colored,
+            ..self
+        }
     }
 
     /// As [`Lamps::new`]; in a scene without lights an ambient light ([`DEFAULT_AMBIENT`]) and one
@@ -210,13 +221,17 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3, is_spectral: bool) -> Lamp
         }
         LightKind::Local { position, .. } => LampPlace::At(position - eye),
     };
-    let (radius, reference) = match statement.kind {
-        LightKind::Local { radius, reference, .. } => (radius, reference),
-        _ => (0.0, None),
+    let (radius, reference, beam) = match statement.kind {
+        LightKind::Local { radius, reference, beam, .. } => (radius, reference, beam),
+        _ => (0.0, None, Beam::Even),
+    };
+    let beam = match beam {
+        Beam::Spot { axis, degrees } => Beam::Spot { axis: unit_or_zero(axis), degrees },
+        _ => beam,
     };
     let fall_off = reference.map(|reference| FallOff::new(reference, radius));
     let motion = statement.motion;
-    let white = Lamp { motion, radius, fall_off, ..Lamp::white(place, statement.intensity) };
+    let white = Lamp { motion, radius, fall_off, beam, ..Lamp::white(place, statement.intensity) };
     let Some(id) = statement.color else { return white };
     let color = &scene.colors[id.index()];
     let shown = hsv(scene, color);
@@ -250,17 +265,20 @@ impl Lamp {
             motion,
             radius: 0.0,
             fall_off,
+            beam: Beam::Even,
             table: None,
             color_of: None,
+            mixture: Vec::new(),
         }
     }
 
     /// A light at infinity. `toward`: a unit vector; `linear`: red, green and blue of its light on
-    /// a white surface across it; `kelvin`: of the black body that it is, if it is one.
+    /// a white surface across it; `spectrum`: that of its light, where colours are spectra; of a
+    /// black body the colour is that of the spectrum.
     pub fn afar(
         toward: DVec3,
         linear: DVec3,
-        kelvin: Option<f64>,
+        spectrum: &Spectrum,
         motion: LightMotion,
         is_spectral: bool,
     ) -> Lamp {
@@ -269,22 +287,24 @@ impl Lamp {
         if intensity <= 0.0 {
             return white;
         }
-        let spectrum = match kelvin {
-            Some(kelvin) => Spectrum::blackbody(kelvin, 1.0),
-            None => Spectrum::from_linear_srgb((linear / intensity).to_array()),
-        };
-        let linear = match kelvin {
-            Some(_) => intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO),
-            None => linear,
+        let linear = match spectrum.is_surface() {
+            false => intensity * DVec3::from(xyz_to_linear_srgb(spectrum.shifted(1.0))).max(DVec3::ZERO),
+            true => linear,
         };
         let encoded = (linear / linear.max_element()).to_array().map(srgb_encode);
         Lamp {
             color: DVec3::from(encoded) * intensity,
             linear,
             is_colored: Hsv::from_rgb(encoded).saturation > 0.0,
-            own_spectrum: is_spectral.then(|| LightSpectrum::new(&spectrum)),
+            own_spectrum: is_spectral.then(|| LightSpectrum::new(spectrum)),
             ..white
         }
+    }
+
+    /// The same with the [parts](Self::mixture) of its spectrum.
+    #[must_use]
+    pub fn mixed_of(self, mixture: Vec<(u32, f64)>) -> Lamp {
+        Self { mixture, ..self }
     }
 
     /// Its spectrum: daylight filtered by its colour, or the black body or samples that its colour
@@ -296,10 +316,44 @@ impl Lamp {
     }
 
     /// The part of its intensity that arrives at a distance in its rest frame: 1 unless its light
-    /// falls off.
+    /// falls off, or depends on the direction. `leaving`: the unit vector in which it left the lamp.
     #[inline]
-    pub fn part_at(&self, rest_distance: f64) -> f64 {
-        self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance))
+    pub fn part_at(&self, rest_distance: f64, leaving: DVec3) -> f64 {
+        let part = self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance));
+        match self.beam {
+            Beam::Even => part,
+            Beam::Spot { axis, degrees: [angle, edge] } => {
+                // The angle between unit vectors, exact for small ones, too.
+                let off = 2.0 * libm::atan2((leaving - axis).length(), (leaving + axis).length());
+                let inside = angle - off.to_degrees();
+                let x = if edge > 0.0 { (inside / edge).clamp(0.0, 1.0) } else { f64::from(inside >= 0.0) };
+                part * x * x * (3.0 - 2.0 * x)
+            }
+            Beam::Area([u, v]) => part * unit_or_zero(u.cross(v)).dot(leaving).max(0.0),
+        }
+    }
+
+    /// The place on its parallelogram at a part of each edge; its position for other lamps.
+    #[must_use]
+    pub fn place_on(&self, [part, other]: [f64; 2]) -> LampPlace {
+        match (self.place, self.beam) {
+            (LampPlace::At(place), Beam::Area([u, v])) => {
+                LampPlace::At(place + (part - 0.5) * u + (other - 0.5) * v)
+            }
+            (place, _) => place,
+        }
+    }
+
+    /// The places that stand for the whole lamp, with their shares: nodes of Gauss–Legendre
+    /// quadrature, three along each edge of a parallelogram.
+    pub fn places(&self) -> impl Iterator<Item = (LampPlace, f64)> {
+        const NODES: [(f64, f64); 3] =
+            [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
+        let is_area = matches!(self.beam, Beam::Area(_));
+        let nodes = NODES.into_iter().flat_map(|one| NODES.map(|other| (one, other)));
+        let nodes = nodes.take(if is_area { 9 } else { 0 });
+        let of_area = nodes.map(|((u, one), (v, other))| (self.place_on([u, v]), one * other));
+        of_area.chain((!is_area).then_some((self.place, 1.0)))
     }
 
     /// A place of it as a body sees it. `shift`: of lamps that rest with what they light, see
@@ -320,6 +374,10 @@ impl Lamp {
     /// seen, or zero for a surface without one. `shift`: see [`Lamp::shifted`].
     #[inline]
     pub fn level_at_rest(&self, point: DVec3, normal: DVec3, shift: DVec3) -> f64 {
+        if let Beam::Area(_) = self.beam {
+            let level = |place| self.level_from(self.shifted(place, shift), point, normal);
+            return self.places().map(|(place, share)| share * level(place)).sum();
+        }
         self.level_from(self.shifted(self.place, shift), point, normal)
     }
 
@@ -332,9 +390,16 @@ impl Lamp {
             LampPlace::At(place) => unit_or_zero(place - point),
         };
         let level = normal.dot(toward).max(0.0);
-        match (self.fall_off, place) {
-            (Some(fall_off), LampPlace::At(place)) => level * fall_off.at(length(place - point)),
+        match place {
+            LampPlace::At(place) if level > 0.0 && !self.is_even() => {
+                level * self.part_at(length(place - point), -toward)
+            }
             _ => level,
         }
+    }
+
+    /// True if the same light arrives at any distance and in any direction.
+    fn is_even(&self) -> bool {
+        self.fall_off.is_none() && self.beam == Beam::Even
     }
 }

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
+use ugphysics::spectrum::{DopplerGrid, LazyTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, ColorMix, Scene};
 
@@ -31,7 +31,9 @@ pub struct Spectra {
     lattice: Vec<OnceLock<SpectralColor>>,
     /// For each colour, what it is under each lamp, tabulated; made at first use, since few colours
     /// are seen under each lamp.
-    lit: Vec<OnceLock<Box<[OnceLock<DopplerTable>]>>>,
+    lit: Vec<OnceLock<Box<[OnceLock<LazyTable>]>>>,
+    /// Lamps with such tables.
+    n_lamps: usize,
 }
 
 impl Spectra {
@@ -47,7 +49,7 @@ impl Spectra {
             .collect();
         let n_corners = if scene.textures.is_empty() { 0 } else { N_CORNERS };
         let lattice = std::iter::repeat_with(OnceLock::new).take(n_corners).collect();
-        Self { shift, grid, rows, colors, reach, lamps: None, lattice, lit: Vec::new() }
+        Self { shift, grid, rows, colors, reach, lamps: None, lattice, lit: Vec::new(), n_lamps: 0 }
     }
 
     /// The same, with the lamps of the scene for [`Spectra::light`]. `eye`: in scene coordinates.
@@ -56,9 +58,16 @@ impl Spectra {
             return self;
         }
         let lamps = Lamps::new(scene, eye, true);
+        let n_lamps = lamps.len();
+        Self { lamps: Some(lamps), ..self.with_tables(n_lamps) }
+    }
+
+    /// The same with tables for the light of that many lamps: without them [`Spectra::lit`]
+    /// integrates each time.
+    pub fn with_tables(self, n_lamps: usize) -> Self {
         let n_colors = self.colors.len() + self.lattice.len();
         let lit = std::iter::repeat_with(OnceLock::new).take(n_colors).collect();
-        Self { lamps: Some(lamps), lit, ..self }
+        Self { lit, n_lamps, ..self }
     }
 
     /// True if the scene has coloured lamps.
@@ -105,16 +114,19 @@ impl Spectra {
         for (at, lamp) in lamps.iter().enumerate() {
             let level = lamp.intensity * lamp.level_at_rest(point, normal, shift);
             if level > 0.0 {
-                let under_lamps = || std::iter::repeat_with(OnceLock::new).take(lamps.len()).collect();
-                let table = self.lit[row].get_or_init(under_lamps)[at].get_or_init(|| {
-                    let surface = self.color(row).spectrum();
-                    let lit = |doppler: f64| surface.under(lamp.spectrum(), doppler, 1.0);
-                    self.grid.table_of(|doppler| lit(doppler).unwrap_or_default())
-                });
-                sum += level * DVec3::from_array(table.xyz(ln_shift));
+                sum += level * self.xyz_under_lamp(row, ln_shift, at, lamp);
             }
         }
         sum
+    }
+
+    /// X, Y, Z of a surface under a lamp with level 1, from its table.
+    fn xyz_under_lamp(&self, row: usize, ln_shift: f64, at: usize, lamp: &Lamp) -> DVec3 {
+        let under_lamps = || std::iter::repeat_with(OnceLock::new).take(self.n_lamps).collect();
+        let table = self.lit[row].get_or_init(under_lamps)[at].get_or_init(|| self.grid.lazy_table());
+        let surface = self.color(row).spectrum();
+        let lit = |doppler: f64| surface.under(lamp.spectrum(), doppler, 1.0).unwrap_or_default();
+        DVec3::from_array(table.xyz(ln_shift, lit))
     }
 
     /// Linear red, green and blue of a row under several lamps, behind filters.  Eq. (P14), (P19)
@@ -126,7 +138,23 @@ impl Spectra {
         lamps: &[Lamp],
         filters: &[SpectralFilter<'_>],
     ) -> DVec3 {
-        self.mean(row, |row| self.shift.seen_lit(self.color(row).spectrum(), doppler, light, lamps, filters))
+        let ln_doppler = libm::log(doppler);
+        let is_tabulated = self.n_lamps > 0
+            && filters.is_empty()
+            && ln_doppler.abs() <= self.reach + 1e-9
+            && light.iter().all(|part| part.doppler == 1.0);
+        let (ln_shift, gain) = (self.shift.ln_shift(ln_doppler), self.shift.ln_gain(ln_doppler));
+        self.mean(row, |row| {
+            let surface = self.color(row).spectrum();
+            if !is_tabulated || !surface.is_surface() {
+                return self.shift.seen_lit(surface, doppler, light, lamps, filters);
+            }
+            let part = |part: &Irradiance| {
+                let lamp = &lamps[part.lamp as usize];
+                part.level * lamp.intensity * self.xyz_under_lamp(row, ln_shift, part.lamp as usize, lamp)
+            };
+            libm::exp(gain) * light.iter().map(part).sum::<DVec3>()
+        })
     }
 
     /// The rows of a mixture that is seen as a colour of a texture.  Eq. (P51)

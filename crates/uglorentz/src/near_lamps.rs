@@ -11,7 +11,7 @@
 use glam::DVec3;
 use uglight::{FallOff, Lamp, LampPlace, Lamps, ScatteringTime, SurfaceElement};
 use ugphysics::{Velocity, illumination};
-use ugscene::{BodyId, RestFrames, Scene};
+use ugscene::{Beam, BodyId, RestFrames, Scene};
 
 use crate::early_accept::MOST_BEND;
 use crate::relative_motion::{Point, RelativeMotion};
@@ -59,8 +59,8 @@ impl NearLamps {
         }
         let lamps = Lamps::new(scene, eye, false).over_time(scene, eye, false);
         let frames = RestFrames::new(scene);
-        let is_on_line = |lamp: &Lamp| is_on_line(lamp, &frames);
-        let is_steady = |lamp: &&Lamp| lamp.table.is_none() && lamp.color_of.is_none() && !is_on_line(lamp);
+        let is_sampled = |lamp: &Lamp| is_sampled(lamp, &frames);
+        let is_steady = |lamp: &&Lamp| lamp.color_of.is_none() && !is_sampled(lamp);
         let near = lamps.iter().filter(is_steady).filter_map(|lamp| {
             let LampPlace::At(place) = lamp.place else { return None };
             let motion = lamp.motion.body().map(|body| &motions[body.index()]);
@@ -205,12 +205,14 @@ impl NearLamp {
     }
 }
 
-fn is_on_line(lamp: &Lamp, frames: &RestFrames) -> bool {
-    lamp.motion.body().is_some_and(|body| frames.world_line(body).is_some())
+/// True if a lamp is on a world line, changes, or shines in a cone or from an area.
+fn is_sampled(lamp: &Lamp, frames: &RestFrames) -> bool {
+    let is_on_line = lamp.motion.body().is_some_and(|body| frames.world_line(body).is_some());
+    is_on_line || lamp.table.is_some() || lamp.beam != Beam::Even
 }
 
-/// Lamps whose light is computed as programs downstream compute it: those on world lines, those that
-/// change, and all of them on bodies on world lines.
+/// Lamps whose light is computed as programs downstream compute it: those that [`is_sampled`] names,
+/// and all of them on bodies on world lines.
 #[derive(Clone, Debug)]
 struct SampledLamps {
     lamps: Lamps,
@@ -233,11 +235,9 @@ struct Sample {
 impl SampledLamps {
     /// The lamps that are sampled for a body.
     fn of(&self, motion: &RelativeMotion) -> impl Iterator<Item = &Lamp> {
-        let is_on_line = |lamp: &Lamp| is_on_line(lamp, &self.frames);
+        let is_sampled = |lamp: &Lamp| is_sampled(lamp, &self.frames);
         let all = motion.world_line().is_some();
-        self.lamps
-            .iter()
-            .filter(move |lamp| lamp.color_of.is_none() && (all || lamp.table.is_some() || is_on_line(lamp)))
+        self.lamps.iter().filter(move |lamp| lamp.color_of.is_none() && (all || is_sampled(lamp)))
     }
 
     fn any(&self, motion: &RelativeMotion) -> bool {

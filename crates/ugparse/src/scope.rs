@@ -371,7 +371,7 @@ impl<'t> Scope<'t> {
             (None, _) => LightKind::Ambient,
             (Some(toward), None) => LightKind::Directional(toward),
             (Some(position), Some(radius)) => {
-                LightKind::Local { position, radius, reference: light.reference }
+                LightKind::Local { position, radius, reference: light.reference, beam: light.beam }
             }
         };
         let light = Light {

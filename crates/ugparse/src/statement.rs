@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Camera, FaceShape, RoundShape, SurfaceProperties, Texture};
+use ugscene::{Beam, Camera, FaceShape, RoundShape, SurfaceProperties, Texture};
 
 use crate::source::Span;
 use crate::transform::Transform;
@@ -192,6 +192,7 @@ pub(crate) struct LightStatement {
     pub vector: Option<DVec3>,
     pub radius: Option<f64>,
     pub reference: Option<f64>,
+    pub beam: Beam,
     pub color: Option<Span>,
     pub motion: Option<MotionReference>,
 }

@@ -7,8 +7,8 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
-    AlphaMode, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours, Item,
-    Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
+    AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours,
+    Item, Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
     Texture, Wrap,
 };
 
@@ -576,14 +576,29 @@ impl<'s> Writer<'s> {
         match light.kind {
             LightKind::Ambient => {}
             LightKind::Directional(toward) => self.point(toward),
-            LightKind::Local { position, radius, reference } => {
+            LightKind::Local { position, radius, reference, .. } => {
                 self.point(position);
                 self.number(radius);
                 reference.into_iter().for_each(|reference| self.number(reference));
             }
         }
         self.optional_color(light.color);
-        let place = if let LightKind::Local { position, .. } = light.kind { position } else { DVec3::ZERO };
+        let (place, beam) = match light.kind {
+            LightKind::Local { position, beam, .. } => (position, beam),
+            _ => (DVec3::ZERO, Beam::Even),
+        };
+        match beam {
+            Beam::Even => {}
+            Beam::Spot { axis, degrees } => {
+                self.text(" -spot");
+                self.point(axis);
+                degrees.into_iter().for_each(|number| self.number(number));
+            }
+            Beam::Area(edges) => {
+                self.text(" -area");
+                edges.into_iter().for_each(|edge| self.point(edge));
+            }
+        }
         light.motion.body().into_iter().for_each(|body| self.motion_of(body, place));
         self.text(";");
     }

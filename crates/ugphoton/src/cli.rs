@@ -69,6 +69,13 @@ pub struct Args {
     #[arg(long, help_heading = RAYS)]
     no_shadows: bool,
 
+    /// The sky does not light the scene
+    ///
+    /// It is only seen, directly and in mirrors. Otherwise it lights the scene beside its lamps, and
+    /// in place of the default lights.
+    #[arg(long, help_heading = RAYS)]
+    no_sky_light: bool,
+
     /// Fresnel's equations for mirrors and glass
     ///
     /// They divide light on transparent surfaces into reflected and transmitted light by its angle.
@@ -159,7 +166,7 @@ pub struct Args {
     /// Stand the scene on a grey ground, under a sky: day, unless -sky gives another
     ///
     /// The ground is level, at the lowest point of the scene, and rests whatever moves. The sky
-    /// lights a scene without lights.
+    /// lights the scene, beside its lamps.
     #[arg(long, help_heading = RAYS)]
     stage: bool,
 
@@ -245,6 +252,7 @@ impl Args {
                 depth: self.rd,
                 cutoff: self.rc,
                 shadows: !self.no_shadows,
+                sky_light: !self.no_sky_light,
                 fresnel: self.fresnel,
                 shutter: self.film_shutter.map_or(Shutter::Pinhole, |distance| Shutter::Film { distance }),
             },

@@ -146,6 +146,8 @@ pub struct RayOptions {
     pub cutoff: f64,
     /// Lights cast shadows.
     pub shadows: bool,
+    /// The sky lights the scene, beside the lamps of the scene.
+    pub sky_light: bool,
     /// The reflected and transmitted parts of the light on a transparent surface depend on the
     /// angle by Fresnel's equations; otherwise they are those of the `surf` statement.
     pub fresnel: bool,
@@ -171,7 +173,14 @@ pub enum Shutter {
 
 impl Default for RayOptions {
     fn default() -> Self {
-        Self { depth: 16, cutoff: 1e-2, shadows: true, fresnel: false, shutter: Shutter::Pinhole }
+        Self {
+            depth: 16,
+            cutoff: 1e-2,
+            shadows: true,
+            sky_light: true,
+            fresnel: false,
+            shutter: Shutter::Pinhole,
+        }
     }
 }
 

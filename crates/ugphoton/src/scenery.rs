@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugscene::{
     BodyId, Face, HueScale, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
 };
-use ugskybox::{SkyAround, SkyLamps};
+use ugskybox::{SkyAround, SkyLamp, SkyLamps};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -58,9 +58,13 @@ pub struct Scenery<'a> {
     pub shift: ColorShift,
     /// What rays see that leave the scene.
     pub sky: Option<SkyAround>,
-    /// The lights of the sky, if it lights the scene: [`Scenery::lamps`] are its stars, then its
-    /// points.
-    pub sky_lamps: Option<SkyLamps>,
+    /// The lights of the sky, if it lights the scene: its stars, then its points, behind the lamps
+    /// of the scene in [`Scenery::lamps`].
+    sky_lamps: Option<SkyLamps>,
+    /// The number of the others, those of a scene, with their colours over time.
+    pub n_own_lamps: usize,
+    /// For each lamp of the scene, the solid that it is in and rests with. Empty if no lamp is.
+    lamp_media: Vec<Option<Solid>>,
     /// Samples in a row of the picture, and along a side of a pixel.
     grid: [u32; 2],
     /// True if a transparent solid absorbs light.
@@ -76,6 +80,26 @@ fn sky_sets(samples: u32) -> [usize; 2] {
     const POINTS: usize = 64;
     let n_sets = (samples * samples) as usize;
     [n_sets, (POINTS / n_sets).max(4)]
+}
+
+/// The number of colours up to which those under the spectra of a sky are tabulated.
+const MOST_TABULATED: usize = 4096;
+
+/// The lights of a sky behind `n_before` others; where colours are spectra, followed by the pure
+/// ones that the light of points is mixed of.
+fn lamps_of_sky(sky: &SkyLamps, n_before: usize, motion: LightMotion, is_spectral: bool) -> Vec<Lamp> {
+    let first_pure = n_before + sky.stars.len() + sky.points.len();
+    let lamp = |lamp: &SkyLamp| {
+        let is_mixture = is_spectral && lamp.kelvin.is_none();
+        // Skies have a few thousand lights at most.
+        let amounts = sky.amounts(lamp).map(|(row, amount)| ((first_pure + row) as u32, amount));
+        let mixture = if is_mixture { amounts.collect() } else { Vec::new() };
+        Lamp::afar(lamp.toward, lamp.linear.into(), &sky.spectrum(lamp), motion, is_spectral)
+            .mixed_of(mixture)
+    };
+    let pure = sky.pure.iter().filter(|_| is_spectral);
+    let pure = pure.map(|spectrum| Lamp::afar(DVec3::Z, DVec3::ONE, spectrum, motion, is_spectral));
+    sky.stars.iter().chain(&sky.points).map(lamp).chain(pure).collect()
 }
 
 /// A body on a world line with a surface that transmits light. A medium in which light has one
@@ -125,7 +149,7 @@ impl<'a> Scenery<'a> {
             HueScale::Wavelengths => Interpolation::Wavelength,
         };
         let shift = config.shift;
-        let sky_lamps = if n_lights == 0 { config.sky.lamps(sky_sets(*samples))? } else { None };
+        let sky_lamps = if config.rays.sky_light { config.sky.lamps(sky_sets(*samples))? } else { None };
         let sky_motion = sky_lamps.as_ref().map(|_| {
             let velocity = -ugscene::camera_velocity(&scene);
             LightMotion::Body(scene.to_mut().bodies.moving_with(velocity))
@@ -149,14 +173,38 @@ impl<'a> Scenery<'a> {
             .map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
         let eye_media = immersion.media(&world, faces, ORIGIN);
-        let of_sky = sky_lamps.iter().flat_map(|sky| sky.stars.iter().chain(&sky.points));
-        let of_sky = of_sky.zip(sky_motion.into_iter().cycle()).map(|(lamp, motion)| {
-            Lamp::afar(lamp.toward, lamp.linear.into(), lamp.kelvin, motion, shift.is_spectral())
+        let is_spectral = shift.is_spectral();
+        let lamps = match sky_lamps {
+            Some(_) => Lamps::new(&scene, view.eye, is_spectral),
+            None => Lamps::or_default(&scene, view.eye, view.forward, is_spectral),
+        };
+        let lamps = lamps.over_time(&scene, view.eye, is_spectral);
+        let n_own_lamps = lamps.len();
+        let lamp_media = lamps[..n_own_lamps].iter().map(|lamp| {
+            let LampPlace::At(place) = lamp.place else { return None };
+            let velocity = lamp.motion.body().map(|body| appearance.surface.frames().velocity(body));
+            (0..world.parts.len()).find_map(|part| {
+                let frame = &world.parts[part].frame;
+                let rests =
+                    world.parts[part].motion.is_none() && velocity.is_none_or(|v| v == frame.velocity());
+                let event = || frame.camera_from_rest(Event { t: -place.length(), x: place });
+                let inside = rests.then(|| immersion.media(&world, faces, event()).innermost());
+                inside.flatten().filter(|solid| solid.part == part)
+            })
         });
-        let of_sky: Vec<Lamp> = of_sky.collect();
-        let lamps = Lamps::or_default(&scene, view.eye, view.forward, shift.is_spectral());
-        let lamps = lamps.over_time(&scene, view.eye, shift.is_spectral());
-        let lamps = if of_sky.is_empty() { lamps } else { Lamps::of(of_sky) };
+        let mut lamp_media: Vec<Option<Solid>> = lamp_media.collect();
+        if lamp_media.iter().all(Option::is_none) {
+            lamp_media.clear();
+        }
+        let (lamps, appearance) = match (&sky_lamps, sky_motion) {
+            (Some(sky), Some(motion)) => {
+                let lamps = lamps.and(lamps_of_sky(sky, n_own_lamps, motion, is_spectral));
+                let n_lamps =
+                    if appearance.palette.swatches.len() <= MOST_TABULATED { lamps.len() } else { 0 };
+                (lamps, appearance.with_tables(n_lamps))
+            }
+            _ => (lamps, appearance),
+        };
         let keeps_highlights = appearance.palette.has_light || config.picture.keeps_light();
         let appearance = if keeps_highlights { appearance } else { appearance.clipped() };
         let rays = config.rays;
@@ -172,6 +220,8 @@ impl<'a> Scenery<'a> {
             eye_media,
             sky,
             sky_lamps,
+            n_own_lamps,
+            lamp_media,
             grid: [width * samples, *samples],
             has_absorption,
             appearance,
@@ -197,12 +247,26 @@ impl<'a> Scenery<'a> {
 
     /// The rows of the lamps whose light a sample receives: all, but of the points of a sky one
     /// set, another for each sample of a pixel.
-    pub fn lamps_of(&self, sample: u64) -> [Range<usize>; 2] {
-        let Some(sky) = &self.sky_lamps else { return [0..self.lamps.len(), 0..0] };
+    pub fn lamps_of(&self, sample: u64) -> [Range<usize>; 3] {
+        let own = 0..self.n_own_lamps;
+        let Some(sky) = &self.sky_lamps else { return [own, 0..0, 0..0] };
         let [across, n] = self.grid.map(u64::from);
         let set = sky.set((sample / across % n * n + sample % across % n) as usize);
-        let n_stars = sky.stars.len();
-        [0..n_stars, n_stars + set.start..n_stars + set.end]
+        let n_before = own.end + sky.stars.len();
+        [own.clone(), own.end..n_before, n_before + set.start..n_before + set.end]
+    }
+
+    /// The refractive index of the solid between a lamp and a surface of `part`, if they rest in one
+    /// and the same; otherwise 1. `before`: the solid before the surface.  Eq. (P24)
+    pub fn index_before(&self, lamp: usize, before: Option<Solid>, part: usize) -> f64 {
+        let Some(solid) =
+            before.filter(|_| self.lamp_media.get(lamp).is_some_and(|of_lamp| *of_lamp == before))
+        else {
+            return 1.0;
+        };
+        let [one, other] = [&self.world.parts[part], &self.world.parts[solid.part]];
+        let rests = one.motion.is_none() && one.frame.velocity() == other.frame.velocity();
+        if rests { self.properties(solid.surface).refraction } else { 1.0 }
     }
 
     /// The faces.

@@ -5,10 +5,11 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use uglight::{ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor};
 use ugphysics::{Event, WaveVector, srgb_encode};
+use ugscene::Beam;
 
 use crate::immersion::Crossing;
 use crate::media::{Media, Solid};
-use crate::sampling::disk_point;
+use crate::sampling::{disk_point, square_point};
 use crate::scenery::Scenery;
 use crate::surface_point::SurfacePoint;
 use ugpicture::rays::Corridor;
@@ -48,8 +49,15 @@ impl<'a> Shader<'a> {
     }
 
     /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
-    /// the eye. `sample`: a number for each sample of the picture.
-    pub fn light(&mut self, point: &SurfacePoint, filters: &[ColorFilter], sample: u64) -> DVec3 {
+    /// the eye. `medium`: the solid that light is in before it; `sample`: a number for each sample of
+    /// the picture.
+    pub fn light(
+        &mut self,
+        point: &SurfacePoint,
+        medium: Option<Solid>,
+        filters: &[ColorFilter],
+        sample: u64,
+    ) -> DVec3 {
         let scenery = self.scenery;
         if let Some(received) = &mut self.received {
             received.clear();
@@ -65,10 +73,8 @@ impl<'a> Shader<'a> {
         }
         let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
-        // Mirrors show a sky itself.
-        let exponent = (specular > 0.0 && scenery.sky_lamps.is_none())
-            .then(|| surface.map_or(0.0, |surface| surface.exponent));
-        self.receive(point, exponent, sample);
+        let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
+        self.receive(point, medium, exponent, sample);
         let lit = |color: &SurfaceColor, light: &[Irradiance]| {
             let light = Illumination::Lamps(light, &scenery.lamps);
             scenery.appearance.light(color, point.doppler(), light, filters)
@@ -90,7 +96,7 @@ impl<'a> Shader<'a> {
 
     /// Finds the light of each lamp that arrives: for diffuse reflection, and if there is an
     /// exponent, for highlights.
-    fn receive(&mut self, point: &SurfacePoint, exponent: Option<f64>, sample: u64) {
+    fn receive(&mut self, point: &SurfacePoint, medium: Option<Solid>, exponent: Option<f64>, sample: u64) {
         self.diffuse.clear();
         self.highlights.clear();
         let scenery = self.scenery;
@@ -99,11 +105,14 @@ impl<'a> Shader<'a> {
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
         let has_shadows = scenery.has_lights() && scenery.rays.shadows;
+        let index = |lamp: usize| scenery.index_before(lamp, medium, point.part);
         let mut add = |incident: IncidentLamp| {
             let Irradiance { level, lamp, .. } = incident.irradiance;
+            // Mirrors show a sky itself.
+            let exponent = exponent.filter(|_| (lamp as usize) < scenery.n_own_lamps);
             let is_wanted = has_shadows || exponent.is_some();
             let toward = incident.toward.filter(|_| is_wanted);
-            let way = toward.map(|toward| LampWay::new(scenery, point, lamp, toward));
+            let way = toward.map(|toward| LampWay::new(scenery, point, lamp, toward, index(lamp as usize)));
             let part = if has_shadows {
                 let corridor = (17 * lamp as usize + point.part) % corridors.len();
                 way.as_ref().map_or(1.0, |way| unshadowed(scenery, point, way, &mut corridors[corridor]))
@@ -117,7 +126,7 @@ impl<'a> Shader<'a> {
             if part <= 0.0 {
                 return;
             }
-            diffuse.push(Irradiance { level: level * part, ..incident.irradiance });
+            Irradiance { level: level * part, ..incident.irradiance }.add_to(diffuse, &scenery.lamps);
             if let (Some(exponent), Some(LampWay { toward, .. })) = (exponent, way) {
                 let mirrored = 2.0 * point.normal.dot(toward) * point.normal - toward;
                 let cos = mirrored.dot(toward_eye).max(0.0);
@@ -129,16 +138,20 @@ impl<'a> Shader<'a> {
         };
         let lamp_shift = scenery.appearance.surface.frames().lamp_shift(element.body);
         let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
+            _ if matches!(lamp.beam, Beam::Area(_)) => Some(lamp.place_on(square_point(sample, row as u64))),
             (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
                 let toward = ugphysics::unit_or_zero(shifted - seen_from(scenery, point, row));
-                LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64))
+                Some(LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64)))
             }
-            (place, _) => place,
+            _ => None,
         };
         let frames = scenery.appearance.surface.frames();
         for rows in scenery.lamps_of(sample) {
             let first = rows.start as u32;
-            let place = |row: usize, lamp: &Lamp| place(rows.start + row, lamp);
+            let place = |row: usize, lamp: &Lamp| {
+                let row = rows.start + row;
+                (place(row, lamp), index(row))
+            };
             element.for_each_incident(&scenery.lamps[rows.clone()], frames, place, |incident| {
                 let Irradiance { lamp, .. } = incident.irradiance;
                 let irradiance = Irradiance { lamp: first + lamp, ..incident.irradiance };
@@ -171,8 +184,14 @@ struct LampWay {
 }
 
 impl LampWay {
-    /// `toward`: see [`IncidentLamp::toward`].
-    fn new(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: u32, (toward, distance): (DVec3, f64)) -> Self {
+    /// `toward`: see [`IncidentLamp::toward`]; `index`: see [`Scenery::index_before`].
+    fn new(
+        scenery: &Scenery<'_>,
+        point: &SurfacePoint,
+        lamp: u32,
+        (toward, distance): (DVec3, f64),
+        index: f64,
+    ) -> Self {
         let frame = point.frame(scenery);
         let rests_with_surface = scenery.lamps[lamp as usize].motion.body().is_none();
         match point.world_line(scenery).filter(|_| rests_with_surface) {
@@ -181,7 +200,7 @@ impl LampWay {
                 let step = line.pose(own_time).scene_from_axes.apply(Event { t: -1.0, x: toward });
                 Self { toward: ugphysics::unit_or_zero(frame.rest_from_camera(step).x), step, distance }
             }
-            None => Self { toward, step: frame.camera_from_rest(Event { t: -1.0, x: toward }), distance },
+            None => Self { toward, step: frame.camera_from_rest(Event { t: -index, x: toward }), distance },
         }
     }
 }

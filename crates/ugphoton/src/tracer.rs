@@ -230,7 +230,7 @@ impl<'a> Tracer<'a> {
     /// The light from a surface: of lamps, mirrored, and transmitted. `left`: the part of it that
     /// the medium before the surface does not absorb.
     fn light_of(&mut self, path: &Path<'_>, point: &SurfacePoint, left: f64) -> Arriving {
-        let light = self.shader.light(point, &self.filters, path.sample);
+        let light = self.shader.light(point, path.media.innermost(), &self.filters, path.sample);
         let visit = self.visit(path, point, light, left);
         let mut sum = Arriving { light, background: DVec3::ZERO };
         let Some(id) = point.surface(self.scenery) else { return sum };

@@ -25,6 +25,8 @@ pub struct IncidentLight {
     /// r'' = r/D_l: the same distance in the frame of the light, S''. Infinite for a directional
     /// light.
     pub rest_distance: f64,
+    /// Unit vector in which the light left its source, in S''.
+    pub leaving: DVec3,
 }
 
 /// The light of a point source at rest at `light` in S'' that arrives at the surface point at rest
@@ -60,6 +62,7 @@ fn illumination_by(at_surface: DVec3, to_light: DVec3) -> Option<IncidentLight> 
         doppler: distance / rest_distance,
         distance,
         rest_distance,
+        leaving: -to_light / rest_distance,
     };
     (rest_distance > 0.0 && illumination.toward.is_finite() && illumination.doppler > 0.0)
         .then_some(illumination)
@@ -110,6 +113,7 @@ pub fn illumination_from_afar(v: Velocity, toward_light: DVec3, v_light: Velocit
         doppler: distance / length(toward_light),
         distance: f64::INFINITY,
         rest_distance: f64::INFINITY,
+        leaving: -toward_light / length(toward_light),
     };
     (illumination.toward.is_finite() && illumination.doppler > 0.0).then_some(illumination)
 }

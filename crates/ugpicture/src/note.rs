@@ -241,8 +241,8 @@ impl fmt::Display for Note {
                 );
             }
             Self::StraightThroughGlass => {
-                "light of lamps goes straight through transparent solids, as fast as in a vacuum: it is absorbed \
-                 there, but neither refracted nor slowed"
+                "light of lamps goes straight through transparent solids: it is absorbed there, but not \
+                 refracted, and slowed only if lamp and surface rest in the same solid"
             }
             Self::EnclosedLamp(name) => {
                 return write!(f, "the light of lamp `{name}` does not leave the closed body that it is in");

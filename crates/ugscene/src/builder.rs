@@ -346,8 +346,9 @@ impl SceneBuilder {
         let is_valid = match light.kind {
             LightKind::Ambient => true,
             LightKind::Directional(toward) => toward.is_finite() && toward != DVec3::ZERO,
-            LightKind::Local { position, radius, reference } => {
-                position.is_finite() && (0.0..=f64::MAX).contains(&radius) && reference.is_none_or(positive)
+            LightKind::Local { position, radius, reference, beam } => {
+                let has_size = (0.0..=f64::MAX).contains(&radius) && reference.is_none_or(positive);
+                position.is_finite() && has_size && beam.is_valid()
             }
         };
         let row = self.scene.lights.len();

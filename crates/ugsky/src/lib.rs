@@ -61,7 +61,7 @@ pub use pictures::DecodedPicture;
 pub use sample::{Sampler, Seen};
 pub use shade::{Shade, SkyColors};
 pub use sky::{Band, Layer, Sky, VISIBLE_NM};
-pub use spectral::{ALL_NM, Basis, BasisError, SpectralTable};
+pub use spectral::{ALL_NM, Basis, BasisError, N_PURE, SpectralTable, amounts, pure_lights};
 pub use stars::{Star, StarLight, StarOptions};
 pub use texels::Texels;
 pub use view::{FlatFilm, SkyLight, SkyView};

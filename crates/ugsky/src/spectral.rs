@@ -70,11 +70,14 @@ enum Kind {
     /// Matrices from linear red, green and blue at rest to those seen, by ln D.
     Linear { first: f64, maps: Vec<[[f32; 3]; 3]> },
     /// The light seen of [`PURE`], by ln D.
-    Mixture { first: f64, lights: Vec<[[f32; 3]; PURE.len()]> },
+    Mixture { first: f64, lights: Vec<[[f32; 3]; N_PURE]> },
 }
 
+/// Number of spectra of [`Basis::Mixture`].
+pub const N_PURE: usize = 7;
+
 /// White, the primaries, and the pairs that lack one of them.
-const PURE: [[f64; 3]; 7] = [
+const PURE: [[f64; 3]; N_PURE] = [
     [1.0, 1.0, 1.0],
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -228,32 +231,46 @@ fn pure_light(rgb: [f64; 3]) -> Spectrum {
     Spectrum::with_infrared(linear_srgb_to_xyz(rgb), InfraredRule::Constant).0
 }
 
+/// The spectra of [`Basis::Mixture`], mixed with white to a saturation from 0 to 1.
+#[must_use]
+pub fn pure_lights(saturation: f64) -> [Spectrum; N_PURE] {
+    PURE.map(|rgb| pure_light(rgb.map(|part| 1.0 - saturation * (1.0 - part))))
+}
+
 fn mixture(reach: f64, range: &Range<f64>) -> Kind {
-    let spectra = PURE.map(pure_light);
+    let spectra = pure_lights(1.0);
     let colors = colors_of(&spectra, range);
     let (first, n) = range_of(reach, STEP);
     let light = |idx: usize| colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
     Kind::Mixture { first, lights: (0..n).into_par_iter().map(light).collect() }
 }
 
-/// The light of a mixture between two entries of the table: as much white as all channels have, as
+/// The light of a mixture between two entries of the table.
+//CUT as much white as all channels have, as
 /// much of a pair as the two brighter ones have more, and the rest of the brightest.
-fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; PURE.len()]; 2], part: f32) -> [f32; 3] {
-    let rgb = rgb.map(|part| part.max(0.0));
-    let mut order = [0, 1, 2];
-    order.sort_by(|a, b| rgb[*a].total_cmp(&rgb[*b]));
-    let [darkest, middle, brightest] = order;
-    let amounts = [
-        (0, rgb[darkest]),
-        (4 + darkest, rgb[middle] - rgb[darkest]),
-        (1 + brightest, rgb[brightest] - rgb[middle]),
-    ];
+fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_PURE]; 2], part: f32) -> [f32; 3] {
+    let amounts = amounts(rgb);
     std::array::from_fn(|c| {
         amounts
             .iter()
             .map(|&(pure, amount)| amount * (low[pure][c] + part * (high[pure][c] - low[pure][c])))
             .sum()
     })
+}
+
+/// The [`pure_lights`] in a colour with their amounts: as much white as all channels have, as much of
+/// a pair as the two brighter ones have more, and the rest of the brightest.
+#[must_use]
+pub fn amounts(rgb: [f32; 3]) -> [(usize, f32); 3] {
+    let rgb = rgb.map(|part| part.max(0.0));
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| rgb[*a].total_cmp(&rgb[*b]));
+    let [darkest, middle, brightest] = order;
+    [
+        (0, rgb[darkest]),
+        (4 + darkest, rgb[middle] - rgb[darkest]),
+        (1 + brightest, rgb[brightest] - rgb[middle]),
+    ]
 }
 
 /// The matrix that gives the amounts of three colours in a colour; `None` if they are not

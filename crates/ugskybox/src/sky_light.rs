@@ -3,8 +3,9 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DQuat, DVec3};
+use ugphysics::spectrum::Spectrum;
 use ugphysics::{Velocity, luminance};
-use ugsky::{Observer, Sampler, Star, StarOptions};
+use ugsky::{N_PURE, Observer, Sampler, Star, StarOptions};
 
 use crate::around::light_around;
 use crate::open::Opened;
@@ -30,6 +31,10 @@ pub struct SkyLamps {
     pub points: Vec<SkyLamp>,
     /// Number of sets.
     pub n_sets: usize,
+    /// The spectra that those of points are mixtures of: white, and colours as saturated as the
+    /// most saturated point, so that mixtures are nearly as smooth as the spectrum of one colour.
+    pub pure: [Spectrum; N_PURE],
+    saturation: f64,
 }
 
 /// Rows of cells whose light decides how dense points are.
@@ -117,8 +122,40 @@ impl SkyLamps {
             let sets = (0..n_sets).flat_map(|set| points.iter().skip(set).step_by(n_sets));
             points = sets.copied().collect();
         }
+        let saturation = |SkyLamp { linear: [red, green, blue], .. }: &SkyLamp| {
+            let largest = red.max(*green).max(*blue);
+            if largest > 0.0 { 1.0 - red.min(*green).min(*blue) / largest } else { 0.0 }
+        };
+        let saturation = points.iter().map(saturation).fold(1e-3, f64::max);
         let is_dark = stars.is_empty() && points.is_empty();
-        (!is_dark).then_some(Self { stars, points, n_sets })
+        (!is_dark).then_some(Self { stars, points, n_sets, pure: ugsky::pure_lights(saturation), saturation })
+    }
+
+    /// The rows of [`SkyLamps::pure`] that the light of a point is a mixture of, with their amounts.
+    pub fn amounts(&self, lamp: &SkyLamp) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let all = ugsky::amounts(lamp.linear.map(|part| part as f32));
+        let [white, pair, one] = all.map(|(row, amount)| (row, f64::from(amount)));
+        let [pair, one] = [pair, one].map(|(row, amount)| (row, amount / self.saturation));
+        let white = (white.0, white.1 - (1.0 - self.saturation) * (pair.1 + one.1));
+        [white, pair, one].into_iter().filter(|(_, amount)| *amount > 0.0)
+    }
+
+    /// The spectrum of a light, with 1 as its largest channel.
+    #[must_use]
+    pub fn spectrum(&self, lamp: &SkyLamp) -> Spectrum {
+        /// Wavelengths between which the reflectances of (P20) vary, and a step, nm.
+        const NM: [u32; 3] = [380, 780, 5];
+        if let Some(kelvin) = lamp.kelvin {
+            return Spectrum::blackbody(kelvin, 1.0);
+        }
+        let [first, last, step] = NM;
+        let largest = lamp.linear.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        let value = |nm: f64| {
+            let parts = self.amounts(lamp).map(|(row, amount)| amount * self.pure[row].transmittance(nm));
+            parts.sum::<f64>() / largest
+        };
+        let samples = (first..=last).step_by(step as usize).map(f64::from).map(|nm| [nm, value(nm)]);
+        Spectrum::reflectance(&samples.collect::<Vec<_>>())
     }
 
     /// The points of a set.

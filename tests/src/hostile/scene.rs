@@ -24,7 +24,7 @@ const DEFINITION: &str = "def d ; v a % ; v b % ; v c 0 0 1 ; v e 1 0 0 ;
 f (a b c) ^ ; f (a e b) red1 ; f (b e c) ; f (c e a) red2 ~ ; end ;\n";
 
 /// Statements that are valid whatever replaces their signs.
-const MILD: [&str; 17] = [
+const MILD: [&str; 19] = [
     "f (* * *) ^ ~ ;",
     "f @ (* * *) ^ # ~ ;",
     "f (v0 v1 v2 v3) red0 mirror ~ ;",
@@ -40,6 +40,8 @@ const MILD: [&str; 17] = [
     "l # ;",
     "l # 1 # # ~ ;",
     "l # # # 3 # red1 ~ ;",
+    "l # # # 3 # -spot 1 # # 40 5 ~ ;",
+    "l # # -2 2 # # -area 1 # 0 0 0 1 ~ ;",
     "l # # -2 2 # # red2 ~ ;",
     "cam -ep 0 -9 # -vc # 0 # -va 3# ~ ;",
 ];

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugscene::{
-    Camera, Face, FaceShape, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId, Wire,
-    newell_normal,
+    Beam, Camera, Face, FaceShape, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId,
+    Wire, newell_normal,
 };
 
 use super::Expander;
@@ -140,12 +140,21 @@ impl Expander<'_, '_> {
                 self.check_direction(span, toward);
                 LightKind::Directional(toward)
             }
-            LightKind::Local { position, radius, reference } => {
+            LightKind::Local { position, radius, reference, beam } => {
                 let position = inherited.transform.point(position);
                 let reference = reference.map(|reference| inherited.transform.mean_length(reference));
                 self.check_finite(span, position);
                 self.check_finite(span, DVec3::splat(reference.unwrap_or_default()));
-                LightKind::Local { position, radius, reference }
+                let beam = match beam {
+                    Beam::Spot { .. } => beam.turned(|axis| inherited.transform.direction(axis)),
+                    _ => beam.turned(|edge| {
+                        inherited.transform.point(edge) - inherited.transform.point(DVec3::ZERO)
+                    }),
+                };
+                if !beam.is_valid() {
+                    self.check_finite(span, DVec3::NAN);
+                }
+                LightKind::Local { position, radius, reference, beam }
             }
         };
         let placed = Light {

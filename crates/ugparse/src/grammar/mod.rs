@@ -17,7 +17,7 @@ use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::{Velocity, VelocityError};
-use ugscene::{Camera, ColorValue, FaceShape, RoundShape, SurfaceNumber, SurfaceProperties, Tint};
+use ugscene::{Beam, Camera, ColorValue, FaceShape, RoundShape, SurfaceNumber, SurfaceProperties, Tint};
 
 use crate::source::Span;
 use crate::statement::{
@@ -350,8 +350,9 @@ impl<'t> Grammar<'t> {
             return fail(at, zero_vector(3));
         }
         let (input, color) = self.optional_name(input)?;
+        let (input, beam) = beam(input, radius.is_some(), reference.is_some())?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let light = LightStatement { name, intensity, vector, radius, reference, color, motion };
+        let light = LightStatement { name, intensity, vector, radius, reference, beam, color, motion };
         Ok((input, Statement::Light(light)))
     }
 
@@ -462,6 +463,40 @@ fn option_word(input: Input<'_>) -> Parsed<'_, Input<'_>> {
         [b'-', letter, ..] if letter.is_ascii_alphabetic() => word(&input[1..]),
         _ => backtrack(input, Reason::Expected("an option")),
     }
+}
+
+/// `-spot x y z angle edge` or `-area ux uy uz vx vy vz`
+fn beam(input: Input<'_>, has_place: bool, has_reference: bool) -> Parsed<'_, Beam> {
+    let at = blank(input)?.0;
+    let (input, beam) = match opt(option_word).parse(input)? {
+        (rest, Some(b"spot")) if has_place => {
+            let (rest, [x, y, z, angle, edge]) = require(numbers(rest))?;
+            (rest, Beam::Spot { axis: DVec3::new(x, y, z), degrees: [angle, edge] })
+        }
+        (rest, Some(b"area")) if has_reference => {
+            let (rest, [x, y, z, u, v, w]) = require(numbers(rest))?;
+            (rest, Beam::Area([DVec3::new(x, y, z), DVec3::new(u, v, w)]))
+        }
+        (_, Some(b"spot")) => {
+            return fail(
+                at,
+                Reason::OutOfRange("a spot has a position and a radius, such as `l 1  0 0 5 0`"),
+            );
+        }
+        (_, Some(b"area")) => {
+            let remedy =
+                "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`";
+            return fail(at, Reason::OutOfRange(remedy));
+        }
+        (_, Some(_)) => return fail(at, Reason::Expected("`-spot`, `-area`, `<` or `;`")),
+        (rest, None) => (rest, Beam::Even),
+    };
+    if !beam.is_valid() {
+        let remedy =
+            "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area";
+        return fail(at, Reason::OutOfRange(remedy));
+    }
+    Ok((input, beam))
 }
 
 fn numbers<'a, const N: usize>(mut input: Input<'a>) -> Parsed<'a, [f64; N]> {

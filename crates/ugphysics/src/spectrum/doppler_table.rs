@@ -66,11 +66,11 @@ impl DopplerGrid {
         DopplerTable { first: self.first, points }
     }
 
-    /// Tabulates X, Y, Z that `xyz` gives for every Doppler factor of the grid.
+    /// A table whose points are computed when they are first read.
     #[must_use]
-    pub fn table_of(&self, xyz: impl Fn(f64) -> [f64; 3]) -> DopplerTable {
-        let points = self.factors().map(|doppler| xyz(doppler).map(libm::log)).collect();
-        DopplerTable { first: self.first, points }
+    pub fn lazy_table(&self) -> LazyTable {
+        let chunks = std::iter::repeat_with(OnceLock::new).take(self.n_points().div_ceil(CHUNK)).collect();
+        LazyTable { first: self.first, n_points: self.n_points(), chunks }
     }
 
     /// X, Y, Z as from [`Spectrum::shifted`], at one ln D and without a table. For surfaces the
@@ -140,6 +140,38 @@ impl DopplerTable {
     #[must_use]
     pub fn points(&self) -> &[[f64; 3]] {
         &self.points
+    }
+}
+
+/// Points of a [`LazyTable`] that are allocated together.
+const CHUNK: usize = 16;
+
+type Chunk = Box<[OnceLock<[f64; 3]>; CHUNK]>;
+
+/// As a [`DopplerTable`], of any X, Y, Z; points are computed when they are first read.
+#[derive(Debug)]
+pub struct LazyTable {
+    first: i32,
+    n_points: usize,
+    chunks: Box<[OnceLock<Chunk>]>,
+}
+
+impl LazyTable {
+    /// X, Y, Z interpolated at a ln D. `xyz`: returns those at a D, always by the same function.
+    #[must_use]
+    pub fn xyz(&self, ln_doppler: f64, xyz: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+        let cell = Cell::new(self.first, self.n_points, ln_doppler);
+        let point = |idx: usize| {
+            let chunk = self.chunks[idx / CHUNK].get_or_init(|| Box::new([const { OnceLock::new() }; CHUNK]));
+            *chunk[idx % CHUNK].get_or_init(|| {
+                let ln_doppler = f64::from(self.first + idx as i32) * LN_STEP;
+                xyz(libm::exp(ln_doppler)).map(libm::log)
+            })
+        };
+        if cell.fraction == 0.0 {
+            return point(cell.idx).map(libm::exp);
+        }
+        cell.interpolate(std::array::from_fn(|i| point(cell.idx + i - 1)))
     }
 }
 

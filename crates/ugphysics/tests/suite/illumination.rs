@@ -188,7 +188,13 @@ fn power_through_a_sphere() {
             let cos = -1.0 + (f64::from(step) + 0.5) * 2.0 / f64::from(steps);
             let n = DVec3::new(cos, (1.0 - cos * cos).sqrt(), 0.0);
             let doppler = doppler_factor(n, v_light);
-            let light = IncidentLight { toward: -n, doppler, distance: 1.0, rest_distance: 1.0 / doppler };
+            let light = IncidentLight {
+                toward: -n,
+                doppler,
+                distance: 1.0,
+                rest_distance: 1.0 / doppler,
+                leaving: n,
+            };
             irradiance(light) * 2.0 * PI * 2.0 / f64::from(steps)
         })
         .sum();

@@ -23,7 +23,7 @@ pub use motion::{Carrier, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{
-    Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
+    Beam, Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
     Shading, StatedSky, Tint, Vertex, Wire,
 };
 pub use shape::{FaceShape, RoundShape};

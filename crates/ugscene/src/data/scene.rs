@@ -303,7 +303,56 @@ pub enum LightKind {
         /// The distance in its rest frame, above 0, at which its light level is its intensity. The
         /// level falls with the square of the distance; `None`: it is the same at any distance.
         reference: Option<f64>,
+        /// The directions and places from which it shines, in its rest frame.
+        beam: Beam,
     },
+}
+
+/// The directions and places from which a local light shines, in its rest frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Beam {
+    /// From its position or sphere, evenly in all directions.
+    #[default]
+    Even,
+    /// In a cone.
+    Spot {
+        /// Its axis, of any length except 0.
+        axis: DVec3,
+        /// Degrees from the axis at which light ends, up to 180, and the width of the smooth edge
+        /// inside.
+        degrees: [f64; 2],
+    },
+    /// From a parallelogram around its position, with these edges, whose cross product is not 0.
+    /// It shines to the side of that product, with the same radiance in all directions.
+    Area([DVec3; 2]),
+}
+
+impl Beam {
+    /// False where a number is not finite, an axis 0, or a parallelogram has no area.
+    #[must_use]
+    pub fn is_valid(&self) -> bool {
+        let has_direction = |vector: DVec3| {
+            let largest = vector.abs().max_element();
+            vector.is_finite() && largest > 0.0 && (vector / largest).is_finite()
+        };
+        match *self {
+            Self::Even => true,
+            Self::Spot { axis, degrees: [angle, edge] } => {
+                has_direction(axis) && (0.0..=180.0).contains(&angle) && (0.0..=angle).contains(&edge)
+            }
+            Self::Area([u, v]) => u.is_finite() && v.is_finite() && has_direction(u.cross(v)),
+        }
+    }
+
+    /// The same with its vectors changed.
+    #[must_use]
+    pub fn turned(self, turn: impl Fn(DVec3) -> DVec3) -> Self {
+        match self {
+            Self::Even => Self::Even,
+            Self::Spot { axis, degrees } => Self::Spot { axis: turn(axis), degrees },
+            Self::Area(edges) => Self::Area(edges.map(turn)),
+        }
+    }
 }
 
 /// A camera: every field is optional and has a default in the renderer.

@@ -235,7 +235,10 @@ pub(super) fn turn_bodies(scene: &mut Scene, bodies: &[BodyId]) {
         match &mut light.kind {
             LightKind::Ambient => {}
             LightKind::Directional(toward) => *toward = turn * *toward,
-            LightKind::Local { position, .. } => *position = at + turn * (*position - at),
+            LightKind::Local { position, beam, .. } => {
+                *position = at + turn * (*position - at);
+                *beam = beam.turned(|vector| turn * vector);
+            }
         }
     }
 }

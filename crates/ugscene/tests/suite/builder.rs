@@ -39,7 +39,8 @@ fn built_scenes_are_those_of_their_text() {
     let whole =
         Mesh { name: "whole", corners: &[0, 1, 2, 3], sizes: &[4], normals: &[DVec3::Z; 4], ..square() };
     builder.mesh(&Mesh { colors: &[green, red, green, red], ..whole }).unwrap();
-    let kind = LightKind::Local { position: DVec3::ONE, radius: 0.0, reference: None };
+    let kind =
+        LightKind::Local { position: DVec3::ONE, radius: 0.0, reference: None, beam: Default::default() };
     let motion = LightMotion::Body(fast);
     builder.light(Light { name: None, intensity: 2.0, kind, color: Some(lamp), motion }).unwrap();
     builder.camera(Camera { eye: Some(DVec3::new(0.0, -9.0, 2.0)), ..Camera::default() }).unwrap();
