@@ -20,12 +20,12 @@ const DEFAULT_ERROR: f64 = 1e-4;
 pub const FINE_SAGITTA: f64 = 2.5e-4;
 
 /// Round faces may become so many polygons in all. If they would be more, all are coarser.
-const MOST_POLYGONS: usize = 4_000_000;
+const MOST_POLYGONS: usize = 1_000_000;
 
 /// The least number of segments of a circle.
 const LEAST_SEGMENTS: usize = 8;
 
-/// The round faces of a scene would become more than four million polygons: so many.
+/// The round faces of a scene would become more than a million polygons: so many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyPolygons(pub usize);
 

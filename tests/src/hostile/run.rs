@@ -19,9 +19,10 @@ const WAITING_LIMIT: &str = "1800";
 /// Address space of each program, in KiB: 8 GB.
 const ADDRESS_SPACE: u64 = 8 << 20;
 
-/// Memory that each program may allocate, in KiB: with up to three frames of a film at once, the
-/// stacks of a few threads, and times the bytes of its input and output.
-const ALLOCATED: u64 = 256 << 10;
+/// Memory that each program may allocate, in KiB: with up to three frames of a film at once, each
+/// with a sphere of 51,200 polygons, the stacks of a few threads, and times the bytes of its input
+/// and output.
+const ALLOCATED: u64 = 384 << 10;
 const TIMES: u64 = 16;
 
 /// How a stage ended.
