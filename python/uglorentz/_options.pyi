@@ -147,6 +147,8 @@ class Doppler(TypedDict, total=False):
     """True. Keep values above 1 for the exposure of the renderer"""
     hd: bool | None
     """The same as keep_intensities."""
+    no_textures: bool | None
+    """True. Give faces with textures their mean colour"""
     look: Text | None
     """LOOK. Look of the picture, in one word: 1988, light, shape [default: light in photon(), warp() and film(), 1988 in the others]"""
     camera: Text | None
@@ -385,6 +387,8 @@ class Photon(TypedDict, total=False):
     """The same as cut_off."""
     no_shadows: bool | None
     """True. Without shadows: light reaches surfaces through all others"""
+    no_sky_light: bool | None
+    """True. The sky does not light the scene"""
     fresnel: bool | None
     """True. Fresnel's equations for mirrors and glass"""
     film_shutter: float | str | None
@@ -417,6 +421,8 @@ class Photon(TypedDict, total=False):
     """The same as adaptive."""
     crop: Vector | None
     """X Y W H. Draw only a part of the picture: column, row, width, height"""
+    radiances: bool | None
+    """True. Add channels of radiances at wavelengths to an EXR picture"""
     format: Text | None
     """FMT. Format of the picture [default: by the ending of output, else png]"""
     dt: Text | None
@@ -823,6 +829,8 @@ class Film(Reading, total=False):
     """True. Keep values above 1 for the exposure of the renderer"""
     hd: bool | None
     """The same as keep_intensities."""
+    no_textures: bool | None
+    """True. Give faces with textures their mean colour"""
     interpolate_hue: bool | None
     """True. Interpolate hue between corners (default)"""
     ih: bool | None
@@ -949,6 +957,8 @@ class Film(Reading, total=False):
     """The same as cut_off."""
     no_shadows: bool | None
     """True. Without shadows: light reaches surfaces through all others"""
+    no_sky_light: bool | None
+    """True. The sky does not light the scene"""
     fresnel: bool | None
     """True. Fresnel's equations for mirrors and glass"""
     film_shutter: float | str | None
@@ -971,6 +981,8 @@ class Film(Reading, total=False):
     """CONTRAST. Adaptive samples: fewer in pixels of less contrast than this"""
     ad: float | str | None
     """The same as adaptive."""
+    radiances: bool | None
+    """True. Add channels of radiances at wavelengths to an EXR picture"""
     stage: bool | None
     """True. Stand the scene on a grey ground, under a sky: day, unless sky= gives another"""
     scene: Text | None
