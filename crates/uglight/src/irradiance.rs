@@ -118,14 +118,12 @@ impl SurfaceElement {
         // Those that follow are colours of lamps that change.
         for (row, lamp) in lamps.iter().enumerate().take_while(|(_, lamp)| lamp.color_of.is_none()) {
             let (sampled, index) = place(row, lamp);
-            let sampled = sampled.map(|place| (place, 1.0));
-            let all = lamp.places().filter(|_| sampled.is_none()).chain(sampled);
-            for (place, share) in all {
+            let mut from = |place: LampPlace, share: f64| {
                 let place = lamp.shifted(place, shift);
                 let colors = match &lamp.table {
                     Some(table) => match self.time_of(lamp, place, frames, moving.as_ref(), index) {
                         Some(own_time) => Some(table.at(own_time)),
-                        None => continue,
+                        None => return,
                     },
                     None => None,
                 };
@@ -152,6 +150,10 @@ impl SurfaceElement {
                         moving.as_ref().and_then(|moving| moving.light_of(lamp, (place, body), &mut add));
                     }
                 }
+            };
+            match sampled {
+                None if lamp.is_area() => lamp.places().for_each(|(place, share)| from(place, share)),
+                place => from(place.unwrap_or(lamp.place), 1.0),
             }
         }
     }

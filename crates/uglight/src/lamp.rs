@@ -349,7 +349,7 @@ impl Lamp {
     pub fn places(&self) -> impl Iterator<Item = (LampPlace, f64)> {
         const NODES: [(f64, f64); 3] =
             [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
-        let is_area = matches!(self.beam, Beam::Area(_));
+        let is_area = self.is_area();
         let nodes = NODES.into_iter().flat_map(|one| NODES.map(|other| (one, other)));
         let nodes = nodes.take(if is_area { 9 } else { 0 });
         let of_area = nodes.map(|((u, one), (v, other))| (self.place_on([u, v]), one * other));
@@ -374,7 +374,7 @@ impl Lamp {
     /// seen, or zero for a surface without one. `shift`: see [`Lamp::shifted`].
     #[inline]
     pub fn level_at_rest(&self, point: DVec3, normal: DVec3, shift: DVec3) -> f64 {
-        if let Beam::Area(_) = self.beam {
+        if self.is_area() {
             let level = |place| self.level_from(self.shifted(place, shift), point, normal);
             return self.places().map(|(place, share)| share * level(place)).sum();
         }
@@ -396,6 +396,11 @@ impl Lamp {
             }
             _ => level,
         }
+    }
+
+    /// True if it shines from a parallelogram.
+    pub fn is_area(&self) -> bool {
+        matches!(self.beam, Beam::Area(_))
     }
 
     /// True if the same light arrives at any distance and in any direction.
