@@ -109,7 +109,8 @@ fn moving_medium(scene: &Scene, frames: &RestFrames) -> Option<BodyId> {
         let transmits = scene.surface(face).is_some_and(|surface| surface.transmitted > 0.0);
         transmits && frames.world_line(face.body).is_some()
     };
-    scene.faces.iter().filter(|_| frames.have_world_lines()).find(is_medium).map(|face| face.body)
+    let faces = if frames.have_world_lines() { &scene.faces[..] } else { &[] };
+    faces.iter().find(is_medium).map(|face| face.body)
 }
 
 impl<'a> Scenery<'a> {

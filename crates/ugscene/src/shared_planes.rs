@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use crate::{BodyId, ColorId, Face, FaceShape, RestFrames, Scene, ShadingId, unit_normal};
 
@@ -40,16 +41,22 @@ pub fn shared_planes(scene: &Scene, rest: &[DVec3], frames: &RestFrames) -> Vec<
     close.sort_unstable_by(|&a, &b| numbers[a as usize].total_cmp(&numbers[b as usize]).then(a.cmp(&b)));
     let motions = motions(scene, frames);
     let mut planes = Vec::new();
-    for close in close.chunk_by(|&a, &b| numbers[b as usize] - numbers[a as usize] <= CLOSE) {
+    let motion = |row: u32| motions[scene.faces[row as usize].body.index()];
+    for close in close.chunk_by_mut(|&a, &b| numbers[b as usize] - numbers[a as usize] <= CLOSE) {
+        close.sort_by_key(|&row| motion(row));
+    }
+    let are_close = |&a: &u32, &b: &u32| {
+        (numbers[b as usize] - numbers[a as usize]).abs() <= CLOSE && motion(a) == motion(b)
+    };
+    for close in close.chunk_by(are_close) {
         // Each plane with its faces, the first of which represents it.
         let mut groups: Vec<(Plane, Vec<u32>)> = Vec::new();
         for &row in close {
             let placed = PlacedFace { scene, rest, face: &scene.faces[row as usize] };
             let Some(plane) = placed.plane() else { continue };
-            let motion = motions[placed.face.body.index()];
             let is_same = |(other, rows): &&mut (Plane, Vec<u32>)| {
                 let first = PlacedFace { face: &scene.faces[rows[0] as usize], ..placed };
-                motion == motions[first.face.body.index()] && (placed.is_in(other) || first.is_in(&plane))
+                placed.is_in(other) || first.is_in(&plane)
             };
             match groups.iter_mut().find(is_same) {
                 Some((_, rows)) => rows.push(row),
@@ -95,14 +102,17 @@ fn close_numbers(numbers: &[f64]) -> Vec<u32> {
 }
 
 /// For each body the first one that moves alike.
-fn motions(scene: &Scene, frames: &RestFrames) -> Vec<u32> {
-    let mut firsts: Vec<BodyId> = Vec::new();
+fn motions(scene: &Scene, frames: &RestFrames) -> Vec<BodyId> {
+    let mut firsts: FxHashMap<[u64; 3], Vec<BodyId>> = FxHashMap::default();
     let first = |body: BodyId| {
-        let at = firsts.iter().position(|&other| frames.move_alike(other, body)).unwrap_or_else(|| {
-            firsts.push(body);
-            firsts.len() - 1
-        });
-        at as u32
+        // Without the sign of 0.
+        let key = (frames.velocity(body).proper() + 0.0).to_array().map(f64::to_bits);
+        let alike = firsts.entry(key).or_default();
+        let known = alike.iter().copied().find(|&other| frames.move_alike(other, body));
+        known.unwrap_or_else(|| {
+            alike.push(body);
+            body
+        })
     };
     scene.bodies.ids().map(first).collect()
 }
