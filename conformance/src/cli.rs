@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
+use serde_json::Value;
 use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
 
 use crate::compare::Comparison;
-use crate::picture::{self, DrawnBy, PictureCase};
+use crate::picture::{self, DrawnBy, MeasuredQuantity, PictureCase};
 use crate::precision::Precision;
 use crate::scorecard::{Scorecard, read_answers};
 use crate::suite::{Topic, topics};
@@ -46,7 +47,7 @@ enum Command {
     /// Compare answers with the expected ones; status 1 if one is wrong
     Score(ScoreArgs),
     /// Measure a PNG of a scene; status 1 if a number is wrong
-    ScoreImage(ImageArgs),
+    ScoreImage(ScoreImageArgs),
     /// Compare two pictures; status 1 if too many pixels differ
     Compare(CompareArgs),
     /// Draw a scene with the programs of this project
@@ -71,7 +72,37 @@ struct ScoreArgs {
     precision: Precision,
 
     #[command(flatten)]
+    report: ReportArgs,
+
+    #[command(flatten)]
     common: CommonArgs,
+}
+
+#[derive(clap::Args, Debug)]
+struct ReportArgs {
+    /// Form of the result: text, json
+    #[arg(long, value_name = "FORM", default_value = "text", value_parser = ["text", "json"])]
+    format: String,
+}
+
+impl ReportArgs {
+    /// Writes a result.
+    fn write(&self, context: &mut Context, text: &str, json: &Value) -> Result<(), Failure> {
+        if self.format == "json" {
+            context.write_text(&format!("{json:#}\n"))
+        } else {
+            context.write_text(text)
+        }
+    }
+}
+
+#[derive(clap::Args, Debug)]
+struct ScoreImageArgs {
+    #[command(flatten)]
+    report: ReportArgs,
+
+    #[command(flatten)]
+    image: ImageArgs,
 }
 
 #[derive(clap::Args, Debug)]
@@ -161,7 +192,9 @@ impl ToolArgs for Args {
             Some(Command::Score(score)) => &score.common,
             Some(Command::Compare(compare)) => &compare.common,
             Some(
-                Command::ScoreImage(image) | Command::Mesh(image) | Command::Draw(DrawArgs { image, .. }),
+                Command::ScoreImage(ScoreImageArgs { image, .. })
+                | Command::Mesh(image)
+                | Command::Draw(DrawArgs { image, .. }),
             ) => &image.common,
         }
     }
@@ -193,20 +226,22 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     let topics = topics().map_err(Failure::failed)?;
     match command {
         Command::Questions(_) => context.write_text(&questions(&topics))?,
-        Command::Score(ScoreArgs { precision, .. }) => {
+        Command::Score(ScoreArgs { precision, report, .. }) => {
             let input = context.input()?;
             let answers = read_answers(&String::from_utf8_lossy(&input.text), &topics)
                 .map_err(|error| Failure::failed(format!("{}:{error}", input.name)))?;
             let card = Scorecard::new(&topics, &answers, *precision);
-            context.write_text(&card.to_string())?;
+            report.write(context, &card.to_string(), &card.json())?;
             return Ok(card.counts()[1] == 0);
         }
-        Command::ScoreImage(image) => {
+        Command::ScoreImage(ScoreImageArgs { report, image }) => {
             let input = context.input()?;
-            let (text, is_right) = score_image(image.case, &input.text)
-                .map_err(|problem| Failure::failed(format!("{}: {problem}", input.name)))?;
-            context.write_text(&text)?;
-            return Ok(is_right);
+            let measured = image.case.measure(&input.text);
+            let measured =
+                measured.map_err(|problem| Failure::failed(format!("{}: {problem}", input.name)))?;
+            let json = picture::json(image.case, &measured);
+            report.write(context, &measured_text(image.case, &measured), &json)?;
+            return Ok(all_pass(&measured));
         }
         Command::Compare(compare) => {
             let comparison = compare.compared(context)?;
@@ -267,9 +302,16 @@ pub fn questions(topics: &[Topic]) -> String {
 /// The picture cannot be measured.
 pub fn score_image(case: &PictureCase, png: &[u8]) -> Result<(String, bool), String> {
     let measured = case.measure(png)?;
-    let mut text = format!("{}: {}\n", case.name, case.about);
-    measured.iter().for_each(|number| text += &format!("{number}\n"));
-    Ok((text, measured.iter().all(picture::MeasuredQuantity::passes)))
+    Ok((measured_text(case, &measured), all_pass(&measured)))
+}
+
+fn measured_text(case: &PictureCase, measured: &[MeasuredQuantity]) -> String {
+    let lines = measured.iter().map(|number| format!("{number}\n"));
+    std::iter::once(format!("{}: {}\n", case.name, case.about)).chain(lines).collect()
+}
+
+fn all_pass(measured: &[MeasuredQuantity]) -> bool {
+    measured.iter().all(MeasuredQuantity::passes)
 }
 
 /// Draws and measures all pictures. Returns the measurements, with a last line that lists

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use serde_json::{Value, json};
+
 use crate::mistakes;
 use crate::precision::Precision;
 use crate::suite::{Case, Topic};
@@ -105,6 +107,25 @@ impl<'a> Scorecard<'a> {
         self.rows.iter().fold([0; 3], |[passed, failed, unanswered], row| {
             [passed + row.passed, failed + row.failed, unanswered + row.unanswered()]
         })
+    }
+}
+
+impl Scorecard<'_> {
+    /// The result for programs. Errors are in units of the tolerance: up to 1 is correct.
+    pub fn json(&self) -> Value {
+        let topics = self.rows.iter().map(|row| {
+            let Row { topic, passed, failed, worst } = row;
+            json!({ "topic": topic.name, "about": topic.title, "passed": passed, "failed": failed,
+                "unanswered": row.unanswered(), "worst_error": worst })
+        });
+        let failures = self.failures.iter().map(|&Failure { case, answer, tolerance }| {
+            let mistakes = self.precision.recognized(case, answer).into_iter();
+            let mistakes = mistakes.map(|name| json!({ "name": name, "about": mistakes::describe(name) }));
+            json!({ "question": case.question(), "answered": answer, "expected": case.expected,
+                "source": case.source, "error": case.error(answer) / tolerance,
+                "looks_like": mistakes.collect::<Vec<_>>() })
+        });
+        json!({ "topics": topics.collect::<Vec<_>>(), "failures": failures.collect::<Vec<_>>() })
     }
 }
 

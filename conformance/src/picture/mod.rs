@@ -15,6 +15,7 @@ mod sphere;
 use std::fmt;
 
 use image::{ImageFormat, RgbImage};
+use serde_json::{Value, json};
 use ugparse::{Options, Source};
 use ugphoton::{ColorShift, Lens};
 use ugrainbow::PictureOptions;
@@ -79,6 +80,20 @@ pub struct MeasuredQuantity {
     pub value: f64,
     /// The expected value.
     pub expected: Expected,
+}
+
+/// The measurements of a picture for programs. A tolerance of `null` is that of a lower bound.
+pub fn json(case: &PictureCase, measured: &[MeasuredQuantity]) -> Value {
+    let measured = measured.iter().map(|number| {
+        let (expected, tolerance) = match number.expected {
+            Expected::About { value, tolerance } => (value, Some(tolerance)),
+            Expected::AtLeast(least) => (least, None),
+        };
+        let MeasuredQuantity { quantity, value, .. } = number;
+        json!({ "quantity": quantity, "value": value, "expected": expected, "tolerance": tolerance,
+            "passes": number.passes() })
+    });
+    json!({ "picture": case.name, "about": case.about, "measured": measured.collect::<Vec<_>>() })
 }
 
 /// The expected value of a measurement.

@@ -44,6 +44,12 @@ T01.04 gamma 0.5
   looks like M2: gamma without its square root
 ";
     assert!(text(&card).ends_with(shown), "{}", text(&card));
+    let card = run(&["score", "-format", "json"], b"T01.04 1.33333333333333\nT01.05 nan\n");
+    assert_eq!(card.status.code(), Some(1));
+    let card: serde_json::Value = serde_json::from_slice(&card.stdout).expect("JSON");
+    assert_eq!(card["failures"][0]["looks_like"][0]["name"], "M2");
+    assert_eq!(card["failures"][1]["answered"][0], serde_json::Value::Null);
+    assert_eq!(card["topics"][0]["failed"], 2);
 }
 
 #[test]
