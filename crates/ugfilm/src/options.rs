@@ -212,7 +212,7 @@ const SIZE: &str = "sz";
 
 /// Its help in short, and what the long help adds.
 const SIZE_HELP: [&str; 2] = [
-    "Size of every frame in pixels [default: 1024 768]",
+    "Size of every frame in pixels, or in mm, cm, in, pt [default: 1024 768]",
     "All frames of a film have the same size. With -sheet it is the size of each frame on the sheet; with \
     -vec it is in points. Widths and heights of mp4 are even.",
 ];

@@ -9,6 +9,8 @@ pub struct Metadata {
     pub software: String,
     /// How the image was made: the command lines of the pipe, one per line.
     pub comment: String,
+    /// Pixels in an inch. It is written to PNG files alone.
+    pub per_inch: Option<f64>,
     /// Of a panorama, what viewers of 360° pictures read. It is written to PNG files alone.
     pub panorama: Option<PanoramaArea>,
     /// From the scene to the axes of the camera, and to normalized device coordinates: matrices for

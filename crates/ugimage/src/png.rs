@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use png::{BitDepth, ColorType, Encoder, EncodingError, SrgbRenderingIntent};
+use png::{BitDepth, ColorType, Encoder, EncodingError, PixelDimensions, SrgbRenderingIntent, Unit};
 
 use ugphysics::srgb_encode;
 
@@ -135,6 +135,11 @@ impl<'a> Image<'a> {
         encoder.set_depth(self.depth);
         encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
         encoder.set_compression(compression);
+        if let Some(per_inch) = self.metadata.per_inch {
+            let per_metre = (per_inch / 0.0254).round() as u32;
+            let unit = Unit::Meter;
+            encoder.set_pixel_dims(Some(PixelDimensions { xppu: per_metre, yppu: per_metre, unit }));
+        }
         add_text(&mut encoder, "Software", &self.metadata.software)?;
         add_text(&mut encoder, "Comment", &self.metadata.comment)?;
         if let Some(area) = self.metadata.panorama {

@@ -8,7 +8,8 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Manual, Progress, ToolArgs, Words, finite, remedies, whole,
+    CommonArgs, Context, Failure, Look, LookArgs, Manual, PIXELS_PER_INCH, Progress, Side, ToolArgs, Words,
+    finite, remedies,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
@@ -90,9 +91,9 @@ pub struct Args {
     ///
     /// For -cull, and for the camera of a scene without one.
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
-          default_values = ["1024", "768"], value_parser = whole(1..=u32::MAX),
+          default_values = ["1024", "768"], value_parser = Side::parse,
           help_heading = CAMERA)]
-    size: Vec<u32>,
+    size: Vec<Side>,
 
     /// Also write measurements at each vertex to FILE
     ///
@@ -213,7 +214,7 @@ impl Args {
             camera_velocity: motion.camera_velocity,
             eye: camera.eye,
             camera,
-            size: [self.size[0], self.size[1]],
+            size: [0, 1].map(|side| self.size[side].at(PIXELS_PER_INCH)),
             cull: self.cull,
             time: motion.time,
             anchor: motion.anchor,

@@ -92,7 +92,7 @@ impl Canvas {
             Subject::Surfaces { view, wires: Some(_), .. } => view.matrices().map(Box::new),
             _ => None,
         };
-        let metadata = Metadata { camera, ..metadata };
+        let metadata = Metadata { camera, per_inch: self.options.per_inch, ..metadata };
         progress.check().map_err(Error::from)?;
         let mapped = self.layout.map(&annotated, &self.options)?;
         let scale = mapped.as_ref().map(|(_, scale)| scale.clone());

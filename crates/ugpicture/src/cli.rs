@@ -12,7 +12,7 @@ use ugimage::label::TextForm;
 use ugimage::{Filter, Format, Tone, spelled_color};
 use ugparse::Diagnostics;
 use ugphysics::Hsv;
-use ugpipe::{Context, Failure, Preset, Words, finite, number, one_of, whole};
+use ugpipe::{Context, Failure, PIXELS_PER_INCH, Preset, Side, Words, finite, number, one_of, whole};
 use ugscene::cli::CameraArgs;
 
 use crate::background::Background;
@@ -38,11 +38,14 @@ pub struct PictureArgs {
     #[command(flatten)]
     camera: CameraArgs,
 
-    /// Size of the picture in pixels
+    /// Size of the picture in pixels, or in mm, cm, in, pt
+    ///
+    /// A length, as in -sz 8.6cm 6cm, has 300 pixels to the inch, which a PNG file states. With -vec
+    /// numbers are points, and lengths are rounded to these.
     #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
-          default_values = ["1024", "768"], value_parser = whole(1..=u32::MAX),
+          default_values = ["1024", "768"], value_parser = Side::parse,
           visible_alias = "size", help_heading = PICTURE)]
-    sz: Vec<u32>,
+    sz: Vec<Side>,
 
     /// N x N samples per pixel, 1 to 16
     #[arg(long, value_name = "N", default_value = "4", value_parser = whole(1..=16),
@@ -121,9 +124,11 @@ impl PictureArgs {
     /// # Errors
     /// The background is not a valid colour.
     pub fn options(&self, output: Output, annotations: AnnotationOptions) -> Result<PictureOptions, Failure> {
+        let per_inch = if let Output::Vector(_) = output { 72.0 } else { PIXELS_PER_INCH };
         Ok(PictureOptions {
             camera: self.camera.options(),
-            size: [self.sz[0], self.sz[1]],
+            size: [0, 1].map(|side| self.sz[side].at(per_inch)),
+            per_inch: self.sz.iter().any(|side| matches!(side, Side::Inches(_))).then_some(per_inch),
             samples: self.aa,
             filter: self.fl,
             background: self.background()?,

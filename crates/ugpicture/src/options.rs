@@ -23,6 +23,8 @@ pub struct PictureOptions {
     pub camera: CameraOptions,
     /// Pixels across and down.
     pub size: [u32; 2],
+    /// Pixels in an inch, if a file says so.
+    pub per_inch: Option<f64>,
     /// Samples along a side of a pixel, 1…[`MAX_SAMPLES`].
     pub samples: u32,
     /// The reconstruction filter.
@@ -52,6 +54,7 @@ impl Default for PictureOptions {
         Self {
             camera: CameraOptions::default(),
             size: [1024, 768],
+            per_inch: None,
             samples: 4,
             filter: Filter::Box,
             background: Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }),

@@ -186,4 +186,4 @@ pub use run::main;
 pub use steps::Steps;
 pub use text::{is_printable, message, printable};
 #[cfg(feature = "cli")]
-pub use values::{finite, number, one_of, vector, view_angle, whole};
+pub use values::{PIXELS_PER_INCH, Side, finite, number, one_of, vector, view_angle, whole};

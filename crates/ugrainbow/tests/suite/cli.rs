@@ -35,6 +35,20 @@ fn a_picture_says_how_the_whole_pipe_was_called() {
 }
 
 #[test]
+fn a_size_may_be_a_length() {
+    let file = UGRAINBOW.output("-sz 2.54cm 36pt -aa 1", SCENE);
+    let reader = png::Decoder::new(Cursor::new(file)).read_info().unwrap();
+    let info = reader.info();
+    let dots = info.pixel_dims.map(|dims| (dims.xppu, dims.yppu, dims.unit));
+    assert_eq!((info.width, info.height, dots), (300, 150, Some((11811, 11811, png::Unit::Meter))));
+    let svg = String::from_utf8(UGRAINBOW.output("-sz 1in 12.7mm -vec -dt svg", SCENE)).unwrap();
+    assert!(svg.contains("width=\"72pt\" height=\"36pt\""), "{svg}");
+    for wrong in ["0cm 1cm", "1cm nancm", "2000in 1in", "8.6 6", "3km 1km"] {
+        UGRAINBOW.refuses(&format!("-sz {wrong}"), SCENE, 2, "for `-sz`");
+    }
+}
+
+#[test]
 fn a_scene_without_a_camera_is_drawn_with_a_note() {
     let scene = SCENE.replace("cam -ep 0 -1 4 -vc 0 0 0;", "");
     let note = UGRAINBOW.notes("-sz 20 10", &scene);
