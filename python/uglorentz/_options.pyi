@@ -214,7 +214,7 @@ class Render(TypedDict, total=False):
     og: bool | None
     """The same as orthographic."""
     size: Vector | None
-    """W H. Size of the picture in pixels [default: 1024 768]"""
+    """W H. Size of the picture in pixels, or in mm, cm, in, pt [default: 1024 768]"""
     sz: Vector | None
     """The same as size."""
     samples: float | str | None
@@ -428,7 +428,7 @@ class Photon(TypedDict, total=False):
     dt: Text | None
     """The same as format."""
     size: Vector | None
-    """W H. Size of the picture in pixels [default: 1024 768]"""
+    """W H. Size of the picture in pixels, or in mm, cm, in, pt [default: 1024 768]"""
     sz: Vector | None
     """The same as size."""
     samples: float | str | None
@@ -614,7 +614,7 @@ class Warp(Reading, total=False):
     dt: Text | None
     """The same as format."""
     size: Vector | None
-    """W H. Size of the picture in pixels [default: 1024 768]"""
+    """W H. Size of the picture in pixels, or in mm, cm, in, pt [default: 1024 768]"""
     sz: Vector | None
     """The same as size."""
     filter: Text | None
@@ -850,7 +850,7 @@ class Film(Reading, total=False):
     txt: bool | None
     """The same as text."""
     size: Vector | float | str | None
-    """W H. Size of every frame in pixels [default: 1024 768]"""
+    """W H. Size of every frame in pixels, or in mm, cm, in, pt [default: 1024 768]"""
     sz: Vector | float | str | None
     """The same as size."""
     samples: float | str | None
