@@ -352,8 +352,8 @@ fn a_sky_and_lamps_light_a_scene_together() {
     }
 }
 
-/// The light of a sky is the same from tables, which scenes of many colours go without, and beside it
-/// while a surface begins to move, when each point of the sky is integrated on its own.
+/// The light of a sky is the same from tables, which scenes of many colours go without, and beside
+/// it while a surface begins to move, when each point of the sky is integrated on its own.
 #[test]
 fn spectra_of_a_sky_are_tabulated_and_mixed_without_loss() {
     let square = "c red .9 10 .9; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0;

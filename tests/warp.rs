@@ -110,8 +110,8 @@ fn spectra_are_those_of_a_moving_camera() {
     check("c one 0.6; c two 0.5; c three 0.4;", shift, Basis::Mixture);
 }
 
-/// Radiances at wavelengths, written to EXR and read, are seen at 0.9c as the scene itself is: light
-/// all around of black bodies, measured surfaces and paints, under a lamp with a spectrum.
+/// Radiances at wavelengths, written to EXR and read, are seen at 0.9c as the scene itself is:
+/// light all around of black bodies, measured surfaces and paints, under a lamp with a spectrum.
 #[test]
 fn radiances_are_those_of_a_moving_camera() {
     let shift = ColorShift::SPECTRA;

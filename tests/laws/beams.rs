@@ -21,8 +21,8 @@ fn area(normal: DVec3, side: f64) -> String {
     format!("-area {} {}", point(side * u), point(side * normal.cross(u)))
 }
 
-/// Lamps that rest with what they light, whatever the motion of both: a small area has the light of a
-/// point times the cosine at the lamp, and none behind it; a spot, that of its cone.
+/// Lamps that rest with what they light, whatever the motion of both: a small area has the light of
+/// a point times the cosine at the lamp, and none behind it; a spot, that of its cone.
 #[test]
 fn beams_weaken_the_light_of_a_point() {
     let toward = DVec3::X;
@@ -58,8 +58,8 @@ fn beams_weaken_the_light_of_a_point() {
     }
 }
 
-/// Irradiance by a square of radiance L is L/2 Σ θ n·Γ over its edges (Lambert 1760): θ, the angle of
-/// an edge as seen, Γ, the normal of the plane through it.
+/// Irradiance by a square of radiance L is L/2 Σ θ n·Γ over its edges (Lambert 1760): θ, the angle
+/// of an edge as seen, Γ, the normal of the plane through it.
 #[test]
 fn a_large_area_has_the_irradiance_of_lamberts_formula() {
     let (center, normal) = (DVec3::new(9.0, 0.0, 0.0), -DVec3::X);
@@ -101,8 +101,8 @@ fn a_large_area_has_the_irradiance_of_lamberts_formula() {
     }
 }
 
-/// Lamp and surface with any velocities: the cone and the cosine are those of the direction in which
-/// light leaves in the rest frame of the lamp, by 4×4 matrices.
+/// Lamp and surface with any velocities: the cone and the cosine are those of the direction in
+/// which light leaves in the rest frame of the lamp, by 4×4 matrices.
 #[test]
 fn beams_are_those_of_the_rest_frame_of_the_lamp() {
     let mut random = Random(71);
@@ -211,8 +211,8 @@ fn beams_are_statements() {
     }
 }
 
-/// A lamp, a surface and the eye at rest in glass: a flash is seen after N times the length of its way.
-/// Without the glass, and with a lamp outside of it, it is not slowed.
+/// A lamp, a surface and the eye at rest in glass: a flash is seen after N times the length of its
+/// way. Without the glass, and with a lamp outside of it, it is not slowed.
 #[test]
 fn a_flash_in_glass_is_slowed() {
     let corners = "v c0 -20 -20 -20; v c1 20 -20 -20; v c2 20 20 -20; v c3 -20 20 -20;

@@ -82,7 +82,8 @@ pub(crate) fn read(
 pub struct SpectralPicture {
     /// Width and height.
     pub size: [u32; 2],
-    /// Wavelengths in nm, rising, each with the radiance of every pixel, row after row from the top.
+    /// Wavelengths in nm, rising, each with the radiance of every pixel, row after row from the
+    /// top.
     pub samples: Vec<(f64, Vec<f32>)>,
 }
 

@@ -81,8 +81,8 @@ pub struct IncidentLamp {
 }
 
 impl IncidentLamp {
-    /// Calls `visit` with the light of each colour, when a lamp has a mixture of two. `colors`: their
-    /// rows, with their shares.
+    /// Calls `visit` with the light of each colour, when a lamp has a mixture of two. `colors`:
+    /// their rows, with their shares.
     fn of_colors(self, colors: &[(u32, f64); 2], mut visit: impl FnMut(IncidentLamp)) {
         for &(lamp, share) in colors.iter().filter(|(_, share)| *share > 0.0) {
             let irradiance = Irradiance { lamp, level: share * self.irradiance.level, ..self.irradiance };
@@ -102,9 +102,9 @@ impl SurfaceElement {
 
     /// Calls `visit` with the light of each lamp, in their order; not with those behind the
     /// surface. Moving ambient light is visited several times, once for each ring of the sky.
-    /// `place`: returns a place of a lamp, from its row and itself, which stands for all of it; with
-    /// `None` it is several ([`Lamp::places`]); and the refractive index of the medium between, in
-    /// which both rest, or 1.
+    /// `place`: returns a place of a lamp, from its row and itself, which stands for all of it;
+    /// with `None` it is several ([`Lamp::places`]); and the refractive index of the medium
+    /// between, in which both rest, or 1.
     pub fn for_each_incident(
         &self,
         lamps: &[Lamp],
@@ -174,8 +174,8 @@ impl SurfaceElement {
         light
     }
 
-    /// The own time at which a lamp sent the light that the surface scatters: a lamp with a place and
-    /// a motion. `place`: that of the lamp.
+    /// The own time at which a lamp sent the light that the surface scatters: a lamp with a place
+    /// and a motion. `place`: that of the lamp.
     #[must_use]
     pub fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
         let moving = MovingElement::new(self, frames);

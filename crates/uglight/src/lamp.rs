@@ -39,7 +39,7 @@ pub struct Lamp {
     pub radius: f64,
     /// How its light falls off with distance; `None` if the level is the same at any distance.
     pub fall_off: Option<FallOff>,
-    /// The directions and places from which it shines, in its rest frame.
+    /// Its distribution over directions (spot) or places (area), in its rest frame.
     pub beam: Beam,
     /// Its colours over own time, if it changes; the colour above is then that at own time 0.
     pub table: Option<Arc<LampTable>>,
@@ -316,7 +316,8 @@ impl Lamp {
     }
 
     /// The part of its intensity that arrives at a distance in its rest frame: 1 unless its light
-    /// falls off, or depends on the direction. `leaving`: the unit vector in which it left the lamp.
+    /// falls off, or depends on the direction. `leaving`: the unit vector in which it left the
+    /// lamp.
     #[inline]
     pub fn part_at(&self, rest_distance: f64, leaving: DVec3) -> f64 {
         let part = self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance));

@@ -59,8 +59,8 @@ pub struct Args {
 
     /// Cut every edge into N equal pieces, instead of -se, -sc and -sl
     ///
-    /// With 1, spheres, cylinders, tubes and discs stay whole, as ugrainbow -xc draws them; else they
-    /// become polygons.
+    /// With 1, spheres, cylinders, tubes and discs stay whole, as ugrainbow -xc draws them; else
+    /// they become polygons.
     #[arg(id = "equal", long = "sd", visible_alias = "pieces", value_name = "N")]
     equal: Option<u32>,
 

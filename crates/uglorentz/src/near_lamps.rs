@@ -4,9 +4,9 @@
 //! of a lamp on a face with normal n is n·l D_l F, with l towards the lamp, D_l of (P14), and F the
 //! fall-off of its light with distance, if it has one. Faces that share an edge have different
 //! normals, so the criterion tests the vector D_l F l, which they share (E6). Directional light
-//! changes along an edge only where its body, or that of the edge, is on a world line; ambient light
-//! is left out. The light of lamps on world lines, of lamps whose colour changes, and on bodies on
-//! world lines is sampled ([`SampledLamps`]).
+//! changes along an edge only where its body, or that of the edge, is on a world line; ambient
+//! light is left out. The light of lamps on world lines, of lamps whose colour changes, and on
+//! bodies on world lines is sampled ([`SampledLamps`]).
 
 use glam::DVec3;
 use uglight::{FallOff, Lamp, LampPlace, Lamps, ScatteringTime, SurfaceElement};
@@ -211,8 +211,8 @@ fn is_sampled(lamp: &Lamp, frames: &RestFrames) -> bool {
     is_on_line || lamp.table.is_some() || lamp.beam != Beam::Even
 }
 
-/// Lamps whose light is computed as programs downstream compute it: those that [`is_sampled`] names,
-/// and all of them on bodies on world lines.
+/// Lamps whose light is computed as programs downstream compute it: those that [`is_sampled`]
+/// names, and all of them on bodies on world lines.
 #[derive(Clone, Debug)]
 struct SampledLamps {
     lamps: Lamps,

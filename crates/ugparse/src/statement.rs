@@ -124,7 +124,7 @@ pub(crate) struct FaceStatement {
     pub shading: Option<ShadingStatement>,
     pub motion: Option<MotionReference>,
     pub shape: FaceShape,
-    /// A round face by its numbers; then it has no contours.
+    /// Centre, axis and radius of a round face that is given by numbers; such a face has no contours.
     pub round: Option<RoundShape>,
 }
 

@@ -71,8 +71,8 @@ pub struct Args {
 
     /// The sky does not light the scene
     ///
-    /// It is only seen, directly and in mirrors. Otherwise it lights the scene beside its lamps, and
-    /// in place of the default lights.
+    /// It is only seen, directly and in mirrors. Otherwise it lights the scene beside its lamps,
+    /// and in place of the default lights.
     #[arg(long, help_heading = RAYS)]
     no_sky_light: bool,
 
@@ -121,9 +121,9 @@ pub struct Args {
 
     /// Add channels of radiances at wavelengths to an EXR picture
     ///
-    /// 249 channels such as S0.450nm, from 80 to 3953 nm (names as by Fichet et al. 2021): enough for
-    /// `ugwarp -sp` to show a panorama (-pan) at up to 0.9c as the scene itself would be seen. It
-    /// takes about 80 times as long.
+    /// 249 channels such as S0.450nm, from 80 to 3953 nm (names as by Fichet et al. 2021): enough
+    /// for `ugwarp -sp` to show a panorama (-pan) at up to 0.9c as the scene itself would be seen.
+    /// It takes about 80 times as long.
     #[arg(long, help_heading = PICTURE)]
     radiances: bool,
 

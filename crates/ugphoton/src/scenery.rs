@@ -257,8 +257,8 @@ impl<'a> Scenery<'a> {
         [own.clone(), own.end..n_before, n_before + set.start..n_before + set.end]
     }
 
-    /// The refractive index of the solid between a lamp and a surface of `part`, if they rest in one
-    /// and the same; otherwise 1. `before`: the solid before the surface.  Eq. (P24)
+    /// The refractive index of the solid between a lamp and a surface of `part`, if they rest in
+    /// one and the same; otherwise 1. `before`: the solid before the surface.  Eq. (P24)
     pub fn index_before(&self, lamp: usize, before: Option<Solid>, part: usize) -> f64 {
         let Some(solid) =
             before.filter(|_| self.lamp_media.get(lamp).is_some_and(|of_lamp| *of_lamp == before))

@@ -74,8 +74,8 @@ impl Config {
         }
     }
 
-    /// The same for a scene: faces with textures are drawn by rays where rays can draw the scene, with
-    /// the shift of colours that `ugdoppler` left to them.
+    /// The same for a scene: faces with textures are drawn by rays where rays can draw the scene,
+    /// with the shift of colours that `ugdoppler` left to them.
     pub(crate) fn with_textures(&self, scene: &Scene) -> Self {
         let camera = scene.camera().and_then(|camera| camera.projection);
         let is_orthographic = self.picture.camera.is_orthographic || camera == Some(Projection::Orthographic);

@@ -41,8 +41,9 @@ impl std::error::Error for TooManyPolygons {}
 /// returns the row of the first polygon of each face, and the number of all faces. In a scene as
 /// seen, the polygons are those at rest, with corners where they are seen.
 ///
-/// `sagitta`: of a face, its row and its shape at rest, relative to the radius, how far a polygon may
-/// be from the surface, at least 9.6·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the face.
+/// `sagitta`: of a face, its row and its shape at rest, relative to the radius, how far a polygon
+/// may be from the surface, at least 9.6·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the
+/// face.
 ///
 /// # Errors
 /// Too many polygons; the scene is unchanged.

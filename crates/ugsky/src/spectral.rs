@@ -22,8 +22,9 @@ pub enum Basis {
     /// Daylight, as much as the luminance of a colour: for pictures of infrared or ultraviolet
     /// light, which have no colours.
     Grey,
-    /// Radiances at the second, third and fourth of these rising wavelengths, nm, in place of red,
-    /// green and blue: each 0 at its neighbours, and linear between.
+    /// In place of red, green and blue, the channels are radiances at the inner three of five
+    /// ascending wavelengths in nm. The spectrum is interpolated linearly between these and is 0 at
+    /// the outer two.
     Samples([f64; 5]),
 }
 
@@ -258,8 +259,8 @@ fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_PURE]; 2], part: f32)
     })
 }
 
-/// The [`pure_lights`] in a colour with their amounts: as much white as all channels have, as much of
-/// a pair as the two brighter ones have more, and the rest of the brightest.
+/// The [`pure_lights`] in a colour with their amounts: as much white as all channels have, as much
+/// of a pair as the two brighter ones have more, and the rest of the brightest.
 #[must_use]
 pub fn amounts(rgb: [f32; 3]) -> [(usize, f32); 3] {
     let rgb = rgb.map(|part| part.max(0.0));

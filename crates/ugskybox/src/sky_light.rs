@@ -131,7 +131,8 @@ impl SkyLamps {
         (!is_dark).then_some(Self { stars, points, n_sets, pure: ugsky::pure_lights(saturation), saturation })
     }
 
-    /// The rows of [`SkyLamps::pure`] that the light of a point is a mixture of, with their amounts.
+    /// The rows of [`SkyLamps::pure`] that the light of a point is a mixture of, with their
+    /// amounts.
     pub fn amounts(&self, lamp: &SkyLamp) -> impl Iterator<Item = (usize, f64)> + use<> {
         let all = ugsky::amounts(lamp.linear.map(|part| part as f32));
         let [white, pair, one] = all.map(|(row, amount)| (row, f64::from(amount)));

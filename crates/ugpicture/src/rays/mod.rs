@@ -1,10 +1,10 @@
 //! What a ray into the past meets: faces of bodies with one velocity by a hierarchy of their
 //! triangles at rest, and bodies on world lines, in whose coordinates rays are curves.
 //!
-//! `path`: rays; `rounds`: round faces; `world`: all bodies; `part`: one of them, or all with one velocity; `sphere`,
-//! `moving_boxes` and `corridor`: bodies that
-//! rays cannot meet; `world_line_part`: bodies that accelerate, spin or orbit. Rays from a pinhole
-//! find inertial faces faster by [`crate::outlines`], if these are large.
+//! `path`: rays; `rounds`: round faces; `world`: all bodies; `part`: one of them, or all with one
+//! velocity; `sphere`, `moving_boxes` and `corridor`: bodies that rays cannot meet;
+//! `world_line_part`: bodies that accelerate, spin or orbit. Rays from a pinhole find inertial
+//! faces faster by [`crate::outlines`], if these are large.
 
 mod corridor;
 mod moving_boxes;

@@ -73,8 +73,8 @@ impl Rounds {
         self.boxes.bounds()
     }
 
-    /// The nearest hit with `range.start` < t < `range.end`, and the row of its face. Ties go to the
-    /// lowest row.
+    /// The nearest hit with `range.start` < t < `range.end`, and the row of its face. Ties go to
+    /// the lowest row.
     pub fn closest(&self, ray: &Ray, range: Range<f64>) -> Option<(f64, u32)> {
         let mut best: Option<(f64, u32)> = None;
         let _ = self.visit(ray, range, |t, row| {
@@ -173,7 +173,7 @@ fn around_axis(from: DVec3, step: DVec3) -> Option<[f64; 2]> {
     roots(from, step)
 }
 
-/// Where a ray meets the plane z = 0.
+/// The ray parameter at the intersection with the plane z = 0.
 fn at_plane(z: f64, step: f64) -> f64 {
     if z.abs() <= ON_SURFACE { 0.0 } else { -z / step }
 }

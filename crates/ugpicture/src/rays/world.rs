@@ -143,8 +143,8 @@ impl World {
         best.map(|best| self.first_in_plane(faces, ray, best))
     }
 
-    /// Of the faces that share the plane of `nearest` and that the ray meets there, the first in the
-    /// scene.
+    /// Of the faces that share the plane of `nearest` and that the ray meets there, the first in
+    /// the scene.
     #[inline]
     fn first_in_plane(&self, faces: Faces<'_>, ray: &PastRay, nearest: Intersection) -> Intersection {
         let plane = |found: &Intersection| self.planes.get(found.triangle.face as usize).copied();

@@ -163,8 +163,8 @@ impl Look {
     }
 
     /// Apparent colour and light level where a ray meets the plane of the face. `key`: the inverse
-    /// of the ray parameter there. `n_samples`: in a row, in whose middle the ray is. `SPECTRAL`: colours are spectra; a constant, so that the loop
-    /// over hues has no call in it.
+    /// of the ray parameter there. `n_samples`: in a row, in whose middle the ray is. `SPECTRAL`:
+    /// colours are spectra; a constant, so that the loop over hues has no call in it.
     #[inline(always)] // Called for every sample: otherwise the ray is passed in memory.
     pub fn at<const SPECTRAL: bool>(
         &self,

@@ -322,8 +322,8 @@ pub enum Beam {
         /// inside.
         degrees: [f64; 2],
     },
-    /// From a parallelogram around its position, with these edges, whose cross product is not 0.
-    /// It shines to the side of that product, with the same radiance in all directions.
+    /// A parallelogram centred at the position, with these two edge vectors u and v. It emits on the
+    /// side of u × v, which is not 0, with the same radiance in all directions (Lambertian).
     Area([DVec3; 2]),
 }
 

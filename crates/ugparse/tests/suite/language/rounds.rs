@@ -25,7 +25,7 @@ fn vertices_are_named_after_their_face() {
             "sphere ball (ball#1 ball#2 ball#3) (ball#4 ball#5 ball#6) red; { behind }",
         ],
     );
-    // Names of faces need not be unique, those of vertices must be.
+    // Two faces may have the same name, so names of vertices made from it get the next free number.
     check_rest(
         "disc d 0 0 0 0 0 1 1; v d#3 5 5 5; disc d 0 0 2 0 0 1 1; disc 0 0 3 0 0 1 1;",
         &[
