@@ -131,6 +131,13 @@ fn tiles_are_joined_to_the_bytes_of_the_whole_picture() {
         let [history, _] = shell.run("ugsheet --history joined.png");
         assert!(history.contains("-sz 50 40") && !history.contains("crop"), "{history}");
     }
+    // The same size as lengths.
+    let lengths = draw.replace("50 40", "12pt 9.6pt");
+    shell.run(&format!("{lengths} > exact.png; {lengths} -crop 0 0 50 25 > upper.png"));
+    shell.run(&format!(
+        "{lengths} -crop 0 25 50 15 > lower.png; ugsheet --tiles lower.png upper.png > joined.png"
+    ));
+    check_same(&shell, "exact.png", "joined.png");
     let message = |script: &str| {
         let output = shell.output(script);
         assert!(!output.status.success() && output.stdout.is_empty(), "{script}");

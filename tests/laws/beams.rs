@@ -6,7 +6,7 @@ use ugphysics::Brightness;
 use ugtesting::Random;
 use ugtests::scenes;
 
-use super::fall_off::{boost, point};
+use super::fall_off::{MovingLamp, boost, point};
 use super::linear_light::{ENGINES, WITH_MOVING_LAMPS, assert_light, place, seen, square};
 
 /// The part of the light of a spot at an angle to its axis, all in degrees.
@@ -108,15 +108,9 @@ fn beams_are_those_of_the_rest_frame_of_the_lamp() {
     let mut random = Random(71);
     let mut n_lit = 0;
     for case in 0..60 {
-        let [v, v_lamp] = [(); 2].map(|()| 0.9 * random.unit() * random.direction());
-        let toward = random.direction();
-        let at = place(v, toward);
-        let (to_lamp, distance) = (random.direction(), random.between(0.5, 5.0));
-        let to_lamp = if to_lamp.dot(at) > 0.0 { -to_lamp } else { to_lamp };
-        let scatter = at.extend(-at.length());
-        let emission = scatter + (distance * to_lamp).extend(-distance);
-        let lamp_from_surface = boost(-v_lamp) * boost(v);
-        let lamp = (lamp_from_surface * emission).truncate();
+        let moving = MovingLamp::random(&mut random);
+        let lamp = moving.lamp();
+        let MovingLamp { v, v_lamp, toward, scatter, emission, lamp_from_surface, .. } = moving;
         let leaving = (lamp_from_surface * (scatter - emission)).truncate().normalize();
         let axis = (leaving + random.unit() * random.direction()).normalize();
         let off = libm::acos(leaving.dot(axis).clamp(-1.0, 1.0)).to_degrees();

@@ -85,12 +85,27 @@ fn laws_of_display_encoded_values_have_it_too() {
     }
 }
 
-/// Lamp and surface with any velocities: P D_l⁴/(4π r²), times D⁴ from the surface to the eye, by
-/// 4×4 matrices.
-#[test]
-fn any_lamp_has_the_irradiance_of_p14() {
-    let mut random = Random(46);
-    for case in 0..40 {
+/// A lamp and a surface element with any velocities, by 4×4 matrices.
+pub struct MovingLamp {
+    /// Velocity of the surface.
+    pub v: DVec3,
+    /// Velocity of the lamp.
+    pub v_lamp: DVec3,
+    /// Direction of the surface as seen.
+    pub toward: DVec3,
+    /// Position at rest of the surface.
+    pub at: DVec3,
+    /// Direction and distance of the lamp at emission, in the rest frame of the surface.
+    pub to_lamp: DVec3,
+    pub distance: f64,
+    /// Events in the rest frame of the surface.
+    pub scatter: DVec4,
+    pub emission: DVec4,
+    pub lamp_from_surface: DMat4,
+}
+
+impl MovingLamp {
+    pub fn random(random: &mut Random) -> Self {
         let [v, v_lamp] = [(); 2].map(|()| 0.9 * random.unit() * random.direction());
         let toward = random.direction();
         let at = place(v, toward);
@@ -100,7 +115,25 @@ fn any_lamp_has_the_irradiance_of_p14() {
         let scatter = at.extend(-at.length());
         let emission = scatter + (distance * to_lamp).extend(-distance);
         let lamp_from_surface = boost(-v_lamp) * boost(v);
-        let lamp = (lamp_from_surface * emission).truncate();
+        Self { v, v_lamp, toward, at, to_lamp, distance, scatter, emission, lamp_from_surface }
+    }
+
+    /// Position of the lamp in its rest frame.
+    pub fn lamp(&self) -> DVec3 {
+        (self.lamp_from_surface * self.emission).truncate()
+    }
+}
+
+/// Lamp and surface with any velocities: P D_l⁴/(4π r²), times D⁴ from the surface to the eye, by
+/// 4×4 matrices.
+#[test]
+fn any_lamp_has_the_irradiance_of_p14() {
+    let mut random = Random(46);
+    for case in 0..40 {
+        let moving = MovingLamp::random(&mut random);
+        let lamp = moving.lamp();
+        let MovingLamp { v, v_lamp, toward, at, to_lamp, distance, scatter, emission, lamp_from_surface } =
+            moving;
         let rest_distance = (lamp_from_surface * (emission - scatter)).truncate().length();
         let (d_lamp, d) = (distance / rest_distance, (boost(v) * scatter).w.abs() / at.length());
         let cos = to_lamp.dot(-at.normalize());

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{Face, Item, Scene, VertexId};
+use ugscene::{Face, Scene, VertexId};
 
 use crate::{Diagnostic, Diagnostics, Options, Parsed, Source};
 
@@ -63,7 +63,7 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
     let Parsed { scene, origins, .. } = parsed;
     let faces = std::mem::take(&mut scene.faces);
     let spans = std::mem::take(&mut origins.faces);
-    let mut first_pieces = Vec::with_capacity(faces.len());
+    let mut first_pieces = Vec::with_capacity(faces.len() + 1);
     for (row, (face, span)) in faces.into_iter().zip(spans).enumerate() {
         first_pieces.push(scene.faces.len() as u32);
         let pieces = if rows.binary_search(&row).is_ok() { triangles(scene, &face) } else { None };
@@ -75,17 +75,8 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
         }
         origins.faces.resize(scene.faces.len(), span);
     }
-    for comment in &mut scene.remarks.comments {
-        if let Item::Face(row) = &mut comment.at {
-            // A trailing comment follows the last piece.
-            let ahead = if comment.trailing { first_pieces.get(*row as usize + 1) } else { None };
-            *row = match ahead {
-                Some(next) => next - 1,
-                None if comment.trailing => scene.faces.len() as u32 - 1,
-                None => first_pieces[*row as usize],
-            };
-        }
-    }
+    first_pieces.push(scene.faces.len() as u32);
+    scene.remarks.follow_pieces(&first_pieces);
 }
 
 /// The triangles of a face, as contours; `None` if it intersects itself.

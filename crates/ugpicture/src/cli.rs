@@ -128,7 +128,7 @@ impl PictureArgs {
         Ok(PictureOptions {
             camera: self.camera.options(),
             size: [0, 1].map(|side| self.sz[side].at(per_inch)),
-            per_inch: self.sz.iter().any(|side| matches!(side, Side::Inches(_))).then_some(per_inch),
+            per_inch: self.sz.iter().any(|side| side.is_length()).then_some(per_inch),
             samples: self.aa,
             filter: self.fl,
             background: self.background()?,

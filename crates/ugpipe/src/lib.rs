@@ -136,6 +136,7 @@ mod provenance;
 pub mod remedies;
 #[cfg(all(feature = "cli", unix))]
 mod run;
+mod side;
 #[cfg(feature = "cli")]
 pub mod stale;
 #[cfg(all(feature = "cli", unix))]
@@ -182,8 +183,9 @@ pub use progress::{Progress, Stopped};
 pub use provenance::{sha256, shell_os_word, shell_word};
 #[cfg(feature = "cli")]
 pub use run::main;
+pub use side::{PIXELS_PER_INCH, Side};
 #[cfg(feature = "cli")]
 pub use steps::Steps;
 pub use text::{is_printable, message, printable};
 #[cfg(feature = "cli")]
-pub use values::{PIXELS_PER_INCH, Side, finite, number, one_of, vector, view_angle, whole};
+pub use values::{finite, number, one_of, vector, view_angle, whole};

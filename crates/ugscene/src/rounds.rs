@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 
 use crate::{
-    Contours, Face, FaceShape, Item, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames,
-    Vertex, VertexId, rest_positions,
+    Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
+    VertexId, rest_positions,
 };
 
 /// The sagitta of round faces where no eye is known, relative to their radius: the greatest
@@ -102,13 +102,7 @@ pub fn cut_rounds(
         }
     }
     first_pieces.push(scene.faces.len() as u32);
-    for comment in &mut scene.remarks.comments {
-        if let Item::Face(row) = &mut comment.at {
-            // A trailing comment follows the last piece.
-            let at = *row as usize;
-            *row = if comment.trailing { first_pieces[at + 1] - 1 } else { first_pieces[at] };
-        }
-    }
+    scene.remarks.follow_pieces(&first_pieces);
     Ok(first_pieces)
 }
 

@@ -1,6 +1,7 @@
 //! Joins the parts of a picture that were drawn by commands of their own.
 
 use ugimage::{Frame, Metadata, PanoramaArea};
+use ugpipe::{PIXELS_PER_INCH, Side};
 
 use crate::error::Error;
 use crate::shell_words::split;
@@ -25,7 +26,8 @@ pub fn join(
     mut frame_of: impl FnMut(usize) -> Result<Frame, Error>,
 ) -> Result<(Frame, Metadata), Error> {
     let first = tiles.first().ok_or(Error::Empty)?;
-    let (history, size) = (whole_history(first)?, whole_size(first)?);
+    let (history, sides) = (whole_history(first)?, whole_size(first)?);
+    let size = sides.map(|side| side.at(PIXELS_PER_INCH));
     let mut places: Vec<[u32; 4]> = Vec::new();
     for tile in tiles {
         if whole_history(tile)? != history {
@@ -59,7 +61,8 @@ pub fn join(
         is_opaque &= pixels.is_opaque();
         copy(&pixels, [left, top], &mut frame, |pixel, _| pixel);
     }
-    Ok((Frame::new(size, is_opaque, frame.into_pixels()), history))
+    let per_inch = sides.into_iter().any(Side::is_length).then_some(PIXELS_PER_INCH);
+    Ok((Frame::new(size, is_opaque, frame.into_pixels()), Metadata { per_inch, ..history }))
 }
 
 fn refused(tile: &Picture, problem: &str) -> Error {
@@ -85,22 +88,27 @@ fn whole_history(tile: &Picture) -> Result<Metadata, Error> {
 
 /// The part of the picture that a tile is: left column, upper row, width and height.
 fn place(tile: &Picture) -> Result<[u32; 4], Error> {
-    let place = numbers(tile, PART);
+    let place = values(tile, PART, |word| word.parse().ok());
     let place = place.filter(|&[_, _, width, height]| [width, height] == tile.size);
     place.ok_or_else(|| Error::NoPart { name: tile.name.clone() })
 }
 
 /// Width and height of the whole picture.
-fn whole_size(tile: &Picture) -> Result<[u32; 2], Error> {
-    numbers(tile, SIZE).ok_or_else(|| Error::NoWholeSize { name: tile.name.clone() })
+fn whole_size(tile: &Picture) -> Result<[Side; 2], Error> {
+    values(tile, SIZE, |word| Side::parse(word).ok())
+        .ok_or_else(|| Error::NoWholeSize { name: tile.name.clone() })
 }
 
-/// The numbers of an option in the last line of a history.
-fn numbers<const N: usize>(tile: &Picture, option: &str) -> Option<[u32; N]> {
+/// The values of an option in the last line of a history.
+fn values<T, const N: usize>(
+    tile: &Picture,
+    option: &str,
+    parse: impl Fn(&str) -> Option<T>,
+) -> Option<[T; N]> {
     let words = split(tile.history.comment.lines().next_back()?);
     let at = words.iter().position(|word| word == option)? + 1;
-    let numbers: Option<Vec<u32>> = words.get(at..at + N)?.iter().map(|word| word.parse().ok()).collect();
-    numbers?.try_into().ok()
+    let values: Option<Vec<T>> = words.get(at..at + N)?.iter().map(|word| parse(word)).collect();
+    values?.try_into().ok()
 }
 
 fn is_inside([left, top, width, height]: [u32; 4], size: [u32; 2]) -> bool {

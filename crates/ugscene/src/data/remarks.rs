@@ -20,6 +20,20 @@ pub struct Remarks {
     pub unknown: Vec<String>,
 }
 
+impl Remarks {
+    /// Moves comments of faces that were cut: one above a face goes to the first piece, one behind it
+    /// to the last. `first_pieces`: of each face before the cut, its first row; then the number of
+    /// rows.
+    pub fn follow_pieces(&mut self, first_pieces: &[u32]) {
+        for comment in &mut self.comments {
+            if let Item::Face(row) = &mut comment.at {
+                let at = *row as usize;
+                *row = if comment.trailing { first_pieces[at + 1] - 1 } else { first_pieces[at] };
+            }
+        }
+    }
+}
+
 /// A comment inside the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comment {

@@ -1,0 +1,46 @@
+//! Sides of pictures, in pixels or as lengths.
+
+/// Pixels in an inch of a picture whose size is a length.
+pub const PIXELS_PER_INCH: f64 = 300.0;
+
+/// A side of a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Side {
+    /// Pixels, or points of vector graphics; 1 or more.
+    Whole(u32),
+    /// A length in inches, above 0.
+    Inches(f64),
+}
+
+impl Side {
+    /// The number of pixels, or of points, of which `per_inch` are an inch; 1 or more.
+    pub fn at(self, per_inch: f64) -> u32 {
+        match self {
+            Self::Whole(number) => number,
+            // The cast saturates.
+            Self::Inches(inches) => ((inches * per_inch).round() as u32).max(1),
+        }
+    }
+
+    /// True for a length.
+    pub fn is_length(self) -> bool {
+        matches!(self, Self::Inches(_))
+    }
+
+    /// Value parser of sides: `800`, `8.6cm`.
+    ///
+    /// # Errors
+    /// No whole number, and no length of at most 1000 inches.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        const UNITS: [(&str, f64); 4] = [("mm", 25.4), ("cm", 2.54), ("in", 1.0), ("pt", 72.0)];
+        let length = UNITS.iter().find_map(|(unit, per_inch)| Some((word.strip_suffix(unit)?, per_inch)));
+        let Some((number, per_inch)) = length else {
+            let number = word.parse().ok().filter(|&number| number >= 1).map(Self::Whole);
+            return number.ok_or_else(|| "must be a whole number, 1 or more".to_owned());
+        };
+        let inches = number.parse().map(|number: f64| number / per_inch);
+        // NaN is outside.
+        let inches = inches.ok().filter(|inches| *inches > 0.0 && *inches <= 1000.0);
+        inches.map(Self::Inches).ok_or_else(|| "must be a length above 0 and of at most 1000 in".to_owned())
+    }
+}
