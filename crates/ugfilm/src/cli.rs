@@ -460,7 +460,7 @@ impl Read {
         if parsed.scene.drawn_texture_name().is_some() {
             script.draw_textures();
         }
-        script.open_sky(parsed.scene.sky.as_ref(), &args.common, context)?;
+        script.open_sky((&source, &reading), &args.common, context)?;
         if let Some(camera) = default_camera(&parsed.scene, script)? {
             context.note(&format!("{}, in all frames", Note::DefaultCamera(camera).words()));
             let words = |point: [f64; 3]| point.map(|part| part.to_string()).to_vec();

@@ -5,10 +5,10 @@ use std::sync::OnceLock;
 
 use ugimage::Format;
 use ugimage::label::number::significant;
+use ugparse::Source;
 use ugpicture::{Output, Unit, Units};
 use ugpipe::{CommonArgs, Context, Failure, shell_word};
-use ugscene::StatedSky;
-use ugskybox::SkySource;
+use ugskybox::{SceneSky, SkySource};
 
 use crate::options::{Given, PIPE, ParsedCommand, TOOLS, Tool};
 use crate::pipe::Pipe;
@@ -42,8 +42,7 @@ pub struct Script {
     pub reading: Vec<String>,
     options: Vec<Setting>,
     /// The sky of all frames, which is opened once.
-    sky: SkySource,
-    stated_sky: Option<StatedSky>,
+    sky: SceneSky,
     /// Least and greatest speed over the film, for captions.
     pub speeds: Option<Timeline>,
     /// An option with a slider of its own on a page, and how many values it has there: all frames
@@ -75,8 +74,7 @@ impl Script {
             is_loop: false,
             reading: Vec::new(),
             options: Vec::new(),
-            sky: SkySource::None,
-            stated_sky: None,
+            sky: SceneSky::default(),
             speeds: None,
             across: None,
             parsed: OnceLock::new(),
@@ -234,9 +232,10 @@ impl Script {
         let mut commands = self.commands(frame, left_out)?;
         commands.set_format(format);
         let mut pipe = Pipe::new(self.programs(frame)?);
-        if let (Some(sky), SkySource::Opened(_)) = (pipe.sky(), &self.sky) {
-            sky.or_stated(self.stated_sky.as_ref());
-            sky.source = self.sky.clone();
+        if let (Some(sky), SkySource::Opened(source)) = (pipe.sky(), &self.sky.source) {
+            // An option turns it in each frame, a statement once.
+            let turn = if sky.is_some() { sky.turn } else { self.sky.turn };
+            *sky = SceneSky { source: SkySource::Opened(source.clone()), turn, ..*sky };
         }
         pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
         pipe.picture.output = match pipe.picture.output {
@@ -249,24 +248,22 @@ impl Script {
         Ok(pipe)
     }
 
-    /// Opens the sky of all frames. `stated`: by the scene.
+    /// Opens the sky of all frames. `source`: the scene, which may state it.
     ///
     /// # Errors
     /// An option is wrong, or the file of the sky.
     pub fn open_sky(
         &mut self,
-        stated: Option<&StatedSky>,
+        source: (&Source, &ugparse::Options),
         common: &CommonArgs,
         context: &Context,
     ) -> Result<(), Failure> {
-        self.stated_sky = stated.cloned();
         // Frames that are wrong are reported when they are drawn.
         let Ok(programs) = self.programs(1.0) else { return Ok(()) };
         let mut pipe = Pipe::new(programs);
         if let Some(sky) = pipe.sky() {
-            sky.or_stated(stated);
-            sky.open(common, context)?;
-            self.sky = sky.source.clone();
+            sky.open_with(source, common, context)?;
+            self.sky = sky.clone();
         }
         Ok(())
     }

@@ -37,14 +37,15 @@ pub(crate) fn take(
     Some(StatedSky { file, turn: statement.turn })
 }
 
-/// The sky that a scene states, without the rest of it; `None` if that has syntax errors.
+/// The sky that a scene states, without the rest of it, and where; `None` if that has syntax errors.
 #[must_use]
-pub fn stated_sky(source: &Source, options: &Options) -> Option<StatedSky> {
+pub fn stated_sky(source: &Source, options: &Options) -> Option<(StatedSky, Span)> {
     memchr::memmem::find(&source.text, b"sky")?;
     crate::check_length(source, options).ok()?;
     let mut findings = Vec::new();
     let mut document = read_document(&source.text, options, &mut findings);
-    take(&source.text, &mut document, &mut findings)
+    let sky = take(&source.text, &mut document, &mut findings)?;
+    Some((sky, document.scopes.first()?.skies.rows.first()?.file))
 }
 
 /// Writes the statement.

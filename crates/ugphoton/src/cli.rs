@@ -292,8 +292,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };
     let source = pipe::read(context, &config.reading)?;
-    config.sky.or_stated(ugparse::stated_sky(&source, &config.reading).as_ref());
-    config.sky.open(&args.common, context)?;
+    config.sky.open_with((&source, &config.reading), &args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let steps = context.steps();

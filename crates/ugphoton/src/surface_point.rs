@@ -3,7 +3,7 @@
 use glam::DVec3;
 use uglight::{ScatteringTime, SurfaceColor, SurfaceElement};
 use ugphysics::{Event, RestFrame, WaveVector, WorldLine, unit_or_zero};
-use ugscene::SurfaceId;
+use ugscene::{SurfaceId, VertexId};
 
 use crate::scenery::Scenery;
 use ugpicture::rays::Intersection;
@@ -53,16 +53,16 @@ pub struct Element {
 }
 
 impl SurfacePoint {
-    /// Where a ray meets a face. `sample`: of a ray from the eye, for the footprints of textures.
+    /// Where a ray meets a face. `neighbours`: of the ray, for the footprints of textures.
     pub fn new(
         scenery: &Scenery<'_>,
         ray: &PastRay,
         found: &Intersection,
-        sample: Option<PictureSample>,
+        neighbours: Option<&Neighbours>,
     ) -> Self {
         let part = &scenery.world.parts[found.part];
         if let Some(motion) = &part.motion {
-            return Self::on_line(scenery, (ray, sample), found, &motion.line);
+            return Self::on_line(scenery, (ray, neighbours), found, &motion.line);
         }
         let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
         let wave = part.frame.wave_to_rest(ray.wave);
@@ -75,7 +75,7 @@ impl SurfacePoint {
         let plane_normal = if is_outside { outside } else { -outside };
         let (normal, lift) = match round {
             Some(_) => (plane_normal, DVec3::ZERO),
-            None => smooth(scenery, found, (places, place), plane_normal),
+            None => smooth(scenery, (found.triangle.corners, found.weights()), (places, place), plane_normal),
         };
         let event = along(ray.origin, ray.step, found.s);
         let delay = match ray.start {
@@ -89,7 +89,7 @@ impl SurfacePoint {
         } else {
             let plane = SurfaceElementPlane { frame: &part.frame, normal: plane_normal, event, places };
             let steps = |neighbours| plane.steps(neighbours, |step| step);
-            textured(scenery, found, is_moving, sample, steps)
+            textured(scenery, found, is_moving, neighbours, steps)
                 .unwrap_or_else(|| color(scenery, found, is_moving, own_time))
         };
         Self {
@@ -112,7 +112,7 @@ impl SurfacePoint {
     #[inline(never)] // Keeps `new` small, which is called for every ray.
     fn on_line(
         scenery: &Scenery<'_>,
-        (ray, sample): (&PastRay, Option<PictureSample>),
+        (ray, neighbours): (&PastRay, Option<&Neighbours>),
         found: &Intersection,
         line: &WorldLine,
     ) -> Self {
@@ -127,18 +127,17 @@ impl SurfacePoint {
         let is_outside = outside_in_frame.dot(step) <= 0.0;
         let side = if is_outside { 1.0 } else { -1.0 };
         let (plane, plane_normal) = (side * outside, side * outside_in_frame);
-        let (body_normal, body_lift) = smooth(scenery, found, (places, place), plane);
+        let (body_normal, body_lift) =
+            smooth(scenery, (found.triangle.corners, found.weights()), (places, place), plane);
         let lift = if body_lift == DVec3::ZERO {
             DVec3::ZERO
         } else {
             ugphysics::length(body_lift) * element.normal(unit_or_zero(body_lift))
         };
         let event = along(ray.origin, ray.step, found.s);
-        // The axes of the body in the frame of the element, as normals turn: exact unless it spins.
-        let to_body = |step: DVec3| DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)));
         let triangle = SurfaceElementPlane { frame: &frame, normal: plane_normal, event, places };
-        let steps = |neighbours| triangle.steps(neighbours, to_body);
-        let textured = textured(scenery, found, true, sample, steps);
+        let steps = |neighbours| triangle.steps(neighbours, |step| to_body(&element, step));
+        let textured = textured(scenery, found, true, neighbours, steps);
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -153,6 +152,38 @@ impl SurfacePoint {
             wave: frame.wave_to_rest(ray.wave),
             color: textured.unwrap_or_else(|| color(scenery, found, true, || own_time)),
         }
+    }
+
+    /// Where a neighbour of the ray meets the surface: the event, the place, and the normal there.
+    pub fn beside(
+        &self,
+        scenery: &Scenery<'_>,
+        found: &Intersection,
+        ray: &PastRay,
+    ) -> (Event, DVec3, DVec3) {
+        let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
+        let (frame, normal) = (self.frame(scenery), self.plane_normal);
+        let plane = SurfaceElementPlane { frame, normal, event: self.event, places };
+        let (s, step) = plane.met(ray);
+        let smooth = |step: DVec3, normal: DVec3| {
+            let [_, second, third] = found.weights();
+            let [across, down] = plane.weights(step);
+            let (second, third) = (second + across, third + down);
+            let weights = [1.0 - second - third, second, third];
+            smooth(scenery, (found.triangle.corners, weights), (places, self.place + step), normal).0
+        };
+        let side = if self.is_outside { 1.0 } else { -1.0 };
+        let (place, normal) = if let Some((line, own_time)) = self.world_line(scenery) {
+            let element = line.element(self.place, own_time);
+            let step = to_body(&element, step);
+            let outside = scenery.world.outside[self.face as usize];
+            (self.place + step, element.normal(smooth(step, side * outside)))
+        } else {
+            let place = self.place + step;
+            let round = scenery.world.parts[self.part].round_surface(found, (place, DVec3::ZERO));
+            (place, round.map_or_else(|| smooth(step, normal), |(_, outside)| side * outside))
+        };
+        (along(ray.origin, ray.step, s), place, normal)
     }
 
     /// The rest frame of the surface.
@@ -200,6 +231,25 @@ impl SurfacePoint {
     }
 }
 
+/// The neighbours across and down of a ray, which show how large a sample is on a surface.
+#[derive(Clone, Copy, Debug)]
+pub enum Neighbours {
+    /// Those of a ray from the eye.
+    OfSample(PictureSample),
+    /// Those of a ray that was mirrored or refracted.
+    Bent([PastRay; 2]),
+}
+
+impl Neighbours {
+    /// Their rays. A lens may show nothing at one; then it is on the other side.
+    pub fn rays(&self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
+        match self {
+            Self::OfSample(sample) => sample.neighbours(scenery),
+            Self::Bent(rays) => Some(*rays),
+        }
+    }
+}
+
 /// A sample of the picture.
 #[derive(Clone, Copy, Debug)]
 pub struct PictureSample {
@@ -210,8 +260,6 @@ pub struct PictureSample {
 }
 
 impl PictureSample {
-    /// The rays of the neighbours across and down. A lens may show nothing at one; then it is on
-    /// the other side.
     fn neighbours(self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
         let [column, row] = self.place.map(|at| f64::from(at) + 0.5);
         let ray = |across: f64, down: f64| {
@@ -229,11 +277,11 @@ fn textured(
     scenery: &Scenery<'_>,
     found: &Intersection,
     is_moving: bool,
-    sample: Option<PictureSample>,
+    neighbours: Option<&Neighbours>,
     steps: impl FnOnce([PastRay; 2]) -> [[f64; 2]; 2],
 ) -> Option<SurfaceColor> {
     let color = scenery.scene.faces[found.triangle.face as usize].color;
-    let neighbours = || sample.and_then(|sample| sample.neighbours(scenery));
+    let neighbours = || neighbours.and_then(|neighbours| neighbours.rays(scenery));
     let steps = || neighbours().map_or([[0.0; 2]; 2], steps);
     let texel =
         scenery.textures.texel(&scenery.scene, color, (found.triangle.corners, found.weights()), steps)?;
@@ -260,6 +308,12 @@ fn color(
     appearance.color_at(colors, found.triangle.corners, found.weights())
 }
 
+/// A step in the coordinates of the body: its axes in the frame of the element, as normals turn,
+/// exact unless the body spins.
+fn to_body(element: &ugphysics::ElementFrame, step: DVec3) -> DVec3 {
+    DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)))
+}
+
 fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
     weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]
 }
@@ -270,15 +324,15 @@ fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 #[inline(always)] // Most faces are plane.
 fn smooth(
     scenery: &Scenery<'_>,
-    found: &Intersection,
+    (vertices, weights): ([VertexId; 3], [f64; 3]),
     (corners, place): ([DVec3; 3], DVec3),
     plane: DVec3,
 ) -> (DVec3, DVec3) {
-    let own = found.triangle.corners.map(|corner| scenery.scene.vertices[corner.index()].normal);
+    let own = vertices.map(|corner| scenery.scene.vertices[corner.index()].normal);
     if own == [None; 3] {
         return (plane, DVec3::ZERO);
     }
     let normals = own.map(|own| ugscene::shading_normal(own, plane));
     let lifts = [0, 1, 2].map(|at| (corners[at] - place).dot(normals[at]).max(0.0) * normals[at]);
-    (mean(normals, found.weights()).normalize_or_zero(), mean(lifts, found.weights()))
+    (mean(normals, weights).normalize_or_zero(), mean(lifts, weights))
 }

@@ -8,7 +8,7 @@ use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 use crate::media::{Media, Solid};
 use crate::scenery::Scenery;
 use crate::shade::{LampLight, Shader, absorption};
-use crate::surface_point::{PictureSample, SurfacePoint};
+use crate::surface_point::{Neighbours, PictureSample, SurfacePoint};
 use ugpicture::rays::Intersection;
 use ugpicture::rays::{PastRay, Start};
 use ugskybox::{SkyAround, SkyRays};
@@ -112,8 +112,8 @@ struct Path<'p> {
     absorption: f64,
     /// A number for each sample of the picture.
     sample: u64,
-    /// The sample, if the ray comes straight from the eye.
-    place: Option<PictureSample>,
+    /// For the footprints of textures, if there are any.
+    neighbours: Option<&'p Neighbours>,
     /// Angle of the sample at the eye, radians.
     width: f64,
     /// Where it comes from.
@@ -162,6 +162,7 @@ impl<'a> Tracer<'a> {
         (sample, place): (u64, PictureSample),
     ) -> Arriving {
         let media = self.scenery.media_at(ray.origin);
+        let neighbours = (!self.scenery.textures.is_empty()).then_some(Neighbours::OfSample(place));
         let path = Path {
             ray,
             media: &media,
@@ -169,7 +170,7 @@ impl<'a> Tracer<'a> {
             weight: 1.0,
             absorption: absorption(self.scenery, media.innermost(), ray.step),
             sample,
-            place: Some(place),
+            neighbours: neighbours.as_ref(),
             width: if self.sky.is_some() { self.scenery.sample_width(ray.step.x) } else { 0.0 },
             way: Way::Straight,
         };
@@ -185,9 +186,10 @@ impl<'a> Tracer<'a> {
         while let Some(found) = next {
             let left = if path.absorption > 0.0 { libm::exp(-path.absorption * found.s) } else { 1.0 };
             if !self.scenery.is_translucent(found.triangle.face) {
-                let point = SurfacePoint::new(self.scenery, path.ray, &found, path.place);
+                let point = SurfacePoint::new(self.scenery, path.ray, &found, path.neighbours);
                 let part = passing * left;
-                let own = self.light_of(&Path { weight: path.weight * part, ..*path }, &point, left);
+                let on = Path { weight: path.weight * part, ..*path };
+                let own = self.light_of(&on, (&point, &found), left);
                 sum.add(part, own);
                 return sum;
             }
@@ -196,10 +198,11 @@ impl<'a> Tracer<'a> {
             self.scenery.world.coincident(self.scenery.faces(), path.ray, &found, &mut layers);
             let mut end = found.s;
             for layer in &layers {
-                let point = SurfacePoint::new(self.scenery, path.ray, layer, path.place);
+                let point = SurfacePoint::new(self.scenery, path.ray, layer, path.neighbours);
                 let weight = passing * left * (1.0 - point.color.swatch.translucency);
                 if weight > 0.0 {
-                    let own = self.light_of(&Path { weight: path.weight * weight, ..*path }, &point, left);
+                    let on = Path { weight: path.weight * weight, ..*path };
+                    let own = self.light_of(&on, (&point, layer), left);
                     sum.add(weight, own);
                 }
                 passing *= point.color.swatch.translucency;
@@ -229,7 +232,12 @@ impl<'a> Tracer<'a> {
 
     /// The light from a surface: of lamps, mirrored, and transmitted. `left`: the part of it that
     /// the medium before the surface does not absorb.
-    fn light_of(&mut self, path: &Path<'_>, point: &SurfacePoint, left: f64) -> Arriving {
+    fn light_of(
+        &mut self,
+        path: &Path<'_>,
+        (point, found): (&SurfacePoint, &Intersection),
+        left: f64,
+    ) -> Arriving {
         let light = self.shader.light(point, path.media.innermost(), &self.filters, path.sample);
         let visit = self.visit(path, point, light, left);
         let mut sum = Arriving { light, background: DVec3::ZERO };
@@ -262,7 +270,7 @@ impl<'a> Tracer<'a> {
                 visit.is_total = surface.transmitted > 0.0 && refracted.is_none();
             }
             let on = Path { way: Way::Mirrored(visit), ..*path };
-            sum.add(mirrored, self.follow(&on, point, wave, path.media, mirrored));
+            sum.add(mirrored, self.follow(&on, (point, found), (wave, MIRRORED), path.media, mirrored));
         }
         if let Some(Refracted { wave, media, .. }) = refracted
             && is_followed(transmitted)
@@ -276,7 +284,7 @@ impl<'a> Tracer<'a> {
                 visit.followed[1] = Some(transmitted);
             }
             let on = Path { way: Way::Refracted(visit), ..*path };
-            sum.add(transmitted, self.follow(&on, point, wave, &media, transmitted));
+            sum.add(transmitted, self.follow(&on, (point, found), (wave, REFRACTED), &media, transmitted));
             if !is_white {
                 self.filters.pop();
             }
@@ -309,8 +317,8 @@ impl<'a> Tracer<'a> {
     fn follow(
         &mut self,
         path: &Path<'_>,
-        point: &SurfacePoint,
-        wave: WaveVector,
+        (point, found): (&SurfacePoint, &Intersection),
+        (wave, side): (WaveVector, f64),
         media: &Media,
         part: f64,
     ) -> Arriving {
@@ -320,22 +328,31 @@ impl<'a> Tracer<'a> {
             return Arriving::NOTHING;
         }
         let frame = point.frame(self.scenery);
-        let forward = medium(self.scenery, media.innermost(), point).step(wave);
-        let step = frame.camera_from_rest(Event { t: -forward.t, x: -forward.x });
-        let ray = PastRay {
-            origin: point.event,
-            step,
-            wave: frame.wave_to_camera(wave),
-            start: Start::Surface { part: point.part, place: point.place },
+        let medium = medium(self.scenery, media.innermost(), point);
+        let ray_from = |origin: Event, place: DVec3, wave: WaveVector| {
+            let forward = medium.step(wave);
+            let step = frame.camera_from_rest(Event { t: -forward.t, x: -forward.x });
+            let start = Start::Surface { part: point.part, place };
+            PastRay { origin, step, wave: frame.wave_to_camera(wave), start }
         };
-        let absorption = absorption(self.scenery, media.innermost(), step);
+        let ray = ray_from(point.event, point.place, wave);
+        let bent = |neighbour: PastRay| {
+            let (event, place, normal) = point.beside(self.scenery, found, &neighbour);
+            let wave = frame.wave_to_rest(neighbour.wave);
+            Some(ray_from(event, place, bent(medium, wave, side, [normal, point.plane_normal])?))
+        };
+        let neighbours = path.neighbours.and_then(|neighbours| {
+            let [across, down] = neighbours.rays(self.scenery)?;
+            Some(Neighbours::Bent([bent(across)?, bent(down)?]))
+        });
+        let absorption = absorption(self.scenery, media.innermost(), ray.step);
         let next = Path {
             ray: &ray,
             media,
             absorption,
             depth: path.depth + 1,
             weight: path.weight * part,
-            place: None,
+            neighbours: neighbours.as_ref(),
             ..*path
         };
         let first = self.scenery.closest(&ray, 0.0..f64::INFINITY);
@@ -345,10 +362,7 @@ impl<'a> Tracer<'a> {
     /// The light that a mirror reflects along the path, before reflection.  Eq. (P23), (P37)
     fn reflected(&self, path: &Path<'_>, point: &SurfacePoint) -> Option<WaveVector> {
         let before = medium(self.scenery, path.media.innermost(), point);
-        let of = |normal: DVec3| before.wave_across(point.wave, -normal);
-        // With an interpolated normal the light may come from behind the face.
-        let is_before = |wave: &WaveVector| wave.k.dot(point.plane_normal) < 0.0;
-        of(point.normal).filter(is_before).or_else(|| of(point.plane_normal))
+        bent(before, point.wave, MIRRORED, [point.normal, point.plane_normal])
     }
 
     /// The light that a surface transmits along the path, before it; `None` at total reflection.
@@ -372,12 +386,30 @@ impl<'a> Tracer<'a> {
         }
         let behind = medium(self.scenery, media.innermost(), point);
         let before = medium(self.scenery, path.media.innermost(), point);
-        let of = |normal: DVec3| behind.wave_across(point.wave, normal);
-        let is_behind = |wave: &WaveVector| wave.k.dot(point.plane_normal) > 0.0;
-        let wave = of(point.normal).filter(is_behind).or_else(|| of(point.plane_normal))?;
+        let wave = bent(behind, point.wave, REFRACTED, [point.normal, point.plane_normal])?;
         let reflectance = reflectance(before, behind, point.wave, point.normal);
         Some(Refracted { wave, media, reflectance })
     }
+}
+
+/// The side of a normal from which light comes that a surface mirrors.
+const MIRRORED: f64 = -1.0;
+
+/// The same for light that it transmits.
+const REFRACTED: f64 = 1.0;
+
+/// The light in a medium at a surface that is, mirrored or refracted, a given light.  Eq. (P23), (P37)
+///
+/// With an interpolated normal it may come from the other side of the face. Then the normal of its
+/// plane decides.
+fn bent(
+    medium: Medium,
+    wave: WaveVector,
+    side: f64,
+    [normal, plane_normal]: [DVec3; 2],
+) -> Option<WaveVector> {
+    let of = |normal: DVec3| medium.wave_across(wave, side * normal);
+    of(normal).filter(|wave| side * wave.k.dot(plane_normal) > 0.0).or_else(|| of(plane_normal))
 }
 
 /// Light behind a surface.

@@ -298,8 +298,7 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
         return write_report(report, &explanation, &warnings, context);
     }
-    config.sky.or_stated(ugparse::stated_sky(&source, &config.reading).as_ref());
-    config.sky.open(&args.common, context)?;
+    config.sky.open_with((&source, &config.reading), &args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };
     let picture = run_with(&config, &source, provenance, &context.steps()).map_err(Failure::of)?;

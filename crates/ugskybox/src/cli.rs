@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{ArgAction, Args};
 use glam::DQuat;
 use ugimage::PictureLimits;
+use ugparse::{Diagnostic, Diagnostics, Source};
 use ugpipe::{CommonArgs, Context, Failure, Input, Words, finite, sha256};
 use ugsky::PanoramaError;
 
@@ -52,6 +53,28 @@ impl SkyArgs {
 }
 
 impl SceneSky {
+    /// The sky of a scene, open: this one, or else the one that the scene states.
+    ///
+    /// # Errors
+    /// As [`SceneSky::open`], at the statement of the scene if it names the file.
+    pub fn open_with(
+        &mut self,
+        (source, options): (&Source, &ugparse::Options),
+        common: &CommonArgs,
+        context: &Context,
+    ) -> Result<(), Failure> {
+        let stated = ugparse::stated_sky(source, options);
+        self.or_stated(stated.as_ref().map(|(sky, _)| sky));
+        let span = stated.map(|(_, span)| span).filter(|_| matches!(self.source, SkySource::Stated(_)));
+        self.open(common, context).map_err(|failure| match (failure, span) {
+            (Failure::Failed(message), Some(span)) => {
+                let finding = Diagnostic::error(span, message).label("named here");
+                Failure::Report(Diagnostics::new(source, vec![finding]).report())
+            }
+            (failure, _) => failure,
+        })
+    }
+
     /// Opens its file, unless it is open ([`SceneSky::or_stated`] makes one without a file). One
     /// that a scene names has to be in its folder or below. `common`: for the limit of memory.
     ///
@@ -62,7 +85,7 @@ impl SceneSky {
             SkySource::File(path) => context.input_file(path)?,
             SkySource::Stated(path) => {
                 let name = path.display().to_string();
-                let failed = |error| Failure::Failed(format!("sky `{name}` of the scene: {error}"));
+                let failed = |error| Failure::Failed(format!("sky `{name}`: {error}"));
                 Input { text: context.read_named(path, MOST_BYTES).map_err(failed)?, name }
             }
             SkySource::None | SkySource::Opened(_) => return Ok(()),

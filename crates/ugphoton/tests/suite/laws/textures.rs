@@ -155,3 +155,40 @@ fn footprints_prevent_aliasing() {
         }
     }
 }
+
+/// A mirror, at rest or sliding along itself, shows the footprints of the scene behind it; a plane
+/// between two like media changes nothing; and a ball mirrors a floor without aliasing.
+#[test]
+fn footprints_are_mirrored_and_refracted() {
+    let floor = |sign: f64| {
+        let corners =
+            [(-99.0, 3.0, "0 0"), (99.0, 3.0, "50 0"), (99.0, 199.0, "50 50"), (-99.0, 199.0, "0 50")];
+        let vertex = |(name, (x, y, uv)): (char, (f64, f64, &str))| {
+            format!("v {name} {x} {} -1.5 ({uv}); ", if sign < 0.0 { 4.0 - y } else { y })
+        };
+        let vertices: String = ('e'..='h').zip(corners).map(vertex).collect();
+        format!("{HEAD}surf air 0 0 1 1; c it 1; c_tex it checks_8_8; {vertices} f (e f g h) it 1;")
+    };
+    let plane = |surface: &str, size: f64| {
+        let corners = [[-size, -size], [size, -size], [size, size], [-size, size]];
+        polygon("w", &corners.map(|[x, z]| DVec3::new(x, 2.0, z)), &format!("white {surface}"))
+    };
+    let picture = |text: &str, samples: u32| {
+        let base = config([48, 36], DVec3::new(0.0, 3.0, -0.5), 50.0).picture;
+        drawn(text, &Config { picture: PictureOptions { samples, ..base }, ..by_shape() })
+    };
+    let plain = picture(&floor(1.0), 2);
+    for text in [
+        floor(-1.0) + &plane("mirror", 9.0),
+        floor(-1.0) + &plane("mirror <.6 0 -.3>", 9.0),
+        floor(1.0) + &plane("air", 9.0),
+    ] {
+        let bent = picture(&text, 2);
+        let error = |(a, b): (&[f32; 4], &[f32; 4])| (a[1] - b[1]).abs();
+        let largest = bent.pixels().iter().zip(plain.pixels()).map(error).fold(0.0, f32::max);
+        assert!(largest < 1e-4, "{largest}: {text}");
+    }
+    let ball = floor(-1.0) + "sphere 0 4 0 1.5 white mirror;";
+    let decibel = psnr(&ball, (DVec3::new(0.0, 4.0, -0.6), 20.0), [2, 16]);
+    assert!(decibel > 24.0, "{decibel} dB");
+}
