@@ -34,10 +34,23 @@ impl Backdrop {
         self.light
     }
 
-    /// The background as developed in a picture.
-    pub fn developed(&self, development: Option<Development>) -> Option<[f32; 3]> {
-        let light = self.light?;
-        Some(development.map_or(light, |development| development.apply(light)))
+    /// Converts the mean light of pixels, and the covered part of it, for a display. The exposure
+    /// and the tone curve are those of the scene: before and beside it the background keeps its
+    /// colour.
+    pub fn converter(&self, development: Development) -> impl Fn([f32; 4]) -> [f32; 3] + Sync + use<> {
+        let convert = development.converter();
+        let is_plain = development == Development::default();
+        let behind = self.light.filter(|light| !is_plain && *light != [0.0; 3]);
+        move |[red, green, blue, covered]| {
+            let light = [red, green, blue];
+            let Some(behind) = behind.filter(|_| covered < 1.0) else { return convert(light) };
+            if covered <= 0.0 {
+                return behind;
+            }
+            let behind = behind.map(|part| (1.0 - covered) * part);
+            let own = convert(std::array::from_fn(|i| (light[i] - behind[i]).max(0.0) / covered));
+            std::array::from_fn(|i| covered * own[i] + behind[i])
+        }
     }
 
     /// True if the background is a colour.
@@ -59,5 +72,36 @@ impl Backdrop {
             None => sum.map(|light| light / n_covered),
         };
         [red, green, blue, n_covered / self.n_samples]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ugimage::Tone;
+
+    use super::*;
+
+    /// The exposure and the tone curve change the scene and not the background, and a pixel with
+    /// both has the mean of both.
+    #[test]
+    fn the_background_is_not_developed() {
+        let development = Development { stops: -2.0, tone: Tone::Filmic };
+        for value in [1.0, 0.5] {
+            let backdrop = Backdrop::new(Background::Color(Hsv { hue: 0.0, saturation: 0.0, value }), 2);
+            let convert = backdrop.converter(development);
+            let behind = backdrop.light().unwrap();
+            let scene = [3.0, 1.0, 0.25];
+            let alone = development.apply(scene);
+            for n_covered in [0.0, 1.0, 3.0, 4.0] {
+                let part = n_covered / 4.0;
+                let found = convert(backdrop.pixel(scene.map(|light| light * n_covered), n_covered));
+                for channel in 0..3 {
+                    let expected = part * alone[channel] + (1.0 - part) * behind[channel];
+                    assert!((found[channel] - expected).abs() < 1e-6, "{value} {n_covered}: {found:?}");
+                }
+            }
+        }
+        let black = Backdrop::new(Background::Color(Hsv { hue: 0.0, saturation: 0.0, value: 0.0 }), 1);
+        assert_eq!(black.converter(development)([0.5, 0.5, 0.5, 0.5]), development.apply([0.5; 3]));
     }
 }

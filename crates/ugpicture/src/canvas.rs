@@ -96,17 +96,17 @@ impl Canvas {
         progress.check().map_err(Error::from)?;
         let mapped = self.layout.map(&annotated, &self.options)?;
         let scale = mapped.as_ref().map(|(_, scale)| scale.clone());
-        let (content, development) = match mapped {
-            Some((frame, _)) => (Content::Image(Image::Display(frame)), None),
+        let content = match mapped {
+            Some((frame, _)) => Content::Image(Image::Display(frame)),
             None => {
                 let (content, development) = self.developed(content);
                 notes.extend(self.light_note(brightest, development));
-                notes.extend(self.levels_note(&content, development, &notes));
-                (content, development)
+                notes.extend(self.levels_note(&content, &notes));
+                content
             }
         };
         progress.step("annotating", 0);
-        let annotations = self.layout.annotate(&annotated, &self.options, development, scale.as_ref())?;
+        let annotations = self.layout.annotate(&annotated, &self.options, scale.as_ref())?;
         let content = annotations.add_to(content);
         notes.extend(annotations.notes);
         progress.check().map_err(Error::from)?;
@@ -141,14 +141,9 @@ impl Canvas {
 
     /// Whether the picture is nearly black or overexposed, unless its other `notes` say why nothing
     /// is visible.
-    fn levels_note(
-        &self,
-        content: &Content,
-        development: Option<Development>,
-        notes: &[Note],
-    ) -> Option<Note> {
+    fn levels_note(&self, content: &Content, notes: &[Note]) -> Option<Note> {
         let Content::Image(image) = content else { return None };
         let is_explained = notes.iter().any(|note| note.is_of_empty() || note.is_of_black());
-        if is_explained { None } else { levels::of_image(image, development, &self.options) }
+        if is_explained { None } else { levels::of_image(image, &self.options) }
     }
 }

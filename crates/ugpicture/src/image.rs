@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 use ugimage::{Compression, Development, Frame, LinearFrame, Metadata, Quantizer, display_pixel};
 
+use crate::background::Backdrop;
 use crate::options::PictureOptions;
 use crate::output::Output;
 
@@ -32,10 +33,11 @@ impl Image {
         }
         let development = (!is_clipped).then(|| options.development(|| &light));
         let is_deep = options.output.format().is_deep();
-        let image = match development.map(Development::converter) {
+        let backdrop = Backdrop::new(options.background, 1);
+        let image = match development.map(|development| backdrop.converter(development)) {
             Some(convert) if is_deep => {
-                light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|[red, green, blue, _]| {
-                    [*red, *green, *blue] = convert([*red, *green, *blue]);
+                light.pixels_mut().par_chunks_mut(CHUNK).flatten().for_each(|pixel| {
+                    [pixel[0], pixel[1], pixel[2]] = convert(*pixel);
                 });
                 Self::Light(light)
             }
@@ -48,7 +50,7 @@ impl Image {
                     let mut last = ([f32::NAN; 4], [0; 4]);
                     for (shown, &own) in pixels.iter_mut().zip(chunk) {
                         if own != last.0 {
-                            let [red, green, blue] = convert([own[0], own[1], own[2]]);
+                            let [red, green, blue] = convert(own);
                             let all = [red, green, blue, own[3]];
                             last = (own, display_pixel(&quantizer, all, light.is_opaque()));
                         }

@@ -1,7 +1,7 @@
 //! Levels of a picture: whether it is nearly black or overexposed.
 
 use rayon::prelude::*;
-use ugimage::{Development, LinearFrame, Quantizer, display_pixel};
+use ugimage::{LinearFrame, Quantizer, display_pixel};
 
 use crate::background::Backdrop;
 use crate::exposure::Exposure;
@@ -123,11 +123,11 @@ fn is_bright(pixels: &[[u8; 4]]) -> bool {
 }
 
 /// The note on the levels of a developed picture without annotations, see [`LevelCounts::note`].
-pub fn of_image(image: &Image, development: Option<Development>, picture: &PictureOptions) -> Option<Note> {
+pub fn of_image(image: &Image, picture: &PictureOptions) -> Option<Note> {
     if picture.output.format().is_linear() {
         return None;
     }
-    let background = Backdrop::new(picture.background, 1).developed(development);
+    let background = Backdrop::new(picture.background, 1).light();
     let counts = match image {
         Image::Display(frame) if !may_be_overexposed(picture) && is_bright(frame.pixels()) => return None,
         Image::Display(frame) => LevelCounts::of_pixels(frame.pixels(), background),
@@ -140,11 +140,12 @@ pub fn of_image(image: &Image, development: Option<Development>, picture: &Pictu
 /// shows it.
 pub fn levels_note(light: &LinearFrame, picture: &PictureOptions) -> Option<Note> {
     let development = picture.development(|| light);
-    let (mut developed, convert) = (light.clone(), development.converter());
-    for [red, green, blue, _] in developed.pixels_mut() {
-        [*red, *green, *blue] = convert([*red, *green, *blue]);
+    let convert = Backdrop::new(picture.background, 1).converter(development);
+    let mut developed = light.clone();
+    for pixel in developed.pixels_mut() {
+        [pixel[0], pixel[1], pixel[2]] = convert(*pixel);
     }
-    of_image(&Image::Light(developed), Some(development), picture)
+    of_image(&Image::Light(developed), picture)
 }
 
 #[cfg(test)]

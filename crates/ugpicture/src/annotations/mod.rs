@@ -18,9 +18,9 @@ mod seen;
 mod style;
 
 use rayon::prelude::*;
+use ugimage::Frame;
 use ugimage::figure::Point;
 use ugimage::label::{DESCENT, Drawing, Line, SPACING, wrapped};
-use ugimage::{Development, Frame};
 use ugscene::{CameraOptions, Scene, View};
 
 use crate::background::Backdrop;
@@ -153,10 +153,9 @@ impl Layout {
         &self,
         annotated: &Annotated<'_, E>,
         options: &PictureOptions,
-        development: Option<Development>,
         scale: Option<&Scale>,
     ) -> Result<Annotations, E> {
-        let background = Backdrop::new(options.background, options.samples).developed(development);
+        let background = Backdrop::new(options.background, options.samples).light();
         let style = &Style::new(self.size, options.annotations.text_size, background, options.output);
         let mut all = Annotations {
             size: self.size,

@@ -11,7 +11,7 @@ use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
 use ugphysics::{attenuation, linear_srgb_to_xyz};
 use ugscene::{Scene, SeenColors};
 
-use crate::{Background, PictureOptions};
+use crate::{Backdrop, Background, PictureOptions};
 
 pub use text::WriteSample;
 
@@ -204,8 +204,9 @@ impl PixelSteps {
         let [red, green, blue, covered] = mean;
         let mean_linear = [red, green, blue];
         let development = (!is_clipped).then(|| picture.development(whole));
+        let backdrop = Backdrop::new(picture.background, 1);
         let [red, green, blue] =
-            development.map_or(mean_linear, |development| development.apply(mean_linear));
+            development.map_or(mean_linear, |development| backdrop.converter(development)(mean));
         let is_opaque = picture.background != Background::Transparent;
         let bytes = display_pixel(&Quantizer::new(), [red, green, blue, covered], is_opaque);
         let development = development.map(|development| {

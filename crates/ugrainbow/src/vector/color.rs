@@ -3,6 +3,7 @@
 use ugimage::Development;
 use ugimage::figure::Rgb;
 use ugphysics::srgb_encode;
+use ugpicture::Backdrop;
 use ugraster::{Corner, SampleGrid, ShadedSample, TRANSPARENT_VALUES};
 
 use super::patch::{Interpolants, Patch};
@@ -17,6 +18,7 @@ pub struct FigureColors<'a> {
     /// How light is developed; `None` if it needs no development.
     pub development: Option<Development>,
     pub grid: &'a SampleGrid,
+    pub backdrop: &'a Backdrop,
     /// Linear light of the background; white if it is transparent.
     pub ground: [f32; 3],
 }
@@ -71,7 +73,7 @@ impl FigureColors<'_> {
             light = std::array::from_fn(|i| light[i] + own * layer.light[i]);
             pass *= layer.pass;
         }
-        self.levels(std::array::from_fn(|i| light[i] + pass * self.ground[i]))
+        self.levels(std::array::from_fn(|i| light[i] + pass * self.ground[i]), pass)
     }
 
     fn cued(&self, shade: ShadedSample, key: f64) -> [f32; 3] {
@@ -79,9 +81,10 @@ impl FigureColors<'_> {
         std::array::from_fn(|i| cue * shade.light[i] + (1.0 - cue) * self.ground[i])
     }
 
-    /// Light developed for a display.
-    pub fn levels(&self, light: [f32; 3]) -> Levels {
-        let light = self.development.map_or(light, |development| development.apply(light));
+    /// Light developed for a display. `pass`: the part of the background in it.
+    pub fn levels(&self, light @ [red, green, blue]: [f32; 3], pass: f32) -> Levels {
+        let convert = |development| self.backdrop.converter(development)([red, green, blue, 1.0 - pass]);
+        let light = self.development.map_or(light, convert);
         [0, 1, 2].map(|i| 255.0 * srgb_encode(f64::from(light[i]).clamp(0.0, 1.0)))
     }
 }

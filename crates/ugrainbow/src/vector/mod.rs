@@ -137,18 +137,24 @@ impl FigureJob<'_> {
     fn figure<S: Smooth>(&self, development: Option<Development>) -> Result<Figure<S>, Error> {
         let Self { layers, setup, config, scale, seen } = *self;
         let size = config.picture.size;
-        let ground = backdrop(&config.picture).light();
+        let backdrop = backdrop(&config.picture);
+        let ground = backdrop.light();
         let faces = patches(layers, setup, size, f64::from(scale), &seen.is_near);
         let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
         let faces = hidden::without_hidden(faces, &index, &seen.is_seen);
-        let colors =
-            FigureColors { layers, development, grid: &setup.grid, ground: ground.unwrap_or([1.0; 3]) };
+        let colors = FigureColors {
+            layers,
+            development,
+            grid: &setup.grid,
+            backdrop: &backdrop,
+            ground: ground.unwrap_or([1.0; 3]),
+        };
         let index = BoxIndex::new(faces.iter().map(Patch::bounds), size);
         let mut elements = painted(&colors, &faces, &index, size)?;
         let strokes = layers.strokes().iter().map(|stroke| scaled(*stroke, scale)).collect();
         let in_front = lines::TransparentPatches { patches: &faces, index: &index };
         lines::push_lines(&colors, &in_front, strokes, config.line_width, &mut elements);
-        let background = ground.map(|light| rounded(colors.levels(light)));
+        let background = ground.map(|light| rounded(colors.levels(light, 1.0)));
         Ok(Figure { size, background, elements })
     }
 }
