@@ -236,11 +236,13 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         }
         Command::ScoreImage(ScoreImageArgs { report, image }) => {
             let input = context.input()?;
-            let measured = image.case.measure(&input.text);
-            let measured =
-                measured.map_err(|problem| Failure::failed(format!("{}: {problem}", input.name)))?;
-            let json = picture::json(image.case, &measured);
-            report.write(context, &measured_text(image.case, &measured), &json)?;
+            let mistakes = picture::recognized(image.case, &input.text);
+            let measured = image.case.measure(&input.text).map_err(|problem| {
+                let text = format!("{}: {problem}\n{}", input.name, picture::lines(&mistakes));
+                Failure::failed(text.trim_end())
+            })?;
+            let text = measured_text(image.case, &measured) + &picture::lines(&mistakes);
+            report.write(context, &text, &picture::json(image.case, &measured, &mistakes))?;
             return Ok(all_pass(&measured));
         }
         Command::Compare(compare) => {

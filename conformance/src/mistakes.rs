@@ -1,5 +1,7 @@
 //! Known mistakes of relativistic renderers.
 
+use serde_json::{Value, json};
+
 /// Number and description of each.
 pub const MISTAKES: [(&str, &str); 20] = [
     ("M1", "direction in the wrong frame, or the present position instead of the retarded one"),
@@ -23,6 +25,11 @@ pub const MISTAKES: [(&str, &str); 20] = [
     ("M19", "light of all points of a body leaves when that of its reference point does"),
     ("M20", "axes that are those of a single boost, without Thomas precession"),
 ];
+
+/// Mistakes for programs.
+pub fn json<'n>(names: impl Iterator<Item = &'n str>) -> Value {
+    names.map(|name| json!({ "name": name, "about": describe(name) })).collect()
+}
 
 /// The description of a mistake; empty if the name is unknown.
 pub fn describe(name: &str) -> &'static str {

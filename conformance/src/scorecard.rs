@@ -119,11 +119,10 @@ impl Scorecard<'_> {
                 "unanswered": row.unanswered(), "worst_error": worst })
         });
         let failures = self.failures.iter().map(|&Failure { case, answer, tolerance }| {
-            let mistakes = self.precision.recognized(case, answer).into_iter();
-            let mistakes = mistakes.map(|name| json!({ "name": name, "about": mistakes::describe(name) }));
+            let looks_like = mistakes::json(self.precision.recognized(case, answer).into_iter());
             json!({ "question": case.question(), "answered": answer, "expected": case.expected,
                 "source": case.source, "error": case.error(answer) / tolerance,
-                "looks_like": mistakes.collect::<Vec<_>>() })
+                "looks_like": looks_like })
         });
         json!({ "topics": topics.collect::<Vec<_>>(), "failures": failures.collect::<Vec<_>>() })
     }

@@ -9,6 +9,7 @@ mod cube;
 mod depth;
 mod edge;
 mod export;
+mod mistaken;
 mod pixels;
 mod sphere;
 
@@ -22,8 +23,10 @@ use ugrainbow::PictureOptions;
 use ugscene::Scene;
 
 use crate::compare::refuse_lossy;
+use crate::mistakes;
 use camera::Sight;
 pub use export::{cameras, objects};
+pub use mistaken::{lines, recognized};
 
 /// A case of the suite: a picture to be drawn and measured.
 #[derive(Debug)]
@@ -83,7 +86,7 @@ pub struct MeasuredQuantity {
 }
 
 /// The measurements of a picture for programs. A tolerance of `null` is that of a lower bound.
-pub fn json(case: &PictureCase, measured: &[MeasuredQuantity]) -> Value {
+pub fn json(case: &PictureCase, measured: &[MeasuredQuantity], recognized: &[&str]) -> Value {
     let measured = measured.iter().map(|number| {
         let (expected, tolerance) = match number.expected {
             Expected::About { value, tolerance } => (value, Some(tolerance)),
@@ -93,7 +96,9 @@ pub fn json(case: &PictureCase, measured: &[MeasuredQuantity]) -> Value {
         json!({ "quantity": quantity, "value": value, "expected": expected, "tolerance": tolerance,
             "passes": number.passes() })
     });
-    json!({ "picture": case.name, "about": case.about, "measured": measured.collect::<Vec<_>>() })
+    let looks_like = mistakes::json(recognized.iter().copied());
+    json!({ "picture": case.name, "about": case.about, "measured": measured.collect::<Vec<_>>(),
+        "looks_like": looks_like })
 }
 
 /// The expected value of a measurement.
@@ -233,16 +238,18 @@ impl PictureCase {
     /// The message of a program. There is none for the scenes of the suite.
     pub fn draw(&self, drawn_by: DrawnBy) -> Result<Vec<u8>, String> {
         match drawn_by {
-            DrawnBy::Pipe if self.lens == Lens::Pinhole => self.draw_by_pipe(),
+            DrawnBy::Pipe if self.lens == Lens::Pinhole => self.draw_by_pipe(|_, _| {}),
             DrawnBy::Pipe | DrawnBy::Rays => self.draw_by_rays(),
         }
     }
 
-    fn draw_by_pipe(&self) -> Result<Vec<u8>, String> {
-        let parsed = ugparse::parse(&self.source("uglorentz"), &Options::default())
+    /// `change`: makes a mistake.
+    fn draw_by_pipe(&self, change: impl Fn(&mut Scene, &mut uglorentz::Config)) -> Result<Vec<u8>, String> {
+        let mut parsed = ugparse::parse(&self.source("uglorentz"), &Options::default())
             .map_err(|error| error.to_string())?;
-        let (seen, _) = uglorentz::apply(parsed.scene, &uglorentz::Config::default())
-            .map_err(|error| error.to_string())?;
+        let mut lorentz = uglorentz::Config::default();
+        change(&mut parsed.scene, &mut lorentz);
+        let (seen, _) = uglorentz::apply(parsed.scene, &lorentz).map_err(|error| error.to_string())?;
         // `-vr`: faces of one body keep their own colours.
         let doppler = ugdoppler::Config { repeat: true, shift: self.color_shift(), ..Default::default() };
         let (colored, _) = ugdoppler::apply(seen, &doppler).map_err(|error| error.to_string())?;

@@ -218,3 +218,28 @@ fn scenes_are_written_for_other_renderers() {
             .contains("\nedge,600,450,0.0,0.0,0.0,-2.4,0.0,1.0,0.0,0.0,1.0,pinhole,44.0\n")
     );
 }
+
+/// A picture of an edge that was not subdivided is recognised, and so is one of a sphere that is
+/// not contracted.
+#[test]
+fn mistakes_in_pictures_are_recognized() {
+    let geometry = ugscene::ShownEffects { contraction: false, ..Default::default() };
+    let whole = uglorentz::Config { pieces: uglorentz::Pieces::PerEdge(1), ..Default::default() };
+    let galilean = uglorentz::Config { geometry, ..Default::default() };
+    for (name, size, config, expected) in
+        [("edge", [600, 450], whole, "looks like M13: "), ("sphere", [600, 600], galilean, "looks like M9: ")]
+    {
+        let path = format!("{}/scenes/{name}.ug", env!("CARGO_MANIFEST_DIR"));
+        let source = ugparse::Source::new(name, fs::read(path).expect("a scene"));
+        let scene = ugparse::parse(&source, &ugparse::Options::default()).expect("a scene").scene;
+        let (seen, _) = uglorentz::apply(scene, &config).expect("a scene as seen");
+        let picture = ugrainbow::PictureOptions { size, ..Default::default() };
+        let config = ugrainbow::Config { picture, ..Default::default() };
+        let source = ugparse::Source::new(name, ugparse::write(&seen));
+        let drawn = ugrainbow::run(&config, &source).expect("a picture").bytes;
+        let score = run(&["score-image", name], &drawn);
+        assert_eq!(score.status.code(), Some(1));
+        assert!(text(&score).contains(expected), "{}", text(&score));
+        assert_eq!(text(&score).matches("looks like").count(), 1, "{}", text(&score));
+    }
+}
