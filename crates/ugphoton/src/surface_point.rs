@@ -232,12 +232,12 @@ impl SurfacePoint {
 }
 
 /// The neighbours across and down of a ray, which show how large a sample is on a surface.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Neighbours {
     /// Those of a ray from the eye.
     OfSample(PictureSample),
     /// Those of a ray that was mirrored or refracted.
-    Bent([PastRay; 2]),
+    Bent(Box<[PastRay; 2]>),
 }
 
 impl Neighbours {
@@ -245,7 +245,7 @@ impl Neighbours {
     pub fn rays(&self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
         match self {
             Self::OfSample(sample) => sample.neighbours(scenery),
-            Self::Bent(rays) => Some(*rays),
+            Self::Bent(rays) => Some(**rays),
         }
     }
 }

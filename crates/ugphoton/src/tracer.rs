@@ -343,7 +343,7 @@ impl<'a> Tracer<'a> {
         };
         let neighbours = path.neighbours.and_then(|neighbours| {
             let [across, down] = neighbours.rays(self.scenery)?;
-            Some(Neighbours::Bent([bent(across)?, bent(down)?]))
+            Some(Neighbours::Bent([bent(across)?, bent(down)?].into()))
         });
         let absorption = absorption(self.scenery, media.innermost(), ray.step);
         let next = Path {
