@@ -108,7 +108,7 @@ struct ScoreImageArgs {
 #[derive(clap::Args, Debug)]
 struct ImageArgs {
     /// Name of the picture
-    #[arg(value_parser = one_of(picture::CASES.iter().map(|case| case.name), picture_case))]
+    #[arg(value_parser = one_of("pictures", picture::CASES.iter().map(|case| (case.name, case))))]
     case: &'static PictureCase,
 
     #[command(flatten)]
@@ -118,7 +118,7 @@ struct ImageArgs {
 #[derive(clap::Args, Debug)]
 struct TableArgs {
     /// Contents of the table, of all pictures
-    #[arg(value_parser = one_of(TABLES.map(|(name, _)| name), table))]
+    #[arg(value_parser = one_of("tables", TABLES))]
     table: Table,
 
     #[command(flatten)]
@@ -129,13 +129,6 @@ struct TableArgs {
 type Table = fn() -> Result<String, String>;
 
 const TABLES: [(&str, Table); 2] = [("objects", picture::objects), ("cameras", picture::cameras)];
-
-fn table(name: &str) -> Result<Table, String> {
-    let found = TABLES.into_iter().find(|(known, _)| *known == name);
-    found
-        .map(|(_, table)| table)
-        .ok_or_else(|| format!("unknown table; choose one of {}", TABLES.map(|(name, _)| name).join(", ")))
-}
 
 /// Compares FILE with TRUTH: PNG, EXR, HDR or PFM, of one size.
 #[derive(clap::Args, Debug)]
@@ -172,13 +165,6 @@ struct DrawArgs {
 
     #[command(flatten)]
     image: ImageArgs,
-}
-
-fn picture_case(name: &str) -> Result<&'static PictureCase, String> {
-    picture::case(name).ok_or_else(|| {
-        let names = picture::CASES.iter().map(|case| case.name);
-        format!("unknown picture; choose one of {}", names.collect::<Vec<_>>().join(", "))
-    })
 }
 
 impl ToolArgs for Args {

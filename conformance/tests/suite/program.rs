@@ -114,8 +114,8 @@ fn text_from_outside_cannot_command_the_terminal() {
 #[test]
 fn wrong_usage_is_reported() {
     for (args, message) in [
-        (&["table", "moons"][..], "unknown table; choose one of objects, cameras"),
-        (&["score-image", "moon"], "unknown picture; choose one of sphere, panorama, cube, "),
+        (&["table", "moons"][..], "none of the tables objects, cameras"),
+        (&["score-image", "moon"], "none of the pictures sphere, panorama, cube, "),
         (&["sphere.png"], "`sphere.png` is not a command; commands are questions, score"),
         (&[], "a command is missing; commands are questions, score"),
     ] {

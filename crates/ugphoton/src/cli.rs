@@ -10,7 +10,7 @@ use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kind_named, kinds, picture_format, pixel,
+    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
@@ -146,7 +146,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
     /// --explain.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(kinds(), kind_named),
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of("formats", kinds()),
           help_heading = PICTURE)]
     dt: Option<Kind>,
 

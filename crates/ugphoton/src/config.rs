@@ -83,7 +83,6 @@ impl Config {
     }
 
     /// The panorama that the picture is or belongs to, for viewers of 360° pictures.
-    #[must_use]
     pub fn panorama(&self) -> Option<PanoramaArea> {
         self.lens.panorama(&self.picture, self.stereo.is_some(), self.crop)
     }

@@ -9,8 +9,8 @@ use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kind_named, kinds, picture_format, pixel,
-    refuse_terminal, report_format, with_format, write_picture, write_report,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kinds, picture_format, pixel, refuse_terminal,
+    report_format, with_format, write_picture, write_report,
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
@@ -55,7 +55,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
     /// --explain.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(kinds(), kind_named))]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of("formats", kinds()))]
     dt: Option<Kind>,
 
     /// Vector graphics instead of pixels, for eps, ps, pdf, svg

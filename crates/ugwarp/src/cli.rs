@@ -13,8 +13,7 @@ use ugmeshfile::{Foreign, foreign_data};
 use ugparse::{Source, pipe};
 use ugphysics::Velocity;
 use ugpicture::cli::{
-    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
-    write_picture,
+    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, refuse_terminal, with_format, write_picture,
 };
 use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
@@ -69,7 +68,7 @@ pub struct Args {
     /// panorama: longitude across, latitude down. The others are cube maps: six squares from left
     /// to right, as -cube draws them; four squares across and three down, or three and four; six
     /// files in the order right, left, up, down, front, back.
-    #[arg(long, value_name = "KIND", value_parser = one_of(Arrangement::ALL.map(Arrangement::name), arrangement),
+    #[arg(long, value_name = "KIND", value_parser = one_of("arrangements", Arrangement::ALL.map(|kind| (kind.name(), kind))),
           conflicts_with = "part")]
     from: Option<Arrangement>,
 
@@ -151,7 +150,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative.
     #[arg(long, value_name = "FMT", visible_alias = "format",
-          value_parser = one_of(Format::ALL.map(Format::name), format_named), help_heading = PICTURE)]
+          value_parser = one_of("formats", Format::ALL.map(|format| (format.name(), format))), help_heading = PICTURE)]
     dt: Option<Format>,
 
     #[command(flatten)]
@@ -451,13 +450,6 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
 /// The stars of a list.
 fn stars(input: &Input) -> Result<StarList, Failure> {
     read_stars(&input.name, &input.text).map_err(|found| Failure::Report(found.report()))
-}
-
-/// The name of an arrangement.
-fn arrangement(word: &str) -> Result<Arrangement, String> {
-    Arrangement::from_name(word).ok_or_else(|| {
-        format!("none of the arrangements {}", Arrangement::ALL.map(Arrangement::name).join(", "))
-    })
 }
 
 /// The name of a basis, or three temperatures.

@@ -117,7 +117,6 @@ pub struct RayPoint {
 
 impl WorldLine {
     /// The tube around a body with these points; `None` for a motion that is inertial.
-    #[must_use]
     pub fn tube(&self, points: impl Iterator<Item = DVec3> + Clone) -> Option<WorldTube> {
         let Kind::Moving(moving) = &self.0 else { return None };
         Some(moving.tube(points))
@@ -169,7 +168,6 @@ impl WorldLine {
     }
 
     /// An upper bound of the length of the second derivative of all rays in the tube.
-    #[must_use]
     pub fn bend(&self, tube: &WorldTube, passages: &[SmoothStretch]) -> f64 {
         let Kind::Moving(moving) = &self.0 else { return 0.0 };
         let of_passage = |passage: &SmoothStretch| {
@@ -189,7 +187,6 @@ impl WorldLine {
     /// passage.
     ///
     /// `None` for an inertial motion.
-    #[must_use]
     pub fn stretch<'a>(
         &'a self,
         passage: &'a SmoothStretch,
@@ -431,7 +428,6 @@ impl RayStretch<'_> {
     ///
     /// Beyond its passage, where the body moves otherwise, the curve goes on straight: tangents
     /// may touch there.
-    #[must_use]
     pub fn at(&self, own_time: f64) -> RayPoint {
         let Range { start, end } = self.passage.own_times;
         // At the end the next passage has begun.
@@ -494,7 +490,6 @@ impl RayStretch<'_> {
 
     /// An upper bound of the length of the second derivative of the point between two own times,
     /// whose points are passed as well; infinite if they are too far apart.
-    #[must_use]
     pub fn bend(&self, [(from, start), (to, end)]: [(f64, DVec3); 2]) -> f64 {
         let a = self.passage.acceleration;
         let arm = (start - self.passage.pivot)

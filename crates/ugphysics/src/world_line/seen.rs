@@ -96,7 +96,6 @@ impl WorldLine {
     ///
     /// `None` for an inertial motion, and without a useful bound: if a triangle is so large that its
     /// parts are seen at very different velocities, or close to the observer.
-    #[must_use]
     pub fn seen_triangle(
         &self,
         tube: &WorldTube,
@@ -112,7 +111,6 @@ impl WorldLine {
 
 impl SeenTriangle {
     /// True if the seen triangle is nearly flat, for its size.
-    #[must_use]
     pub fn is_flat(&self, corners: &[SeenPoint; 3]) -> bool {
         /// Of the sum of the edges.
         const DEVIATION: f64 = 1.0 / 12.0;
