@@ -222,7 +222,7 @@ impl Args {
             pieces,
             color_error: self.color_error.unwrap_or(DEFAULT_COLOR_ERROR),
             light_error: self.light_error.unwrap_or(f64::INFINITY),
-            measure: self.common.verbose(),
+            measure: self.common.vb,
             smooth: self.smooth,
             repeat: self.repeat.repeats(),
             geometry: self.effects.geometry(),

@@ -20,7 +20,7 @@ pub const MAX_INPUT: u64 = u32::MAX as u64;
 
 /// The folder of the input, or for standard input the current folder.
 fn place(common: &CommonArgs) -> Place {
-    if common.allow_outside() {
+    if common.allow_outside {
         return Place::Anywhere;
     }
     Place::Below(common.input().map_or(Path::new("."), folder_of).to_owned())

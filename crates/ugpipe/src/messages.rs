@@ -65,8 +65,8 @@ impl Messages {
 
     /// Applies the options `-qt`, `-vb` and `-fm`. The file of `-fm` is truncated immediately.
     pub(crate) fn configure(&mut self, common: &CommonArgs) -> Result<(), Failure> {
-        self.is_quiet = common.quiet();
-        self.is_verbose = common.verbose();
+        self.is_quiet = common.qt;
+        self.is_verbose = common.vb;
         if let Some(path) = common.messages() {
             let created = File::create(path);
             self.file =
