@@ -77,7 +77,7 @@ impl StatedFrame {
 }
 
 /// A motion; of the options that may not be combined, the last.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct MotionStatement {
     pub name: Span,
     pub at: DVec3,

@@ -11,7 +11,7 @@ use crate::Velocity;
 use crate::error_free::{mul_add, power_of_two_below};
 
 /// An event: a point of spacetime. Time and lengths share one unit (c = 1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Event {
     /// Time.
     pub t: f64,

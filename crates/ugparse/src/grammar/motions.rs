@@ -4,7 +4,6 @@ use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 use ugphysics::{Event, Piece, SampledPath};
-use ugscene::StatedMotion;
 
 use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
 use crate::source::Span;
@@ -15,17 +14,7 @@ impl Grammar<'_> {
     /// `motion ID { -vel -at -acc -spin -orbit -path -on -shift }`
     pub(super) fn motion<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
-        let mut motion = MotionStatement {
-            name,
-            at: DVec3::ZERO,
-            velocity: None,
-            accelerations: Vec::new(),
-            spins: Vec::new(),
-            orbit: None,
-            path: None,
-            on: None,
-            shift: StatedMotion::NO_SHIFT,
-        };
+        let mut motion = MotionStatement { name, ..MotionStatement::default() };
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
             input = self.motion_option(&mut motion, word, input, rest)?.0;
         }
