@@ -14,7 +14,7 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
     let mut limits = Limits::default();
     for (name, value) in &common.limit {
         let Some(limit) = Limit::from_name(name) else {
-            let names = Limit::ALL.map(Limit::name).join(", ");
+            let names = Limit::all().map(Limit::name).collect::<Vec<_>>().join(", ");
             return Err(Failure::Usage(format!("`{name}` is not a limit; limits are {names}")));
         };
         if *value > limit.most() {
