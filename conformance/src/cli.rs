@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand};
 use serde_json::Value;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, one_of};
 
 use crate::compare::Comparison;
 use crate::picture::{self, DrawnBy, MeasuredQuantity, PictureCase};
@@ -20,7 +20,7 @@ use crate::suite::{Topic, topics};
 #[derive(Parser, Debug)]
 #[command(name = "ugconformance", version, after_help = EXAMPLES,
           disable_help_subcommand = true, mut_args(globally))]
-struct Args {
+pub struct Args {
     #[command(subcommand)]
     command: Option<Command>,
 
@@ -184,11 +184,6 @@ impl ToolArgs for Args {
             ) => &image.common,
         }
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// Runs the program.

@@ -132,7 +132,7 @@ fn short_help_is_one_screenful() {
     let help = text(&help);
     assert!(help.lines().count() <= 24, "{help}");
     assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
-    let manual = ugconformance::manual();
+    let manual = ugpipe::manual::<ugconformance::Args>();
     assert_eq!(manual.essential_options().len(), manual.essential.len());
     for command in &manual.commands {
         let (_, name) = command.name.split_once(' ').expect("the program and its command");

@@ -10,8 +10,8 @@ use ugparse::{Source, pipe};
 use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
-    one_of, parse_words, shell_os_word, whole,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, is_given, one_of,
+    parse_words, shell_os_word, whole,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
@@ -166,11 +166,6 @@ impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
         &self.common
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The whole program between its streams: reads the scene, draws the frames, writes them.

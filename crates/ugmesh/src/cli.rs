@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words, one_of};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, Words, one_of};
 use ugscene::Provenance;
 
 use crate::{Axis, Config, Error, MeshFile, MeshFormat, PROVENANCE, PictureFiles, Size, Target};
@@ -212,11 +212,6 @@ impl Words for Error {
         };
         format!("{self}{remedy}")
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The program.

@@ -13,7 +13,7 @@ use ugpicture::cli::{
     AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
+use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 use ugskybox::BuiltIn;
@@ -191,11 +191,6 @@ const EXAMPLES: &str = "Examples:
   ugphoton -cv 0 .5 0 -sp -ex auto street.ug > drive.png
   ugphoton -vel .6 0 0 -in --no-shadows -lg ship.ug > legend.png
   ugphoton -vel 0 -.2 0 -in -dt exr -ch D,time ship.ug > light.exr";
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] = &[

@@ -14,7 +14,7 @@ use ugpicture::cli::{
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, one_of,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, finite, is_given, number, one_of,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
@@ -271,11 +271,6 @@ impl Args {
         let format = picture_format(self.dt, file, self.explain.is_some())?;
         Ok(if self.vec { Output::Vector(format) } else { Output::Color(format) })
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The whole program between its streams: reads the scene, draws it, writes the picture.

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header, spelled_color};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
+    CommonArgs, Context, Failure, Input, MAX_INPUT, ToolArgs, Words, finite, one_of, sha256, whole,
 };
 
 use crate::recipe::{Recipe, recipes};
@@ -254,11 +254,6 @@ impl Words for Error {
         };
         format!("{self}{remedy}")
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// Prints the pipes that drew the pictures.

@@ -18,8 +18,8 @@ use ugpicture::cli::{
 use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
-    one_of, remedies, sha256, vector,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, number, one_of,
+    remedies, sha256, vector,
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
@@ -184,11 +184,6 @@ const EXAMPLES: &str = "Examples:
   ugwarp -vel 0 -.9 0 --basis 3500 5900 10000 -fish 180 -sz 900 900 sky.png > dome.png
   ugwarp -cv 0 .5 0 -dt exr -ch D,direction sky.png > light.exr
   ugwarp -cv 0 .9 0 -fish 180 -sz 900 900 stars.csv > stars.png";
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =

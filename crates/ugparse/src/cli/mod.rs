@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use clap::{Arg, Parser, Subcommand, ValueEnum};
 use serde_json::{Value, json};
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::pipe::{self, refused};
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
@@ -21,7 +21,7 @@ use crate::{Diagnostics, Options, Parsed, Severity, Source};
 #[derive(Parser, Debug)]
 #[command(name = "ugparse", version, after_help = EXAMPLES,
           disable_help_subcommand = true, mut_args(globally))]
-struct Args {
+pub struct Args {
     #[command(subcommand)]
     command: Option<Command>,
 
@@ -98,11 +98,6 @@ impl Args {
             Some(Command::Example(_)) | None => &self.rest,
         }
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// Runs the program.
