@@ -1,10 +1,9 @@
 //! The command line of `ugconformance`.
 
-use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Arg, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use serde_json::Value;
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs, one_of};
 
@@ -19,7 +18,7 @@ use crate::suite::{Topic, topics};
 /// Any program can answer the questions or draw the pictures; conformance/README.md defines them.
 #[derive(Parser, Debug)]
 #[command(name = "ugconformance", version, after_help = EXAMPLES,
-          disable_help_subcommand = true, mut_args(globally))]
+          disable_help_subcommand = true, mut_args(ugpipe::globally))]
 pub struct Args {
     #[command(subcommand)]
     command: Option<Command>,
@@ -34,11 +33,6 @@ const EXAMPLES: &str = "Examples:
   ugconformance draw --rays sphere > sphere.png
   ugconformance score-image sphere sphere.png
   ugconformance compare mine.png truth.png";
-
-/// Allows options before the command as well as after it, except the one that names the file.
-fn globally(arg: Arg) -> Arg {
-    if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
-}
 
 #[derive(Subcommand, Debug)]
 enum Command {
@@ -188,14 +182,7 @@ impl ToolArgs for Args {
 
 /// Runs the program.
 pub fn main() -> ExitCode {
-    // Wrong answers are a result and not an error: the output is kept, and only the exit status
-    // is 1.
-    let is_right = Cell::new(true);
-    let status = ugpipe::main(|args: &Args, context: &mut Context| {
-        is_right.set(run(args, context)?);
-        Ok(())
-    });
-    if is_right.get() { status } else { ExitCode::FAILURE }
+    ugpipe::main_of_verdicts(run)
 }
 
 /// Runs the command; returns false if something is wrong.

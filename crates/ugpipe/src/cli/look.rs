@@ -3,7 +3,7 @@
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
 
-use crate::values::one_of;
+use crate::cli::values::one_of;
 
 /// How pictures are meant to look: flatten it into the arguments of a program that has
 /// [`crate::ToolArgs::LOOKS`].

@@ -9,9 +9,9 @@ use std::ffi::OsString;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command};
 
-use crate::argv::StrayNumber;
+use crate::cli::argv::StrayNumber;
+use crate::cli::values::finite;
 use crate::remedies;
-use crate::values::finite;
 
 /// The option without which an argument would not be missing. `words`: the command line for clap.
 pub(crate) fn option_in_need<'w>(

@@ -14,13 +14,13 @@ use signal_hook::consts::{SIGABRT, SIGPIPE};
 use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
 
-use crate::args::ToolArgs;
-use crate::context::Context;
-use crate::failure::{Failure, reason};
-use crate::manual::manual;
-use crate::messages::Messages;
-use crate::parse::{Unparsed, parse};
-use crate::{argv, cleanup, completion, help, provenance, streams};
+use crate::cli::args::ToolArgs;
+use crate::cli::context::Context;
+use crate::cli::failure::{Failure, reason};
+use crate::cli::manual::manual;
+use crate::cli::messages::Messages;
+use crate::cli::parse::{Unparsed, parse};
+use crate::cli::{argv, cleanup, completion, help, provenance, streams};
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::look::Looks;
-use crate::values::whole;
+use crate::cli::look::Looks;
+use crate::cli::values::whole;
 
 /// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
@@ -143,6 +143,12 @@ impl CommonArgs {
     pub(crate) fn input_named(&self) -> Option<&Path> {
         self.fi.as_deref().or(self.file.as_deref())
     }
+}
+
+/// For programs with commands: allows options before the command as well as after it, except the one
+/// that names the file: `#[command(mut_args(ugpipe::globally))]`.
+pub fn globally(arg: clap::Arg) -> clap::Arg {
+    if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
 }
 
 fn is_dash(path: &Path) -> bool {

@@ -13,8 +13,8 @@ use anstream::adapter::strip_str;
 use anstream::{AutoStream, ColorChoice};
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::args::CommonArgs;
-use crate::failure::Failure;
+use crate::cli::args::CommonArgs;
+use crate::cli::failure::Failure;
 use crate::progress::Progress;
 use crate::text::{message, printable, printable_styled};
 
