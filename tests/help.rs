@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::process::Command;
 
-use ugpipe::Manual;
 use ugpipe::remedies::program_with_option;
+use ugpipe::{Manual, manual};
 use ugtests::documents::{Page, prepare, resized, shortened, written_files};
 use ugtests::{programs, scenes};
 
 /// The manual of a program.
 macro_rules! manuals {
-    ($($program:ident),*) => { [$($program::manual()),*] };
+    ($($program:ident),*) => { [$(manual::<$program::Args>()),*] };
 }
 
 /// Lines and columns of `-h`.

@@ -235,7 +235,7 @@ fn no_crate_spells_the_name_of_a_sibling_program() {
 /// was rendered are diagnostics, whose renderer makes their parts printable.
 #[test]
 fn text_leaves_where_it_is_made_printable() {
-    const EDGE: [&str; 2] = ["crates/ugpipe/src/messages.rs", "crates/ugpipe/src/steps.rs"];
+    const EDGE: [&str; 2] = ["crates/ugpipe/src/cli/messages.rs", "crates/ugpipe/src/cli/steps.rs"];
     let is_outside = |name: &str, line: &str| {
         let is_rendered = ["Failure::Report(", "context.report("].iter().any(|call| line.contains(call));
         (line.contains("io::stderr") && !EDGE.contains(&name))

@@ -1,12 +1,11 @@
 //! The command line of `ugconformance`.
 
-use std::cell::Cell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Arg, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use serde_json::Value;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, one_of};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, one_of};
 
 use crate::compare::Comparison;
 use crate::picture::{self, DrawnBy, MeasuredQuantity, PictureCase};
@@ -19,8 +18,8 @@ use crate::suite::{Topic, topics};
 /// Any program can answer the questions or draw the pictures; conformance/README.md defines them.
 #[derive(Parser, Debug)]
 #[command(name = "ugconformance", version, after_help = EXAMPLES,
-          disable_help_subcommand = true, mut_args(globally))]
-struct Args {
+          disable_help_subcommand = true, mut_args(ugpipe::globally))]
+pub struct Args {
     #[command(subcommand)]
     command: Option<Command>,
 
@@ -34,11 +33,6 @@ const EXAMPLES: &str = "Examples:
   ugconformance draw --rays sphere > sphere.png
   ugconformance score-image sphere sphere.png
   ugconformance compare mine.png truth.png";
-
-/// Allows options before the command as well as after it, except the one that names the file.
-fn globally(arg: Arg) -> Arg {
-    if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
-}
 
 #[derive(Subcommand, Debug)]
 enum Command {
@@ -108,7 +102,7 @@ struct ScoreImageArgs {
 #[derive(clap::Args, Debug)]
 struct ImageArgs {
     /// Name of the picture
-    #[arg(value_parser = one_of(picture::CASES.iter().map(|case| case.name), picture_case))]
+    #[arg(value_parser = one_of("pictures", picture::CASES.iter().map(|case| (case.name, case))))]
     case: &'static PictureCase,
 
     #[command(flatten)]
@@ -118,7 +112,7 @@ struct ImageArgs {
 #[derive(clap::Args, Debug)]
 struct TableArgs {
     /// Contents of the table, of all pictures
-    #[arg(value_parser = one_of(TABLES.map(|(name, _)| name), table))]
+    #[arg(value_parser = one_of("tables", TABLES))]
     table: Table,
 
     #[command(flatten)]
@@ -129,13 +123,6 @@ struct TableArgs {
 type Table = fn() -> Result<String, String>;
 
 const TABLES: [(&str, Table); 2] = [("objects", picture::objects), ("cameras", picture::cameras)];
-
-fn table(name: &str) -> Result<Table, String> {
-    let found = TABLES.into_iter().find(|(known, _)| *known == name);
-    found
-        .map(|(_, table)| table)
-        .ok_or_else(|| format!("unknown table; choose one of {}", TABLES.map(|(name, _)| name).join(", ")))
-}
 
 /// Compares FILE with TRUTH: PNG, EXR, HDR or PFM, of one size.
 #[derive(clap::Args, Debug)]
@@ -174,13 +161,6 @@ struct DrawArgs {
     image: ImageArgs,
 }
 
-fn picture_case(name: &str) -> Result<&'static PictureCase, String> {
-    picture::case(name).ok_or_else(|| {
-        let names = picture::CASES.iter().map(|case| case.name);
-        format!("unknown picture; choose one of {}", names.collect::<Vec<_>>().join(", "))
-    })
-}
-
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] = &["-fo", "-qt"];
 
@@ -200,21 +180,9 @@ impl ToolArgs for Args {
     }
 }
 
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
-
 /// Runs the program.
 pub fn main() -> ExitCode {
-    // Wrong answers are a result and not an error: the output is kept, and only the exit status
-    // is 1.
-    let is_right = Cell::new(true);
-    let status = ugpipe::main(|args: &Args, context: &mut Context| {
-        is_right.set(run(args, context)?);
-        Ok(())
-    });
-    if is_right.get() { status } else { ExitCode::FAILURE }
+    ugpipe::main_of_verdicts(run)
 }
 
 /// Runs the command; returns false if something is wrong.

@@ -30,4 +30,4 @@ pub mod precision;
 pub mod scorecard;
 pub mod suite;
 
-pub use cli::{main, manual, questions, score_image};
+pub use cli::{Args, main, questions, score_image};

@@ -5,7 +5,7 @@ use pyo3::types::PyDict;
 use ugfilm::TOOLS;
 use ugimage::Format;
 use ugpicture::Channel;
-use ugpipe::{Entry, Manual};
+use ugpipe::{Entry, Manual, manual};
 
 use crate::error::wrong;
 
@@ -14,7 +14,7 @@ use crate::error::wrong;
 pub fn options<'py>(py: Python<'py>, name: &str) -> PyResult<Vec<Bound<'py, PyDict>>> {
     let of_frame = TOOLS.iter().find(|tool| tool.name() == name).map(|tool| (tool.manual)());
     let manual = match name {
-        "ugfilm" => Some(ugfilm::manual()),
+        "ugfilm" => Some(manual::<ugfilm::Args>()),
         _ => of_frame,
     };
     let manual = manual.ok_or_else(|| wrong(format!("there is no program `{name}`")))?;

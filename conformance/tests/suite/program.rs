@@ -114,8 +114,8 @@ fn text_from_outside_cannot_command_the_terminal() {
 #[test]
 fn wrong_usage_is_reported() {
     for (args, message) in [
-        (&["table", "moons"][..], "unknown table; choose one of objects, cameras"),
-        (&["score-image", "moon"], "unknown picture; choose one of sphere, panorama, cube, "),
+        (&["table", "moons"][..], "none of the tables objects, cameras"),
+        (&["score-image", "moon"], "none of the pictures sphere, panorama, cube, "),
         (&["sphere.png"], "`sphere.png` is not a command; commands are questions, score"),
         (&[], "a command is missing; commands are questions, score"),
     ] {
@@ -132,7 +132,7 @@ fn short_help_is_one_screenful() {
     let help = text(&help);
     assert!(help.lines().count() <= 24, "{help}");
     assert!(help.lines().all(|line| line.chars().count() <= 100), "{help}");
-    let manual = ugconformance::manual();
+    let manual = ugpipe::manual::<ugconformance::Args>();
     assert_eq!(manual.essential_options().len(), manual.essential.len());
     for command in &manual.commands {
         let (_, name) = command.name.split_once(' ').expect("the program and its command");

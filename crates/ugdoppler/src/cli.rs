@@ -7,9 +7,7 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugparse::{Diagnostic, Diagnostics, Origins, Source, pipe};
 use ugphysics::Velocity;
-use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, Progress, ToolArgs, Words, remedies,
-};
+use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Progress, ToolArgs, Words, remedies};
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
 
@@ -151,11 +149,6 @@ impl Args {
         }
         Ok(())
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The whole program.

@@ -59,7 +59,7 @@ use ugscene::{
 };
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, main, manual};
+pub use cli::{Args, main};
 pub use config::{Config, DEFAULT_TOLERANCE};
 pub use error::Error;
 pub use notes::Note;

@@ -10,8 +10,8 @@ use ugparse::{Source, pipe};
 use ugpicture::Background;
 use ugpicture::cli::{BRIGHT_REMEDY, DARK_REMEDY, PictureArgs};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, is_given,
-    one_of, parse_words, shell_os_word, whole,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, is_given, one_of,
+    parse_words, shell_os_word, whole,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
@@ -58,7 +58,7 @@ pub struct Args {
     ///
     /// smooth begins and ends slowly, without jumps in between, and never goes beyond the values.
     #[arg(long, value_name = "WORD", default_value = "linear",
-          value_parser = one_of(["linear", "smooth"], ease), help_heading = FILM)]
+          value_parser = one_of("ways", [("linear", Ease::Linear), ("smooth", Ease::Smooth)]), help_heading = FILM)]
     ease: Ease,
 
     /// The film repeats: the frame after the last one would be the first
@@ -166,11 +166,6 @@ impl ToolArgs for Args {
     fn common(&self) -> &CommonArgs {
         &self.common
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The whole program between its streams: reads the scene, draws the frames, writes them.
@@ -568,14 +563,6 @@ fn ranges(list: &str) -> Result<Ranges, String> {
     };
     let ranges: Option<Vec<[u32; 2]>> = list.split(',').map(range).collect();
     ranges.map(Ranges).ok_or_else(|| "write frames as 40..59 or 1,5,9".to_owned())
-}
-
-fn ease(word: &str) -> Result<Ease, String> {
-    match word {
-        "linear" => Ok(Ease::Linear),
-        "smooth" => Ok(Ease::Smooth),
-        _ => Err("neither linear nor smooth".to_owned()),
-    }
 }
 
 fn shutter_time(word: &str) -> Result<f64, String> {

@@ -91,7 +91,7 @@ mod timeline;
 mod work;
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, manual, run};
+pub use cli::{Args, run};
 pub use error::Error;
 pub use note::Note;
 #[cfg(feature = "cli")]

@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use clap::builder::Resettable;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, CommandFactory, FromArgMatches, Id, Parser};
-use ugpipe::{CommonArgs, Failure, Look, Manual, ToolArgs, parse_command};
+use ugpipe::{CommonArgs, Failure, Look, Manual, ToolArgs, manual, parse_command};
 
 use crate::program::Program;
 
@@ -38,7 +38,7 @@ pub struct ParsedCommand {
 macro_rules! tool {
     ($krate:ident, $variant:ident, $args:ident => $config:expr, $line:expr) => {
         &Tool {
-            manual: $krate::manual,
+            manual: manual::<$krate::Args>,
             heading: concat!("Options of ", stringify!($krate)),
             command: $krate::Args::command,
             look: <$krate::Args as ToolArgs>::LOOKS.default,
@@ -47,7 +47,7 @@ macro_rules! tool {
                 let config = $config?;
                 let line = $line(&$args, line, &config);
                 let (program, common) = (Program::$variant(config), $args.common().clone());
-                Ok(ParsedCommand { program, line, common, manual: $krate::manual })
+                Ok(ParsedCommand { program, line, common, manual: manual::<$krate::Args> })
             },
         }
     };

@@ -32,11 +32,6 @@ impl Tone {
         }
     }
 
-    /// The curve of the given name; `None` if there is no such curve.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|tone| name == tone.name())
-    }
-
     /// The white point: the smallest luminance that is shown as white.
     pub fn white(self) -> f64 {
         match self {
@@ -223,7 +218,6 @@ mod tests {
             assert!(levels.windows(2).all(|pair| pair[0] <= pair[1]), "{tone:?}");
             assert!(levels.iter().all(|level| (-1e-16..=1.0).contains(level)));
             assert_eq!(tone.at(tone.white()), 1.0);
-            assert_eq!(Tone::from_name(tone.name()), Some(tone));
         }
     }
 

@@ -31,11 +31,6 @@ impl Filter {
         }
     }
 
-    /// The filter called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|filter| name == filter.name())
-    }
-
     /// The number of neighbouring pixels on each side whose samples have nonzero weight.
     pub fn margin(self) -> u32 {
         match self {

@@ -1,7 +1,7 @@
 //! The file formats and their names.
 
 use crate::png::Compression;
-use crate::{Frame, LinearFrame, Metadata, eps, exr, hdr, pdf, pfm, png, ppm, ps, svg};
+use crate::{Frame, LinearFrame, Metadata, exr, hdr, pdf, pfm, png, postscript, ppm, svg};
 
 /// A file format for colour images.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -105,8 +105,8 @@ impl Format {
     pub fn encode_with(self, frame: &Frame, metadata: &Metadata, compression: Compression) -> Vec<u8> {
         match self {
             Self::Png => png::encode(frame, metadata, compression),
-            Self::Eps => eps::encode(frame, metadata),
-            Self::Ps => ps::encode(frame, metadata),
+            Self::Eps => postscript::encode(frame, metadata, true),
+            Self::Ps => postscript::encode(frame, metadata, false),
             Self::Pdf => pdf::encode(frame, metadata),
             Self::Svg => svg::encode(frame, metadata),
             Self::Ppm => ppm::encode(frame, metadata),

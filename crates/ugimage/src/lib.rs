@@ -35,7 +35,6 @@
 //! ```
 
 mod encoding;
-mod eps;
 mod exr;
 pub mod figure;
 mod format;
@@ -51,7 +50,6 @@ mod pixels;
 mod png;
 mod postscript;
 mod ppm;
-mod ps;
 mod read;
 mod read_exr;
 mod read_hdr;

@@ -1,15 +1,53 @@
-//! Shared by the PostScript formats: comments, compositing over white, and the colour image
-//! operator with its two filters.
+//! PostScript documents of one page and Encapsulated PostScript: a colour image over white, with two
+//! filters, or a drawing.
 
 use ugphysics::srgb_decode;
 
 use crate::{Frame, Metadata, Quantizer};
 
+/// The frame as a PostScript document of one page, or as an EPS file to be placed in a document; one
+/// pixel per point.
+pub fn encode(frame: &Frame, metadata: &Metadata, is_encapsulated: bool) -> Vec<u8> {
+    wrap([frame.width(), frame.height()], 2, metadata, &color_image(frame), is_encapsulated)
+}
+
+/// Makes a file of the PostScript code `drawing`, which draws `width` × `height` points.
+pub fn wrap(
+    [width, height]: [u32; 2],
+    level: u32,
+    metadata: &Metadata,
+    drawing: &[u8],
+    is_encapsulated: bool,
+) -> Vec<u8> {
+    let setup =
+        format!("%%BeginSetup\n<< /PageSize [{width} {height}] >> setpagedevice\n%%EndSetup\n%%Page: 1 1\n");
+    let [kind, pages, setup, trailer] = match is_encapsulated {
+        true => [" EPSF-3.0", "", "", ""],
+        false => ["", "%%Pages: 1\n", &setup, "%%Trailer\n"],
+    };
+    let mut file = format!(
+        "%!PS-Adobe-3.0{kind}\n\
+         %%BoundingBox: 0 0 {width} {height}\n\
+         {}\
+         %%LanguageLevel: {level}\n\
+         %%DocumentData: Clean7Bit\n\
+         {pages}\
+         %%EndComments\n\
+         {}{setup}",
+        creator_comment(metadata),
+        history_comments(metadata)
+    )
+    .into_bytes();
+    file.extend_from_slice(drawing);
+    file.extend_from_slice(format!("showpage\n{trailer}%%EOF\n").as_bytes());
+    file
+}
+
 /// Longest comment line written; the document structuring conventions allow 255 characters.
 const MAX_COMMENT: usize = 250;
 
 /// The `%%Creator` comment; empty if the metadata has no software.
-pub fn creator_comment(metadata: &Metadata) -> String {
+fn creator_comment(metadata: &Metadata) -> String {
     let mut text = String::new();
     if !metadata.software.is_empty() {
         text += &format!("%%Creator: {}\n", comment_line(&metadata.software));
@@ -18,7 +56,7 @@ pub fn creator_comment(metadata: &Metadata) -> String {
 }
 
 /// The metadata's comment as plain `%` lines, to be placed after `%%EndComments`.
-pub fn history_comments(metadata: &Metadata) -> String {
+fn history_comments(metadata: &Metadata) -> String {
     metadata.comment.lines().map(history_comment).collect()
 }
 
@@ -43,7 +81,7 @@ fn comment_line(text: &str) -> String {
 ///
 /// The filters are stored in variables so that both can be flushed after the last pixel. The
 /// interpreter then continues directly after the data.
-pub fn color_image(frame: &Frame) -> Vec<u8> {
+fn color_image(frame: &Frame) -> Vec<u8> {
     let (width, height) = (frame.width(), frame.height());
     let mut out = format!(
         "gsave\n\

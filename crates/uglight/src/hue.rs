@@ -48,7 +48,6 @@ impl HueShift {
     /// assert!((seen.wavelength_nm - 436.88).abs() < 1e-9);
     /// assert_eq!((seen.value, seen.factor), (0.5, 1.953125));
     /// ```
-    #[must_use]
     pub fn seen(self, rest: HueColor, doppler: f64) -> HueColor {
         let seen = self.brightened(rest, self.law.factor(doppler));
         if self.keeps_wavelength(rest.saturation, doppler) {
@@ -60,7 +59,6 @@ impl HueShift {
 
     /// A colour with its brightness multiplied: its linear light under a law that names a quantity,
     /// else its display-encoded value.  Eq. (P18)
-    #[must_use]
     #[inline]
     pub fn brightened(self, color: HueColor, factor: f64) -> HueColor {
         if self.law.acts_on_light() {
@@ -72,20 +70,17 @@ impl HueShift {
 
     /// The colour of a lamp times its intensity, for the unit in which light is added: linear under
     /// a law that names a quantity, else display-encoded.
-    #[must_use]
     #[inline]
     pub fn color_of(self, lamp: &Lamp) -> DVec3 {
         if self.law.acts_on_light() { lamp.linear } else { lamp.color }
     }
 
     /// True if a colour of that saturation is seen with the wavelength it has at rest.
-    #[must_use]
     pub fn keeps_wavelength(self, saturation: f64, doppler: f64) -> bool {
         !self.doppler || doppler == 1.0 || saturation == 0.0
     }
 
     /// A wavelength as seen.  Eq. (P11)
-    #[must_use]
     #[inline]
     pub fn wavelength_nm(self, rest_nm: f64, doppler: f64) -> f64 {
         rest_nm / if self.doppler { doppler } else { 1.0 }
@@ -97,7 +92,6 @@ impl HueShift {
     /// of the lamp, its wavelength divided by D_l D, its brightness changed by the brightness law
     /// for both factors, (P14). Then the colours are added: as linear light under a law that names
     /// a quantity, else by [`HueColor::sum`].
-    #[must_use]
     pub fn seen_lit(self, base: HueColor, doppler: f64, light: &[Irradiance], lamps: &[Lamp]) -> HueColor {
         let shift = Self { law: Brightness::None, ..self };
         let parts: Vec<HueColor> = light
@@ -117,7 +111,6 @@ impl HueShift {
     /// not shift it; else `None`. It reflects light that is not shifted by its red, green and blue
     /// (`linear`), other light as the hue `base`. So `None` also if no light is of the first kind, or
     /// if they cannot be added, because the law does not act on light.
-    #[must_use]
     pub fn display_lit(
         self,
         (linear, base): (DVec3, HueColor),
@@ -183,7 +176,6 @@ impl From<Hsv> for HueColor {
 impl HueColor {
     /// The hue, saturation and value that a display shows of linear red, green and blue: channels
     /// below 0 are clipped, those above 1 are kept.
-    #[must_use]
     pub fn of_display(linear: DVec3) -> Self {
         encoded_hsv(linear).into()
     }
@@ -196,19 +188,16 @@ impl HueColor {
 
     /// True if a renderer fades it as a hue, because it stands for a wavelength near the ends of the
     /// visible range.  Eq. (P17)
-    #[must_use]
     pub fn is_faded(&self) -> bool {
         self.saturation > 0.0 && attenuation(self.wavelength_nm) < 1.0
     }
 
     /// Its brightness without attenuation: linear light of its largest channel.
-    #[must_use]
     pub fn brightest(&self) -> f64 {
         self.factor * srgb_decode(self.value)
     }
 
     /// Linear red, green and blue as a renderer draws it.  Eq. (P17)
-    #[must_use]
     pub fn light(&self) -> DVec3 {
         let decode = |channel: f64| self.factor * srgb_decode(channel);
         let [red, green, blue] = self.attenuated().to_rgb();
@@ -221,7 +210,6 @@ impl HueColor {
 
     /// The colour as a renderer draws it, without its factor: faded where the eye sees little.
     /// Eq. (P17)
-    #[must_use]
     pub fn attenuated(&self) -> Hsv {
         self.hsv().attenuated(attenuation(self.wavelength_nm))
     }
@@ -232,7 +220,6 @@ impl HueColor {
     /// Colours of one wavelength keep it, visible or not. The hues of others are attenuated (P17)
     /// before they are added. As the renderer will attenuate the sum again, the sum is amplified to
     /// compensate, but never beyond the value it would have without any attenuation.
-    #[must_use]
     pub fn sum(parts: &[Self]) -> Self {
         let Some(first) = parts.first() else { return Self::BLACK };
         let all: f64 = parts.iter().map(|part| part.value).sum();
@@ -256,7 +243,6 @@ impl HueColor {
     ///
     /// As in [`HueColor::sum`], colours of one wavelength keep it, and a mixture is amplified to
     /// compensate the attenuation of its own wavelength.
-    #[must_use]
     pub fn sum_of_light(parts: &[Self]) -> Self {
         let Some(first) = parts.first() else { return Self::BLACK };
         let is_alike = |part: &Self| Self { factor: first.factor, ..*part } == *first;

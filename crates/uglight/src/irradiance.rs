@@ -93,7 +93,6 @@ impl IncidentLamp {
 
 impl SurfaceElement {
     /// The contribution of each lamp, in their order; none of those behind the surface.
-    #[must_use]
     pub fn irradiances(&self, lamps: &[Lamp], frames: &RestFrames) -> Vec<Irradiance> {
         let mut all = Vec::with_capacity(lamps.len());
         self.for_each_incident(lamps, frames, |_, _| (None, 1.0), |incident| all.push(incident.irradiance));
@@ -160,7 +159,6 @@ impl SurfaceElement {
 
     /// A unit vector towards a lamp in the rest frame of the surface, D_l, and the part of the
     /// intensity that arrives, whatever the normal. `None` for ambient light, and at the lamp.
-    #[must_use]
     pub fn light_from(&self, lamp: &Lamp, frames: &RestFrames) -> Option<(DVec3, f64, f64)> {
         let place = lamp.shifted(lamp.place, frames.lamp_shift(self.body));
         let Some(body) = self.moving_body(lamp, frames) else {
@@ -176,7 +174,6 @@ impl SurfaceElement {
 
     /// The own time at which a lamp sent the light that the surface scatters: a lamp with a place
     /// and a motion. `place`: that of the lamp.
-    #[must_use]
     pub fn lamp_time(&self, lamp: &Lamp, place: LampPlace, frames: &RestFrames) -> Option<f64> {
         let moving = MovingElement::new(self, frames);
         self.time_of(lamp, place, frames, moving.as_ref(), 1.0)

@@ -199,7 +199,6 @@ impl std::ops::Deref for Lamps {
 
 /// True if light of the scene has another spectrum than daylight, so that with spectra it
 /// multiplies colours wavelength by wavelength.
-#[must_use]
 pub fn has_colored_lamps(scene: &Scene) -> bool {
     let all = |id: ColorId| {
         let rows = scene.table_of(id).map_or(&[][..], |table| &table.rows);
@@ -302,7 +301,6 @@ impl Lamp {
     }
 
     /// The same with the [parts](Self::mixture) of its spectrum.
-    #[must_use]
     pub fn mixed_of(self, mixture: Vec<(u32, f64)>) -> Lamp {
         Self { mixture, ..self }
     }
@@ -335,7 +333,6 @@ impl Lamp {
     }
 
     /// The place on its parallelogram at a part of each edge; its position for other lamps.
-    #[must_use]
     pub fn place_on(&self, [part, other]: [f64; 2]) -> LampPlace {
         match (self.place, self.beam) {
             (LampPlace::At(place), Beam::Area([u, v])) => {
@@ -359,7 +356,6 @@ impl Lamp {
 
     /// A place of it as a body sees it. `shift`: of lamps that rest with what they light, see
     /// [`ugscene::RestFrames::lamp_shift`].
-    #[must_use]
     #[inline]
     pub fn shifted(&self, place: LampPlace, shift: DVec3) -> LampPlace {
         match (place, self.motion) {

@@ -9,7 +9,6 @@ use crate::{Appearance, ColorForm, Mixing, RestColor, SurfaceColor, Swatch};
 
 /// The colour of parts with shares that add up to 1, the second of which may have none: the mean of
 /// their light.
-#[must_use]
 pub fn mean_color([a, b]: [(RestColor, f64); 2]) -> RestColor {
     if b.1 == 0.0 {
         return a.0;
@@ -48,7 +47,6 @@ pub fn freeze_colors_at_zero(scene: &mut Scene) {
 impl Appearance {
     /// The colour at rest of a face whose colour changes, at an own time; `None` if it does not
     /// change. `is_moving`: see [`Appearance::face_colors_in_motion`].
-    #[must_use]
     pub fn color_at_time(
         &self,
         scene: &Scene,

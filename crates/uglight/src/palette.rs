@@ -10,10 +10,11 @@ use crate::color::shown_light;
 use crate::{ColorForm, Mixing};
 
 /// The interpolated quantity, besides saturation and value.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// The hue, linearly from −60° to 300° and never across that boundary, because a hue stands for
     /// a wavelength.
+    #[default]
     Hue,
     /// The wavelength.
     Wavelength,

@@ -24,7 +24,6 @@ impl ColorShift {
 
     /// The shift of spectra, or of hues with a brightness law (by default that of 1988). `doppler`,
     /// `flux`: wavelengths and brightness change.
-    #[must_use]
     pub fn new(is_spectral: bool, doppler: bool, flux: bool, law: Option<Brightness>) -> Self {
         if is_spectral {
             return Self::spectra(doppler, flux);
@@ -33,7 +32,6 @@ impl ColorShift {
     }
 
     /// A shift of spectra. `doppler`: wavelengths are divided by D; `flux`: the factor D⁵.
-    #[must_use]
     pub const fn spectra(doppler: bool, flux: bool) -> Self {
         Self::Spectra(SpectralShift { doppler, flux, ..SpectralShift::NONE })
     }
@@ -58,7 +56,6 @@ impl ColorShift {
     }
 
     /// What surfaces reflect in infrared.
-    #[must_use]
     pub fn infrared(self) -> InfraredRule {
         match self {
             Self::Hues(_) => InfraredRule::default(),
@@ -67,13 +64,11 @@ impl ColorShift {
     }
 
     /// A shift of hues. `doppler`: wavelengths are divided by D. `law`: the brightness law.
-    #[must_use]
     pub const fn hues(doppler: bool, law: Brightness) -> Self {
         Self::Hues(HueShift { doppler, law })
     }
 
     /// The shift of hues; none if colours are spectra.
-    #[must_use]
     pub fn of_hues(self) -> HueShift {
         match self {
             Self::Hues(shift) => shift,
@@ -82,14 +77,12 @@ impl ColorShift {
     }
 
     /// True if colours are spectra.
-    #[must_use]
     pub fn is_spectral(self) -> bool {
         matches!(self, Self::Spectra(_))
     }
 
     /// The stage of colours that it was applied to. `unit`: of their hues. `lights`: the light
     /// of lamps is in them.
-    #[must_use]
     pub fn seen_colors(self, unit: HueScale, lights: bool) -> SeenColors {
         let scale = match self {
             Self::Hues(shift) => ColorScale::Hues { unit, law: shift.law },
@@ -99,7 +92,6 @@ impl ColorShift {
     }
 
     /// The shift of colours of a stage.
-    #[must_use]
     pub fn of_stage(&SeenColors { scale, doppler, .. }: &SeenColors) -> Self {
         match scale {
             ColorScale::Hues { law, .. } => Self::hues(doppler, law),
@@ -108,7 +100,6 @@ impl ColorShift {
     }
 
     /// True if wavelengths are divided by D.
-    #[must_use]
     pub fn shifts_wavelengths(self) -> bool {
         match self {
             Self::Hues(shift) => shift.doppler,

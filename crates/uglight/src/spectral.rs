@@ -25,7 +25,6 @@ pub struct SpectralShift {
 
 /// Wavelengths, nm, at which a spectrum determines how it is seen at up to 0.9c: linearly
 /// interpolated between them, it keeps the corners of daylight. Their number is a multiple of 3.
-#[must_use]
 pub fn sampled_wavelengths() -> Vec<u16> {
     let rising = |from: f64, to: f64, factor: f64| {
         let all = std::iter::successors(Some(from), move |nm| Some(nm * factor));
@@ -45,13 +44,11 @@ impl SpectralShift {
         Self { doppler: false, flux: false, infrared: InfraredRule::Measured, sampled_nm: None };
 
     /// ln of the factor that wavelengths are divided by.
-    #[must_use]
     pub fn ln_shift(self, ln_doppler: f64) -> f64 {
         if self.doppler { ln_doppler } else { 0.0 }
     }
 
     /// ln of the factor on the radiance.
-    #[must_use]
     pub fn ln_gain(self, ln_doppler: f64) -> f64 {
         if self.flux { 5.0 * ln_doppler } else { 0.0 }
     }
@@ -61,7 +58,6 @@ impl SpectralShift {
     /// sum over the lamps, the product over the filters. R is the reflectance, S the spectrum of a
     /// lamp, T the transmittance of a filter. Black bodies and samples emit what they emit without
     /// lamps.  Eq. (P14)
-    #[must_use]
     pub fn seen_lit(
         self,
         surface: &Spectrum,
@@ -135,7 +131,6 @@ pub struct SpectralColor {
 
 impl SpectralColor {
     /// The spectrum of a colour statement, or of white.
-    #[must_use]
     pub fn new(scene: &Scene, color: Option<ColorId>) -> Self {
         let (spectrum, is_exact) = match color {
             Some(color) => spectrum(scene, &scene.colors[color.index()]),
@@ -145,7 +140,6 @@ impl SpectralColor {
     }
 
     /// The spectrum of a surface of these linear red, green and blue.
-    #[must_use]
     pub fn of(linear: [f64; 3], infrared: InfraredRule) -> Self {
         let (spectrum, is_exact) = Spectrum::with_infrared(linear_srgb_to_xyz(linear), infrared);
         Self { spectrum, is_exact, table: None, light: OnceLock::new() }
@@ -158,31 +152,26 @@ impl SpectralColor {
     }
 
     /// False if the colour at rest is another than the one that was written.
-    #[must_use]
     pub fn is_exact(&self) -> bool {
         self.is_exact
     }
 
     /// The spectrum at rest.
-    #[must_use]
     pub fn spectrum(&self) -> &Spectrum {
         &self.spectrum
     }
 
     /// Its radiance at a wavelength, nm, in daylight.
-    #[must_use]
     pub fn radiance(&self, nm: f64) -> f64 {
         self.light.get_or_init(|| LightSpectrum::new(&self.spectrum)).at(nm)
     }
 
     /// Its table, if it was [tabulated](Self::tabulated).
-    #[must_use]
     pub fn table(&self) -> Option<&DopplerTable> {
         self.table.as_ref()
     }
 
     /// X, Y, Z as seen at a ln D.  Eq. (P12), (P19)
-    #[must_use]
     pub fn seen(&self, grid: &DopplerGrid, ln_doppler: f64, shift: SpectralShift) -> [f64; 3] {
         let ln_shift = shift.ln_shift(ln_doppler);
         let xyz = match &self.table {

@@ -8,8 +8,8 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser};
 use ugparse::{Origins, Source, pipe};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Manual, PIXELS_PER_INCH, Progress, Side, ToolArgs, Words,
-    finite, remedies,
+    CommonArgs, Context, Failure, Look, LookArgs, PIXELS_PER_INCH, Progress, Side, ToolArgs, Words, finite,
+    remedies,
 };
 use ugscene::cli::{CameraArgs, EffectArgs, MotionArgs, RepeatArgs};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
@@ -119,11 +119,6 @@ const EXAMPLES: &str = "Examples:
   uglorentz -vel 0 .9 0 -ti -2 street.ug | ugrainbow > earlier.png   # two units of time earlier
   uglorentz -cv 0 .7 0 traffic.ug | ugrainbow > drive.png   # the camera moves";
 
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
-
 /// The whole program.
 pub fn main() -> ExitCode {
     ugpipe::main(run)
@@ -222,7 +217,7 @@ impl Args {
             pieces,
             color_error: self.color_error.unwrap_or(DEFAULT_COLOR_ERROR),
             light_error: self.light_error.unwrap_or(f64::INFINITY),
-            measure: self.common.verbose(),
+            measure: self.common.vb,
             smooth: self.smooth,
             repeat: self.repeat.repeats(),
             geometry: self.effects.geometry(),

@@ -101,7 +101,7 @@ mod world_line;
 
 pub use apply::{apply, apply_with};
 #[cfg(feature = "cli")]
-pub use cli::{Args, main, manual};
+pub use cli::{Args, main};
 pub use config::{Config, DEFAULT_COLOR_ERROR, DEFAULT_ERROR, Pieces};
 pub use error::Error;
 #[cfg(feature = "cli")]

@@ -5,9 +5,9 @@ use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 
-use clap::{Parser, ValueEnum};
+use clap::Parser;
 use ugparse::pipe;
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs, Words};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs, Words, one_of};
 use ugscene::Provenance;
 
 use crate::{Axis, Config, Error, MeshFile, MeshFormat, PROVENANCE, PictureFiles, Size, Target};
@@ -20,20 +20,23 @@ use crate::{Axis, Config, Error, MeshFile, MeshFormat, PROVENANCE, PictureFiles,
 #[command(name = "ugmesh", version, after_help = EXAMPLES)]
 pub struct Args {
     /// Input format [default: by content and file extension]
-    #[arg(id = "if", long = "if", visible_alias = "input-format", value_name = "FMT", value_enum)]
-    format: Option<FormatName>,
+    #[arg(id = "if", long = "if", visible_alias = "input-format", value_name = "FMT",
+          value_parser = one_of("formats", INPUTS))]
+    format: Option<MeshFormat>,
 
     /// Output format [default: by the extension of -fo, else ug]
-    #[arg(long, visible_alias = "device-type", value_name = "FMT", value_enum)]
-    dt: Option<TargetName>,
+    #[arg(long, visible_alias = "device-type", value_name = "FMT",
+          value_parser = one_of("formats", Target::NAMES))]
+    dt: Option<Target>,
 
     /// Write PLY as ASCII text
     #[arg(long)]
     ascii: bool,
 
     /// Up axis of the mesh [default: y for OBJ and glTF, z for PLY, STL and OFF]
-    #[arg(long, value_name = "AXIS", value_enum)]
-    up: Option<AxisName>,
+    #[arg(long, value_name = "AXIS",
+          value_parser = one_of("axes", [("x", Axis::X), ("y", Axis::Y), ("z", Axis::Z)]))]
+    up: Option<Axis>,
 
     /// Scale the mesh by the factor S
     #[arg(long, value_name = "S", allow_hyphen_values = true, value_parser = ugpipe::finite, conflicts_with = "fit")]
@@ -73,33 +76,15 @@ const EXAMPLES: &str = "Examples:
   ugmesh --center -fit 2 globe.ply > globe.ug
   uglorentz -vel 0 .8 0 ship.ug | ugdoppler | ugmesh -fo ship.glb";
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum FormatName {
-    Ug,
-    Obj,
-    Ply,
-    Stl,
-    Off,
-    Gltf,
-    Glb,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum TargetName {
-    Ug,
-    Obj,
-    Ply,
-    Gltf,
-    Glb,
-    Vtp,
-}
-
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum AxisName {
-    X,
-    Y,
-    Z,
-}
+const INPUTS: [(&str, MeshFormat); 7] = [
+    ("ug", MeshFormat::Ug),
+    ("obj", MeshFormat::Obj),
+    ("ply", MeshFormat::Ply),
+    ("stl", MeshFormat::Stl),
+    ("off", MeshFormat::Off),
+    ("gltf", MeshFormat::Gltf),
+    ("glb", MeshFormat::Gltf),
+];
 
 /// Value parser for names that are valid in UniGrafix and in other programs.
 fn name(word: &str) -> Result<String, String> {
@@ -141,13 +126,9 @@ impl Args {
             ));
         }
         Ok(Config {
-            format: self.format.map(FormatName::format),
+            format: self.format,
             target,
-            up: self.up.map(|up| match up {
-                AxisName::X => Axis::X,
-                AxisName::Y => Axis::Y,
-                AxisName::Z => Axis::Z,
-            }),
+            up: self.up,
             size,
             is_centered: self.center,
             stage: self.stage,
@@ -181,7 +162,7 @@ impl Args {
     /// contradicts its content.
     fn target(&self) -> Result<Target, Failure> {
         let target = match (self.dt, self.common.output()) {
-            (Some(name), _) => name.target(),
+            (Some(target), _) => target,
             (None, Some(path)) if path.extension().is_some() && is_file_or_new(path) => {
                 Target::by_ending(path).ok_or_else(|| {
                     Failure::usage(format!(
@@ -202,32 +183,6 @@ impl Args {
 /// False for devices, whose names do not determine a format.
 fn is_file_or_new(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file())
-}
-
-impl FormatName {
-    fn format(self) -> MeshFormat {
-        match self {
-            Self::Ug => MeshFormat::Ug,
-            Self::Obj => MeshFormat::Obj,
-            Self::Ply => MeshFormat::Ply,
-            Self::Stl => MeshFormat::Stl,
-            Self::Off => MeshFormat::Off,
-            Self::Gltf | Self::Glb => MeshFormat::Gltf,
-        }
-    }
-}
-
-impl TargetName {
-    fn target(self) -> Target {
-        match self {
-            Self::Ug => Target::Ug,
-            Self::Obj => Target::Obj,
-            Self::Ply => Target::Ply { is_ascii: false },
-            Self::Gltf => Target::Gltf,
-            Self::Glb => Target::Glb,
-            Self::Vtp => Target::Vtp,
-        }
-    }
 }
 
 /// Reads a file in the folder of the mesh. A mesh from a pipe has no folder.
@@ -257,11 +212,6 @@ impl Words for Error {
         };
         format!("{self}{remedy}")
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The program.

@@ -1,7 +1,5 @@
 //! The errors of converting a mesh.
 
-use std::fmt;
-
 use thiserror::Error;
 use ugmeshfile::Foreign;
 use ugparse::Diagnostics;
@@ -13,6 +11,7 @@ use ugmeshfile::{MeshFormat, Problem};
 #[derive(Debug, Error)]
 pub enum Error {
     /// The format of the input cannot be detected.
+    #[error("{}", unknown_format(name, *foreign))]
     UnknownFormat {
         /// The name of the input for messages.
         name: String,
@@ -20,10 +19,13 @@ pub enum Error {
         foreign: Option<Foreign>,
     },
     /// Input and output are both UniGrafix.
+    #[error("the input is already a UniGrafix scene")]
     NothingToConvert,
     /// A name of mesh vertices is given for a scene.
+    #[error("the input is a UniGrafix scene, not a mesh")]
     NotMesh,
     /// The input is malformed.
+    #[error("cannot read `{name}` as {format}: {}{}", place(problem), problem.what)]
     Malformed {
         /// The name of the input for messages.
         name: String,
@@ -33,38 +35,29 @@ pub enum Error {
         problem: Problem,
     },
     /// The UniGrafix text has errors.
+    #[error(transparent)]
     Scene(#[from] Diagnostics),
     /// The colours of the scene are left to a renderer.
+    #[error(transparent)]
     Stage(#[from] StageError),
     /// Scaling made a coordinate infinite, or the scale factor underflows to 0.
+    #[error("scaled coordinates are out of range")]
     Overflow,
     /// A coordinate exceeds the range of 32-bit floats, which glTF uses.
+    #[error("coordinates do not fit glTF")]
     OutOfRange,
     /// The file would be larger than the format allows.
+    #[error("the mesh is too large for one glTF file")]
     TooLarge,
 }
 
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::UnknownFormat { name, foreign: Some(foreign) } => {
-                write!(f, "`{name}` is not a mesh but {foreign}; {}", foreign.remedy())
-            }
-            Self::UnknownFormat { name, foreign: None } => {
-                write!(f, "cannot detect the format of `{name}`")
-            }
-            Self::NothingToConvert => f.write_str("the input is already a UniGrafix scene"),
-            Self::NotMesh => f.write_str("the input is a UniGrafix scene, not a mesh"),
-            Self::Malformed { name, format, problem: Problem { line, what } } => {
-                write!(f, "cannot read `{name}` as {format}: ")?;
-                line.iter().try_for_each(|line| write!(f, "line {line}: "))?;
-                f.write_str(what)
-            }
-            Self::Scene(findings) => findings.fmt(f),
-            Self::Stage(error) => error.fmt(f),
-            Self::Overflow => f.write_str("scaled coordinates are out of range"),
-            Self::OutOfRange => f.write_str("coordinates do not fit glTF"),
-            Self::TooLarge => f.write_str("the mesh is too large for one glTF file"),
-        }
+fn unknown_format(name: &str, foreign: Option<Foreign>) -> String {
+    match foreign {
+        Some(foreign) => format!("`{name}` is not a mesh but {foreign}; {}", foreign.remedy()),
+        None => format!("cannot detect the format of `{name}`"),
     }
+}
+
+fn place(problem: &Problem) -> String {
+    problem.line.map_or_else(String::new, |line| format!("line {line}: "))
 }

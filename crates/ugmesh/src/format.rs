@@ -1,5 +1,6 @@
 //! Formats that are written.
 
+use std::mem::discriminant;
 use std::path::Path;
 
 use ugmeshfile::Axis;
@@ -26,29 +27,26 @@ pub enum Target {
 }
 
 impl Target {
+    /// The names of the formats in arguments, which are also their file extensions.
+    pub const NAMES: [(&'static str, Self); 6] = [
+        ("ug", Self::Ug),
+        ("obj", Self::Obj),
+        ("ply", Self::Ply { is_ascii: false }),
+        ("gltf", Self::Gltf),
+        ("glb", Self::Glb),
+        ("vtp", Self::Vtp),
+    ];
+
     /// The output format for a file extension.
     pub fn by_ending(path: &Path) -> Option<Self> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-            "ug" => Some(Self::Ug),
-            "obj" => Some(Self::Obj),
-            "ply" => Some(Self::Ply { is_ascii: false }),
-            "gltf" => Some(Self::Gltf),
-            "glb" => Some(Self::Glb),
-            "vtp" => Some(Self::Vtp),
-            _ => None,
-        }
+        let ending = path.extension()?;
+        Self::NAMES.into_iter().find(|(name, _)| ending.eq_ignore_ascii_case(name)).map(|row| row.1)
     }
 
     /// The name of the format in arguments.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Ug => "ug",
-            Self::Obj => "obj",
-            Self::Ply { .. } => "ply",
-            Self::Gltf => "gltf",
-            Self::Glb => "glb",
-            Self::Vtp => "vtp",
-        }
+        let is_it = |row: &&(&str, Self)| discriminant(&row.1) == discriminant(&self);
+        Self::NAMES.iter().find(is_it).map_or("", |row| row.0)
     }
 
     /// True if the format is binary.

@@ -41,7 +41,7 @@ use ugparse::{Diagnostics, Options, Origin, Source};
 use ugscene::{Provenance, Scene};
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, main, manual};
+pub use cli::{Args, main};
 pub use error::Error;
 pub use format::Target;
 pub use placement::Size;

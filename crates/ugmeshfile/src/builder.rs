@@ -31,6 +31,7 @@ impl Rgba {
 
 /// Builds a scene and ensures the invariants of [`Scene`]: finite numbers, faces with three corners
 /// or more, unique names.
+#[derive(Default)]
 pub(crate) struct Builder {
     scene: Scene,
     /// Prefix of names, including its `_`.
@@ -53,19 +54,7 @@ pub(crate) struct Builder {
 impl Builder {
     pub fn new(prefix: &str) -> Self {
         let prefix = if prefix.is_empty() { String::new() } else { format!("{prefix}_") };
-        Self {
-            scene: Scene::default(),
-            prefix,
-            colors: FxHashMap::default(),
-            color_names: UniqueNames::default(),
-            face_name: None,
-            line: 0,
-            lines: Lines::default(),
-            n_corners: 0,
-            n_degenerate: 0,
-            n_clipped: 0,
-            warnings: Vec::new(),
-        }
+        Self { prefix, ..Self::default() }
     }
 
     /// Adds a vertex. A zero, NaN or infinite normal is dropped.

@@ -70,7 +70,6 @@ pub struct Lines {
 
 impl MeshScene {
     /// The scene with z as the up axis. `up`: the up axis of the file.
-    #[must_use]
     pub fn z_up(mut self, up: Axis) -> Scene {
         rotate(&mut self.scene, |p| to_z_up(up, p));
         self.scene

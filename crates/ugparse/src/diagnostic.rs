@@ -7,16 +7,17 @@ use crate::source::Span;
 pub const MAX_ERRORS: usize = 20;
 
 /// Severity of a diagnostic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Severity {
     /// The scene is invalid.
+    #[default]
     Error,
     /// The scene is valid, or was changed as the message states.
     Warning,
 }
 
 /// An error or warning about a scene.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
@@ -53,15 +54,7 @@ pub enum Setting {
 impl Diagnostic {
     /// An error at a location.
     pub fn error(span: Span, message: impl Into<String>) -> Self {
-        Self {
-            severity: Severity::Error,
-            message: message.into(),
-            span,
-            label: String::new(),
-            other: None,
-            help: None,
-            setting: None,
-        }
+        Self { message: message.into(), span, ..Self::default() }
     }
 
     /// A warning at a location.

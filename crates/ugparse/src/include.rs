@@ -351,40 +351,34 @@ impl Inclusion<'_> {
     }
 }
 
+/// What went wrong, for messages, with the beginning of what a program says.
 fn complaint(kind: RequestKind, path: &Path, error: &RequestError) -> String {
     let path = path.display();
-    match (error, kind) {
-        (RequestError::System(error), RequestKind::Include | RequestKind::Path | RequestKind::Image) => {
-            format!("cannot read `{path}`: {error}")
+    match error {
+        RequestError::System(error) if kind == RequestKind::Execute => {
+            format!("cannot run `{path}`: {error}")
         }
-        (RequestError::System(error), RequestKind::Execute) => format!("cannot run `{path}`: {error}"),
-        (RequestError::Failed { status, complaint }, _) if complaint.is_empty() => {
-            format!("program `{path}` failed with {status}")
-        }
-        (RequestError::Failed { status, complaint }, _) => {
-            format!("program `{path}` failed with {status}: {}", beginning(complaint))
+        RequestError::System(error) => format!("cannot read `{path}`: {error}"),
+        RequestError::Failed { status, complaint } => {
+            let colon = if complaint.is_empty() { "" } else { ": " };
+            let beginning: String = complaint.chars().take(200).collect();
+            format!("program `{path}` failed with {status}{colon}{beginning}")
         }
     }
 }
 
-/// At most 200 characters.
-fn beginning(text: &str) -> String {
-    text.chars().take(200).collect()
-}
-
-fn remedy(kind: RequestKind, error: &RequestError) -> String {
-    match (error, kind) {
-        (RequestError::System(_), RequestKind::Include) => "names are relative to the file that includes",
-        (RequestError::System(_), RequestKind::Image) => {
+fn remedy(kind: RequestKind, error: &RequestError) -> &'static str {
+    match kind {
+        _ if matches!(error, RequestError::Failed { .. }) => "run it separately to see the error",
+        RequestKind::Include => "names are relative to the file that includes",
+        RequestKind::Image => {
             "names of pictures are relative to the file that has the statement, or to the current folder in a pipe"
         }
-        (RequestError::System(_), RequestKind::Path) => "names are relative to the file that has the motion",
-        (RequestError::System(_), RequestKind::Execute) => {
+        RequestKind::Path => "names are relative to the file that has the motion",
+        RequestKind::Execute => {
             "names are relative to the file that has the statement; the file must be a program"
         }
-        (RequestError::Failed { .. }, _) => "run it separately to see the error",
     }
-    .to_string()
 }
 
 /// Is the first word after comments, escapes and line marks a keyword?

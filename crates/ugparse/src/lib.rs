@@ -83,7 +83,7 @@ mod wording;
 mod writer;
 
 #[cfg(feature = "cli")]
-pub use cli::{main, manual};
+pub use cli::{Args, main};
 pub use diagnostic::{Diagnostic, MAX_ERRORS, Setting, Severity};
 pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;

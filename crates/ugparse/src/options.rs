@@ -39,88 +39,57 @@ pub enum Limit {
 }
 
 impl Limit {
-    /// All limits.
-    pub const ALL: [Self; 9] = [
-        Self::Text,
-        Self::Includes,
-        Self::Files,
-        Self::Nesting,
-        Self::Chain,
-        Self::Statements,
-        Self::Corners,
-        Self::Names,
-        Self::Memory,
+    /// Each limit, its name on the command line, what it counts, its default, and the largest value
+    /// it can have.
+    const TABLE: [(Self, &'static str, &'static str, u64, u64); 9] = [
+        // Positions are 32-bit.
+        (Self::Text, "text", "bytes", u32::MAX as u64, u32::MAX as u64),
+        (Self::Includes, "includes", "levels", 64, 10_000),
+        (Self::Files, "files", "files", 10_000, 1_000_000_000),
+        (Self::Nesting, "nesting", "levels", 64, 10_000),
+        (Self::Chain, "chain", "levels", 200, 10_000),
+        // Rows are 32-bit, and every one may need a second name.
+        (Self::Statements, "statements", "statements", 50_000_000, 2_000_000_000),
+        (Self::Corners, "corners", "corners", 500_000_000, 4_000_000_000),
+        // Positions of names are 32-bit, and every name may have to be made unique.
+        (Self::Names, "names", "bytes", 2 << 30, 2 << 30),
+        // Growing tables and the output may need as much again as the default.
+        (Self::Memory, "memory", "bytes", 2 << 30, 1 << 40),
     ];
+
+    /// All limits.
+    pub fn all() -> impl Iterator<Item = Self> {
+        Self::TABLE.into_iter().map(|row| row.0)
+    }
 
     /// Finds a limit by its name.
     pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|limit| limit.name() == name)
+        Self::all().find(|limit| limit.name() == name)
     }
 
     /// Its name on the command line.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Text => "text",
-            Self::Includes => "includes",
-            Self::Files => "files",
-            Self::Nesting => "nesting",
-            Self::Chain => "chain",
-            Self::Statements => "statements",
-            Self::Corners => "corners",
-            Self::Names => "names",
-            Self::Memory => "memory",
-        }
+        Self::TABLE[self as usize].1
     }
 
     /// The default value.
     pub fn default_value(self) -> u64 {
-        match self {
-            Self::Text => self.most(),
-            Self::Includes | Self::Nesting => 64,
-            Self::Files => 10_000,
-            Self::Chain => 200,
-            Self::Statements => 50_000_000,
-            Self::Corners => 500_000_000,
-            Self::Names => self.most(),
-            // Growing tables and the output may need as much again.
-            Self::Memory => 2 << 30,
-        }
+        Self::TABLE[self as usize].3
     }
 
     /// The largest value it can have.
     pub fn most(self) -> u64 {
-        match self {
-            // Positions are 32-bit.
-            Self::Text => u32::MAX as u64,
-            Self::Includes | Self::Nesting | Self::Chain => 10_000,
-            Self::Files => 1_000_000_000,
-            // Rows are 32-bit, and every one may need a second name.
-            Self::Statements => 2_000_000_000,
-            Self::Corners => 4_000_000_000,
-            // Positions of names are 32-bit, and every name may have to be made unique.
-            Self::Names => 2 << 30,
-            Self::Memory => 1 << 40,
-        }
-    }
-
-    fn unit(self) -> &'static str {
-        match self {
-            Self::Text | Self::Names | Self::Memory => "bytes",
-            Self::Includes | Self::Nesting | Self::Chain => "levels",
-            Self::Files => "files",
-            Self::Statements => "statements",
-            Self::Corners => "corners",
-        }
+        Self::TABLE[self as usize].4
     }
 }
 
 /// A value for each [`Limit`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits([u64; Limit::ALL.len()]);
+pub struct Limits([u64; Limit::TABLE.len()]);
 
 impl Default for Limits {
     fn default() -> Self {
-        Self(Limit::ALL.map(Limit::default_value))
+        Self(Limit::TABLE.map(|row| row.3))
     }
 }
 
@@ -140,7 +109,8 @@ impl Limits {
     /// to that.
     pub(crate) fn remedy(&self, limit: Limit, else_do: &str) -> (String, bool) {
         let value = self.get(limit);
-        let unit = if value == 1 { limit.unit().trim_end_matches('s') } else { limit.unit() };
+        let unit = Limit::TABLE[limit as usize].2;
+        let unit = if value == 1 { unit.trim_end_matches('s') } else { unit };
         if value < limit.most() {
             (format!("the limit is {value} {unit}; {else_do}, or raise it"), true)
         } else {

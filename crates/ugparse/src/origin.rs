@@ -26,7 +26,6 @@ pub enum Origin {
 
 impl Origin {
     /// The recorded words for an input of these bytes.
-    #[must_use]
     pub fn words(&self, bytes: &[u8]) -> String {
         match self {
             Self::Recorded(words) => words.clone(),

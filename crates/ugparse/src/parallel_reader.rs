@@ -91,6 +91,16 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     if !parts.iter().all(is_plain) {
         return None;
     }
+    // Programs write these before all vertices, so they are in the first part, whose names keep
+    // their numbers.
+    let mut tables = parts.iter_mut().map(|part| {
+        let Scope { mixes, color_tables, textures, .. } = part;
+        (std::mem::take(mixes), std::mem::take(color_tables), std::mem::take(textures))
+    });
+    let head = tables.next()?;
+    if tables.any(|(mixes, tables, textures)| mixes.len() + tables.len() + textures.len() > 0) {
+        return None;
+    }
     let mut file = Scope::default();
     let vertex_rows = vertices_of_parts(&mut parts, &mut file)?;
     let mut before = PrecedingRows::default();
@@ -101,6 +111,7 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     }
 
     file.is_linked = true;
+    (file.mixes, file.color_tables, file.textures) = head;
     file.contours = join_contours(&mut parts, &file.vertex_rows, &vertex_rows);
     file.vertices = join_tables(
         &mut parts,
@@ -166,30 +177,6 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
         |color, offset| {
             color.value = shifted(color.value, offset.first_sample);
         },
-    );
-    file.mixes = join_tables(
-        &mut parts,
-        &offsets,
-        |part| &mut part.mixes,
-        |mix, offset| {
-            mix.color = offset.colors[mix.color.index()];
-            mix.parts.iter_mut().for_each(|(part, _)| *part = offset.colors[part.index()]);
-        },
-    );
-    file.color_tables = join_tables(
-        &mut parts,
-        &offsets,
-        |part| &mut part.color_tables,
-        |table, offset| {
-            table.color = offset.colors[table.color.index()];
-            table.rows.iter_mut().for_each(|(_, color)| *color = offset.colors[color.index()]);
-        },
-    );
-    file.textures = join_tables(
-        &mut parts,
-        &offsets,
-        |part| &mut part.textures,
-        |texture, offset| texture.color = offset.colors[texture.color.index()],
     );
     file.surfaces.table = join_tables(&mut parts, &offsets, |part| &mut part.surfaces.table, |_, _| {});
     file.escapes = join_tables(&mut parts, &offsets, |part| &mut part.escapes, |_, _| {});

@@ -12,9 +12,9 @@ use crate::{Diagnostics, Limit, Limits, Options, Origin, Request, RequestError, 
 /// [`Failure::Usage`] for an unknown limit or a value that is too large.
 pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
     let mut limits = Limits::default();
-    for (name, value) in common.limits() {
+    for (name, value) in &common.limit {
         let Some(limit) = Limit::from_name(name) else {
-            let names = Limit::ALL.map(Limit::name).join(", ");
+            let names = Limit::all().map(Limit::name).collect::<Vec<_>>().join(", ");
             return Err(Failure::Usage(format!("`{name}` is not a limit; limits are {names}")));
         };
         if *value > limit.most() {
@@ -22,7 +22,7 @@ pub fn options(common: &CommonArgs) -> Result<Options, Failure> {
         }
         limits = limits.with(limit, *value);
     }
-    Ok(Options { lax: common.lax(), execute: common.allow_execute(), limits, ..Options::default() })
+    Ok(Options { lax: common.lax, execute: common.allow_execute, limits, ..Options::default() })
 }
 
 /// Reads the input scene of a program, with all included files.

@@ -367,21 +367,15 @@ impl<'t> Scope<'t> {
     }
 
     fn add_light(&mut self, text: &'t [u8], span: Span, light: &LightStatement) {
-        let kind = match (light.vector, light.radius) {
-            (None, _) => LightKind::Ambient,
-            (Some(toward), None) => LightKind::Directional(toward),
-            (Some(position), Some(radius)) => {
-                LightKind::Local { position, radius, reference: light.reference, beam: light.beam }
-            }
-        };
         let light = Light {
             name: self.name(text, light.name),
             intensity: light.intensity,
-            kind,
+            kind: light.kind,
             color: self.color(text, light.color),
             motion: light.motion.map_or(LightMotion::WithWhatItLights, |motion| {
                 // A lamp with a velocity of its own is at its position at time 0.
-                let at = if let LightKind::Local { position, .. } = kind { position } else { DVec3::ZERO };
+                let at =
+                    if let LightKind::Local { position, .. } = light.kind { position } else { DVec3::ZERO };
                 LightMotion::Body(self.bodies.of_reference(text, motion, at))
             }),
         };

@@ -38,7 +38,6 @@ pub(crate) fn take(
 }
 
 /// The sky that a scene states, without the rest of it, and where; `None` if that has syntax errors.
-#[must_use]
 pub fn stated_sky(source: &Source, options: &Options) -> Option<(StatedSky, Span)> {
     memchr::memmem::find(&source.text, b"sky")?;
     crate::check_length(source, options).ok()?;

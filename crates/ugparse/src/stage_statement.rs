@@ -26,29 +26,9 @@ const KEYWORD: &str = "ugstage";
 /// The version that is read and written.
 const VERSION: &str = "1";
 
-const AT_REST: &str = "at-rest";
-const AS_SEEN: &str = "as-seen";
-const DEFERRED: &str = "deferred";
 const GEOMETRY: &str = "geometry";
 const COLORS: &str = "colors";
 const MIXTURES: &str = "mixtures";
-const EYE: &str = "eye";
-const TIME: &str = "time";
-const CAMERA_VELOCITY: &str = "camera-velocity";
-const GAMMA: &str = "gamma";
-const NO_CONTRACTION: &str = "no-contraction";
-const NO_FLIGHT_TIME: &str = "no-flight-time";
-const HUES: &str = "hues";
-const WAVELENGTHS: &str = "wavelengths";
-const SPECTRA: &str = "spectra";
-const LAW: &str = "law";
-const NO_DOPPLER: &str = "no-doppler";
-const NO_FLUX: &str = "no-flux";
-const CONSTANT_INFRARED: &str = "constant-infrared";
-const LIGHTS: &str = "lights";
-
-/// Escapes of earlier versions, which had these first and second words.
-const EARLIER: (&str, [&str; 3]) = ("uglorentz", [NO_CONTRACTION, NO_FLIGHT_TIME, CAMERA_VELOCITY]);
 
 /// Is an escape, given with its parentheses, a stage statement?
 pub(crate) fn is_stage(escape: &[u8]) -> bool {
@@ -61,8 +41,7 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
         let scope = &mut document.scopes[row];
         let spans = scope.escapes.spans.iter().copied();
         let is_stage = |(_, span): &(usize, Span)| first_word(text, *span) == KEYWORD.as_bytes();
-        let statements: Vec<(usize, Span)> = spans.clone().enumerate().filter(is_stage).collect();
-        findings.extend(spans.filter_map(|span| earlier(text, span)));
+        let statements: Vec<(usize, Span)> = spans.enumerate().filter(is_stage).collect();
         scope.remove_escapes(&statements.iter().map(|(row, _)| *row).collect::<Vec<_>>());
         for (_, span) in statements {
             let keyword = keyword_span(text, span);
@@ -102,24 +81,11 @@ fn keyword_span(text: &[u8], span: Span) -> Span {
     Words::new(text, span).next().map_or(span, |word| word.span)
 }
 
-/// The error for an escape of an earlier version.
-fn earlier(text: &[u8], span: Span) -> Option<Diagnostic> {
-    let mut words = Words::new(text, span);
-    let (program, kinds) = EARLIER;
-    let first = words.next().filter(|first| first.text == program.as_bytes())?;
-    words.next().filter(|second| kinds.iter().any(|kind| kind.as_bytes() == second.text))?;
-    Some(
-        Diagnostic::error(first.span, "this scene as seen was written by an earlier version")
-            .label("this escape is no longer read")
-            .help("start again from the scene at rest"),
-    )
-}
-
 /// Parses the statement at `span`, parentheses included.
 fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
     let mut words = Words::new(text, span);
     words.next();
-    words.version()?;
+    words.choice(&[VERSION])?;
     let mut stage = Stage::default();
     while let Some(word) = words.next() {
         words.once(word)?;
@@ -134,7 +100,7 @@ fn read(text: &[u8], span: Span) -> Result<Stage, Diagnostic> {
 }
 
 fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
-    if !words.is_as_seen()? {
+    if words.choice(&["at-rest", "as-seen"])? == "at-rest" {
         return Ok(GeometryStage::AtRest);
     }
     let mut eye = None;
@@ -148,15 +114,15 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
     while let Some(word) = words.next_of_part() {
         words.once(word)?;
         match word.as_str() {
-            EYE => eye = Some(words.point()?),
-            TIME => seen.time = words.number()?,
-            CAMERA_VELOCITY => seen.camera_velocity = words.velocity(word)?,
-            NO_CONTRACTION => seen.contraction = false,
-            NO_FLIGHT_TIME => seen.flight_time = false,
+            "eye" => eye = Some(words.point()?),
+            "time" => seen.time = words.number()?,
+            "camera-velocity" => seen.camera_velocity = words.velocity(word)?,
+            "no-contraction" => seen.contraction = false,
+            "no-flight-time" => seen.flight_time = false,
             _ => {
                 return Err(unknown(
                     word,
-                    &[EYE, TIME, CAMERA_VELOCITY, NO_CONTRACTION, NO_FLIGHT_TIME, COLORS, MIXTURES],
+                    &["eye", "time", "camera-velocity", "no-contraction", "no-flight-time", COLORS, MIXTURES],
                 ));
             }
         }
@@ -166,41 +132,41 @@ fn geometry(words: &mut Words<'_>) -> Result<GeometryStage, Diagnostic> {
 }
 
 fn colors(words: &mut Words<'_>) -> Result<ColorStage, Diagnostic> {
-    let stage = words.choice(&[AT_REST, AS_SEEN, DEFERRED])?;
-    if stage == AT_REST {
+    let stage = words.choice(&["at-rest", "as-seen", "deferred"])?;
+    if stage == "at-rest" {
         return Ok(ColorStage::AtRest);
     }
-    let scales = [HUES, WAVELENGTHS, SPECTRA];
+    let scales = ["hues", "wavelengths", "spectra"];
     let scale = words.choice(&scales)?;
-    let is_spectral = scale == SPECTRA;
+    let is_spectral = scale == "spectra";
     let (mut law, mut flux, mut infrared) = (None, true, InfraredRule::Measured);
     let spectra = |flux, infrared| ColorScale::Spectra { flux, infrared };
     let mut seen = SeenColors { scale: spectra(flux, infrared), doppler: true, lights: false };
     while let Some(word) = words.next_of_part() {
         words.once(word)?;
         match word.as_str() {
-            LAW if !is_spectral => {
+            "law" if !is_spectral => {
                 let name = words.choice(&Brightness::ALL.map(Brightness::name))?;
                 law = Brightness::from_name(name);
             }
-            NO_FLUX if is_spectral => flux = false,
-            CONSTANT_INFRARED if is_spectral => infrared = InfraredRule::Constant,
-            NO_DOPPLER => seen.doppler = false,
-            LIGHTS => seen.lights = true,
+            "no-flux" if is_spectral => flux = false,
+            "constant-infrared" if is_spectral => infrared = InfraredRule::Constant,
+            "no-doppler" => seen.doppler = false,
+            "lights" => seen.lights = true,
             _ => {
-                let own = if is_spectral { NO_FLUX } else { LAW };
-                return Err(unknown(word, &[own, NO_DOPPLER, LIGHTS, GEOMETRY]));
+                let own = if is_spectral { "no-flux" } else { "law" };
+                return Err(unknown(word, &[own, "no-doppler", "lights", GEOMETRY]));
             }
         }
     }
     seen.scale = if is_spectral {
         spectra(flux, infrared)
     } else {
-        let unit = if scale == WAVELENGTHS { HueScale::Wavelengths } else { HueScale::Degrees };
+        let unit = if scale == "wavelengths" { HueScale::Wavelengths } else { HueScale::Degrees };
         let law = law.ok_or_else(|| words.missing("the brightness law of hues as seen", "law report"))?;
         ColorScale::Hues { unit, law }
     };
-    Ok(if stage == DEFERRED { ColorStage::Deferred(seen) } else { ColorStage::AsSeen(seen) })
+    Ok(if stage == "deferred" { ColorStage::Deferred(seen) } else { ColorStage::AsSeen(seen) })
 }
 
 /// The error for an unexpected word.
@@ -288,26 +254,6 @@ impl<'t> Words<'t> {
         Ok(())
     }
 
-    fn version(&mut self) -> Result<(), Diagnostic> {
-        match self.next() {
-            Some(word) if word.as_str() == VERSION => Ok(()),
-            Some(word) => {
-                let shown = shorten(word.text);
-                Err(Diagnostic::error(
-                    word.span,
-                    format!("`{shown}` is not a known version of the stage statement"),
-                )
-                .label(format!("expected {VERSION}"))
-                .help("use the programs that wrote the scene, or make it again from the scene at rest"))
-            }
-            None => Err(self.missing("the version of the stage statement", VERSION)),
-        }
-    }
-
-    fn is_as_seen(&mut self) -> Result<bool, Diagnostic> {
-        Ok(self.choice(&[AT_REST, AS_SEEN])? == AS_SEEN)
-    }
-
     /// One of several words.
     fn choice<'c>(&mut self, words: &[&'c str]) -> Result<&'c str, Diagnostic> {
         let Some(word) = self.next() else {
@@ -336,7 +282,7 @@ impl<'t> Words<'t> {
     fn velocity(&mut self, word: Word<'t>) -> Result<Velocity, Diagnostic> {
         let vector = self.point()?;
         let behind = self.rest;
-        let gamma = if self.next().is_some_and(|word| word.as_str() == GAMMA) {
+        let gamma = if self.next().is_some_and(|word| word.as_str() == "gamma") {
             Some(self.number()?)
         } else {
             self.rest = behind;
@@ -368,62 +314,47 @@ impl<'t> Words<'t> {
 /// Writes the statement, parentheses included, without parts at rest and default values.
 pub(crate) fn write(stage: &Stage, out: &mut Vec<u8>, numbers: &mut zmij::Buffer) {
     out.extend_from_slice(format!("({KEYWORD} {VERSION}").as_bytes());
-    let mut add = |word: &str, values: &[f64]| {
+    let mut add = |is_stated: bool, words: &str, values: &[f64]| {
+        if !is_stated {
+            return;
+        }
         out.push(b' ');
-        out.extend_from_slice(word.as_bytes());
+        out.extend_from_slice(words.as_bytes());
         for &value in values {
             out.push(b' ');
             push_number(out, numbers, value);
         }
     };
     if let Some(seen) = stage.seen_geometry() {
-        add(GEOMETRY, &[]);
-        add(AS_SEEN, &[]);
-        add(EYE, &seen.eye.to_array());
-        if seen.time != 0.0 {
-            add(TIME, &[seen.time]);
-        }
+        add(true, "geometry as-seen eye", &seen.eye.to_array());
+        add(seen.time != 0.0, "time", &[seen.time]);
         if !seen.camera_velocity.is_zero() {
             let (vector, gamma) = seen.camera_velocity.stated();
-            add(CAMERA_VELOCITY, &vector.to_array());
-            gamma.into_iter().for_each(|gamma| add(GAMMA, &[gamma]));
+            add(true, "camera-velocity", &vector.to_array());
+            add(gamma.is_some(), "gamma", gamma.as_slice());
         }
-        if !seen.contraction {
-            add(NO_CONTRACTION, &[]);
-        }
-        if !seen.flight_time {
-            add(NO_FLIGHT_TIME, &[]);
-        }
+        add(!seen.contraction, "no-contraction", &[]);
+        add(!seen.flight_time, "no-flight-time", &[]);
     }
     if let ColorStage::AsSeen(seen) | ColorStage::Deferred(seen) = &stage.colors {
-        add(COLORS, &[]);
-        add(if stage.deferred_colors().is_some() { DEFERRED } else { AS_SEEN }, &[]);
+        let is_deferred = stage.deferred_colors().is_some();
+        add(true, if is_deferred { "colors deferred" } else { "colors as-seen" }, &[]);
         match seen.scale {
             ColorScale::Hues { unit, law } => {
-                add(if unit == HueScale::Degrees { HUES } else { WAVELENGTHS }, &[]);
-                add(LAW, &[]);
-                add(law.name(), &[]);
+                let unit = if unit == HueScale::Degrees { "hues" } else { "wavelengths" };
+                add(true, &format!("{unit} law {}", law.name()), &[]);
             }
             ColorScale::Spectra { flux, infrared } => {
-                add(SPECTRA, &[]);
-                if !flux {
-                    add(NO_FLUX, &[]);
-                }
-                if infrared == InfraredRule::Constant {
-                    add(CONSTANT_INFRARED, &[]);
-                }
+                add(true, "spectra", &[]);
+                add(!flux, "no-flux", &[]);
+                add(infrared == InfraredRule::Constant, "constant-infrared", &[]);
             }
         }
-        if !seen.doppler {
-            add(NO_DOPPLER, &[]);
-        }
-        if seen.lights {
-            add(LIGHTS, &[]);
-        }
+        add(!seen.doppler, "no-doppler", &[]);
+        add(seen.lights, "lights", &[]);
     }
     if let Some(mixtures) = stage.mixtures {
-        add(MIXTURES, &[]);
-        add(&mixtures.prefix(), &[]);
+        add(true, &format!("{MIXTURES} {}", mixtures.prefix()), &[]);
     }
     out.push(b')');
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Beam, Camera, FaceShape, RoundShape, SurfaceProperties, Texture};
+use ugscene::{Camera, FaceShape, LightKind, RoundShape, SurfaceProperties, Texture};
 
 use crate::source::Span;
 use crate::transform::Transform;
@@ -77,7 +77,7 @@ impl StatedFrame {
 }
 
 /// A motion; of the options that may not be combined, the last.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct MotionStatement {
     pub name: Span,
     pub at: DVec3,
@@ -189,10 +189,7 @@ pub(crate) struct SurfaceStatement {
 pub(crate) struct LightStatement {
     pub name: Option<Span>,
     pub intensity: f64,
-    pub vector: Option<DVec3>,
-    pub radius: Option<f64>,
-    pub reference: Option<f64>,
-    pub beam: Beam,
+    pub kind: LightKind,
     pub color: Option<Span>,
     pub motion: Option<MotionReference>,
 }

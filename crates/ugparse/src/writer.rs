@@ -76,8 +76,7 @@ impl<'s> Tables<'s, '_> {
         self.rows(&scene.remarks.unknown, Item::Unknown, |w, text| w.text(text))?;
         self.colors()?;
         self.rows(&scene.mixes, Item::Mix, |w, mix| {
-            w.text("c_mix");
-            w.name(scene.colors[mix.color.index()].name);
+            w.begin("c_mix", scene.colors[mix.color.index()].name);
             for &(part, share) in &mix.parts {
                 w.name(scene.colors[part.index()].name);
                 w.number(share);
@@ -88,8 +87,7 @@ impl<'s> Tables<'s, '_> {
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
         self.motions();
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
-            w.text("v");
-            w.name(vertex.name);
+            w.begin("v", vertex.name);
             w.point(vertex.position);
             w.optional_color(vertex.color);
             vertex.normal.into_iter().for_each(|normal| w.point(normal));
@@ -102,8 +100,7 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.faces, Item::Face, |w, face| {
-            w.text(face.shape.keyword());
-            face.name.into_iter().for_each(|name| w.name(name));
+            w.begin(face.shape.keyword(), face.name);
             w.contours(&scene.contours, face.contours.clone());
             w.optional_color(face.color);
             face.shading.into_iter().for_each(|shading| w.shading(scene.shadings[shading.index()]));
@@ -111,8 +108,7 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.wires, Item::Wire, |w, wire| {
-            w.text("w");
-            wire.name.into_iter().for_each(|name| w.name(name));
+            w.begin("w", wire.name);
             w.contours(&scene.contours, wire.contours.clone());
             w.optional_color(wire.color);
             w.body(wire.body);
@@ -300,6 +296,12 @@ impl<'s> Writer<'s> {
         self.out.extend_from_slice(self.scene.names.get(name).as_bytes());
     }
 
+    /// Writes the keyword of a statement and its name, if it has one.
+    fn begin(&mut self, keyword: &str, name: impl Into<Option<NameId>>) {
+        self.text(keyword);
+        name.into().into_iter().for_each(|name| self.name(name));
+    }
+
     fn number(&mut self, value: f64) {
         self.out.push(b' ');
         push_number(&mut self.out, &mut self.numbers, value);
@@ -318,6 +320,12 @@ impl<'s> Writer<'s> {
 
     fn numbers(&mut self, values: &[f64]) {
         values.iter().for_each(|&value| self.number(value));
+    }
+
+    /// Writes an option and its numbers.
+    fn option(&mut self, option: &str, numbers: &[f64]) {
+        self.text(option);
+        self.numbers(numbers);
     }
 
     fn optional_color(&mut self, color: Option<ColorId>) {
@@ -355,12 +363,10 @@ impl<'s> Writer<'s> {
     fn frame(&mut self, frame: &InertialFrame, at: Option<DVec3>) {
         push_velocity(&mut self.out, &mut self.numbers, " <", frame.velocity);
         if at.is_some_and(|at| frame.at != at) {
-            self.text(" -at");
-            self.point(frame.at);
+            self.option(" -at", frame.at.as_ref());
         }
         if frame.turn != DVec3::ZERO {
-            self.text(" -turn");
-            self.point(frame.turn);
+            self.option(" -turn", frame.turn.as_ref());
         }
         self.shift(frame.shift);
         self.out.push(b'>');
@@ -368,8 +374,7 @@ impl<'s> Writer<'s> {
 
     fn shift(&mut self, shift: Event) {
         if shift != StatedMotion::NO_SHIFT {
-            self.text(" -shift");
-            self.number(shift.t);
+            self.option(" -shift", &[shift.t]);
             self.point(shift.x);
         }
     }
@@ -390,18 +395,15 @@ impl<'s> Writer<'s> {
 
     /// A colour that changes with own time.
     fn color_table(&mut self, table: &ColorTable) {
-        self.text("c_time");
-        self.name(self.scene.colors[table.color.index()].name);
+        self.begin("c_time", self.scene.colors[table.color.index()].name);
         if table.is_stepped {
             self.text(" -step");
         }
         if let Some(period) = table.period {
-            self.text(" -period");
-            self.number(period);
+            self.option(" -period", &[period]);
         }
         if table.shift != 0.0 {
-            self.text(" -shift");
-            self.number(table.shift);
+            self.option(" -shift", &[table.shift]);
         }
         for &(time, color) in &table.rows {
             self.number(time);
@@ -411,44 +413,38 @@ impl<'s> Writer<'s> {
     }
 
     fn color(&mut self, color: &Color) {
-        let clear = (color.translucency != 0.0).then_some(color.translucency);
-        let mut factor = None;
+        let clear = Some(color.translucency).filter(|clear| *clear != 0.0);
         match color.value {
-            ColorValue::Hsv { value, tint, saturation, factor: of_light } => {
-                factor = (of_light != 1.0).then_some([color.translucency, of_light]);
-                self.text("c");
-                self.name(color.name);
+            ColorValue::Hsv { value, tint, saturation, factor } => {
+                self.begin("c", color.name);
                 self.number(value);
-                if (tint.number(), saturation) != (0.0, 0.0) || clear.is_some() || factor.is_some() {
+                if (tint.number(), saturation, clear, factor) != (0.0, 0.0, None, 1.0) {
                     self.numbers(&[tint.number(), saturation]);
+                }
+                if factor != 1.0 {
+                    self.numbers(&[color.translucency, factor]);
+                    return self.text(";");
                 }
             }
             ColorValue::Rgb(rgb) => {
-                self.text("c_rgb");
-                self.name(color.name);
+                self.begin("c_rgb", color.name);
                 self.numbers(&rgb);
             }
             ColorValue::Xyz(xyz) => {
-                self.text("c_xyz");
-                self.name(color.name);
+                self.begin("c_xyz", color.name);
                 self.numbers(&xyz);
             }
             ColorValue::Blackbody { kelvin, scale } => {
-                self.text("c_bb");
-                self.name(color.name);
+                self.begin("c_bb", color.name);
                 self.number(kelvin);
                 (scale != 1.0).then(|| self.number(scale));
             }
             ColorValue::Spectrum { reflects, start, end } => {
-                self.text(if reflects { "c_refl" } else { "c_spd" });
-                self.name(color.name);
+                self.begin(if reflects { "c_refl" } else { "c_spd" }, color.name);
                 self.numbers(self.scene.samples[start as usize..end as usize].as_flattened());
             }
         }
-        match factor {
-            Some(numbers) => self.numbers(&numbers),
-            None => clear.into_iter().for_each(|clear| self.number(clear)),
-        }
+        clear.into_iter().for_each(|clear| self.number(clear));
         self.text(";");
     }
 
@@ -456,14 +452,12 @@ impl<'s> Writer<'s> {
     fn texture(&mut self, texture: &Texture) {
         let Texture { color, image, wrap, factor, alpha } = texture;
         let Some(file) = &image.file else { return };
-        self.text("c_tex");
-        self.name(self.scene.colors[color.index()].name);
+        self.begin("c_tex", self.scene.colors[color.index()].name);
         self.text(" \"");
         self.text(file);
         self.text("\"");
         if let Some(row) = image.row {
-            self.text(" -image");
-            self.number(f64::from(row));
+            self.option(" -image", &[f64::from(row)]);
         }
         if *wrap != [Wrap::Repeat; 2] {
             self.text(" -wrap");
@@ -490,8 +484,7 @@ impl<'s> Writer<'s> {
     }
 
     fn surface(&mut self, surface: &SurfaceProperties) {
-        self.text("surf");
-        self.name(surface.name);
+        self.begin("surf", surface.name);
         self.numbers(&surface.numbers());
         self.text(";");
     }
@@ -507,12 +500,10 @@ impl<'s> Writer<'s> {
     fn motion(&mut self, body: BodyId, along: &mut FxHashMap<usize, BodyId>) {
         let bodies = &self.scene.bodies;
         let Some(motion) = bodies.statement(body) else { return };
-        self.text("motion");
-        bodies[body].name.into_iter().for_each(|name| self.name(name));
+        self.begin("motion", bodies[body].name);
         let StatedMotion { at, path, spins, on, shift } = motion;
         if *at != DVec3::ZERO {
-            self.text(" -at");
-            self.point(*at);
+            self.option(" -at", at.as_ref());
         }
         match path {
             MotionPath::Free { velocity, accelerations } => {
@@ -522,8 +513,7 @@ impl<'s> Writer<'s> {
                 accelerations.iter().for_each(|piece| self.piece(" -acc", piece, 0.0));
             }
             MotionPath::Orbit { center, axis, rate } => {
-                self.text(" -orbit");
-                self.point(*center);
+                self.option(" -orbit", center.as_ref());
                 self.point(*axis);
                 self.number(*rate);
             }
@@ -562,67 +552,53 @@ impl<'s> Writer<'s> {
 
     /// A piece of a motion. `default_begin`: without times, it acts from then on.
     fn piece(&mut self, option: &str, piece: &Piece, default_begin: f64) {
-        self.text(option);
-        self.point(piece.of);
+        self.option(option, piece.of.as_ref());
         if (piece.from, piece.to) != (default_begin, f64::INFINITY) {
             self.numbers(&[piece.from, piece.to]);
         }
     }
 
     fn light(&mut self, light: &Light) {
-        self.text("l");
-        light.name.into_iter().for_each(|name| self.name(name));
+        self.begin("l", light.name);
         self.number(light.intensity);
+        let (mut place, mut beam) = (DVec3::ZERO, Beam::Even);
         match light.kind {
             LightKind::Ambient => {}
             LightKind::Directional(toward) => self.point(toward),
-            LightKind::Local { position, radius, reference, .. } => {
+            LightKind::Local { position, radius, reference, beam: own } => {
+                (place, beam) = (position, own);
                 self.point(position);
                 self.number(radius);
                 reference.into_iter().for_each(|reference| self.number(reference));
             }
         }
         self.optional_color(light.color);
-        let (place, beam) = match light.kind {
-            LightKind::Local { position, beam, .. } => (position, beam),
-            _ => (DVec3::ZERO, Beam::Even),
-        };
         match beam {
             Beam::Even => {}
             Beam::Spot { axis, degrees } => {
-                self.text(" -spot");
-                self.point(axis);
-                degrees.into_iter().for_each(|number| self.number(number));
+                self.option(" -spot", &axis.to_array());
+                self.numbers(&degrees);
             }
-            Beam::Area(edges) => {
-                self.text(" -area");
-                edges.into_iter().for_each(|edge| self.point(edge));
-            }
+            Beam::Area(edges) => self.option(" -area", edges.map(|edge| edge.to_array()).as_flattened()),
         }
         light.motion.body().into_iter().for_each(|body| self.motion_of(body, place));
         self.text(";");
     }
 
     fn camera(&mut self, camera: &Camera) {
-        self.text("cam");
-        camera.name.into_iter().for_each(|name| self.name(name));
-        let to_array = |p: Option<DVec3>| p.map(|p| p.to_array().to_vec());
-        let to_vec = |pair: Option<[f64; 2]>| pair.map(|pair| pair.to_vec());
+        self.begin("cam", camera.name);
         let options = [
-            (" -ep", to_array(camera.eye)),
-            (" -vc", to_array(camera.center)),
-            (" -ud", to_array(camera.up)),
-            (" -cl", to_vec(camera.clip)),
-            (" -ph", camera.film.map(|film| film.to_vec())),
-            (" -va", to_vec(camera.view_angle)),
-            (" -fs", to_vec(camera.film_size)),
-            (" -fl", camera.focal_length.map(|len| vec![len])),
+            (" -ep", camera.eye.as_ref().map(|point| &point.as_ref()[..])),
+            (" -vc", camera.center.as_ref().map(|point| &point.as_ref()[..])),
+            (" -ud", camera.up.as_ref().map(|point| &point.as_ref()[..])),
+            (" -cl", camera.clip.as_ref().map(|pair| &pair[..])),
+            (" -ph", camera.film.as_ref().map(|film| &film[..])),
+            (" -va", camera.view_angle.as_ref().map(|pair| &pair[..])),
+            (" -fs", camera.film_size.as_ref().map(|pair| &pair[..])),
+            (" -fl", camera.focal_length.as_ref().map(std::slice::from_ref)),
         ];
-        for (option, values) in options {
-            if let Some(values) = values {
-                self.text(option);
-                self.numbers(&values);
-            }
+        for (option, numbers) in options {
+            numbers.into_iter().for_each(|numbers| self.option(option, numbers));
         }
         match camera.projection {
             Some(Projection::Orthographic) => self.text(" -og"),

@@ -10,10 +10,10 @@ use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kind_named, kinds, picture_format, pixel,
+    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
-use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, number, one_of, whole};
+use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 use ugskybox::BuiltIn;
@@ -146,7 +146,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
     /// --explain.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(kinds(), kind_named),
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of("formats", kinds()),
           help_heading = PICTURE)]
     dt: Option<Kind>,
 
@@ -191,11 +191,6 @@ const EXAMPLES: &str = "Examples:
   ugphoton -cv 0 .5 0 -sp -ex auto street.ug > drive.png
   ugphoton -vel .6 0 0 -in --no-shadows -lg ship.ug > legend.png
   ugphoton -vel 0 -.2 0 -in -dt exr -ch D,time ship.ug > light.exr";
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] = &[

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::lens::Lens;
 
 /// Everything besides the scene that affects the bytes of a picture.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Config {
     /// How bodies and camera move.
     pub motion: MotionOptions,
@@ -83,7 +83,6 @@ impl Config {
     }
 
     /// The panorama that the picture is or belongs to, for viewers of 360° pictures.
-    #[must_use]
     pub fn panorama(&self) -> Option<PanoramaArea> {
         self.lens.panorama(&self.picture, self.stereo.is_some(), self.crop)
     }
@@ -180,30 +179,6 @@ impl Default for RayOptions {
             sky_light: true,
             fresnel: false,
             shutter: Shutter::Pinhole,
-        }
-    }
-}
-
-impl Default for Config {
-    /// The defaults of the command line.
-    fn default() -> Self {
-        Self {
-            motion: MotionOptions::default(),
-            shift: ColorShift::default(),
-            picture: PictureOptions::default(),
-            rays: RayOptions::default(),
-            interpolation: Interpolation::Hue,
-            hue_scale: HueScale::Degrees,
-            smooth: false,
-            repeat: false,
-            lens: Lens::Pinhole,
-            stereo: None,
-            adaptive: None,
-            sky: SceneSky::default(),
-            ground: false,
-            crop: None,
-            radiances: false,
-            reading: ugparse::Options::default(),
         }
     }
 }

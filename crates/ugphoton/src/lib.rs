@@ -71,7 +71,7 @@ mod tracer;
 mod wires;
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, draw, manual};
+pub use cli::{Args, draw};
 pub use config::{Config, RayOptions, Shutter};
 pub use error::Error;
 pub use explain::explain;

@@ -22,7 +22,6 @@ impl Media {
     }
 
     /// After the ray entered a solid.
-    #[must_use]
     pub fn with(&self, solid: Solid) -> Self {
         let mut media = Vec::with_capacity(self.0.len() + 1);
         media.extend_from_slice(&self.0);
@@ -31,7 +30,6 @@ impl Media {
     }
 
     /// After the ray left a solid; `None` if it was not in it.
-    #[must_use]
     pub fn without(&self, solid: Solid) -> Option<Self> {
         let at = self.0.iter().rposition(|&entry| entry == solid)?;
         let mut media = self.0.clone();

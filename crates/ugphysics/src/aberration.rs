@@ -20,7 +20,6 @@ use crate::{Velocity, rest_position};
 /// assert!((aberrate(DVec3::Y, v).x - 0.5).abs() < 1e-15);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn aberrate(d: DVec3, v: Velocity) -> DVec3 {
     if d == DVec3::ZERO {
         return d;

@@ -20,7 +20,6 @@ impl Hsv {
     /// let orange = Hsv { hue: 30.0, saturation: 1.0, value: 1.0 };
     /// assert_eq!(orange.to_rgb(), [1.0, 0.5, 0.0]);
     /// ```
-    #[must_use]
     #[inline]
     pub fn to_rgb(self) -> [f64; 3] {
         let sixth = within_a_turn(self.hue) / 60.0;
@@ -43,7 +42,6 @@ impl Hsv {
     /// assert_eq!(pale.attenuated(0.0), Hsv { hue: 300.0, saturation: 0.0, value: 0.75 });
     /// assert_eq!(pale.attenuated(1.0), pale);
     /// ```
-    #[must_use]
     #[inline]
     pub fn attenuated(self, attenuation: f64) -> Hsv {
         let pure = self.saturation * attenuation;
@@ -63,7 +61,6 @@ impl Hsv {
     /// let pale = Hsv { hue: 270.0, saturation: 0.25, value: 1.0 };
     /// assert_eq!(pale.attenuated(0.5).unattenuated(0.5, 1.0), pale);
     /// ```
-    #[must_use]
     pub fn unattenuated(self, attenuation: f64, limit: f64) -> Hsv {
         if self.value * self.saturation <= 0.0 {
             return self;
@@ -84,7 +81,6 @@ impl Hsv {
     /// let pink = Hsv::from_rgb([1.0, 0.5, 0.75]);
     /// assert_eq!(pink, Hsv { hue: -30.0, saturation: 0.5, value: 1.0 });
     /// ```
-    #[must_use]
     pub fn from_rgb(rgb: [f64; 3]) -> Hsv {
         let [red, green, blue] = rgb;
         let value = red.max(green).max(blue);
@@ -124,7 +120,6 @@ fn within_a_turn(hue: f64) -> f64 {
 /// ```
 /// assert!((ugphysics::srgb_decode(0.5) - 0.21404114).abs() < 1e-8);
 /// ```
-#[must_use]
 pub fn srgb_decode(encoded: f64) -> f64 {
     if encoded <= 0.04045 { encoded / 12.92 } else { libm::pow((encoded + 0.055) / 1.055, 2.4) }
 }
@@ -134,7 +129,6 @@ pub fn srgb_decode(encoded: f64) -> f64 {
 /// ```
 /// assert!((ugphysics::srgb_encode(0.18) - 0.46135612).abs() < 1e-8);
 /// ```
-#[must_use]
 pub fn srgb_encode(linear: f64) -> f64 {
     if linear <= 0.0031308 { linear * 12.92 } else { 1.055 * libm::pow(linear, 1.0 / 2.4) - 0.055 }
 }
@@ -145,7 +139,6 @@ pub fn srgb_encode(linear: f64) -> f64 {
 /// ```
 /// assert_eq!(ugphysics::luminance([0.0, 1.0, 0.0]), 0.7152);
 /// ```
-#[must_use]
 pub fn luminance(linear_rgb: [f64; 3]) -> f64 {
     let [red, green, blue] = linear_rgb;
     0.2126 * red + 0.7152 * green + 0.0722 * blue

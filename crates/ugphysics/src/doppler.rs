@@ -27,7 +27,6 @@ use crate::error_free::power_of_two_below;
 /// assert_eq!(doppler_factor(DVec3::NEG_X, v), 0.5); // going
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn doppler_factor(to_observer: DVec3, v: Velocity) -> f64 {
     let n = to_observer / power_of_two_below(to_observer);
     let r = n.length();
@@ -56,7 +55,6 @@ pub fn doppler_factor(to_observer: DVec3, v: Velocity) -> f64 {
 /// assert_eq!(doppler_at(p, v), 1.25);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn doppler_at(p_seen: DVec3, v: Velocity) -> f64 {
     doppler_factor(-p_seen, v)
 }
@@ -81,7 +79,6 @@ impl Brightness {
     pub const ALL: [Self; 4] = [Self::Report, Self::Photon, Self::Bolometric, Self::None];
 
     /// The name of the law, as in the table of (P12).
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Brightness::Report => "report",
@@ -99,7 +96,6 @@ impl Brightness {
     /// assert_eq!(Brightness::from_name("photon"), Some(Brightness::Photon));
     /// assert!(Brightness::ALL.iter().all(|&law| Brightness::from_name(law.name()) == Some(law)));
     /// ```
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|law| law.name() == name)
     }
@@ -113,7 +109,6 @@ impl Brightness {
     ///
     /// assert!(Brightness::Photon.acts_on_light() && !Brightness::Report.acts_on_light());
     /// ```
-    #[must_use]
     #[inline]
     pub fn acts_on_light(self) -> bool {
         matches!(self, Brightness::Photon | Brightness::Bolometric)
@@ -126,7 +121,6 @@ impl Brightness {
     ///
     /// assert_eq!(Brightness::Photon.factor(2.0), 8.0);
     /// ```
-    #[must_use]
     #[inline]
     pub fn factor(self, doppler: f64) -> f64 {
         let square = doppler * doppler;

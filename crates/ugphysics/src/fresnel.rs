@@ -22,7 +22,6 @@ use crate::{Medium, WaveVector};
 /// let light = WaveVector { frequency: 1.0, k: DVec3::Z };
 /// assert!((reflectance(Medium::VACUUM, glass, light, DVec3::Z) - 0.04).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn reflectance(before: Medium, behind: Medium, light: WaveVector, normal: DVec3) -> f64 {
     let Some(transmitted) = behind.wave_across(light, -normal) else { return 1.0 };
     let part = if is_at_rest(before) && is_at_rest(behind) {

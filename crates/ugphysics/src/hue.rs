@@ -42,7 +42,6 @@ pub const VIOLET_END_NM: f64 = 380.0;
 /// assert!((wavelength_to_hue(589.0) - 69.1338484669).abs() < 1e-9);
 /// assert_eq!(wavelength_to_hue(1000.0), -60.0);
 /// ```
-#[must_use]
 pub fn wavelength_to_hue(wavelength_nm: f64) -> f64 {
     let wavelength_nm = wavelength_nm.clamp(VIOLET_END_NM, RED_END_NM);
     segment_where(|red, _| wavelength_nm >= red).hue(wavelength_nm)
@@ -61,7 +60,6 @@ pub fn wavelength_to_hue(wavelength_nm: f64) -> f64 {
 /// assert_eq!(hue_to_wavelength(330.0), hue_to_wavelength(-30.0));
 /// assert_eq!(hue_to_wavelength(300.0), 380.0);
 /// ```
-#[must_use]
 pub fn hue_to_wavelength(hue_deg: f64) -> f64 {
     let hue_deg = spectral_hue(hue_deg);
     segment_where(|_, hue| hue_deg <= hue).wavelength_nm(hue_deg)
@@ -80,7 +78,6 @@ pub fn hue_to_wavelength(hue_deg: f64) -> f64 {
 /// assert_eq!(attenuation(740.0), 0.5);
 /// assert_eq!(attenuation(379.0), 0.0);
 /// ```
-#[must_use]
 pub fn attenuation(wavelength_nm: f64) -> f64 {
     const FULL_FROM_NM: f64 = 435.8;
     const FULL_TO_NM: f64 = 700.0;

@@ -27,7 +27,6 @@ pub struct HyperbolicMotion {
 impl HyperbolicMotion {
     /// The body's event at proper time τ = `proper_time`: t = sinh(aτ)/a, x = (cosh(aτ) − 1)/a.
     /// Eq. (P32)
-    #[must_use]
     pub fn event(&self, proper_time: f64) -> Event {
         let a = self.acceleration.length();
         if a == 0.0 {

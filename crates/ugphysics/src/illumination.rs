@@ -43,7 +43,6 @@ pub struct IncidentLight {
 /// If both velocities are equal no transformation is computed, so a light that moves with the
 /// surface gives the same bits as a light and surface at rest. Otherwise the error is about
 /// γ²·10⁻¹⁶ of the distances.
-#[must_use]
 pub fn illumination(
     p_rest: DVec3,
     delay: f64,
@@ -74,14 +73,12 @@ fn illumination_by(at_surface: DVec3, to_light: DVec3) -> Option<IncidentLight> 
 ///
 /// The vector is transformed to both frames by (P4); its lengths there are r' and r'', and their
 /// quotient is D_l.
-#[must_use]
 pub fn illumination_along(way: DVec3, v: Velocity, v_light: Velocity) -> Option<IncidentLight> {
     illumination_by(rest_position(way, v), rest_position(way, v_light))
 }
 
 /// The light of a source at rest at `light` in S'', at the event of S'' at which a surface that
 /// moves with `v` in S scatters it, at `place`. `None` as for [`illumination`].  Eq. (P14)
-#[must_use]
 pub fn illumination_at(place: DVec3, v: Velocity, light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
     illumination_by(change_view(light - place, v_light, v), light - place)
 }
@@ -103,7 +100,6 @@ pub fn illumination_at(place: DVec3, v: Velocity, light: DVec3, v_light: Velocit
 /// assert_eq!(ahead, Some(2.0));
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn illumination_from_afar(v: Velocity, toward_light: DVec3, v_light: Velocity) -> Option<IncidentLight> {
     let toward_light = toward_light / toward_light.abs().max_element();
     let at_surface = change_view(toward_light, v_light, v);
@@ -150,7 +146,6 @@ impl Brightness {
     ///
     /// assert_eq!(Brightness::Bolometric.irradiance_factor(3.0), 9.0);
     /// ```
-    #[must_use]
     pub fn irradiance_factor(self, doppler: f64) -> f64 {
         match self {
             Brightness::Report | Brightness::Photon => doppler,

@@ -32,7 +32,6 @@ impl Lorentz {
     /// assert_eq!(Lorentz::boost(v).apply(tick), Event { t: 1.25, x: DVec3::new(0.75, 0.0, 0.0) });
     /// # Ok::<(), ugphysics::VelocityError>(())
     /// ```
-    #[must_use]
     pub fn boost(v: Velocity) -> Lorentz {
         let u = v.proper();
         let axis = v.direction();
@@ -46,28 +45,24 @@ impl Lorentz {
     }
 
     /// The rotation of the axes by `turn`, which must be a unit quaternion.
-    #[must_use]
     pub fn rotation(turn: DQuat) -> Lorentz {
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| column(0.0, turn * axis));
         Lorentz(DMat4::from_cols(DVec4::X, x, y, z))
     }
 
     /// This transformation, followed by `next`.
-    #[must_use]
     pub fn then(self, next: Lorentz) -> Lorentz {
         next * self
     }
 
     /// The inverse transformation: the transpose with the signs of the time-space terms flipped,
     /// without any rounding.
-    #[must_use]
     pub fn inverse(self) -> Lorentz {
         let metric = DMat4::from_diagonal(DVec4::new(-1.0, 1.0, 1.0, 1.0));
         Lorentz(metric * self.0.transpose() * metric)
     }
 
     /// The event in target coordinates.
-    #[must_use]
     pub fn apply(self, event: Event) -> Event {
         let moved = self.0 * column(event.t, event.x);
         Event { t: moved.x, x: moved.yzw() }
@@ -83,7 +78,6 @@ impl Lorentz {
     }
 
     /// The turn of a transformation that is a rotation.
-    #[must_use]
     pub fn turn(self) -> DQuat {
         let [_, x, y, z] =
             [self.0.x_axis, self.0.y_axis, self.0.z_axis, self.0.w_axis].map(Vec4Swizzles::yzw);
@@ -91,7 +85,6 @@ impl Lorentz {
     }
 
     /// The matrix, on columns (t, x, y, z).
-    #[must_use]
     pub fn matrix(self) -> DMat4 {
         self.0
     }
@@ -122,7 +115,6 @@ impl Mul for Lorentz {
 /// assert!((compose(half, half).speed() - 0.8).abs() < 1e-15);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn compose(u: Velocity, v: Velocity) -> Velocity {
     let proper = composed(u, v);
     // Both γ are bounded, so the sum is finite. The only possible error is a rapidity above the
@@ -176,7 +168,6 @@ fn composed(u: Velocity, v: Velocity) -> DVec3 {
 /// assert!((turned.x - 2.0 * gamma / (1.0 + gamma * gamma)).abs() < 1e-15);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn wigner_rotation(u: Velocity, v: Velocity) -> DQuat {
     // For nearly opposite directions the sum is exact. The cross product and 1 + cos φ are computed
     // from it, since differences of rounded products would cancel there.

@@ -55,7 +55,6 @@ impl Medium {
     /// assert!((step.x.x / step.t - 0.71875).abs() < 1e-15);
     /// # Ok::<(), ugphysics::VelocityError>(())
     /// ```
-    #[must_use]
     pub fn step(&self, wave: WaveVector) -> Event {
         let drag = self.contrast() * self.own_frequency(wave);
         if drag == 0.0 {
@@ -82,7 +81,6 @@ impl Medium {
     /// assert!((step.x.x / step.t - 0.909_836_065_6).abs() < 1e-10);
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    #[must_use]
     pub fn wave_along(&self, direction: DVec3) -> Option<WaveVector> {
         let (gamma, u) = (self.velocity.gamma(), self.velocity.proper());
         let (square, contrast) = (self.index * self.index, self.contrast());
@@ -119,7 +117,6 @@ impl Medium {
     /// assert!((inside.k.normalize().y - 0.5).abs() < 1e-15);
     /// # Ok::<(), &str>(())
     /// ```
-    #[must_use]
     pub fn wave_across(&self, wave: WaveVector, normal: DVec3) -> Option<WaveVector> {
         let tangential = wave.k - wave.k.dot(normal) * normal;
         let (contrast, u) = (self.contrast(), self.velocity.proper());
@@ -145,13 +142,11 @@ impl Medium {
 
 impl WaveVector {
     /// Light in vacuum that moves along `direction`, a unit vector.
-    #[must_use]
     pub fn in_vacuum(frequency: f64, direction: DVec3) -> WaveVector {
         WaveVector { frequency, k: frequency * direction }
     }
 
     /// The same light in the frame that moves with `v`, axes parallel.  Eq. (P7)
-    #[must_use]
     pub fn in_frame(self, v: Velocity) -> WaveVector {
         let (axis, along) = (v.direction(), self.k.dot(v.direction()));
         let k = self.k + (v.gamma_minus_one() * along - v.proper_speed() * self.frequency) * axis;

@@ -41,14 +41,12 @@ impl RestFrame {
 
     /// The rest frame of a body with `velocity` in the frame of the camera, with the axes of a
     /// single boost.
-    #[must_use]
     pub fn new(velocity: Velocity) -> Self {
         Self::turned(velocity, DQuat::IDENTITY)
     }
 
     /// Like [`RestFrame::new`], with other axes. `scene_from_boosted`: the turn from the axes of a
     /// single boost to the axes of the scene.  Eq. (P25)
-    #[must_use]
     pub fn turned(velocity: Velocity, scene_from_boosted: DQuat) -> Self {
         let turn = DMat3::from_quat(scene_from_boosted);
         let turn = (turn != DMat3::IDENTITY).then_some(turn);
@@ -57,41 +55,35 @@ impl RestFrame {
 
     /// The velocity of the body in the frame of the camera.
     #[inline]
-    #[must_use]
     pub fn velocity(&self) -> Velocity {
         self.velocity
     }
 
     /// Turns rest coordinates from the axes of a single boost, in which (P4) gives them, to the
     /// axes of the scene. The identity unless the camera moves in the scene.  Eq. (P25)
-    #[must_use]
     pub fn scene_from_boosted(&self) -> DQuat {
         self.scene_from_boosted
     }
 
     /// The inverse of [`RestFrame::scene_from_boosted`].
-    #[must_use]
     pub fn boosted_from_scene(&self) -> DQuat {
         self.scene_from_boosted.inverse()
     }
 
     /// True if the axes of the scene are not those of a single boost.
     #[inline]
-    #[must_use]
     pub fn is_turned(&self) -> bool {
         self.turn.is_some()
     }
 
     /// True if the body rests in the frame of the camera.
     #[inline]
-    #[must_use]
     pub fn is_at_rest(&self) -> bool {
         self.velocity.is_zero()
     }
 
     /// Transforms an event, or the difference of two, from the frame of the camera.
     #[inline]
-    #[must_use]
     pub fn rest_from_camera(&self, Event { t, x }: Event) -> Event {
         if self.is_at_rest() {
             return Event { t, x: self.turned_to_scene(x) };
@@ -104,7 +96,6 @@ impl RestFrame {
 
     /// The inverse of [`RestFrame::rest_from_camera`].
     #[inline]
-    #[must_use]
     pub fn camera_from_rest(&self, Event { t, x }: Event) -> Event {
         let x = self.turned_to_boosted(x);
         if self.is_at_rest() {
@@ -117,7 +108,6 @@ impl RestFrame {
     }
 
     /// The place at time 0, in the frame of the camera, of a point at rest at `rest`.  Eq. (P1)
-    #[must_use]
     pub fn contracted(&self, rest: DVec3) -> DVec3 {
         let (rest, axis) = (self.turned_to_boosted(rest), self.velocity.direction());
         rest - axis * (self.gamma_minus_one / self.velocity.gamma() * rest.dot(axis))
@@ -126,7 +116,6 @@ impl RestFrame {
     /// The space part, in this frame, of the step of a ray of light into the past, which is
     /// (−|d|, d) in the frame of the camera. It loses no digits.  Eq. (P6)
     #[inline]
-    #[must_use]
     pub fn light_to_rest(&self, d: DVec3) -> DVec3 {
         if self.is_at_rest() {
             return self.turned_to_scene(d);
@@ -145,21 +134,18 @@ impl RestFrame {
     }
 
     /// Transforms the wave vector of light from the frame of the camera.
-    #[must_use]
     pub fn wave_to_rest(&self, wave: WaveVector) -> WaveVector {
         let Event { t, x } = self.rest_from_camera(Event { t: wave.frequency, x: wave.k });
         WaveVector { frequency: t, k: x }
     }
 
     /// The inverse of [`RestFrame::wave_to_rest`].
-    #[must_use]
     pub fn wave_to_camera(&self, wave: WaveVector) -> WaveVector {
         let Event { t, x } = self.camera_from_rest(Event { t: wave.frequency, x: wave.k });
         WaveVector { frequency: t, k: x }
     }
 
     /// A velocity in this frame, from the axes of a single boost to those of the scene.
-    #[must_use]
     pub fn turned_velocity(&self, velocity: Velocity) -> Velocity {
         match self.turn {
             None => velocity,

@@ -11,7 +11,7 @@ use crate::Velocity;
 use crate::error_free::{mul_add, power_of_two_below};
 
 /// An event: a point of spacetime. Time and lengths share one unit (c = 1).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Event {
     /// Time.
     pub t: f64,
@@ -49,7 +49,6 @@ impl core::ops::Sub for Event {
 /// assert_eq!(contracted(DVec3::new(5.0, 1.0, 2.0), v), DVec3::new(4.0, 1.0, 2.0));
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn contracted(p_rest: DVec3, v: Velocity) -> DVec3 {
     let scale = power_of_two_below(p_rest);
     let part = v.split(p_rest / scale);
@@ -67,7 +66,6 @@ pub fn contracted(p_rest: DVec3, v: Velocity) -> DVec3 {
 /// assert_eq!(elongated(DVec3::new(4.0, 1.0, 2.0), v), DVec3::new(5.0, 1.0, 2.0));
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn elongated(p_now: DVec3, v: Velocity) -> DVec3 {
     p_now + v.direction() * (v.gamma_minus_one() * p_now.dot(v.direction()))
 }
@@ -87,7 +85,6 @@ pub fn elongated(p_now: DVec3, v: Velocity) -> DVec3 {
 /// assert!((flight_time(DVec3::new(-1.0, 0.0, 0.0), v) + 4.0).abs() < 1e-14);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn flight_time(p_now: DVec3, v: Velocity) -> f64 {
     let scale = power_of_two_below(p_now);
     let p = p_now / scale;
@@ -121,7 +118,6 @@ pub fn flight_time(p_now: DVec3, v: Velocity) -> f64 {
 /// assert_eq!(seen.t, -1.25);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn seen_event(p_rest: DVec3, v: Velocity) -> Event {
     let scale = power_of_two_below(p_rest);
     let p = p_rest / scale;
@@ -140,7 +136,6 @@ pub fn seen_event(p_rest: DVec3, v: Velocity) -> Event {
 
 /// Where the point at rest at `p_rest` in S' is seen in S, relative to the eye: the position of
 /// [`seen_event`].  Eq. (P3)
-#[must_use]
 pub fn seen_position(p_rest: DVec3, v: Velocity) -> DVec3 {
     seen_event(p_rest, v).x
 }
@@ -158,7 +153,6 @@ pub fn seen_position(p_rest: DVec3, v: Velocity) -> DVec3 {
 /// assert!((back - p_rest).length() < 1e-14);
 /// # Ok::<(), ugphysics::VelocityError>(())
 /// ```
-#[must_use]
 pub fn rest_position(p_seen: DVec3, v: Velocity) -> DVec3 {
     seen_position(p_seen, -v)
 }
@@ -168,7 +162,6 @@ pub fn rest_position(p_seen: DVec3, v: Velocity) -> DVec3 {
 ///
 /// At that moment the eye, at rest in S, is at −γ**v**t_o in S'. Rest coordinates relative to it go
 /// through (P3) as before.
-#[must_use]
 pub fn observer_shift(v: Velocity, t_observer: f64) -> DVec3 {
     v.proper() * t_observer
 }

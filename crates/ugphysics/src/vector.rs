@@ -13,7 +13,6 @@ use crate::error_free::power_of_two_below;
 /// let length = ugphysics::length(DVec3::new(3e200, 4e200, 0.0));
 /// assert!((length / 5e200 - 1.0).abs() < 1e-15);
 /// ```
-#[must_use]
 pub fn length(v: DVec3) -> f64 {
     let scale = power_of_two_below(v);
     (v / scale).length() * scale
@@ -29,14 +28,12 @@ pub fn length(v: DVec3) -> f64 {
 /// assert!(unit.abs_diff_eq(DVec3::new(0.6, 0.8, 0.0), 1e-15));
 /// assert_eq!(ugphysics::unit_or_zero(DVec3::new(0.0, 5e-324, 0.0)), DVec3::Y);
 /// ```
-#[must_use]
 pub fn unit_or_zero(v: DVec3) -> DVec3 {
     (v / power_of_two_below(v)).normalize_or_zero()
 }
 
 /// The angle between two vectors of any magnitude, radians in 0…π; 0 if one is zero or not
 /// finite.
-#[must_use]
 pub fn angle(a: DVec3, b: DVec3) -> f64 {
     let (a, b) = (a / power_of_two_below(a), b / power_of_two_below(b));
     let angle = libm::atan2(a.cross(b).length(), a.dot(b));

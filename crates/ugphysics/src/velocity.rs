@@ -142,7 +142,6 @@ impl Velocity {
 
     /// The velocity rounded to three numbers **β**, or, where they change γ by more than 10⁻¹² of
     /// it, to its direction and γ. Idempotent.
-    #[must_use]
     pub fn rounded(self) -> Velocity {
         let by_beta = |velocity: Velocity| {
             let rounded = Velocity::from_beta(velocity.beta).ok();
@@ -166,7 +165,6 @@ impl Velocity {
     /// assert_eq!((v.gamma(), v.stated()), (3e8, (DVec3::Y, Some(3e8))));
     /// # Ok::<(), ugphysics::VelocityError>(())
     /// ```
-    #[must_use]
     pub fn stated(self) -> (DVec3, Option<f64>) {
         let rounded = self.rounded();
         if Velocity::from_beta(rounded.beta) == Ok(rounded) {
@@ -220,56 +218,47 @@ impl Velocity {
 
     /// **β**, the velocity in fractions of the speed of light; exactly the vector passed to
     /// [`Velocity::from_beta`].
-    #[must_use]
     pub fn beta(self) -> DVec3 {
         self.beta
     }
 
     /// β = |**β**|. Rounds to 1 above rapidity 19; [`Velocity::gamma`] and [`Velocity::rapidity`]
     /// do not saturate.
-    #[must_use]
     pub fn speed(self) -> f64 {
         self.proper_speed / self.gamma
     }
 
     /// The Lorentz factor γ = 1/√(1−β²) = cosh η, right to a few units in the last place.
-    #[must_use]
     pub fn gamma(self) -> f64 {
         self.gamma
     }
 
     /// The proper velocity **u** = γ**β**.
-    #[must_use]
     pub fn proper(self) -> DVec3 {
         self.direction * self.proper_speed
     }
 
     /// |**u**| = γβ = sinh η.
-    #[must_use]
     pub fn proper_speed(self) -> f64 {
         self.proper_speed
     }
 
     /// The rapidity η = atanh β ≥ 0.
-    #[must_use]
     pub fn rapidity(self) -> f64 {
         libm::asinh(self.proper_speed)
     }
 
     /// û, the unit vector along the motion; +x at rest.
-    #[must_use]
     pub fn direction(self) -> DVec3 {
         self.direction
     }
 
     /// Whether the velocity is exactly 0.
-    #[must_use]
     pub fn is_zero(self) -> bool {
         self.proper_speed == 0.0
     }
 
     /// γ − 1, without cancellation at small speeds.
-    #[must_use]
     pub fn gamma_minus_one(self) -> f64 {
         self.proper_speed * (self.proper_speed / (self.gamma + 1.0))
     }

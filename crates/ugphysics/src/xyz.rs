@@ -17,7 +17,6 @@ pub const MOST_LIGHT: f64 = 1e36;
 /// ```
 /// assert_eq!(ugphysics::limited([1e300, 2e300, 0.0], 1e36), [0.5e36, 1e36, 0.0]);
 /// ```
-#[must_use]
 #[inline]
 pub fn limited(light: [f64; 3], most: f64) -> [f64; 3] {
     let [a, b, c] = light.map(f64::abs);
@@ -44,7 +43,6 @@ const RGB_FROM_XYZ: [[f64; 3]; 3] = inverse(XYZ_FROM_RGB);
 /// let [red, green, blue] = ugphysics::xyz_to_linear_srgb(ugphysics::WHITE_XYZ);
 /// assert!((red - 1.0).abs() < 1e-14 && (green - 1.0).abs() < 1e-14 && (blue - 1.0).abs() < 1e-14);
 /// ```
-#[must_use]
 pub fn xyz_to_linear_srgb(xyz: [f64; 3]) -> [f64; 3] {
     times(RGB_FROM_XYZ, xyz)
 }
@@ -55,7 +53,6 @@ pub fn xyz_to_linear_srgb(xyz: [f64; 3]) -> [f64; 3] {
 /// let [_, luminance, _] = ugphysics::linear_srgb_to_xyz([0.0, 1.0, 0.0]);
 /// assert!((luminance - 0.7152).abs() < 1e-4);
 /// ```
-#[must_use]
 pub fn linear_srgb_to_xyz(rgb: [f64; 3]) -> [f64; 3] {
     times(XYZ_FROM_RGB, rgb)
 }

@@ -57,7 +57,7 @@ pub struct PictureArgs {
     /// box: the mean of the pixel's own samples, as a detector measures it. triangle and spline (a
     /// quadratic B-spline) reach into the neighbouring pixels: edges and thin lines are smoother,
     /// and softer.
-    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = one_of(Filter::ALL.map(Filter::name), filter), visible_alias = "filter",
+    #[arg(long, value_name = "FILTER", default_value = "box", value_parser = one_of("filters", Filter::ALL.map(|filter| (filter.name(), filter))), visible_alias = "filter",
           help_heading = PICTURE)]
     fl: Filter,
 
@@ -83,7 +83,7 @@ pub struct PictureArgs {
     ///
     /// filmic is Hable's curve of 2010, with white at 5.6. Curves are applied to luminance and keep
     /// the hue.
-    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = one_of(Tone::ALL.map(Tone::name), tone),
+    #[arg(long, value_name = "CURVE", default_value = "clip", value_parser = one_of("curves", Tone::ALL.map(|tone| (tone.name(), tone))),
           visible_alias = "tone-curve", help_heading = PICTURE)]
     tc: Tone,
 
@@ -369,21 +369,11 @@ pub enum ExplanationFormat {
     Json,
 }
 
-/// The names of [`Kind`]: formats of pictures, and those of explanations.
-pub fn kinds() -> impl Iterator<Item = &'static str> {
-    Format::ALL.map(Format::name).into_iter().chain(["text", "json"])
-}
-
-/// Value parser: a format of pictures or of explanations.
-///
-/// # Errors
-/// There is no such format.
-pub fn kind_named(name: &str) -> Result<Kind, String> {
-    match name {
-        "text" => Ok(Kind::Report(ExplanationFormat::Text)),
-        "json" => Ok(Kind::Report(ExplanationFormat::Json)),
-        name => format_named(name).map(Kind::Picture),
-    }
+/// Each [`Kind`] with its name: formats of pictures, and those of explanations.
+pub fn kinds() -> impl Iterator<Item = (&'static str, Kind)> {
+    let reports = [("text", ExplanationFormat::Text), ("json", ExplanationFormat::Json)];
+    let pictures = Format::ALL.map(|format| (format.name(), Kind::Picture(format)));
+    pictures.into_iter().chain(reports.map(|(name, format)| (name, Kind::Report(format))))
 }
 
 /// Value parser: a pixel, `320,240`.
@@ -527,18 +517,6 @@ fn stops(stops: f64) -> Result<Exposure, String> {
     } else {
         Err(format!("an exposure is between -{MOST} and {MOST} stops"))
     }
-}
-
-/// The name of a tone curve.
-fn tone(word: &str) -> Result<Tone, String> {
-    Tone::from_name(word)
-        .ok_or_else(|| format!("none of the curves {}", Tone::ALL.map(Tone::name).join(", ")))
-}
-
-/// The name of a filter.
-fn filter(word: &str) -> Result<Filter, String> {
-    Filter::from_name(word)
-        .ok_or_else(|| format!("none of the filters {}", Filter::ALL.map(Filter::name).join(", ")))
 }
 
 /// Names of channels, each once, in the order given.

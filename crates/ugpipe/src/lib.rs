@@ -97,95 +97,14 @@
 #![cfg_attr(not(unix), allow(dead_code))]
 
 #[cfg(feature = "cli")]
-mod args;
-#[cfg(feature = "cli")]
-mod argv;
-#[cfg(all(feature = "cli", unix))]
-mod cleanup;
-#[cfg(feature = "cli")]
-mod completion;
-#[cfg(feature = "cli")]
-mod context;
-#[cfg(feature = "cli")]
-mod failure;
-#[cfg(feature = "cli")]
-mod files;
-#[cfg(feature = "cli")]
-mod folder;
-#[cfg(feature = "cli")]
-mod help;
-#[cfg(all(feature = "cli", unix))]
-mod identity;
-#[cfg(feature = "cli")]
-mod input;
-#[cfg(feature = "cli")]
-mod look;
-#[cfg(feature = "cli")]
-mod manual;
-#[cfg(feature = "cli")]
-mod messages;
-#[cfg(all(feature = "cli", not(unix)))]
-mod no_system;
-#[cfg(all(feature = "cli", unix))]
-mod output;
-#[cfg(feature = "cli")]
-mod parse;
+mod cli;
 mod progress;
-#[cfg(feature = "cli")]
-mod provenance;
 pub mod remedies;
-#[cfg(all(feature = "cli", unix))]
-mod run;
 mod side;
-#[cfg(feature = "cli")]
-pub mod stale;
-#[cfg(all(feature = "cli", unix))]
-mod steps;
-#[cfg(all(feature = "cli", unix))]
-mod streams;
 mod text;
-#[cfg(feature = "cli")]
-mod usage;
-#[cfg(feature = "cli")]
-mod values;
-
-#[cfg(all(feature = "cli", not(unix)))]
-use no_system::{cleanup, output, run, steps};
 
 #[cfg(feature = "cli")]
-pub use args::{CommonArgs, ToolArgs};
-#[cfg(all(feature = "cli", unix))]
-pub use cleanup::leave_signals;
-#[cfg(feature = "cli")]
-pub use cleanup::{Claim, Running, is_occupied};
-#[cfg(feature = "cli")]
-pub use completion::{COMPLETE, completions};
-#[cfg(feature = "cli")]
-pub use context::{Context, MAX_INPUT};
-#[cfg(feature = "cli")]
-pub use failure::{Failure, Words};
-#[cfg(feature = "cli")]
-pub use files::ProgramOutput;
-#[cfg(feature = "cli")]
-pub use help::{DASHES, DOCUMENTATION, EXIT_STATUS};
-#[cfg(feature = "cli")]
-pub use input::Input;
-#[cfg(feature = "cli")]
-pub use look::{Look, LookArgs, Looks, Preset, is_given};
-#[cfg(feature = "cli")]
-pub use manual::{Entry, Group, Manual, Value, manual};
-#[cfg(feature = "cli")]
-pub use messages::Host;
-#[cfg(feature = "cli")]
-pub use parse::{parse_command, parse_words};
+pub use cli::*;
 pub use progress::{Progress, Stopped};
-#[cfg(feature = "cli")]
-pub use provenance::{sha256, shell_os_word, shell_word};
-#[cfg(feature = "cli")]
-pub use run::main;
 pub use side::{PIXELS_PER_INCH, Side};
-#[cfg(feature = "cli")]
-pub use steps::Steps;
 pub use text::{is_printable, message, printable};
-#[cfg(feature = "cli")]
-pub use values::{finite, number, one_of, vector, view_angle, whole};

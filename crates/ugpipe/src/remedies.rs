@@ -69,14 +69,12 @@ pub const REPEAT_EARLIER: &str =
 pub const WRITE_WAVELENGTHS: &str = "give -gw to ugdoppler";
 
 /// The input is a mesh in a format of its own. `file`: its name, if it is not standard input.
-#[must_use]
 pub fn convert_mesh(file: Option<&str>) -> String {
     let file = file.map(|file| format!(" {file}")).unwrap_or_default();
     format!("`ugmesh{file}` writes it as a scene, for the rest of the pipe")
 }
 
 /// The input is a picture. `file`: its name, if it is not standard input.
-#[must_use]
 pub fn picture_is_complete(file: Option<&str>) -> String {
     match file {
         None => {
@@ -90,7 +88,6 @@ pub fn picture_is_complete(file: Option<&str>) -> String {
 }
 
 /// The input is a table. `file`: its name, if it is not standard input.
-#[must_use]
 pub fn draw_stars(file: Option<&str>) -> String {
     let file = file.map(|file| format!(" {file}")).unwrap_or_default();
     format!("`ugwarp{file}` draws a list of stars")

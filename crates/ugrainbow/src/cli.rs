@@ -9,12 +9,12 @@ use uglight::{ColorShift, Interpolation};
 use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kind_named, kinds, picture_format, pixel,
-    refuse_terminal, report_format, with_format, write_picture, write_report,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kinds, picture_format, pixel, refuse_terminal,
+    report_format, with_format, write_picture, write_report,
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
-    CommonArgs, Context, Failure, Look, LookArgs, Looks, Manual, ToolArgs, finite, is_given, number, one_of,
+    CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, finite, is_given, number, one_of,
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
@@ -55,7 +55,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative. text and json are for
     /// --explain.
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(kinds(), kind_named))]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of("formats", kinds()))]
     dt: Option<Kind>,
 
     /// Vector graphics instead of pixels, for eps, ps, pdf, svg
@@ -271,11 +271,6 @@ impl Args {
         let format = picture_format(self.dt, file, self.explain.is_some())?;
         Ok(if self.vec { Output::Vector(format) } else { Output::Color(format) })
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// The whole program between its streams: reads the scene, draws it, writes the picture.

@@ -106,7 +106,7 @@ mod shade;
 mod vector;
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, draw, manual};
+pub use cli::{Args, draw};
 pub use config::{Config, DepthCue, Wireframe};
 pub use error::Error;
 pub use render::{PROVENANCE, light, render, render_with, run, run_with};

@@ -183,7 +183,7 @@ pub struct ShiftArgs {
     /// as in 1988, and light of lamps likewise. A renderer clips values above 1 sample by sample,
     /// unless it has -ex or -tc.
     #[arg(long, visible_alias = "brightness", value_name = "LAW",
-          value_parser = one_of(Brightness::ALL.map(Brightness::name), law), conflicts_with = "no_flux")]
+          value_parser = one_of("laws", Brightness::ALL.map(|law| (law.name(), law))), conflicts_with = "no_flux")]
     pub br: Option<Brightness>,
 
     /// Shift spectra instead of hues
@@ -204,7 +204,7 @@ pub struct ShiftArgs {
     /// With -sp. measured: what measured surfaces of this colour reflect. constant: the reflectance
     /// at 780 nm goes on. Spectra that are given (c_refl) need no rule.
     #[arg(long, value_name = "RULE",
-          value_parser = one_of(InfraredRule::ALL.map(InfraredRule::name), infrared_rule))]
+          value_parser = one_of("rules", InfraredRule::ALL.map(|rule| (rule.name(), rule))))]
     pub infrared_rule: Option<InfraredRule>,
 
     /// Leave brightness as it is; with -sp omit the factor D^5
@@ -221,18 +221,6 @@ impl ShiftArgs {
 
     /// Brightness as at rest, for the looks of a program.
     pub const REST_BRIGHTNESS: Preset = Preset::new(&["no-flux"], &["br"]);
-}
-
-/// Value parser: the name of a rule for infrared.
-fn infrared_rule(word: &str) -> Result<InfraredRule, String> {
-    let rule = InfraredRule::ALL.into_iter().find(|rule| rule.name() == word);
-    rule.ok_or_else(|| "neither measured nor constant".to_owned())
-}
-
-/// Value parser: the name of a brightness law.
-fn law(word: &str) -> Result<Brightness, String> {
-    Brightness::from_name(word)
-        .ok_or_else(|| format!("none of the laws {}", Brightness::ALL.map(Brightness::name).join(", ")))
 }
 
 /// Colours where faces of different colours meet: flatten it into the arguments of a program.

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use clap::{ArgAction, Parser, ValueEnum};
 use ugimage::{Format, PictureLimits, ReadError, read_history, read_png, read_png_header, spelled_color};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, MAX_INPUT, Manual, ToolArgs, Words, finite, one_of, sha256, whole,
+    CommonArgs, Context, Failure, Input, MAX_INPUT, ToolArgs, Words, finite, one_of, sha256, whole,
 };
 
 use crate::recipe::{Recipe, recipes};
@@ -59,7 +59,7 @@ pub struct Args {
     bg: Option<Vec<String>>,
 
     /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
-    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of(FORMATS, format_named))]
+    #[arg(long, value_name = "FMT", visible_alias = "format", value_parser = one_of("formats", FORMATS.map(|format| (format.name(), format))))]
     dt: Option<Format>,
 
     /// Instead of a sheet, print the pipe that drew a picture, for a shell
@@ -115,13 +115,8 @@ fn text_size(word: &str) -> Result<f64, String> {
     }
 }
 
-/// Names of formats.
-const FORMATS: [&str; 6] = ["png", "ppm", "eps", "ps", "pdf", "svg"];
-
-fn format_named(name: &str) -> Result<Format, String> {
-    let format = Format::from_name(name).filter(|format| !format.is_deep());
-    format.ok_or_else(|| format!("not one of the formats {}", FORMATS.join(", ")))
-}
+/// Formats of sheets: those without linear light.
+const FORMATS: [Format; 6] = [Format::Png, Format::Ppm, Format::Eps, Format::Ps, Format::Pdf, Format::Svg];
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
@@ -170,8 +165,14 @@ impl Args {
         match (self.dt, ending) {
             (Some(format), _) => Ok(format),
             (None, None) => Ok(Format::Png),
-            (None, Some(ending)) => format_named(&ending)
-                .map_err(|error| Failure::Usage(format!("`.{ending}` is {error}; name one with -dt"))),
+            (None, Some(ending)) => {
+                let format = Format::from_name(&ending).filter(|format| FORMATS.contains(format));
+                format.ok_or_else(|| {
+                    let all = FORMATS.map(Format::name).join(", ");
+                    let message = format!("`.{ending}` is not one of the formats {all}; name one with -dt");
+                    Failure::Usage(message)
+                })
+            }
         }
     }
 }
@@ -253,11 +254,6 @@ impl Words for Error {
         };
         format!("{self}{remedy}")
     }
-}
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
 }
 
 /// Prints the pipes that drew the pictures.

@@ -38,7 +38,7 @@ mod tiles;
 use ugimage::{Frame, Metadata};
 
 #[cfg(feature = "cli")]
-pub use cli::{main, manual};
+pub use cli::{Args, main};
 pub use error::Error;
 pub use labels::{Labels, Motion};
 use layout::Layout;

@@ -29,11 +29,6 @@ impl Arrangement {
         }
     }
 
-    /// The arrangement called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|arrangement| arrangement.name() == name)
-    }
-
     /// Number of files.
     pub fn n_files(self) -> usize {
         if self == Self::Sides { 6 } else { 1 }
@@ -41,7 +36,6 @@ impl Arrangement {
 
     /// The arrangement in one file of a picture by the ratio of its sides: a strip is six times as
     /// wide as high, a cross 4 : 3 or 3 : 4, all others are panoramas.
-    #[must_use]
     pub fn of_size([width, height]: [u32; 2]) -> Self {
         let [width, height] = [width, height].map(u64::from);
         if width == 6 * height {

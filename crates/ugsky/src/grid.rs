@@ -22,25 +22,21 @@ impl Extent {
     pub const FULL: Self = Self { longitudes: [-PI, PI], latitudes: [-FRAC_PI_2, FRAC_PI_2] };
 
     /// True if the left and the right edge are one meridian.
-    #[must_use]
     pub fn is_closed(&self) -> bool {
         self.width() >= TAU * (1.0 - 1e-12)
     }
 
     /// The angle across, radians.
-    #[must_use]
     pub fn width(&self) -> f64 {
         self.longitudes[1] - self.longitudes[0]
     }
 
     /// The angle down, radians.
-    #[must_use]
     pub fn height(&self) -> f64 {
         self.latitudes[1] - self.latitudes[0]
     }
 
     /// True if both ranges are increasing, and on the sphere.
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         const ROUNDING: f64 = 1e-9;
         let [low, high] = self.latitudes;

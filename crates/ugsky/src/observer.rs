@@ -44,7 +44,6 @@ pub struct SkyRay {
 
 impl Observer {
     /// An observer with a velocity in the frame of the sky.
-    #[must_use]
     pub fn new(velocity: Velocity) -> Self {
         let (gamma, proper_speed) = (velocity.gamma(), velocity.proper_speed());
         Self {
@@ -56,14 +55,12 @@ impl Observer {
     }
 
     /// The velocity in the frame of the sky.
-    #[must_use]
     pub fn velocity(&self) -> Velocity {
         self.velocity
     }
 
     /// The direction in the frame of the sky of what is seen along the unit vector `seen`, and its
     /// Doppler factor.  Eq. (P6), (P10)
-    #[must_use]
     #[inline]
     pub fn direction_in_sky(&self, seen: DVec3) -> (DVec3, f64) {
         let (direction, doppler, _) = self.carried(seen);
@@ -72,7 +69,6 @@ impl Observer {
 
     /// The direction that the observer sees of a direction in the frame of the sky, a unit vector,
     /// and the Doppler factor. The inverse of [`Observer::direction_in_sky`].  Eq. (P6), (P10)
-    #[must_use]
     pub fn seen_direction(&self, in_sky: DVec3) -> (DVec3, f64) {
         let (seen, inverse) = Self::new(-self.velocity).direction_in_sky(in_sky);
         (seen, 1.0 / inverse)
@@ -83,7 +79,6 @@ impl Observer {
     ///
     /// Aberration is conformal: all lengths on the sphere are multiplied by D, and solid angles by
     /// D².  Eq. (P6)
-    #[must_use]
     #[inline]
     pub fn ray(&self, seen: DVec3, slopes: [DVec3; 2]) -> SkyRay {
         let (direction, doppler, across) = self.carried(seen);

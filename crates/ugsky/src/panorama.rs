@@ -116,13 +116,11 @@ impl Panorama {
     }
 
     /// The part of the sphere that is shown.
-    #[must_use]
     pub fn extent(&self) -> Extent {
         self.extent
     }
 
     /// Texels across and down.
-    #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
     }

@@ -68,7 +68,6 @@ struct Run {
 
 impl Panorama {
     /// Finds the light of footprints. Make one for each thread.
-    #[must_use]
     pub fn sampler(&self) -> Sampler<'_> {
         Sampler {
             panorama: self,
@@ -89,7 +88,6 @@ impl Sampler<'_> {
     ///
     /// Weights are those of the directions of the texels, times their solid angles, so there is no
     /// seam at the date line or the poles.
-    #[must_use]
     pub fn light(&mut self, ray: &SkyRay, spread: f64) -> Option<[f32; 4]> {
         let mut rays = [None; Seen::N];
         rays[0] = Some(*ray);
@@ -98,7 +96,6 @@ impl Sampler<'_> {
     }
 
     /// Like [`Sampler::light`], of several footprints; black without a ray.
-    #[must_use]
     pub fn see(&mut self, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
         dispatch!(self.simd, simd => self.see_on(simd, rays, spread))
     }

@@ -35,7 +35,6 @@ pub enum SkyColors {
 
 impl SkyColors {
     /// Whether wavelengths are shifted, and whether the brightness changes.
-    #[must_use]
     pub fn parts(self) -> [bool; 2] {
         match self {
             Self::Hues { doppler, law } => [doppler, law != Brightness::None],

@@ -113,7 +113,6 @@ impl SpectralTable {
     }
 
     /// Linear red, green and blue as seen with a Doppler factor. Neither is clipped.
-    #[must_use]
     #[inline]
     pub fn seen(&self, rgb: [f32; 3], doppler: f64) -> [f32; 3] {
         let shift = if self.doppler { libm::log(doppler) } else { 0.0 };
@@ -233,7 +232,6 @@ fn pure_light(rgb: [f64; 3]) -> Spectrum {
 }
 
 /// The spectra of [`Basis::Mixture`], mixed with white to a saturation from 0 to 1.
-#[must_use]
 pub fn pure_lights(saturation: f64) -> [Spectrum; N_PURE] {
     PURE.map(|rgb| pure_light(rgb.map(|part| 1.0 - saturation * (1.0 - part))))
 }
@@ -261,7 +259,6 @@ fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_PURE]; 2], part: f32)
 
 /// The [`pure_lights`] in a colour with their amounts: as much white as all channels have, as much
 /// of a pair as the two brighter ones have more, and the rest of the brightest.
-#[must_use]
 pub fn amounts(rgb: [f32; 3]) -> [(usize, f32); 3] {
     let rgb = rgb.map(|part| part.max(0.0));
     let mut order = [0, 1, 2];

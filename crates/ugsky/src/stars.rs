@@ -38,14 +38,12 @@ impl StarOptions {
     pub const MOST_DEVIATION: f64 = 0.3;
 
     /// Standard deviation of the profile in pixels.
-    #[must_use]
     pub fn deviation(&self) -> f64 {
         // The width is 2 √(2 ln 2) standard deviations.
         self.width / 2.354_820_045_030_949_3
     }
 
     /// Light per irradiance and steradian.
-    #[must_use]
     pub fn scale(&self) -> f64 {
         const SQUARE_DEGREE: f64 = (core::f64::consts::PI / 180.0) * (core::f64::consts::PI / 180.0);
         libm::exp10(0.4 * self.white) * SQUARE_DEGREE
@@ -53,13 +51,11 @@ impl StarOptions {
 
     /// The magnitude of a star whose irradiance is that of white light from this solid angle,
     /// steradians.
-    #[must_use]
     pub fn magnitude(&self, white: f64) -> f64 {
         -2.5 * libm::log10(white / self.scale())
     }
 
     /// The profile of a star at the square of a distance on the unit sphere.
-    #[must_use]
     #[inline]
     pub fn profile(square: f64, deviation: f64) -> f64 {
         let ratio = square / (deviation * deviation);
@@ -99,7 +95,6 @@ impl StarLight {
     /// A table for stars and Doppler factors up to e^±`reach`. `shift`: whether wavelengths are
     /// shifted, and whether the radiance at each wavelength is multiplied by D⁵. Directions, and
     /// so solid angles, always change.
-    #[must_use]
     pub fn new(stars: &[Star], shift: [bool; 2], reach: f64) -> Self {
         let reach = reach.abs().min(MOST_LN_DOPPLER);
         let [mut low, mut high] = [0.0_f64; 2];
@@ -114,7 +109,6 @@ impl StarLight {
 
     /// Linear red, green and blue of the irradiance by a star that is seen with a Doppler factor,
     /// above 0. The luminance of a star of magnitude 0 at rest is 1.
-    #[must_use]
     pub fn irradiance(&self, star: &Star, doppler: f64) -> [f64; 3] {
         let rest = ln_relative(star.kelvin);
         let seen = if self.doppler { rest + libm::log(doppler) } else { rest };

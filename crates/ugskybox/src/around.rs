@@ -67,7 +67,6 @@ impl SkyAround {
     }
 
     /// A sampler of the sky, one for each thread.
-    #[must_use]
     pub fn rays(&self) -> SkyRays<'_> {
         let panorama = self.opened.panorama.as_ref();
         SkyRays { around: self, sampler: panorama.map(|panorama| panorama.sampler()) }

@@ -68,7 +68,6 @@ impl BuiltIn {
     pub const ALL: [Self; 3] = [Self::Day, Self::Dusk, Self::Stars];
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Day => "day",
@@ -78,13 +77,11 @@ impl BuiltIn {
     }
 
     /// The sky called `name`.
-    #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|sky| sky.name() == name)
     }
 
     /// Makes the sky. White is the light of a white level surface in it.
-    #[must_use]
     pub fn open(self) -> Opened {
         match self {
             Self::Day => DAY.opened(),

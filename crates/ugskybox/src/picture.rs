@@ -39,7 +39,6 @@ pub struct SkyPicture {
 
 /// How the colours of a sky change where those of a scene change by `shift`. `basis`: the spectra
 /// of colours, if spectra are shifted.
-#[must_use]
 pub fn sky_colors(shift: ColorShift, basis: Basis) -> SkyColors {
     match shift {
         ColorShift::Hues(shift) => SkyColors::Hues { doppler: shift.doppler, law: shift.law },

@@ -125,7 +125,6 @@ impl SceneSky {
     }
 
     /// True if there is a sky.
-    #[must_use]
     pub fn is_some(&self) -> bool {
         self.source != SkySource::None
     }
@@ -244,7 +243,6 @@ impl SceneSky {
 }
 
 /// The background on which a scene is drawn: black instead of a colour, if a sky is put behind it.
-#[must_use]
 pub fn drawn_on(sky: &SceneSky, background: Background) -> Background {
     match background {
         Background::Color(_) if sky.is_some() => PictureOptions::default().background,

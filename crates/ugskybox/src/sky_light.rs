@@ -65,7 +65,6 @@ impl Light<'_> {
 impl SkyLamps {
     /// The lights of a sky; `None` if it is black but for faint stars. `turn`: from the axes of the
     /// sky to those of the scene. `n_sets`: sets of `n_points` points.
-    #[must_use]
     pub fn new(opened: &Opened, turn: DQuat, [n_sets, n_points]: [usize; 2]) -> Option<Self> {
         let cell = PI / ROWS as f64;
         let mut light = opened.panorama.as_ref().map(|panorama| Light {
@@ -142,7 +141,6 @@ impl SkyLamps {
     }
 
     /// The spectrum of a light, with 1 as its largest channel.
-    #[must_use]
     pub fn spectrum(&self, lamp: &SkyLamp) -> Spectrum {
         /// Wavelengths between which the reflectances of (P20) vary, and a step, nm.
         const NM: [u32; 3] = [380, 780, 5];
@@ -160,7 +158,6 @@ impl SkyLamps {
     }
 
     /// The points of a set.
-    #[must_use]
     pub fn set(&self, set: usize) -> core::ops::Range<usize> {
         let n = self.points.len() / self.n_sets;
         n * (set % self.n_sets)..n * (set % self.n_sets + 1)

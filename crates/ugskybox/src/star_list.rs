@@ -163,7 +163,6 @@ impl StarListMistake {
 
 /// True if bytes look like a list of stars rather than a picture: text whose first line, comments
 /// apart, has names of columns.
-#[must_use]
 pub fn is_star_list(file: &[u8]) -> bool {
     let head = &file[..file.len().min(4096)];
     let mut record = ByteRecord::new();

@@ -48,7 +48,6 @@ struct Point {
 
 impl StarField {
     /// The map of a picture for a list of stars.
-    #[must_use]
     pub fn new(stars: &[Star], picture: &SkyPicture) -> Self {
         Self {
             part: picture.part,

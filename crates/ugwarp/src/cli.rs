@@ -13,14 +13,13 @@ use ugmeshfile::{Foreign, foreign_data};
 use ugparse::{Source, pipe};
 use ugphysics::Velocity;
 use ugpicture::cli::{
-    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, format_named, refuse_terminal, with_format,
-    write_picture,
+    AnnotationArgs, LensArgs, PICTURE, PictureArgs, format_for, refuse_terminal, with_format, write_picture,
 };
 use ugpicture::lens::Lens;
 use ugpicture::{Output, PictureOptions};
 use ugpipe::{
-    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, Manual, ToolArgs, Words, finite, number,
-    one_of, remedies, sha256, vector,
+    CommonArgs, Context, Failure, Input, Look, LookArgs, Looks, ToolArgs, Words, finite, number, one_of,
+    remedies, sha256, vector,
 };
 use ugscene::cli::ShiftArgs;
 use ugscene::{Provenance, Scene};
@@ -69,7 +68,7 @@ pub struct Args {
     /// panorama: longitude across, latitude down. The others are cube maps: six squares from left
     /// to right, as -cube draws them; four squares across and three down, or three and four; six
     /// files in the order right, left, up, down, front, back.
-    #[arg(long, value_name = "KIND", value_parser = one_of(Arrangement::ALL.map(Arrangement::name), arrangement),
+    #[arg(long, value_name = "KIND", value_parser = one_of("arrangements", Arrangement::ALL.map(|kind| (kind.name(), kind))),
           conflicts_with = "part")]
     from: Option<Arrangement>,
 
@@ -151,7 +150,7 @@ pub struct Args {
     /// png16 has 16 bits per component. exr, pfm and hdr hold linear light, neither clipped nor
     /// gamut-mapped: white is 1, and components may exceed 1 or be negative.
     #[arg(long, value_name = "FMT", visible_alias = "format",
-          value_parser = one_of(Format::ALL.map(Format::name), format_named), help_heading = PICTURE)]
+          value_parser = one_of("formats", Format::ALL.map(|format| (format.name(), format))), help_heading = PICTURE)]
     dt: Option<Format>,
 
     #[command(flatten)]
@@ -185,11 +184,6 @@ const EXAMPLES: &str = "Examples:
   ugwarp -vel 0 -.9 0 --basis 3500 5900 10000 -fish 180 -sz 900 900 sky.png > dome.png
   ugwarp -cv 0 .5 0 -dt exr -ch D,direction sky.png > light.exr
   ugwarp -cv 0 .9 0 -fish 180 -sz 900 900 stars.csv > stars.png";
-
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
@@ -451,13 +445,6 @@ pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
 /// The stars of a list.
 fn stars(input: &Input) -> Result<StarList, Failure> {
     read_stars(&input.name, &input.text).map_err(|found| Failure::Report(found.report()))
-}
-
-/// The name of an arrangement.
-fn arrangement(word: &str) -> Result<Arrangement, String> {
-    Arrangement::from_name(word).ok_or_else(|| {
-        format!("none of the arrangements {}", Arrangement::ALL.map(Arrangement::name).join(", "))
-    })
 }
 
 /// The name of a basis, or three temperatures.

@@ -49,7 +49,7 @@ mod error;
 mod render;
 
 #[cfg(feature = "cli")]
-pub use cli::{Args, draw, manual};
+pub use cli::{Args, draw};
 pub use config::Config;
 pub use error::Error;
 pub use render::{PROVENANCE, light, metadata, render, render_opened, render_with, run};

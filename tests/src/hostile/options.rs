@@ -2,22 +2,22 @@
 
 use std::sync::LazyLock;
 
-use ugpipe::{Entry, Manual};
+use ugpipe::{Entry, Manual, manual};
 use ugtesting::Random;
 
 use super::template::{Kind, name, number, velocity};
 
 static MANUALS: LazyLock<[Manual; 9]> = LazyLock::new(|| {
     [
-        ugdoppler::manual(),
-        ugfilm::manual(),
-        uglorentz::manual(),
-        ugmesh::manual(),
-        ugparse::manual(),
-        ugphoton::manual(),
-        ugrainbow::manual(),
-        ugsheet::manual(),
-        ugwarp::manual(),
+        manual::<ugdoppler::Args>(),
+        manual::<ugfilm::Args>(),
+        manual::<uglorentz::Args>(),
+        manual::<ugmesh::Args>(),
+        manual::<ugparse::Args>(),
+        manual::<ugphoton::Args>(),
+        manual::<ugrainbow::Args>(),
+        manual::<ugsheet::Args>(),
+        manual::<ugwarp::Args>(),
     ]
 });
 

@@ -25,7 +25,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ugpipe::Manual;
+use ugpipe::{Manual, manual};
 use ugtests::scenes;
 
 use crate::programs;
@@ -46,16 +46,16 @@ pub struct Args {
 /// The manuals of all programs.
 fn manuals() -> [Manual; 10] {
     [
-        uglorentz::manual(),
-        ugdoppler::manual(),
-        ugrainbow::manual(),
-        ugphoton::manual(),
-        ugwarp::manual(),
-        ugmesh::manual(),
-        ugparse::manual(),
-        ugsheet::manual(),
-        ugfilm::manual(),
-        ugconformance::manual(),
+        manual::<uglorentz::Args>(),
+        manual::<ugdoppler::Args>(),
+        manual::<ugrainbow::Args>(),
+        manual::<ugphoton::Args>(),
+        manual::<ugwarp::Args>(),
+        manual::<ugmesh::Args>(),
+        manual::<ugparse::Args>(),
+        manual::<ugsheet::Args>(),
+        manual::<ugfilm::Args>(),
+        manual::<ugconformance::Args>(),
     ]
 }
 

@@ -4,18 +4,18 @@ use super::postscript_font::{definition, show};
 use super::{
     Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, number, paint_ops, texts,
 };
+use crate::Metadata;
 use crate::pdf::deflate;
-use crate::postscript::Ascii85;
-use crate::{Metadata, eps as eps_file, ps as ps_file};
+use crate::postscript::{Ascii85, wrap};
 
 /// The figure as an EPS file, one pixel per point.
 pub fn eps(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
-    eps_file::wrap(figure.size, 3, metadata, &drawing(figure))
+    wrap(figure.size, 3, metadata, &drawing(figure), true)
 }
 
 /// The figure as a PostScript document of one page, one pixel per point.
 pub fn ps(figure: &Figure<GouraudTriangle>, metadata: &Metadata) -> Vec<u8> {
-    ps_file::wrap(figure.size, 3, metadata, &drawing(figure))
+    wrap(figure.size, 3, metadata, &drawing(figure), false)
 }
 
 /// Definitions at the start of the drawing. As for images, the filters are stored in variables so

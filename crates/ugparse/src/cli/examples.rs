@@ -49,7 +49,7 @@ const FILES: [(&str, &str); 37] = [
 #[derive(clap::Args, Debug)]
 pub struct ExampleArgs {
     /// File to write; without it, list the files
-    #[arg(value_name = "NAME", conflicts_with = "all", value_parser = one_of(FILES.map(|(name, _)| short(name)), file))]
+    #[arg(value_name = "NAME", conflicts_with = "all", value_parser = one_of("examples", FILES.map(|(name, _)| short(name)).into_iter().zip(0..)))]
     name: Option<usize>,
 
     /// Write every file into the current folder
@@ -60,14 +60,6 @@ pub struct ExampleArgs {
 /// The name of a file; of a scene, without its extension.
 fn short(name: &'static str) -> &'static str {
     name.strip_suffix(".ug").unwrap_or(name)
-}
-
-/// The row of a file, whose name may have its extension.
-fn file(word: &str) -> Result<usize, String> {
-    FILES.iter().position(|(name, _)| [*name, short(name)].contains(&word)).ok_or_else(|| {
-        let names = FILES.map(|(name, _)| short(name)).join(", ");
-        format!("there is no example `{word}`; there are {names}")
-    })
 }
 
 /// Lists the files, or writes one or all of them.

@@ -4,13 +4,12 @@ mod count;
 mod examples;
 mod measure;
 
-use std::cell::Cell;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Arg, Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand, ValueEnum};
 use serde_json::{Value, json};
-use ugpipe::{CommonArgs, Context, Failure, Manual, ToolArgs};
+use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::pipe::{self, refused};
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
@@ -20,8 +19,8 @@ use crate::{Diagnostics, Options, Parsed, Severity, Source};
 /// The default command is check: ugparse FILE is ugparse check FILE.
 #[derive(Parser, Debug)]
 #[command(name = "ugparse", version, after_help = EXAMPLES,
-          disable_help_subcommand = true, mut_args(globally))]
-struct Args {
+          disable_help_subcommand = true, mut_args(ugpipe::globally))]
+pub struct Args {
     #[command(subcommand)]
     command: Option<Command>,
 
@@ -36,11 +35,6 @@ const EXAMPLES: &str = "Examples:
   ugparse flatten ship.ug > flat.ug
   ugparse count ship.ug
   ugparse example ship > ship.ug";
-
-/// Allows options before the command as well as after it, except the one that names the file.
-fn globally(arg: Arg) -> Arg {
-    if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
-}
 
 #[derive(Subcommand, Debug)]
 enum Command {
@@ -100,21 +94,9 @@ impl Args {
     }
 }
 
-/// The contents of the help, the man page and the completions of the program.
-pub fn manual() -> Manual {
-    ugpipe::manual::<Args>()
-}
-
 /// Runs the program.
 pub fn main() -> ExitCode {
-    // A report about an invalid scene is a result and not a failure: the output is kept, and only
-    // the exit status is 1.
-    let is_usable = Cell::new(true);
-    let status = ugpipe::main(|args: &Args, context: &mut Context| {
-        is_usable.set(run(args, context)?);
-        Ok(())
-    });
-    if is_usable.get() { status } else { ExitCode::FAILURE }
+    ugpipe::main_of_verdicts(run)
 }
 
 /// Runs the command; returns false if the scene is invalid.

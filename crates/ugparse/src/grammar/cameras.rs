@@ -15,43 +15,30 @@ pub(super) fn camera_option<'a>(
     at: Input<'a>,
     input: Input<'a>,
 ) -> Parsed<'a, ()> {
-    fn store<'a, T, U>(
-        slot: &mut Option<U>,
-        parsed: Parsed<'a, T>,
-        convert: impl Fn(T) -> U,
-    ) -> Parsed<'a, ()> {
+    fn store<'a, T>(slot: &mut Option<T>, parsed: Parsed<'a, T>) -> Parsed<'a, ()> {
         let (rest, value) = require(parsed)?;
-        *slot = Some(convert(value));
+        *slot = Some(value);
         Ok((rest, ()))
     }
-    let same = |x| x;
-    let pair = |x: [f64; 2]| x;
     match name {
-        b"vc" => store(&mut camera.center, point(input), same),
-        b"ep" => store(&mut camera.eye, point(input), same),
+        b"vc" => store(&mut camera.center, point(input)),
+        b"ep" => store(&mut camera.eye, point(input)),
         b"ud" => {
             let (rest, up) = require(point(input))?;
             camera.up = Some(up);
             if up == DVec3::ZERO { fail(blank(at)?.0, zero_vector(4)) } else { Ok((rest, ())) }
         }
-        b"cl" => store(&mut camera.clip, numbers(input), pair),
-        b"ph" => store(&mut camera.film, numbers(input), |x: [f64; 4]| x),
+        b"cl" => store(&mut camera.clip, numbers(input)),
+        b"ph" => store(&mut camera.film, numbers(input)),
         b"va" => {
             let (rest, across) = require(number(input))?;
             let (rest, down) = opt(number).parse(rest)?;
-            camera.view_angle = Some([across, down.unwrap_or(across)]);
-            Ok((rest, ()))
+            store(&mut camera.view_angle, Ok((rest, [across, down.unwrap_or(across)])))
         }
-        b"fs" => store(&mut camera.film_size, numbers(input), pair),
-        b"fl" => store(&mut camera.focal_length, number(input), |x| x),
-        b"og" => {
-            camera.projection = Some(Projection::Orthographic);
-            Ok((input, ()))
-        }
-        b"ps" => {
-            camera.projection = Some(Projection::Perspective);
-            Ok((input, ()))
-        }
+        b"fs" => store(&mut camera.film_size, numbers(input)),
+        b"fl" => store(&mut camera.focal_length, number(input)),
+        b"og" => store(&mut camera.projection, Ok((input, Projection::Orthographic))),
+        b"ps" => store(&mut camera.projection, Ok((input, Projection::Perspective))),
         _ => {
             fail(blank(at)?.0, Reason::Expected("a camera option (-vc -ep -ud -cl -ph -og -ps -va -fs -fl)"))
         }

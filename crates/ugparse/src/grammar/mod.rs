@@ -17,7 +17,9 @@ use nom::Parser;
 use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::{Velocity, VelocityError};
-use ugscene::{Beam, Camera, ColorValue, FaceShape, RoundShape, SurfaceNumber, SurfaceProperties, Tint};
+use ugscene::{
+    Beam, Camera, ColorValue, FaceShape, LightKind, RoundShape, SurfaceNumber, SurfaceProperties, Tint,
+};
 
 use crate::source::Span;
 use crate::statement::{
@@ -282,37 +284,23 @@ impl<'t> Grammar<'t> {
             let color = ColorStatement { name, value: whole(samples.len()), samples, translucency: 0.0 };
             return Ok((behind_second, Statement::Color(color)));
         }
-        let mut input = behind_first;
-        let mut samples: Vec<[f64; 2]> = Vec::new();
         let mut least = f64::MIN_POSITIVE;
-        loop {
-            let nanometres = number_from(least, f64::INFINITY, "wavelengths are above 0 and rise");
-            let (behind, wavelength_nm) = match nanometres(input) {
-                Err(nom::Err::Error(_)) if !samples.is_empty() => break,
-                result => result?,
-            };
-            let (rest, value) = require(number_from(0.0, f64::INFINITY, "a value is 0 or more")(behind))?;
-            samples.push([wavelength_nm, value]);
-            least = wavelength_nm.next_up();
-            input = rest;
-        }
+        let nanometres = |input| {
+            let read = number_from(least, f64::INFINITY, "wavelengths are above 0 and rise")(input);
+            read.inspect(|(_, nm)| least = nm.next_up())
+        };
+        let value = number_from(0.0, f64::INFINITY, "a value is 0 or more");
+        let (input, samples) = pairs(behind_first, nanometres, value)?;
+        let samples: Vec<[f64; 2]> = samples.into_iter().map(<[f64; 2]>::from).collect();
         let value = whole(samples.len());
         Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
     }
 
     /// `c_mix ID color share …`
     fn mix<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (mut input, color) = wanted(self.name(input), NAME)?;
-        let mut parts = Vec::new();
-        loop {
-            let (behind, part) = match self.name(input) {
-                Err(nom::Err::Error(_)) if !parts.is_empty() => break,
-                result => require(wanted(result, NAME))?,
-            };
-            let (rest, share) = require(number_from(0.0, 1.0, SHARE)(behind))?;
-            parts.push((part, share));
-            input = rest;
-        }
+        let (input, color) = wanted(self.name(input), NAME)?;
+        let part = |input| wanted(self.name(input), NAME);
+        let (input, parts) = pairs(input, part, number_from(0.0, 1.0, SHARE))?;
         Ok((input, Statement::Mix(MixStatement { color, parts })))
     }
 
@@ -334,26 +322,24 @@ impl<'t> Grammar<'t> {
         let (input, name) = self.optional_name(input)?;
         let (input, intensity) = number_from(0.0, f64::INFINITY, "an intensity is 0 or more")(input)?;
         let at = blank(input)?.0;
-        let (input, vector) = opt(point).parse(input)?;
-        let (input, radius) = match vector {
-            Some(_) => opt(number_from(0.0, f64::INFINITY, "a radius is 0 or more")).parse(input)?,
-            None => (input, None),
-        };
-        let (input, reference) = match radius {
-            Some(_) => {
-                let distance = "a reference distance is above 0";
-                opt(number_from(f64::MIN_POSITIVE, f64::INFINITY, distance)).parse(input)?
-            }
-            None => (input, None),
-        };
-        if radius.is_none() && vector == Some(DVec3::ZERO) {
+        let (mut input, vector) = opt(point).parse(input)?;
+        let mut kind = vector.map_or(LightKind::Ambient, LightKind::Directional);
+        if let Some(position) = vector
+            && let (rest, Some(radius)) =
+                opt(number_from(0.0, f64::INFINITY, "a radius is 0 or more")).parse(input)?
+        {
+            let distance = "a reference distance is above 0";
+            let reference;
+            (input, reference) = opt(number_from(f64::MIN_POSITIVE, f64::INFINITY, distance)).parse(rest)?;
+            kind = LightKind::Local { position, radius, reference, beam: Beam::Even };
+        }
+        if kind == LightKind::Directional(DVec3::ZERO) {
             return fail(at, zero_vector(3));
         }
         let (input, color) = self.optional_name(input)?;
-        let (input, beam) = beam(input, radius.is_some(), reference.is_some())?;
+        let (input, ()) = beam(input, &mut kind)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let light = LightStatement { name, intensity, vector, radius, reference, beam, color, motion };
-        Ok((input, Statement::Light(light)))
+        Ok((input, Statement::Light(LightStatement { name, intensity, kind, color, motion })))
     }
 
     /// `cam [ID] { -vc -ep -ud -cl -ph -og -ps -va -fs -fl } [< x y z >]`
@@ -466,37 +452,58 @@ fn option_word(input: Input<'_>) -> Parsed<'_, Input<'_>> {
 }
 
 /// `-spot x y z angle edge` or `-area ux uy uz vx vy vz`
-fn beam(input: Input<'_>, has_place: bool, has_reference: bool) -> Parsed<'_, Beam> {
+fn beam<'a>(input: Input<'a>, kind: &mut LightKind) -> Parsed<'a, ()> {
     let at = blank(input)?.0;
-    let (input, beam) = match opt(option_word).parse(input)? {
-        (rest, Some(b"spot")) if has_place => {
+    let (input, stated) = match (opt(option_word).parse(input)?, &kind) {
+        ((rest, Some(b"spot")), LightKind::Local { .. }) => {
             let (rest, [x, y, z, angle, edge]) = require(numbers(rest))?;
             (rest, Beam::Spot { axis: DVec3::new(x, y, z), degrees: [angle, edge] })
         }
-        (rest, Some(b"area")) if has_reference => {
+        ((rest, Some(b"area")), LightKind::Local { reference: Some(_), .. }) => {
             let (rest, [x, y, z, u, v, w]) = require(numbers(rest))?;
             (rest, Beam::Area([DVec3::new(x, y, z), DVec3::new(u, v, w)]))
         }
-        (_, Some(b"spot")) => {
+        ((_, Some(b"spot")), _) => {
             return fail(
                 at,
                 Reason::OutOfRange("a spot has a position and a radius, such as `l 1  0 0 5 0`"),
             );
         }
-        (_, Some(b"area")) => {
+        ((_, Some(b"area")), _) => {
             let remedy =
                 "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`";
             return fail(at, Reason::OutOfRange(remedy));
         }
-        (_, Some(_)) => return fail(at, Reason::Expected("`-spot`, `-area`, `<` or `;`")),
-        (rest, None) => (rest, Beam::Even),
+        ((_, Some(_)), _) => return fail(at, Reason::Expected("`-spot`, `-area`, `<` or `;`")),
+        ((_, None), _) => return Ok((input, ())),
     };
-    if !beam.is_valid() {
+    if !stated.is_valid() {
         let remedy =
             "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area";
         return fail(at, Reason::OutOfRange(remedy));
     }
-    Ok((input, beam))
+    if let LightKind::Local { beam, .. } = kind {
+        *beam = stated;
+    }
+    Ok((input, ()))
+}
+
+/// Pairs, one or more, up to where `first` does not match.
+fn pairs<'a, A, B>(
+    mut input: Input<'a>,
+    mut first: impl FnMut(Input<'a>) -> Parsed<'a, A>,
+    second: impl Fn(Input<'a>) -> Parsed<'a, B>,
+) -> Parsed<'a, Vec<(A, B)>> {
+    let mut pairs = Vec::new();
+    loop {
+        let (behind, one) = match first(input) {
+            Err(nom::Err::Error(_)) if !pairs.is_empty() => return Ok((input, pairs)),
+            result => require(result)?,
+        };
+        let (rest, other) = require(second(behind))?;
+        pairs.push((one, other));
+        input = rest;
+    }
 }
 
 fn numbers<'a, const N: usize>(mut input: Input<'a>) -> Parsed<'a, [f64; N]> {

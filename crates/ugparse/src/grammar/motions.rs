@@ -4,7 +4,6 @@ use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 use ugphysics::{Event, Piece, SampledPath};
-use ugscene::StatedMotion;
 
 use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
 use crate::source::Span;
@@ -15,17 +14,7 @@ impl Grammar<'_> {
     /// `motion ID { -vel -at -acc -spin -orbit -path -on -shift }`
     pub(super) fn motion<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
-        let mut motion = MotionStatement {
-            name,
-            at: DVec3::ZERO,
-            velocity: None,
-            accelerations: Vec::new(),
-            spins: Vec::new(),
-            orbit: None,
-            path: None,
-            on: None,
-            shift: StatedMotion::NO_SHIFT,
-        };
+        let mut motion = MotionStatement { name, ..MotionStatement::default() };
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
             input = self.motion_option(&mut motion, word, input, rest)?.0;
         }
@@ -43,66 +32,45 @@ impl Grammar<'_> {
         let at = blank(at)?.0;
         let is_free = motion.velocity.is_some() || !motion.accelerations.is_empty();
         let (no_orbit, no_path) = (motion.orbit.is_none(), motion.path.is_none());
-        let rest = match option {
+        let rest;
+        match option {
             b"vel" if no_orbit && no_path => {
-                let (rest, velocity) = velocity(input)?;
-                motion.velocity = Some(velocity);
-                rest
+                let (behind, velocity) = velocity(input)?;
+                (rest, motion.velocity) = (behind, Some(velocity));
             }
-            b"acc" if no_orbit && no_path => {
-                let (rest, piece) = piece(input, 0.0)?;
-                motion.accelerations.push(piece);
-                rest
-            }
+            b"acc" if no_orbit && no_path => rest = piece(input, 0.0, &mut motion.accelerations)?.0,
             b"orbit" if !is_free && no_path => {
-                let (rest, center) = require(point(input))?;
-                let axis_at = blank(rest)?.0;
-                let (rest, axis) = require(point(rest))?;
+                let (behind, center) = require(point(input))?;
+                let axis_at = blank(behind)?.0;
+                let (behind, axis) = require(point(behind))?;
                 if axis == DVec3::ZERO {
                     return fail(axis_at, zero_vector(3));
                 }
-                let (rest, rate) = require(number(rest))?;
-                motion.orbit = Some((center, axis, rate));
-                rest
+                let (behind, rate) = require(number(behind))?;
+                (rest, motion.orbit) = (behind, Some((center, axis, rate)));
             }
             b"path" if !is_free && no_orbit => {
-                let (rest, path) = self.path(input)?;
-                motion.path = Some(path);
-                rest
+                let (behind, path) = self.path(input)?;
+                (rest, motion.path) = (behind, Some(path));
             }
             b"vel" | b"acc" | b"orbit" | b"path" => {
                 let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-path`";
                 return fail(at, Reason::Impossible(1, "the motion has another path already", remedy));
             }
             b"on" => {
-                let named = self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
-                let (rest, on) = named.or_else(|_| self.motion_reference(input)).or_else(|_| {
-                    require(wanted(self.name(input), "the name of a motion"))
-                        .map(|(rest, name)| (rest, MotionReference::Named(name)))
-                })?;
-                motion.on = Some(on);
-                rest
+                let name = || self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
+                let on = name().or_else(|_| self.motion_reference(input));
+                let (behind, on) = on.or_else(|_| require(wanted(name(), "the name of a motion")))?;
+                (rest, motion.on) = (behind, Some(on));
             }
-            b"at" => {
-                let (rest, place) = require(point(input))?;
-                motion.at = place;
-                rest
-            }
-            b"spin" => {
-                let (rest, piece) = piece(input, f64::NEG_INFINITY)?;
-                motion.spins.push(piece);
-                rest
-            }
-            b"shift" => {
-                let (rest, displacement) = shift(input)?;
-                motion.shift = displacement;
-                rest
-            }
+            b"at" => (rest, motion.at) = require(point(input))?,
+            b"spin" => rest = piece(input, f64::NEG_INFINITY, &mut motion.spins)?.0,
+            b"shift" => (rest, motion.shift) = shift(input)?,
             _ => {
                 let expected = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
                 return fail(at, Reason::Expected(expected));
             }
-        };
+        }
         Ok((rest, ()))
     }
 
@@ -133,27 +101,17 @@ impl Grammar<'_> {
 }
 
 /// `[-at x y z] [-turn x y z] [-shift t x y z]`
-pub(super) fn frame_options(input: Input<'_>, mut frame: StatedFrame) -> Parsed<'_, StatedFrame> {
-    let mut input = input;
+pub(super) fn frame_options(mut input: Input<'_>, mut frame: StatedFrame) -> Parsed<'_, StatedFrame> {
     while let (rest, Some(word)) = opt(option_word).parse(input)? {
-        input = match word {
+        match word {
             b"at" => {
-                let (rest, at) = require(point(rest))?;
-                frame.at = Some(at);
-                rest
+                let (behind, at) = require(point(rest))?;
+                (input, frame.at) = (behind, Some(at));
             }
-            b"turn" => {
-                let (rest, turn) = require(point(rest))?;
-                frame.turn = turn;
-                rest
-            }
-            b"shift" => {
-                let (rest, shift) = shift(rest)?;
-                frame.shift = shift;
-                rest
-            }
+            b"turn" => (input, frame.turn) = require(point(rest))?,
+            b"shift" => (input, frame.shift) = shift(rest)?,
             _ => return fail(blank(input)?.0, Reason::Expected("`>` or an option (-at -turn -shift)")),
-        };
+        }
     }
     Ok((input, frame))
 }
@@ -164,18 +122,19 @@ fn shift(input: Input<'_>) -> Parsed<'_, Event> {
     Ok((rest, Event { t, x: DVec3::new(x, y, z) }))
 }
 
-/// `x y z [τ0 τ1]`: a vector, and the own time from which to which it acts.
-fn piece(input: Input<'_>, default_begin: f64) -> Parsed<'_, Piece> {
+/// `x y z [τ0 τ1]`: a vector, and the own time from which to which it acts, added to `pieces`.
+fn piece<'a>(input: Input<'a>, default_begin: f64, pieces: &mut Vec<Piece>) -> Parsed<'a, ()> {
     let (input, of) = require(point(input))?;
     let at = blank(input)?.0;
     let (input, from) = opt(number).parse(input)?;
-    let Some(from) = from else {
-        return Ok((input, Piece { of, from: default_begin, to: f64::INFINITY }));
+    let (input, [from, to]) = match from {
+        Some(from) => require(number(input)).map(|(rest, to)| (rest, [from, to]))?,
+        None => (input, [default_begin, f64::INFINITY]),
     };
-    let (input, to) = require(number(input))?;
     if from >= to {
         let remedy = "give the own time at which it begins, and a later one at which it ends";
         return fail(at, Reason::Impossible(2, "the time is empty", remedy));
     }
-    Ok((input, Piece { of, from, to }))
+    pieces.push(Piece { of, from, to });
+    Ok((input, ()))
 }

@@ -5,7 +5,7 @@ use nom::combinator::opt;
 
 use ugscene::{AlphaMode, ColorId, Texture, TextureImage, Wrap};
 
-use super::{Grammar, NAME, number_from, option_word};
+use super::{Grammar, NAME, number_from, option_word, pairs};
 use crate::statement::{Statement, TableStatement, TextureStatement};
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, integer, number, number32, require, wanted, word,
@@ -33,19 +33,12 @@ impl Grammar<'_> {
                 }
             }
         }
-        let mut rows = Vec::new();
         let mut least = f64::NEG_INFINITY;
-        loop {
-            let time = number_from(least, f64::INFINITY, "own times rise from row to row");
-            let (behind, time) = match time(input) {
-                Err(nom::Err::Error(_)) if !rows.is_empty() => break,
-                result => require(wanted(result, "an own time"))?,
-            };
-            let (rest, color) = require(wanted(self.name(behind), NAME))?;
-            rows.push((time, color));
-            least = time.next_up();
-            input = rest;
-        }
+        let time = |input| {
+            let read = number_from(least, f64::INFINITY, "own times rise from row to row")(input);
+            wanted(read.inspect(|(_, time)| least = time.next_up()), "an own time")
+        };
+        let (input, rows) = pairs(input, time, |input| wanted(self.name(input), NAME))?;
         let span = rows.last().map_or(0.0, |last| last.0) - rows.first().map_or(0.0, |first| first.0);
         if period.is_some_and(|period| period <= span) {
             let remedy = "give a longer one: after it the first row follows the last";

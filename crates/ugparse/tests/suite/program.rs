@@ -160,7 +160,7 @@ fn limits_are_set_on_the_command_line() {
         assert_eq!(status(&format!("flatten -limit {wrong}")), Some(2), "{wrong}");
     }
     let help = UGPARSE.text("--help", "");
-    for limit in ugparse::Limit::ALL {
+    for limit in ugparse::Limit::all() {
         assert!(help.contains(&format!(" {}", limit.name())), "{}\n{help}", limit.name());
     }
 }

@@ -28,7 +28,6 @@ const MAX_KELVIN: f64 = 1e15;
 /// let at = |nm| ugphysics::spectrum::planck(nm, 5800.0);
 /// assert!(at(499.6) > at(498.0) && at(499.6) > at(501.0));
 /// ```
-#[must_use]
 pub fn planck(wavelength_nm: f64, kelvin: f64) -> f64 {
     let square = wavelength_nm * wavelength_nm;
     let fifth = square * square * wavelength_nm;

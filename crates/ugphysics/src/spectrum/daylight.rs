@@ -26,7 +26,6 @@ const STEP_NM: f64 = 5.0;
 /// assert_eq!(daylight(560.0), 1.0);
 /// assert!((daylight(379.999) - daylight(380.001)).abs() < 1e-5);
 /// ```
-#[must_use]
 pub fn daylight(wavelength_nm: f64) -> f64 {
     static JOINTS: LazyLock<[f64; 2]> = LazyLock::new(|| [FIRST_NM, LAST_NM].map(black_body));
     // Planck's law, scaled to the table's value at each end.

@@ -32,7 +32,6 @@ pub struct DopplerGrid {
 
 impl DopplerGrid {
     /// A grid that covers a range of ln D.
-    #[must_use]
     pub fn new(ln_doppler: RangeInclusive<f64>) -> Self {
         let row = |ln: f64| (ln.clamp(-MAX_LN_DOPPLER, MAX_LN_DOPPLER) / LN_STEP).floor() as i32;
         Self {
@@ -44,7 +43,6 @@ impl DopplerGrid {
     }
 
     /// The number of Doppler factors.
-    #[must_use]
     pub fn n_points(&self) -> usize {
         (self.last - self.first + 1) as usize
     }
@@ -55,7 +53,6 @@ impl DopplerGrid {
     }
 
     /// Tabulates a spectrum at every Doppler factor of the grid.
-    #[must_use]
     pub fn table(&self, spectrum: &Spectrum) -> DopplerTable {
         let points = match &spectrum.0 {
             Kind::Reflected(surface) => {
@@ -67,7 +64,6 @@ impl DopplerGrid {
     }
 
     /// A table whose points are computed when they are first read.
-    #[must_use]
     pub fn lazy_table(&self) -> LazyTable {
         let chunks = std::iter::repeat_with(OnceLock::new).take(self.n_points().div_ceil(CHUNK)).collect();
         LazyTable { first: self.first, n_points: self.n_points(), chunks }
@@ -76,7 +72,6 @@ impl DopplerGrid {
     /// X, Y, Z as from [`Spectrum::shifted`], at one ln D and without a table. For surfaces the
     /// integrals use the reflectance every 4 nm, with weights that the grid caches. Exact at the
     /// grid's own Doppler factors, and so at rest.
-    #[must_use]
     pub fn xyz(&self, spectrum: &Spectrum, ln_doppler: f64) -> [f64; 3] {
         let Kind::Reflected(surface) = &spectrum.0 else { return spectrum.shifted(libm::exp(ln_doppler)) };
         let cell = Cell::new(self.first, self.n_points(), ln_doppler);
@@ -130,14 +125,12 @@ impl DopplerTable {
     /// let [_, exact, _] = green.shifted(1.130_884_420_947_05);
     /// assert!((near / exact - 1.0).abs() < 3e-4);
     /// ```
-    #[must_use]
     pub fn xyz(&self, ln_doppler: f64) -> [f64; 3] {
         let cell = Cell::new(self.first, self.points.len(), ln_doppler);
         cell.interpolate(std::array::from_fn(|i| self.points[cell.idx + i - 1]))
     }
 
     /// ln X, ln Y, ln Z at the points of the grid; −∞ where there is no light.
-    #[must_use]
     pub fn points(&self) -> &[[f64; 3]] {
         &self.points
     }
@@ -158,7 +151,6 @@ pub struct LazyTable {
 
 impl LazyTable {
     /// X, Y, Z interpolated at a ln D. `xyz`: returns those at a D, always by the same function.
-    #[must_use]
     pub fn xyz(&self, ln_doppler: f64, xyz: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
         let cell = Cell::new(self.first, self.n_points, ln_doppler);
         let point = |idx: usize| {

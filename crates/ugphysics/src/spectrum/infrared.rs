@@ -17,7 +17,6 @@ impl InfraredRule {
     pub const ALL: [Self; 2] = [Self::Measured, Self::Constant];
 
     /// Its name.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Measured => "measured",

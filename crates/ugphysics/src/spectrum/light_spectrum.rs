@@ -31,7 +31,6 @@ enum Source {
 impl LightSpectrum {
     /// The light whose colour is `spectrum`. A surface colour becomes daylight through a filter of
     /// that transmittance; black bodies and samples shine as they are.
-    #[must_use]
     pub fn new(spectrum: &Spectrum) -> Self {
         match &spectrum.0 {
             Kind::Reflected(_) | Kind::Measured(_) => {
@@ -50,7 +49,6 @@ impl LightSpectrum {
     }
 
     /// Relative spectral power at a wavelength in nm: 1 for a table of value 1.
-    #[must_use]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         let light = match &self.source {
             Source::Filtered(filter) => filter.transmittance(wavelength_nm) * daylight(wavelength_nm),
@@ -68,7 +66,6 @@ impl LightSpectrum {
     ///
     /// Errors of daylight and light behind filters are below 4·10⁻⁴ of the largest of X, Y and Z,
     /// of black bodies 10⁻⁴, of a spectral line 8·10⁻⁴; measured.
-    #[must_use]
     pub fn seen_through(&self, curve: &SmoothCurve, doppler: f64) -> [f64; 3] {
         let xyz = match &self.source {
             Source::Filtered(filter) => {
@@ -116,7 +113,6 @@ impl Spectrum {
     /// }
     /// # Ok::<(), &str>(())
     /// ```
-    #[must_use]
     pub fn under(&self, light: &LightSpectrum, doppler: f64, light_doppler: f64) -> Option<[f64; 3]> {
         if !self.is_surface() {
             return None;
@@ -127,7 +123,6 @@ impl Spectrum {
 
     /// The part of light that a filter of this colour transmits at a wavelength in nm; all of it
     /// if this spectrum is not that of a surface.
-    #[must_use]
     pub fn transmittance(&self, wavelength_nm: f64) -> f64 {
         match &self.0 {
             Kind::Reflected(surface) => surface.at(wavelength_nm),
@@ -137,7 +132,6 @@ impl Spectrum {
     }
 
     /// True if this is the spectrum of a surface, which reflects light; false for what emits it.
-    #[must_use]
     pub fn is_surface(&self) -> bool {
         matches!(self.0, Kind::Reflected(_) | Kind::Measured(_))
     }

@@ -22,7 +22,6 @@ const fn sum_y() -> f64 {
 /// assert_eq!(ugphysics::spectrum::observer(555.0)[1], 1.0);
 /// assert_eq!(ugphysics::spectrum::observer(900.0), [0.0; 3]);
 /// ```
-#[must_use]
 pub fn observer(wavelength_nm: f64) -> [f64; 3] {
     let at = wavelength_nm - FIRST_NM as f64;
     let last = CIE_1931.len() - 1;
@@ -41,7 +40,6 @@ pub fn observer(wavelength_nm: f64) -> [f64; 3] {
 /// let [x, y, z] = ugphysics::spectrum::integrate(|_| 1.0);
 /// assert!((y - 1.0).abs() < 1e-12 && (x - 1.0).abs() < 1e-3 && (z - 1.0).abs() < 1e-3);
 /// ```
-#[must_use]
 pub fn integrate(radiance: impl Fn(f64) -> f64) -> [f64; 3] {
     weighted_sums(|_, wavelength_nm| radiance(wavelength_nm)).map(|sum| sum / SUM_Y)
 }

@@ -32,7 +32,6 @@ pub(crate) enum Kind {
 impl Spectrum {
     /// A surface with the given linear sRGB colour under daylight. Negative channels, and colours
     /// that no smooth surface has, are handled as in [`Spectrum::from_xyz`].  Eq. (P20)
-    #[must_use]
     pub fn from_linear_srgb(rgb: [f64; 3]) -> Self {
         Self::from_xyz(linear_srgb_to_xyz(rgb)).0
     }
@@ -40,13 +39,11 @@ impl Spectrum {
     /// A surface with the given X, Y, Z under daylight, and whether it has exactly this colour at
     /// rest. Colours more saturated than any smooth surface are mixed with the grey of the same Y,
     /// to the boundary of the sRGB gamut; a negative Y becomes black.  Eq. (P20)
-    #[must_use]
     pub fn from_xyz(xyz: [f64; 3]) -> (Self, bool) {
         Self::with_infrared(xyz, InfraredRule::default())
     }
 
     /// [`Spectrum::from_xyz`] by a rule for infrared.
-    #[must_use]
     pub fn with_infrared(xyz: [f64; 3], rule: InfraredRule) -> (Self, bool) {
         let rgb = remove_rounding(xyz_to_linear_srgb(xyz));
         let exact = Reflectance::with_infrared(rgb, rule);
@@ -57,14 +54,12 @@ impl Spectrum {
     }
 
     /// A black body of temperature `kelvin`, above 0, whose Y at rest is `scale`.  Eq. (P13)
-    #[must_use]
     pub fn blackbody(kelvin: f64, scale: f64) -> Self {
         Self(Kind::Blackbody { kelvin, luminance: scale })
     }
 
     /// Spectral radiance from samples (nm, value) at increasing wavelengths, interpolated linearly
     /// between them and 0 outside.
-    #[must_use]
     pub fn samples(samples: &[[f64; 2]]) -> Self {
         Self(Kind::Samples(samples.into()))
     }
@@ -79,7 +74,6 @@ impl Spectrum {
     /// let grey = Spectrum::from_linear_srgb([0.5; 3]);
     /// assert!(half.seen(2.0).iter().zip(grey.seen(2.0)).all(|(a, b)| (a - b).abs() < 1e-9));
     /// ```
-    #[must_use]
     pub fn reflectance(samples: &[[f64; 2]]) -> Self {
         Self(Kind::Measured(samples.into()))
     }
@@ -95,7 +89,6 @@ impl Spectrum {
     /// let [_, y, z] = white.seen(1.2);
     /// assert!(y > 1.5 && z / y > 1.2, "{y} {z}");
     /// ```
-    #[must_use]
     pub fn seen(&self, doppler: f64) -> [f64; 3] {
         let square = doppler * doppler;
         self.shifted(doppler).map(|part| part * (square * square * doppler))
@@ -103,14 +96,12 @@ impl Spectrum {
 
     /// X, Y, Z of the shifted spectrum L(λ) = L'(λD), without the factor D⁵ of (P12). D is clamped
     /// to e⁻¹⁰⁰…e¹⁰⁰.
-    #[must_use]
     pub fn shifted(&self, doppler: f64) -> [f64; 3] {
         let [xyz] = Self::all_shifted([self], doppler);
         xyz
     }
 
     /// [`Spectrum::shifted`] of each; the daylight on surfaces is weighted by the observer once.
-    #[must_use]
     pub fn all_shifted<const N: usize>(spectra: [&Self; N], doppler: f64) -> [[f64; 3]; N] {
         let doppler = doppler.clamp(libm::exp(-MAX_LN_DOPPLER), libm::exp(MAX_LN_DOPPLER));
         let daylight = LazyCell::new(|| WeightedDaylight::new(doppler));

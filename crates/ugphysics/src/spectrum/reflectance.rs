@@ -40,13 +40,11 @@ impl Reflectance {
     /// // As bricks do, it reflects more in infrared.
     /// assert!(brick.at(1600.0) > brick.at(700.0));
     /// ```
-    #[must_use]
     pub fn from_linear_srgb(rgb: [f64; 3]) -> Option<Self> {
         Self::with_infrared(rgb, InfraredRule::default())
     }
 
     /// [`Reflectance::from_linear_srgb`] by a rule for infrared.
-    #[must_use]
     pub fn with_infrared(rgb: [f64; 3], rule: InfraredRule) -> Option<Self> {
         let [red, green, blue] = rgb;
         let levels = infrared::levels(rgb);
@@ -65,7 +63,6 @@ impl Reflectance {
     }
 
     /// The reflectance at a wavelength in nm.
-    #[must_use]
     pub fn at(&self, wavelength_nm: f64) -> f64 {
         let [first, last] = CURVE_NM;
         let curve = self.factor * self.curve.map_or(1.0, |curve| curve.at(wavelength_nm.clamp(first, last)));

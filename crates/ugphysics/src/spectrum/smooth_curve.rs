@@ -47,7 +47,6 @@ pub struct SmoothCurve([f64; N_NODES]);
 
 impl SmoothCurve {
     /// `curve`: a function of the wavelength at the eye, nm.
-    #[must_use]
     pub fn new(curve: impl Fn(f64) -> f64) -> Self {
         Self(std::array::from_fn(|node| curve((FIRST_NM + STEP_NM * node) as f64)))
     }

@@ -29,26 +29,22 @@ impl InertialFrame {
     pub const REST: Self = Self::new(Velocity::ZERO);
 
     /// A body with this velocity whose reference point is the origin.
-    #[must_use]
     pub const fn new(velocity: Velocity) -> Self {
         Self { velocity, at: DVec3::ZERO, turn: DVec3::ZERO, shift: Event { t: 0.0, x: DVec3::ZERO } }
     }
 
     /// The turn about A.
-    #[must_use]
     pub fn rotation(&self) -> DQuat {
         rotation(self.turn, 1.0)
     }
 
     /// The frame it moves in from its own axes.
-    #[must_use]
     pub fn axes(&self) -> Lorentz {
         let boost = Lorentz::boost(self.velocity);
         if self.turn == DVec3::ZERO { boost } else { boost * Lorentz::rotation(self.rotation()) }
     }
 
     /// The event of A at own time 0.
-    #[must_use]
     pub fn start(&self) -> Event {
         Event { t: 0.0, x: self.at } + self.shift
     }

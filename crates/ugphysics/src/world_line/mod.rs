@@ -196,7 +196,6 @@ impl WorldLine {
     pub const REST: Self = Self(Kind::Inertial(InertialFrame::REST));
 
     /// Constant velocity.
-    #[must_use]
     pub fn inertial(frame: InertialFrame) -> Self {
         Self(Kind::Inertial(frame))
     }
@@ -274,7 +273,6 @@ impl WorldLine {
 
     /// The same motion in other coordinates of space-time: `target_from_source` after `origin` is
     /// subtracted.
-    #[must_use]
     pub fn in_frame(&self, target_from_source: Lorentz, origin: Event) -> Self {
         let mut moving = match &self.0 {
             Kind::Inertial(frame) => return Self(Kind::Inertial(frame.in_frame(target_from_source, origin))),
@@ -308,27 +306,23 @@ impl WorldLine {
 
     /// The same motion with `anchor` as the fixed point of the contraction at own time 0, instead
     /// of A.
-    #[must_use]
     pub fn anchored(&self, anchor: DVec3) -> Self {
         self.displaced(self.anchor_shift(anchor))
     }
 
     /// The same motion, displaced in space and time.
-    #[must_use]
     pub fn displaced(&self, shift: Event) -> Self {
         self.in_frame(Lorentz::IDENTITY, Event { t: -shift.t, x: -shift.x })
     }
 
     /// True if it passes given events, or is part of a motion that does: its place in space and
     /// time is stated, and no body is placed otherwise by what is seen of it.
-    #[must_use]
     pub fn passes_events(&self) -> bool {
         matches!(&self.0, Kind::Moving(moving) if matches!(moving.path, Path::Along(_)))
     }
 
     /// The displacement in space and time of [`WorldLine::anchored`]; none if it runs on a circle
     /// or passes given events, whose place is stated.
-    #[must_use]
     pub fn anchor_shift(&self, anchor: DVec3) -> Event {
         let none = Event { t: 0.0, x: DVec3::ZERO };
         let moving = self.moving();
@@ -376,7 +370,6 @@ impl WorldLine {
 
     /// The frame of a point of the body at an own time: the frame of the scene from it, with axes
     /// that turn with the body.
-    #[must_use]
     pub fn frame(&self, point: DVec3, own_time: f64) -> Lorentz {
         let pose = self.pose(own_time);
         let in_axes = self.moving().velocity_in_axes(point, own_time);
@@ -385,7 +378,6 @@ impl WorldLine {
     }
 
     /// The same motion with coordinates of the body that are relative to `origin`.
-    #[must_use]
     pub fn with_body_origin(&self, origin: DVec3) -> Self {
         let mut moving = match &self.0 {
             Kind::Inertial(frame) => {
@@ -400,7 +392,6 @@ impl WorldLine {
     }
 
     /// The rest frame of a body that neither accelerates nor turns; `None` for others.
-    #[must_use]
     pub fn inertial_frame(&self) -> Option<&InertialFrame> {
         match &self.0 {
             Kind::Inertial(frame) => Some(frame),
@@ -417,7 +408,6 @@ impl WorldLine {
     }
 
     /// The velocity at own time 0.
-    #[must_use]
     pub fn initial_velocity(&self) -> Velocity {
         match &self.0 {
             Kind::Inertial(frame) => frame.velocity,
@@ -426,7 +416,6 @@ impl WorldLine {
     }
 
     /// Event and axes of the reference point at an own time.
-    #[must_use]
     pub fn pose(&self, own_time: f64) -> Pose {
         self.moving().pose(own_time)
     }
@@ -489,14 +478,12 @@ impl WorldLine {
 
     /// The own time of A at an event's time in another frame, whose coordinates `frame` gives from
     /// those of the world line: the light of directional lamps is that of this time.  Eq. (P14)
-    #[must_use]
     pub fn own_time_when(&self, event: Event, frame: Lorentz) -> f64 {
         self.moving().own_time_when(event, frame)
     }
 
     /// Where a point of the body would be in its coordinates at an own time if it only turned, A +
     /// ξ, and the turn.
-    #[must_use]
     pub fn standing(&self, point: DVec3, own_time: f64) -> (DVec3, DQuat) {
         let moving = self.moving();
         let (offset, turn) = moving.offset_and_turn(point, own_time);
@@ -508,7 +495,6 @@ impl WorldLine {
     /// there, in the rest frame of the surface element.  Eq. (P43)
     ///
     /// `ray`: a null vector in the frame of the scene.
-    #[must_use]
     pub fn facing_covector(&self, point: DVec3, own_time: f64, ray: Event) -> DVec3 {
         let moving = self.moving();
         let (offset, turn) = moving.offset_and_turn(point, own_time);
@@ -550,7 +536,6 @@ impl WorldLine {
     /// The rest frame of a surface element at a point of the body.
     ///
     /// `point`: in the coordinates of the body.
-    #[must_use]
     pub fn element(&self, point: DVec3, own_time: f64) -> ElementFrame {
         self.moving().element(point, own_time)
     }

@@ -427,7 +427,6 @@ impl ElementFrame {
     /// to both tangents of the surface.  Eq. (P43)
     ///
     /// `normal`: a unit vector, in the coordinates of the body.
-    #[must_use]
     pub fn normal(&self, normal: DVec3) -> DVec3 {
         let n = self.turn * normal;
         let along = n.dot(self.velocity_in_axes);

@@ -34,16 +34,16 @@ pub struct WorldTube {
     /// The greatest distance of a point from the centre.
     radius: f64,
     /// A positive lower bound of 1 + a·ξ for all points at all own times.
-    least_lapse: f64,
+    pub(super) least_lapse: f64,
 }
 
 /// A stretch of own time in which a body may be seen from an event, and in which its acceleration
 /// and its spin do not jump: what all rays from the event share.
 #[derive(Clone, Debug)]
 pub struct SmoothStretch {
-    own_times: Range<f64>,
+    pub(super) own_times: Range<f64>,
     /// The middle of the own times.
-    known_at: f64,
+    pub(super) known_at: f64,
     path: StretchPath,
     /// To the axes in which ξ is computed: turned as the spin has turned at `known_at`.
     back: DMat3,
@@ -55,8 +55,8 @@ pub struct SmoothStretch {
     axis: DVec3,
     rate: f64,
     /// |a| and |da/dτ| in the carried axes, or upper bounds of them.
-    acceleration: f64,
-    jerk: f64,
+    pub(super) acceleration: f64,
+    pub(super) jerk: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -117,7 +117,6 @@ pub struct RayPoint {
 
 impl WorldLine {
     /// The tube around a body with these points; `None` for a motion that is inertial.
-    #[must_use]
     pub fn tube(&self, points: impl Iterator<Item = DVec3> + Clone) -> Option<WorldTube> {
         let Kind::Moving(moving) = &self.0 else { return None };
         Some(moving.tube(points))
@@ -169,7 +168,6 @@ impl WorldLine {
     }
 
     /// An upper bound of the length of the second derivative of all rays in the tube.
-    #[must_use]
     pub fn bend(&self, tube: &WorldTube, passages: &[SmoothStretch]) -> f64 {
         let Kind::Moving(moving) = &self.0 else { return 0.0 };
         let of_passage = |passage: &SmoothStretch| {
@@ -189,7 +187,6 @@ impl WorldLine {
     /// passage.
     ///
     /// `None` for an inertial motion.
-    #[must_use]
     pub fn stretch<'a>(
         &'a self,
         passage: &'a SmoothStretch,
@@ -213,37 +210,10 @@ impl WorldLine {
     }
 }
 
-impl SmoothStretch {
-    /// The own times of A.
-    pub(super) fn own_times(&self) -> &Range<f64> {
-        &self.own_times
-    }
-
-    /// An own time in it.
-    pub(super) fn known_at(&self) -> f64 {
-        self.known_at
-    }
-
-    /// A bound of |a|.
-    pub(super) fn acceleration(&self) -> f64 {
-        self.acceleration
-    }
-
-    /// A bound of |da/dτ|.
-    pub(super) fn jerk(&self) -> f64 {
-        self.jerk
-    }
-}
-
 impl WorldTube {
     /// A bound of |ξ|.
     pub(super) fn reach(&self) -> f64 {
         self.offset.length() + self.radius
-    }
-
-    /// A lower bound of 1 + a·ξ.
-    pub(super) fn least_lapse(&self) -> f64 {
-        self.least_lapse
     }
 
     /// The own time at which the centre is seen from an event.
@@ -431,7 +401,6 @@ impl RayStretch<'_> {
     ///
     /// Beyond its passage, where the body moves otherwise, the curve goes on straight: tangents
     /// may touch there.
-    #[must_use]
     pub fn at(&self, own_time: f64) -> RayPoint {
         let Range { start, end } = self.passage.own_times;
         // At the end the next passage has begun.
@@ -494,7 +463,6 @@ impl RayStretch<'_> {
 
     /// An upper bound of the length of the second derivative of the point between two own times,
     /// whose points are passed as well; infinite if they are too far apart.
-    #[must_use]
     pub fn bend(&self, [(from, start), (to, end)]: [(f64, DVec3); 2]) -> f64 {
         let a = self.passage.acceleration;
         let arm = (start - self.passage.pivot)

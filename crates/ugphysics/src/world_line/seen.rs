@@ -96,7 +96,6 @@ impl WorldLine {
     ///
     /// `None` for an inertial motion, and without a useful bound: if a triangle is so large that its
     /// parts are seen at very different velocities, or close to the observer.
-    #[must_use]
     pub fn seen_triangle(
         &self,
         tube: &WorldTube,
@@ -112,7 +111,6 @@ impl WorldLine {
 
 impl SeenTriangle {
     /// True if the seen triangle is nearly flat, for its size.
-    #[must_use]
     pub fn is_flat(&self, corners: &[SeenPoint; 3]) -> bool {
         /// Of the sum of the edges.
         const DEVIATION: f64 = 1.0 / 12.0;
@@ -171,7 +169,7 @@ impl Sight<'_> {
         let around = |time: f64| own_time - time..own_time + time;
 
         let smooth = || {
-            let passage = passages.iter().find(|passage| passage.own_times().contains(&own_time))?;
+            let passage = passages.iter().find(|passage| passage.own_times.contains(&own_time))?;
             let bounds = moving.bounds(*a, edge, core::slice::from_ref(passage));
             let offset = moving.offset(*a, own_time);
             let q = 1.0 + acceleration.dot(offset.xi) + unit_or_zero(way).dot(offset.swing);
@@ -185,7 +183,7 @@ impl Sight<'_> {
             let half = least(bounds.slopes(0.5 * q, edge)?).filter(|least| *least > 0.5 * q)?;
             let slopes = bounds.slopes(half, edge)?;
             let reach = around(slopes.time * edge);
-            let is_smooth = passage.own_times().start <= reach.start && reach.end <= passage.own_times().end;
+            let is_smooth = passage.own_times.start <= reach.start && reach.end <= passage.own_times.end;
             let nearest = distance - slopes.place * edge;
             if !is_smooth || nearest <= 0.0 {
                 return None;
@@ -206,7 +204,7 @@ impl Sight<'_> {
         };
         let rough = || {
             let bounds = moving.bounds(*a, edge, passages);
-            let least = (tube.least_lapse() - bounds.speed) / MOST_GROWTH;
+            let least = (tube.least_lapse - bounds.speed) / MOST_GROWTH;
             let slopes = (least > 0.0).then(|| bounds.slopes(least, edge)).flatten()?;
             let Range { start, end } = around(slopes.time * edge + rounding);
             let deviation = 2.0 * slopes.place * edge * (gamma + proper.length());
@@ -222,8 +220,8 @@ impl Moving {
     /// Bounds for points no farther than `margin` from one, during passages.
     fn bounds(&self, point: DVec3, margin: f64, passages: &[SmoothStretch]) -> Bounds {
         let most = |value: &dyn Fn(&SmoothStretch) -> f64| passages.iter().map(value).fold(0.0, f64::max);
-        let rate = |turn: &Turn| most(&|passage| turn.spin.rate(passage.known_at()).length());
-        let (acceleration, jerk) = (most(&SmoothStretch::acceleration), most(&SmoothStretch::jerk));
+        let rate = |turn: &Turn| most(&|passage| turn.spin.rate(passage.known_at).length());
+        let (acceleration, jerk) = (most(&|passage| passage.acceleration), most(&|passage| passage.jerk));
         let (mut speed, mut bend, mut spin) = (0.0, 0.0, 0.0);
         let (mut arm, mut from) = (margin, point);
         for turn in &self.turns {

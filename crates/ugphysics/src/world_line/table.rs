@@ -184,7 +184,6 @@ impl SampledPath {
     pub const BYTES_PER_EVENT: usize = size_of::<Event>() + size_of::<Row>() + size_of::<Node>() + 64;
 
     /// A number that two paths have in common if they share their memory.
-    #[must_use]
     pub fn address(&self) -> usize {
         Arc::as_ptr(&self.0).addr()
     }

@@ -34,7 +34,6 @@ pub struct TablePlace {
 
 impl ColorTable {
     /// The colours in effect at an own time.
-    #[must_use]
     pub fn at(&self, own_time: f64) -> TablePlace {
         let own_time = own_time - self.shift;
         let [(first, first_color), .., (last, last_color)] = self.rows[..] else {
@@ -62,7 +61,6 @@ impl ColorTable {
     }
 
     /// The same table for times that count from `zero`.
-    #[must_use]
     pub fn counted_from(&self, zero: f64) -> Self {
         Self { shift: self.shift - zero, ..self.clone() }
     }

@@ -329,7 +329,6 @@ pub enum Beam {
 
 impl Beam {
     /// False where a number is not finite, an axis 0, or a parallelogram has no area.
-    #[must_use]
     pub fn is_valid(&self) -> bool {
         let has_direction = |vector: DVec3| {
             let largest = vector.abs().max_element();

@@ -26,7 +26,6 @@ pub struct Texture {
 
 impl Texture {
     /// A picture as it is, repeated, without alpha.
-    #[must_use]
     pub fn new(color: ColorId, image: TextureImage) -> Self {
         Self { color, image, wrap: [Wrap::Repeat; 2], factor: [1.0; 4], alpha: AlphaMode::Opaque }
     }

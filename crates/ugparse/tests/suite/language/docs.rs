@@ -52,7 +52,7 @@ fn numbers_are_written_as_shown() {
 
 #[test]
 fn the_table_of_limits_is_correct() {
-    for limit in ugparse::Limit::ALL {
+    for limit in ugparse::Limit::all() {
         let begin = format!("| `{}` | ", limit.name());
         let row = PAGE.lines().find(|line| line.starts_with(&begin)).expect("a row for each limit");
         let end = format!(" | {} | {} |", limit.default_value(), limit.most());

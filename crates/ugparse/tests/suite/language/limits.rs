@@ -201,7 +201,7 @@ fn every_limit_can_be_set_and_says_so() {
 
 #[test]
 fn limits_have_names_defaults_and_bounds() {
-    for limit in Limit::ALL {
+    for limit in Limit::all() {
         assert_eq!(Limit::from_name(limit.name()), Some(limit));
         assert_eq!(Limits::default().get(limit), limit.default_value());
         assert!(limit.default_value() <= limit.most());

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::messages::Messages;
+use crate::cli::messages::Messages;
 use crate::progress::Progress;
 
 /// The progress bar appears after this time.

@@ -6,7 +6,7 @@
 use clap::Command;
 use clap::builder::styling::Style;
 
-use crate::manual::{Entry, Manual, of_command};
+use crate::cli::manual::{Entry, Manual, of_command};
 
 /// Columns of the text.
 const WIDTH: usize = 80;

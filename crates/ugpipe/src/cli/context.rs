@@ -4,15 +4,15 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::args::CommonArgs;
-use crate::failure::Failure;
-use crate::files::{self, Place, ProgramOutput};
-use crate::folder::folder_of;
-use crate::input::{self, Input};
-use crate::messages::{Host, Messages};
-use crate::output::Output;
-use crate::provenance;
-use crate::steps::Steps;
+use crate::cli::args::CommonArgs;
+use crate::cli::failure::Failure;
+use crate::cli::files::{self, Place, ProgramOutput};
+use crate::cli::folder::folder_of;
+use crate::cli::input::{self, Input};
+use crate::cli::messages::{Host, Messages};
+use crate::cli::output::Output;
+use crate::cli::provenance;
+use crate::cli::steps::Steps;
 use crate::text::{printable_json, printable_lines};
 
 /// Largest input in bytes: 4 GiB. Inputs are read into memory whole.
@@ -20,7 +20,7 @@ pub const MAX_INPUT: u64 = u32::MAX as u64;
 
 /// The folder of the input, or for standard input the current folder.
 fn place(common: &CommonArgs) -> Place {
-    if common.allow_outside() {
+    if common.allow_outside {
         return Place::Anywhere;
     }
     Place::Below(common.input().map_or(Path::new("."), folder_of).to_owned())

@@ -3,7 +3,7 @@
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args};
 
-use crate::values::one_of;
+use crate::cli::values::one_of;
 
 /// How pictures are meant to look: flatten it into the arguments of a program that has
 /// [`crate::ToolArgs::LOOKS`].
@@ -15,7 +15,7 @@ pub struct LookArgs {
     /// 1988: the colours of the report of 1988, one wavelength each. light: spectra, exposed as a
     /// camera does. shape: the colours at rest. The word stands for options of this program, all
     /// listed in docs/pipeline.md; an option that is given itself comes before those of the look.
-    #[arg(id = LOOK, long = LOOK, value_name = "LOOK", value_parser = one_of(Look::ALL.map(Look::name), look))]
+    #[arg(id = LOOK, long = LOOK, value_name = "LOOK", value_parser = one_of("looks", Look::ALL.map(|look| (look.name(), look))))]
     look: Option<Look>,
 }
 
@@ -52,11 +52,6 @@ impl Look {
             Self::Shape => "shape",
         }
     }
-}
-
-fn look(word: &str) -> Result<Look, String> {
-    let found = Look::ALL.into_iter().find(|look| look.name() == word);
-    found.ok_or_else(|| format!("none of the looks {}", Look::ALL.map(Look::name).join(", ")))
 }
 
 /// The options that looks stand for in a program; [`Look::Report`] stands for none.

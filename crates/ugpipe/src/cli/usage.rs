@@ -9,9 +9,9 @@ use std::ffi::OsString;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, Command};
 
-use crate::argv::StrayNumber;
+use crate::cli::argv::StrayNumber;
+use crate::cli::values::finite;
 use crate::remedies;
-use crate::values::finite;
 
 /// The option without which an argument would not be missing. `words`: the command line for clap.
 pub(crate) fn option_in_need<'w>(
@@ -161,7 +161,9 @@ fn unknown_option(command: &Command, argument: &str, words: &[OsString]) -> Stri
     let shown = as_typed(argument, words);
     let names = || command.get_arguments().filter(|arg| !arg.is_hide_set()).flat_map(long_names);
     let has = |name: &str| names().any(|other| other == name);
-    if let Some((_, ours, why)) = ANSWERS.iter().find(|(foreign, ours, _)| *foreign == name && has(ours)) {
+    if let Some((_, ours, why)) =
+        ANSWERS.iter().find(|(foreign, ours, _)| foreign.contains(&name) && has(ours))
+    {
         return format!("there is no option `{shown}`; {why} `-{ours}`");
     }
     if let Some(owned) = owned_by_another(command, &shown) {
@@ -210,32 +212,20 @@ fn long_names(arg: &Arg) -> impl Iterator<Item = &str> {
 }
 
 /// Options of other programs, the one of ours that does the same, and what it is.
-const ANSWERS: [(&str, &str, &str); 25] = [
-    ("width", "sz", "the size of the picture is"),
-    ("height", "sz", "the size of the picture is"),
-    ("w", "sz", "the size of the picture is"),
-    ("resolution", "sz", "the size of the picture is"),
-    ("geometry", "sz", "the size of the picture is"),
-    ("fov", "va", "the view angle is"),
-    ("angle", "va", "the view angle is"),
-    ("look-at", "vc", "the point in the middle of the picture is"),
-    ("lookat", "vc", "the point in the middle of the picture is"),
-    ("target", "vc", "the point in the middle of the picture is"),
-    ("antialias", "aa", "the samples per pixel are"),
-    ("spp", "aa", "the samples per pixel are"),
-    ("speed", "vel", "the velocity along x, y and z is"),
-    ("v", "vel", "the velocity along x, y and z is"),
-    ("beta", "vel", "the velocity along x, y and z is"),
-    ("t", "ti", "the time of the picture is"),
-    ("f", "fi", "the file to read is"),
-    ("silent", "qt", "to print only errors, use"),
-    ("debug", "vb", "to print what is done, use"),
-    ("gamma", "ex", "brightness is set by"),
-    ("gamma", "vel", "the velocity along x, y and z is"),
-    ("cam-vel", "cv", "the velocity of the camera is"),
-    ("duration", "frames", "the number of frames is"),
-    ("seconds", "frames", "the number of frames is"),
-    ("bgcolor", "bg", "the background is"),
+const ANSWERS: [(&[&str], &str, &str); 13] = [
+    (&["width", "height", "w", "resolution", "geometry"], "sz", "the size of the picture is"),
+    (&["fov", "angle"], "va", "the view angle is"),
+    (&["look-at", "lookat", "target"], "vc", "the point in the middle of the picture is"),
+    (&["antialias", "spp"], "aa", "the samples per pixel are"),
+    (&["t"], "ti", "the time of the picture is"),
+    (&["f"], "fi", "the file to read is"),
+    (&["silent"], "qt", "to print only errors, use"),
+    (&["debug"], "vb", "to print what is done, use"),
+    (&["gamma"], "ex", "brightness is set by"),
+    (&["gamma", "speed", "v", "beta"], "vel", "the velocity along x, y and z is"),
+    (&["cam-vel"], "cv", "the velocity of the camera is"),
+    (&["duration", "seconds"], "frames", "the number of frames is"),
+    (&["bgcolor"], "bg", "the background is"),
 ];
 
 /// The name with the fewest typing errors, at most one in short names and two in longer ones.

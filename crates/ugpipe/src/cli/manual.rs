@@ -2,8 +2,8 @@
 
 use clap::{Arg, Command, CommandFactory};
 
-use crate::args::{COMMON, ToolArgs};
-use crate::{argv, usage};
+use crate::cli::args::{COMMON, ToolArgs};
+use crate::cli::{argv, usage};
 
 /// A program, or a command of a program such as `ugparse tidy`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -14,13 +14,13 @@ use signal_hook::consts::{SIGABRT, SIGPIPE};
 use signal_hook::flag::register_conditional_shutdown;
 use signal_hook::low_level::emulate_default_handler;
 
-use crate::args::ToolArgs;
-use crate::context::Context;
-use crate::failure::{Failure, reason};
-use crate::manual::manual;
-use crate::messages::Messages;
-use crate::parse::{Unparsed, parse};
-use crate::{argv, cleanup, completion, help, provenance, streams};
+use crate::cli::args::ToolArgs;
+use crate::cli::context::Context;
+use crate::cli::failure::{Failure, reason};
+use crate::cli::manual::manual;
+use crate::cli::messages::Messages;
+use crate::cli::parse::{Unparsed, parse};
+use crate::cli::{argv, cleanup, completion, help, provenance, streams};
 
 const BAD_INPUT: u8 = 1;
 const BAD_USAGE: u8 = 2;
@@ -101,7 +101,7 @@ pub fn main<A: ToolArgs>(run: impl FnOnce(&A, &mut Context) -> Result<(), Failur
     let opened = streams::check(args.common(), &matches).and_then(|()| messages.configure(args.common()));
     let mut context = Context::new(args.common(), messages, provenance::command_line(&command, &matches));
     let outcome =
-        opened.and_then(|()| start_threads(args.common().threads())).and_then(|()| run(&args, &mut context));
+        opened.and_then(|()| start_threads(args.common().nt)).and_then(|()| run(&args, &mut context));
     match context.end(outcome) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) if failure.is_closed_pipe() => die_of_sigpipe(),
@@ -139,8 +139,9 @@ fn n_threads_in_space() -> usize {
 /// one per core; fewer where there is little address space. The variable of rayon has no effect.
 ///
 /// The run itself stays on the main thread with its larger stack, for any value of `-nt`.
-fn start_threads(n_threads: Option<usize>) -> Result<(), Failure> {
-    let wanted = n_threads.unwrap_or_else(|| thread::available_parallelism().map_or(1, usize::from));
+fn start_threads(n_threads: Option<u32>) -> Result<(), Failure> {
+    let wanted =
+        n_threads.map_or_else(|| thread::available_parallelism().map_or(1, usize::from), |n| n as usize);
     // rayon panics if a thread cannot be started, so the threads are started first.
     let mut waiting = Vec::new();
     for _ in 0..wanted.min(n_threads_in_space()) {

@@ -79,31 +79,37 @@ pub fn whole(range: RangeInclusive<u32>) -> impl Fn(&str) -> Result<u32, String>
 }
 
 /// Value parser of options that take one of several words, which help and completions list:
-/// `value_parser = ugpipe::one_of(Tone::ALL.map(Tone::name), tone)`.
+/// `value_parser = ugpipe::one_of("curves", Tone::ALL.map(|tone| (tone.name(), tone)))`.
 ///
-/// `parse` decides what is valid, and its error is the message.
+/// `what`: the plural of what the words name, for the message. Case is ignored.
 pub fn one_of<T: Clone + Send + Sync + 'static>(
-    words: impl IntoIterator<Item = &'static str>,
-    parse: fn(&str) -> Result<T, String>,
+    what: &'static str,
+    all: impl IntoIterator<Item = (&'static str, T)>,
 ) -> impl TypedValueParser<Value = T> {
-    OneOf { words: words.into_iter().collect(), parse }
+    OneOf { what, all: all.into_iter().collect() }
 }
 
 #[derive(Clone)]
 struct OneOf<T> {
-    words: Vec<&'static str>,
-    parse: fn(&str) -> Result<T, String>,
+    what: &'static str,
+    all: Vec<(&'static str, T)>,
 }
 
 impl<T: Clone + Send + Sync + 'static> TypedValueParser for OneOf<T> {
     type Value = T;
 
     fn parse_ref(&self, command: &Command, arg: Option<&Arg>, value: &OsStr) -> Result<T, clap::Error> {
-        self.parse.parse_ref(command, arg, value)
+        let Self { what, all } = self.clone();
+        let parse = move |word: &str| {
+            let found = all.iter().find(|(name, _)| name.eq_ignore_ascii_case(word));
+            let names = || all.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+            found.map(|(_, it)| it.clone()).ok_or_else(|| format!("none of the {what} {}", names()))
+        };
+        parse.parse_ref(command, arg, value)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(self.words.iter().map(PossibleValue::new)))
+        Some(Box::new(self.all.iter().map(|(name, _)| PossibleValue::new(name))))
     }
 }
 

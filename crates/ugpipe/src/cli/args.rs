@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::look::Looks;
-use crate::values::whole;
+use crate::cli::look::Looks;
+use crate::cli::values::whole;
 
 /// The arguments of a ug program.
 pub trait ToolArgs: clap::Parser {
@@ -55,14 +55,14 @@ pub struct CommonArgs {
     ///
     /// Without this option they are errors.
     #[arg(long, help_heading = COMMON)]
-    lax: bool,
+    pub lax: bool,
 
     /// Run the programs that `execute` statements name
     ///
     /// These programs run with your permissions, so use this only for scenes you trust. Without
     /// this option such statements are errors.
     #[arg(long, help_heading = COMMON)]
-    allow_execute: bool,
+    pub allow_execute: bool,
 
     /// Read files that the input names outside its folder
     ///
@@ -70,29 +70,29 @@ pub struct CommonArgs {
     /// in the folder of the input or below it; for standard input, in the current folder. Links are
     /// followed first. Use this option only for inputs you trust.
     #[arg(long, help_heading = COMMON)]
-    allow_outside: bool,
+    pub allow_outside: bool,
 
     /// Change a limit on the size of scenes
     ///
     /// As in statements=100000000. Names of limits: text, includes, files, nesting, chain,
     /// statements, corners, names, memory; see docs/unigrafix.md. May be given more than once.
     #[arg(long, value_name = "NAME=N", value_parser = limit, help_heading = COMMON)]
-    limit: Vec<(String, u64)>,
+    pub limit: Vec<(String, u64)>,
 
     /// Print only errors, no notes or warnings
     #[arg(long, visible_alias = "quiet", conflicts_with = "vb", help_heading = COMMON)]
-    qt: bool,
+    pub qt: bool,
 
     /// Print what was done, with timings
     #[arg(long, visible_alias = "verbose", help_heading = COMMON)]
-    vb: bool,
+    pub vb: bool,
 
     /// Use N threads [default: all]
     ///
     /// The output does not depend on N.
     #[arg(long, value_name = "N", visible_alias = "threads", help_heading = COMMON,
           value_parser = whole(1..=1024))]
-    nt: Option<u32>,
+    pub nt: Option<u32>,
 }
 
 /// Heading of these options in `--help`.
@@ -112,26 +112,6 @@ impl CommonArgs {
     /// The file for messages; `None` is standard error.
     pub fn messages(&self) -> Option<&Path> {
         self.fm.as_deref().filter(|path| !is_dash(path))
-    }
-
-    /// True if unknown statements cause warnings and are passed on, rather than being errors.
-    pub fn lax(&self) -> bool {
-        self.lax
-    }
-
-    /// True if programs that the input names may be run.
-    pub fn allow_execute(&self) -> bool {
-        self.allow_execute
-    }
-
-    /// True if files that the input names may be outside its folder.
-    pub fn allow_outside(&self) -> bool {
-        self.allow_outside
-    }
-
-    /// The limits that were set, in order. Their names are not checked here.
-    pub fn limits(&self) -> &[(String, u64)] {
-        &self.limit
     }
 
     /// The limit `memory` that was set, in bytes.
@@ -159,25 +139,16 @@ impl CommonArgs {
         words
     }
 
-    /// True if notes and warnings are suppressed.
-    pub fn quiet(&self) -> bool {
-        self.qt
-    }
-
-    /// True if details are printed.
-    pub fn verbose(&self) -> bool {
-        self.vb
-    }
-
-    /// The requested number of threads; `None` means one per core.
-    pub fn threads(&self) -> Option<usize> {
-        self.nt.map(|n_threads| n_threads as usize)
-    }
-
     /// The input file as given by the user, including `-`.
     pub(crate) fn input_named(&self) -> Option<&Path> {
         self.fi.as_deref().or(self.file.as_deref())
     }
+}
+
+/// For programs with commands: allows options before the command as well as after it, except the one
+/// that names the file: `#[command(mut_args(ugpipe::globally))]`.
+pub fn globally(arg: clap::Arg) -> clap::Arg {
+    if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
 }
 
 fn is_dash(path: &Path) -> bool {

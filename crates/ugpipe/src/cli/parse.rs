@@ -4,9 +4,9 @@ use std::ffi::OsString;
 
 use clap::{ArgMatches, Command};
 
-use crate::args::ToolArgs;
-use crate::failure::Failure;
-use crate::{argv, look, provenance, usage};
+use crate::cli::args::ToolArgs;
+use crate::cli::failure::Failure;
+use crate::cli::{argv, look, provenance, usage};
 
 /// Why arguments were not parsed.
 pub(crate) enum Unparsed {

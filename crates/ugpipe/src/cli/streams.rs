@@ -5,10 +5,10 @@ use std::path::Path;
 
 use clap::ArgMatches;
 
-use crate::args::CommonArgs;
-use crate::failure::Failure;
-use crate::folder::folder_of;
-use crate::identity::Identity;
+use crate::cli::args::CommonArgs;
+use crate::cli::failure::Failure;
+use crate::cli::folder::folder_of;
+use crate::cli::identity::Identity;
 
 /// A file that the command line names or the shell has opened.
 struct Stream {

@@ -8,7 +8,7 @@ use clap::parser::ValueSource;
 use clap::{Arg, ArgMatches, Command};
 use sha2::{Digest, Sha256};
 
-use crate::args::WITHOUT_EFFECT;
+use crate::cli::args::WITHOUT_EFFECT;
 use crate::text::{is_printable, printable};
 
 /// The program and the options that affect the content, in the historical spelling and in the
@@ -133,7 +133,7 @@ mod tests {
 
     use super::*;
     use crate::CommonArgs;
-    use crate::argv;
+    use crate::cli::argv;
 
     /// The command line recorded for `words`, by a program with an option of every kind.
     fn recorded(words: Vec<OsString>) -> String {

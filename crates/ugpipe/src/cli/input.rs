@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{self, IsTerminal};
 use std::path::Path;
 
-use crate::failure::Failure;
-use crate::files::read_file_up_to;
+use crate::cli::failure::Failure;
+use crate::cli::files::read_file_up_to;
 
 /// An input, read completely.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 use std::ffi::OsString;
 
-use crate::manual::{Entry, Manual, Value};
+use crate::cli::manual::{Entry, Manual, Value};
 
 /// The option by which a shell asks a program for completions. The words of the command line
 /// follow, up to the one that is typed.

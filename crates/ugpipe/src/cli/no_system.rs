@@ -53,7 +53,7 @@ pub(crate) mod output {
     use std::io::{self, Write};
     use std::path::{Path, PathBuf};
 
-    use crate::failure::Failure;
+    use crate::cli::failure::Failure;
 
     /// An output, which cannot be written.
     pub(crate) struct Output(Option<PathBuf>);
@@ -92,9 +92,9 @@ pub(crate) mod output {
 pub(crate) mod run {
     use std::process::ExitCode;
 
-    use crate::args::ToolArgs;
-    use crate::context::Context;
-    use crate::failure::Failure;
+    use crate::cli::args::ToolArgs;
+    use crate::cli::context::Context;
+    use crate::cli::failure::Failure;
 
     /// Fails: no program is started here.
     pub fn main<A: ToolArgs>(_run: impl FnOnce(&A, &mut Context) -> Result<(), Failure>) -> ExitCode {
@@ -105,7 +105,7 @@ pub(crate) mod run {
 pub(crate) mod steps {
     use std::marker::PhantomData;
 
-    use crate::messages::Messages;
+    use crate::cli::messages::Messages;
     use crate::progress::Progress;
 
     /// Shows no progress.

@@ -21,8 +21,8 @@ use signal_hook::iterator::Signals;
 use signal_hook::low_level::{emulate_default_handler, exit};
 use tempfile::NamedTempFile;
 
-use crate::folder::folder_of;
-use crate::stale::{self, lock};
+use crate::cli::folder::folder_of;
+use crate::cli::stale::{self, lock};
 
 /// Signals that end a program and do not come from a fault in it. SIGKILL cannot be handled;
 /// SIGABRT ends a program without memory, see [`crate::main`].

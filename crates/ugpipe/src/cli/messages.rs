@@ -13,8 +13,8 @@ use anstream::adapter::strip_str;
 use anstream::{AutoStream, ColorChoice};
 use clap::builder::styling::{AnsiColor, Style};
 
-use crate::args::CommonArgs;
-use crate::failure::Failure;
+use crate::cli::args::CommonArgs;
+use crate::cli::failure::Failure;
 use crate::progress::Progress;
 use crate::text::{message, printable, printable_styled};
 
@@ -65,8 +65,8 @@ impl Messages {
 
     /// Applies the options `-qt`, `-vb` and `-fm`. The file of `-fm` is truncated immediately.
     pub(crate) fn configure(&mut self, common: &CommonArgs) -> Result<(), Failure> {
-        self.is_quiet = common.quiet();
-        self.is_verbose = common.verbose();
+        self.is_quiet = common.qt;
+        self.is_verbose = common.vb;
         if let Some(path) = common.messages() {
             let created = File::create(path);
             self.file =

@@ -6,7 +6,7 @@ use std::os::fd::AsFd;
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-use crate::folder::folder_of;
+use crate::cli::folder::folder_of;
 
 /// A regular file, existing or to be created. Devices and pipes have no identity: several streams
 /// may share them.

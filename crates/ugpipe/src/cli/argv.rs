@@ -18,7 +18,7 @@ use std::path::Path;
 use clap::builder::ValueRange;
 use clap::{Arg, ArgAction, Command};
 
-use crate::values::finite;
+use crate::cli::values::finite;
 
 /// Terminates the values of an option with a variable number of them. [`rewrite`] inserts it for
 /// clap; users do not write it.

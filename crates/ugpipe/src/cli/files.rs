@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::thread;
 
-use crate::cleanup::Running;
-use crate::failure::reason;
+use crate::cli::cleanup::Running;
+use crate::cli::failure::reason;
 
 /// Largest number of bytes of standard error that are examined.
 const MAX_STDERR: u64 = 1 << 16;

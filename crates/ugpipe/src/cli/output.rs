@@ -7,10 +7,10 @@ use std::os::fd::AsFd;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use crate::cleanup::{PREFIX, Temporary};
-use crate::failure::Failure;
-use crate::folder::folder_of;
-use crate::identity::resolve_links;
+use crate::cli::cleanup::{PREFIX, Temporary};
+use crate::cli::failure::Failure;
+use crate::cli::folder::folder_of;
+use crate::cli::identity::resolve_links;
 
 /// An output. If it is dropped without [`Output::finish`], no file is left behind.
 pub(crate) struct Output {
