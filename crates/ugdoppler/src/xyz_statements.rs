@@ -232,8 +232,7 @@ fn push_colors(
                 }
             }
         };
-        let (name, translucency) = (names.fresh(&name), translucency(scene, shares));
-        let name = scene.names.add(&name);
+        let (name, translucency) = (names.add(name, &mut scene.names), translucency(scene, shares));
         scene.colors.push(Color { name, value: ColorValue::Xyz(xyz), translucency });
         ids.push(ColorId::from_index(scene.colors.len() - 1));
     }

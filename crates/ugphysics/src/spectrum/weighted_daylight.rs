@@ -62,7 +62,8 @@ impl WeightedDaylight {
 
     /// Emitted wavelengths of the rows of `inside`, nm.
     pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
-        (0..self.inside[0].len()).map(|row| (self.first_nm + row as f64) * self.doppler)
+        // Rows as i32, which vectors convert to f64.
+        (0..self.inside[0].len() as i32).map(|row| (self.first_nm + f64::from(row)) * self.doppler)
     }
 }
 
