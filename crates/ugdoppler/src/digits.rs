@@ -12,6 +12,9 @@ pub(crate) fn digits(doppler: f64, step: Option<f64>) -> String {
 /// Powers of ten, which are exact.
 const POWERS: [u32; 9] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
 
+/// As many as the last of [`POWERS`] has, and one more.
+const ZEROS: &str = "000000000";
+
 /// A number rounded to some decimal places, several times as fast as by `format`; `None` if it has
 /// too many digits or is close to a tie.
 fn few_digits(number: f64, places: usize) -> Option<String> {
@@ -22,9 +25,14 @@ fn few_digits(number: f64, places: usize) -> Option<String> {
     // the nearest.
     let is_sure = (0.0..1e9).contains(&scaled) && (scaled - nearest).abs() < 0.499_999;
     is_sure.then(|| {
-        let all = nearest as u32;
-        let (whole, rest) = (all / power, all % power);
-        if places == 0 { whole.to_string() } else { format!("{whole}_{rest:0places$}") }
+        let mut text = (nearest as u32).to_string();
+        if places > 0 {
+            // At least one digit before the point.
+            let missing = (places + 1).saturating_sub(text.len());
+            text.insert_str(0, &ZEROS[..missing]);
+            text.insert(text.len() - places, '_');
+        }
+        text
     })
 }
 

@@ -110,8 +110,8 @@ impl<'s> HueStatements<'s> {
             Some(&id) => id,
             None => {
                 self.largest = self.largest.max(self.intensity(&lit.seen));
-                let name = self.names.fresh(&format!("{}#lit{}", base.name, n_lit + 1));
-                let name = self.scene.names.add(&name);
+                let name = format!("{}#lit{}", base.name, n_lit + 1);
+                let name = self.names.add(name, &mut self.scene.names);
                 let id = self.push(name, lit, base.translucency);
                 self.lit.insert(key, id);
                 id
@@ -171,11 +171,11 @@ impl<'s> HueStatements<'s> {
         }
         let name = if is_changed {
             let step = (self.step != 0.0).then_some(doppler * self.step);
-            self.names.fresh(&format!("{}#{}", base.name, digits(doppler, step)))
+            [&base.name, "#", &digits(doppler, step)].concat()
         } else {
-            self.names.fresh(&base.name)
+            base.name.to_string()
         };
-        let name = self.scene.names.add(&name);
+        let name = self.names.add(name, &mut self.scene.names);
         let translucency = base.translucency;
         if let (false, VertexColor::Mixed(color)) = (is_changed, base.given)
             && color.form.mixing() == Mixing::Light
@@ -297,8 +297,8 @@ impl<'s> HueStatements<'s> {
             let Some(id) = self.scene.lights[row].color.filter(|id| is_scaled[id.index()]) else { continue };
             let copy = *copies.entry(id).or_insert_with(|| {
                 let color = self.scene.colors[id.index()].clone();
-                let name = self.names.fresh(&format!("{}#light", self.scene.names.get(color.name)));
-                let name = self.scene.names.add(&name);
+                let name = format!("{}#light", self.scene.names.get(color.name));
+                let name = self.names.add(name, &mut self.scene.names);
                 self.scene.colors.push(Color { name, ..color });
                 ColorId::from_index(self.scene.colors.len() - 1)
             });

@@ -1,7 +1,7 @@
 //! Quantization of the Doppler factor with a bounded error of colour.
 
-use uglight::SpectralShift;
-use ugphysics::spectrum::{DopplerGrid, DopplerTable, LN_STEP};
+use uglight::{SpectralColor, SpectralShift};
+use ugphysics::spectrum::{DopplerGrid, LN_STEP};
 
 use crate::digits::digits;
 
@@ -20,17 +20,19 @@ pub(crate) struct DopplerQuantizer {
 }
 
 impl DopplerQuantizer {
-    /// `tolerance`: bound of the relative error of X, Y and Z; with 0 nothing is quantized.
-    pub fn new<'t>(
+    /// `colors`: those that are tabulated count. `tolerance`: bound of the relative error of X, Y
+    /// and Z; with 0 nothing is quantized.
+    pub fn new<'c>(
         grid: &DopplerGrid,
-        tables: impl Iterator<Item = &'t DopplerTable>,
+        colors: impl Iterator<Item = &'c SpectralColor>,
         shift: SpectralShift,
         tolerance: f64,
     ) -> Self {
         let ln_doppler: Vec<f64> = grid.ln_doppler().collect();
         let mut changes = vec![0.0_f64; ln_doppler.len() - 1];
-        for table in tables {
-            for (cell, (points, change)) in table.points().windows(2).zip(&mut changes).enumerate() {
+        for points in colors.filter_map(|color| color.points(grid)) {
+            let points: Vec<_> = points.collect();
+            for (cell, (points, change)) in points.windows(2).zip(&mut changes).enumerate() {
                 let gain = shift.ln_gain(ln_doppler[cell + 1]) - shift.ln_gain(ln_doppler[cell]);
                 for (from, to) in points[0].iter().zip(points[1]) {
                     let change_of_ln = if shift.doppler { to.max(DARK) - from.max(DARK) } else { 0.0 };

@@ -47,8 +47,7 @@ pub(crate) fn write(
     let grid = DopplerGrid::new(ln_factors().fold(0.0, f64::min)..=ln_factors().fold(0.0, f64::max));
     let colors = spectral_colors(scene, vertices, &grid);
     let tolerance = config.bounded_tolerance() / 100.0;
-    let tables = colors.iter().flatten().filter_map(SpectralColor::table);
-    let quantizer = DopplerQuantizer::new(&grid, tables, shift, tolerance);
+    let quantizer = DopplerQuantizer::new(&grid, colors.iter().flatten(), shift, tolerance);
     let plan = Plan::new(scene, &colors, &quantizer, vertices, tolerance);
     let xyz = |slot: &Slot| match slot.seen {
         Seen::Lit(xyz) => xyz,
@@ -150,9 +149,9 @@ impl Plan {
                         colors.len() + *mixtures.entry(bits).or_insert(n_mixtures)
                     }
                 };
-                let is_tabulated = shares.parts().all(|(color, _)| {
-                    colors[row(color)].as_ref().is_some_and(|color| color.table().is_some())
-                });
+                let is_tabulated = shares
+                    .parts()
+                    .all(|(color, _)| colors[row(color)].as_ref().is_some_and(SpectralColor::is_tabulated));
                 let ln = vertices.ln_factors[vertex];
                 // Colours of few vertices are computed for each D, without quantization.
                 let (step, ln) = if is_tabulated { quantizer.quantized(ln) } else { (ln.to_bits(), ln) };
@@ -233,8 +232,7 @@ fn push_colors(
                 }
             }
         };
-        let (name, translucency) = (names.fresh(&name), translucency(scene, shares));
-        let name = scene.names.add(&name);
+        let (name, translucency) = (names.add(name, &mut scene.names), translucency(scene, shares));
         scene.colors.push(Color { name, value: ColorValue::Xyz(xyz), translucency });
         ids.push(ColorId::from_index(scene.colors.len() - 1));
     }

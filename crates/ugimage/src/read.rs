@@ -101,13 +101,12 @@ pub fn read_png(file: &[u8], limits: &PictureLimits) -> Result<(Frame, Metadata)
     let mut is_opaque = false;
     let (size, pixels) = decoded(decoder(file)?, file.len(), limits, |n_channels, row, pixels| {
         is_opaque = matches!(n_channels, 1 | 3);
-        pixels.extend(row.chunks_exact(n_channels).map(|channels| match *channels {
-            [grey] => [grey, grey, grey, 255],
-            [grey, alpha] => [grey, grey, grey, alpha],
-            [red, green, blue] => [red, green, blue, 255],
-            [red, green, blue, alpha, ..] => [red, green, blue, alpha],
-            [] => [0; 4],
-        }));
+        match n_channels {
+            1 => pixels.extend(row.iter().map(|&grey| [grey, grey, grey, 255])),
+            2 => pixels.extend(row.as_chunks().0.iter().map(|&[grey, alpha]| [grey, grey, grey, alpha])),
+            3 => pixels.extend(row.as_chunks().0.iter().map(|&[red, green, blue]| [red, green, blue, 255])),
+            _ => pixels.extend(row.as_chunks::<4>().0),
+        }
     })?;
     Ok((Frame::new(size, is_opaque, pixels), metadata(file)))
 }

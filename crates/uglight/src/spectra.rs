@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugphysics::spectrum::{DopplerGrid, LazyTable, Spectrum};
+use ugphysics::spectrum::{DopplerGrid, DopplerTable, Spectrum};
 use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, ColorMix, Scene};
 
@@ -31,7 +31,7 @@ pub struct Spectra {
     lattice: Vec<OnceLock<SpectralColor>>,
     /// For each colour, what it is under each lamp, tabulated; made at first use, since few colours
     /// are seen under each lamp.
-    lit: Vec<OnceLock<Box<[OnceLock<LazyTable>]>>>,
+    lit: Vec<OnceLock<Box<[OnceLock<DopplerTable>]>>>,
     /// Lamps with such tables.
     n_lamps: usize,
 }
@@ -123,9 +123,12 @@ impl Spectra {
     /// X, Y, Z of a surface under a lamp with level 1, from its table.
     fn xyz_under_lamp(&self, row: usize, ln_shift: f64, at: usize, lamp: &Lamp) -> DVec3 {
         let under_lamps = || std::iter::repeat_with(OnceLock::new).take(self.n_lamps).collect();
-        let table = self.lit[row].get_or_init(under_lamps)[at].get_or_init(|| self.grid.lazy_table());
+        let table = self.lit[row].get_or_init(under_lamps)[at].get_or_init(|| self.grid.table());
         let surface = self.color(row).spectrum();
-        let lit = |doppler: f64| surface.under(lamp.spectrum(), doppler, 1.0).unwrap_or_default();
+        let lit = |idx: usize| {
+            let lit = surface.under(lamp.spectrum(), self.grid.doppler(idx), 1.0);
+            lit.unwrap_or_default().map(libm::log)
+        };
         DVec3::from_array(table.xyz(ln_shift, lit))
     }
 

@@ -148,7 +148,7 @@ impl SpectralColor {
     /// The same, tabulated over D: soon found for many factors.
     #[must_use]
     pub fn tabulated(self, grid: &DopplerGrid) -> Self {
-        Self { table: Some(grid.table(&self.spectrum)), ..self }
+        Self { table: Some(grid.table()), ..self }
     }
 
     /// False if the colour at rest is another than the one that was written.
@@ -166,16 +166,22 @@ impl SpectralColor {
         self.light.get_or_init(|| LightSpectrum::new(&self.spectrum)).at(nm)
     }
 
-    /// Its table, if it was [tabulated](Self::tabulated).
-    pub fn table(&self) -> Option<&DopplerTable> {
-        self.table.as_ref()
+    /// True if it was [tabulated](Self::tabulated).
+    pub fn is_tabulated(&self) -> bool {
+        self.table.is_some()
+    }
+
+    /// ln X, ln Y, ln Z at the points of the grid, if it was [tabulated](Self::tabulated).
+    pub fn points(&self, grid: &DopplerGrid) -> Option<impl Iterator<Item = [f64; 3]>> {
+        let table = self.table.as_ref()?;
+        Some((0..grid.n_points()).map(|idx| table.point(idx, |idx| grid.ln_xyz(&self.spectrum, idx))))
     }
 
     /// X, Y, Z as seen at a ln D.  Eq. (P12), (P19)
     pub fn seen(&self, grid: &DopplerGrid, ln_doppler: f64, shift: SpectralShift) -> [f64; 3] {
         let ln_shift = shift.ln_shift(ln_doppler);
         let xyz = match &self.table {
-            Some(table) => table.xyz(ln_shift),
+            Some(table) => table.xyz(ln_shift, |idx| grid.ln_xyz(&self.spectrum, idx)),
             None => grid.xyz(&self.spectrum, ln_shift),
         };
         let gain = libm::exp(shift.ln_gain(ln_doppler));

@@ -142,8 +142,7 @@ impl Builder {
         let [red, green, blue, alpha] = clipped;
         let row = self.scene.colors.len();
         let wanted = if key.0.is_empty() { format!("c{}", row + 1) } else { key.0.clone() };
-        let unique = self.color_names.fresh(&format!("{}{wanted}", self.prefix));
-        let name = self.scene.names.add(&unique);
+        let name = self.color_names.add(format!("{}{wanted}", self.prefix), &mut self.scene.names);
         let value = ColorValue::Rgb([red, green, blue]);
         self.scene.colors.push(Color { name, value, translucency: 1.0 - alpha });
         let id = ColorId::from_index(row);

@@ -362,6 +362,10 @@ impl<'a> Painting<'a> {
                 for (&place @ [column, row], (ray, first)) in
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
+                    if first.is_none() && self.scenery.is_seen_from_origin() {
+                        // Samples of the background have its light already.
+                        continue;
+                    }
                     let far = self.scenery.view.slab.far;
                     let arriving = tracer.arriving(
                         ray,

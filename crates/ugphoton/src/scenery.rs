@@ -297,7 +297,7 @@ impl<'a> Scenery<'a> {
     }
 
     /// True if all light of the picture arrives at the origin, in a vacuum.
-    fn is_seen_from_origin(&self) -> bool {
+    pub fn is_seen_from_origin(&self) -> bool {
         let is_single_event = self.rays.shutter == Shutter::Pinhole && self.film.has_one_eye();
         is_single_event && self.eye_media.innermost().is_none()
     }

@@ -103,11 +103,13 @@ fn decoded<S: Simd>(
     [red, green, blue]: [f32x16<S>; 3],
 ) -> [f32x16<S>; 3] {
     let most = f32x16::splat(simd, most);
-    let light = |channel: f32x16<S>| match factor {
-        Some(factor) => (factor * decode(simd, channel)).min(most),
-        None => decode(simd, channel.min(most)),
+    // No closure, which would be compiled apart, without the instructions of `S`.
+    let Some(factor) = factor else {
+        let (red, green, blue) = (red.min(most), green.min(most), blue.min(most));
+        return [decode(simd, red), decode(simd, green), decode(simd, blue)];
     };
-    [light(red), light(green), light(blue)]
+    let (red, green, blue) = (decode(simd, red), decode(simd, green), decode(simd, blue));
+    [(factor * red).min(most), (factor * green).min(most), (factor * blue).min(most)]
 }
 
 /// The part of a pure hue in a primary colour: 1 within 60° of its hue, falling linearly to 0 at

@@ -79,7 +79,7 @@ impl Observer {
     ///
     /// Aberration is conformal: all lengths on the sphere are multiplied by D, and solid angles by
     /// D².  Eq. (P6)
-    #[inline]
+    #[inline(always)]
     pub fn ray(&self, seen: DVec3, slopes: [DVec3; 2]) -> SkyRay {
         let (direction, doppler, across) = self.carried(seen);
         let turned = doppler * doppler * (self.ahead + self.proper_speed * across);
@@ -95,7 +95,7 @@ impl Observer {
     /// With c = cos θ of the angle to the motion, tan(θ'/2) = e^{η} tan(θ/2) and 1/D = ½ ((1 + c)
     /// e^{−η} + (1 − c) e^{η}): sums of positive numbers, so nothing cancels near the speed of
     /// light.
-    #[inline]
+    #[inline(always)]
     fn carried(&self, seen: DVec3) -> (DVec3, f64, DVec3) {
         let along = seen.dot(self.ahead);
         let across = seen - along * self.ahead;

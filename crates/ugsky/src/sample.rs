@@ -14,7 +14,7 @@ use crate::window::{self, Buffers, EACH, Footprints};
 /// Finds the light of footprints in a panorama.
 pub struct Sampler<'a> {
     panorama: &'a Panorama,
-    simd: Level,
+    pub(crate) simd: Level,
     buffers: Buffers,
     runs: Vec<Run>,
     /// The weights of all runs, each in whole chunks.
@@ -101,7 +101,7 @@ impl Sampler<'_> {
     }
 
     #[inline(always)]
-    fn see_on<S: Simd>(&mut self, simd: S, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
+    pub(crate) fn see_on<S: Simd>(&mut self, simd: S, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
         let sky = self.panorama;
         let mut seen = Seen { doppler: [1.0; Seen::N], is_found: [true; Seen::N], ..Seen::default() };
         let mut footprints = Footprints::default();

@@ -116,11 +116,11 @@ impl Shade {
     /// sees. `light`: linear red, green and blue times alpha, and alpha; `doppler`: the Doppler
     /// factors.
     pub fn see(&self, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
-        dispatch!(self.simd, simd => self.see_with(simd, light, doppler));
+        dispatch!(self.simd, simd => self.see_on(simd, light, doppler));
     }
 
     #[inline(always)]
-    fn see_with<S: Simd>(&self, simd: S, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
+    pub(crate) fn see_on<S: Simd>(&self, simd: S, light: &mut [[f32; Seen::N]; 4], doppler: &[f32; Seen::N]) {
         let (zero, one) = (f32x16::splat(simd, 0.0), f32x16::splat(simd, 1.0));
         let [reds, greens, blues, alphas] = light;
         // Interpolation may exceed the range by a little.

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::sync::OnceLock;
 
 use rayon::prelude::*;
 use ugphysics::spectrum::{InfraredRule, LightSpectrum, Spectrum, integrate};
@@ -70,9 +71,13 @@ pub struct SpectralTable {
 enum Kind {
     /// Matrices from linear red, green and blue at rest to those seen, by ln D.
     Linear { first: f64, maps: Vec<[[f32; 3]; 3]> },
-    /// The light seen of [`PURE`], by ln D.
-    Mixture { first: f64, lights: Vec<[[f32; 3]; N_PURE]> },
+    /// The light seen of [`PURE`], by ln D: computed by `colors` when it is first read, as a view
+    /// shows few of all Doppler factors.
+    Mixture { first: f64, lights: Vec<OnceLock<[[f32; 3]; N_PURE]>>, colors: Box<PureColors> },
 }
+
+/// The linear red, green and blue of [`PURE`] by ln D, without D⁵.
+type PureColors = dyn Fn(f64) -> [[f64; 3]; N_PURE] + Send + Sync;
 
 /// Number of spectra of [`Basis::Mixture`].
 pub const N_PURE: usize = 7;
@@ -125,9 +130,13 @@ impl SpectralTable {
                     row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2]
                 })
             }
-            Kind::Mixture { first, lights } => {
+            Kind::Mixture { first, lights, colors } => {
                 let (idx, part) = place(shift, *first, STEP, lights.len());
-                mixture_seen(rgb, [&lights[idx], &lights[idx + 1]], part)
+                let light = |idx: usize| {
+                    let color = || colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
+                    lights[idx].get_or_init(color)
+                };
+                mixture_seen(rgb, [light(idx), light(idx + 1)], part)
             }
         };
         if !self.flux {
@@ -196,9 +205,9 @@ fn planck(kelvin: [f64; 3], reach: f64, range: &Range<f64>) -> Result<Kind, Basi
         return Err(error);
     }
     let spectra = kelvin.map(|kelvin| Spectrum::blackbody(kelvin, 1.0));
-    let colors = colors_of(&spectra, range);
     // The amounts of the three bodies in a colour are those of the whole light at rest.
     let rest = spectra.each_ref().map(|spectrum| xyz_to_linear_srgb(spectrum.shifted(1.0)));
+    let colors = colors_of(spectra, range.clone());
     let inverse = inverse(rest).ok_or(error)?;
     let (first, n) = range_of(reach, STEP);
     let map = |idx: usize| {
@@ -212,14 +221,14 @@ fn planck(kelvin: [f64; 3], reach: f64, range: &Range<f64>) -> Result<Kind, Basi
 
 /// The linear red, green and blue of spectra by ln D, without D⁵.
 fn colors_of<const N: usize>(
-    spectra: &[Spectrum; N],
-    range: &Range<f64>,
-) -> impl Fn(f64) -> [[f64; 3]; N] + Sync {
+    spectra: [Spectrum; N],
+    range: Range<f64>,
+) -> impl Fn(f64) -> [[f64; 3]; N] + Send + Sync {
     let lights = spectra.each_ref().map(LightSpectrum::new);
     move |ln_doppler| {
-        let xyz = match *range == ALL_NM {
+        let xyz = match range == ALL_NM {
             true => Spectrum::all_shifted(spectra.each_ref(), libm::exp(ln_doppler)),
-            false => lights.each_ref().map(|light| shifted(light, range, ln_doppler)),
+            false => lights.each_ref().map(|light| shifted(light, &range, ln_doppler)),
         };
         xyz.map(xyz_to_linear_srgb)
     }
@@ -237,16 +246,12 @@ pub fn pure_lights(saturation: f64) -> [Spectrum; N_PURE] {
 }
 
 fn mixture(reach: f64, range: &Range<f64>) -> Kind {
-    let spectra = pure_lights(1.0);
-    let colors = colors_of(&spectra, range);
+    let colors = Box::new(colors_of(pure_lights(1.0), range.clone()));
     let (first, n) = range_of(reach, STEP);
-    let light = |idx: usize| colors(first + STEP * idx as f64).map(|rgb| rgb.map(|part| part as f32));
-    Kind::Mixture { first, lights: (0..n).into_par_iter().map(light).collect() }
+    Kind::Mixture { first, lights: std::iter::repeat_with(OnceLock::new).take(n).collect(), colors }
 }
 
 /// The light of a mixture between two entries of the table.
-//CUT as much white as all channels have, as
-/// much of a pair as the two brighter ones have more, and the rest of the brightest.
 fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_PURE]; 2], part: f32) -> [f32; 3] {
     let amounts = amounts(rgb);
     std::array::from_fn(|c| {
@@ -261,9 +266,15 @@ fn mixture_seen(rgb: [f32; 3], [low, high]: [&[[f32; 3]; N_PURE]; 2], part: f32)
 /// of a pair as the two brighter ones have more, and the rest of the brightest.
 pub fn amounts(rgb: [f32; 3]) -> [(usize, f32); 3] {
     let rgb = rgb.map(|part| part.max(0.0));
-    let mut order = [0, 1, 2];
-    order.sort_by(|a, b| rgb[*a].total_cmp(&rgb[*b]));
-    let [darkest, middle, brightest] = order;
+    let [mut darkest, mut middle, mut brightest] = [0, 1, 2];
+    let sort = |a: &mut usize, b: &mut usize| {
+        if rgb[*a] > rgb[*b] {
+            std::mem::swap(a, b);
+        }
+    };
+    sort(&mut darkest, &mut middle);
+    sort(&mut middle, &mut brightest);
+    sort(&mut darkest, &mut middle);
     [
         (0, rgb[darkest]),
         (4 + darkest, rgb[middle] - rgb[darkest]),

@@ -86,6 +86,7 @@ const MOST_LN_DOPPLER: f64 = 30.0;
 /// assert!((luminance - 1.0).abs() < 1e-4);
 /// ```
 pub struct StarLight {
+    grid: DopplerGrid,
     table: DopplerTable,
     doppler: bool,
     flux: bool,
@@ -103,8 +104,7 @@ impl StarLight {
             (low, high) = (low.min(ln), high.max(ln));
         }
         let grid = DopplerGrid::new(low - reach..=high + reach);
-        let table = grid.table(&Spectrum::blackbody(REFERENCE, 1.0));
-        Self { table, doppler: shift[0], flux: shift[1] }
+        Self { table: grid.table(), grid, doppler: shift[0], flux: shift[1] }
     }
 
     /// Linear red, green and blue of the irradiance by a star that is seen with a Doppler factor,
@@ -112,10 +112,12 @@ impl StarLight {
     pub fn irradiance(&self, star: &Star, doppler: f64) -> [f64; 3] {
         let rest = ln_relative(star.kelvin);
         let seen = if self.doppler { rest + libm::log(doppler) } else { rest };
-        let [_, luminance, _] = self.table.xyz(rest);
+        let reference = Spectrum::blackbody(REFERENCE, 1.0);
+        let xyz = |ln: f64| self.table.xyz(ln, |idx| self.grid.ln_xyz(&reference, idx));
+        let [_, luminance, _] = xyz(rest);
         let gain = if self.flux { doppler * doppler * doppler } else { 1.0 / (doppler * doppler) };
         let scale = gain * libm::exp10(-0.4 * star.magnitude) / luminance;
-        xyz_to_linear_srgb(self.table.xyz(seen).map(|part| part * scale))
+        xyz_to_linear_srgb(xyz(seen).map(|part| part * scale))
     }
 }
 

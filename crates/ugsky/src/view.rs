@@ -1,5 +1,6 @@
 //! From places in a picture to the light seen.
 
+use fearless_simd::{Simd, dispatch};
 use glam::DVec3;
 
 use crate::observer::{Observer, SkyRay};
@@ -51,13 +52,21 @@ pub struct SkyLight<'a, 's, F> {
 impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
     /// The light seen in `n` samples of a row: red, green and blue times the covered part, and that
     /// part. It is exact at poles, at edges and for samples that see most of the sky.
-    pub fn row(&mut self, found: &mut [Seen], [left, y]: [f64; 2], n: usize) {
+    pub fn row(&mut self, found: &mut [Seen], start: [f64; 2], n: usize) {
+        dispatch!(self.sampler.simd, simd => self.row_on(simd, found, start, n));
+    }
+
+    #[inline(always)]
+    fn row_on<S: Simd>(&mut self, simd: S, found: &mut [Seen], [left, y]: [f64; 2], n: usize) {
         for (first, seen) in found.iter_mut().enumerate() {
             let place = |idx: usize| [left + (first * Seen::N + idx) as f64, y];
             let n = Seen::N.min(n - first * Seen::N);
-            let rays = std::array::from_fn(|idx| if idx < n { self.ray(place(idx), 1.0) } else { None });
-            *seen = self.sampler.see(&rays, self.view.spread);
-            self.shade.see(&mut seen.light, &seen.doppler);
+            let mut rays = [None; Seen::N];
+            for (idx, ray) in rays[..n].iter_mut().enumerate() {
+                *ray = self.ray(place(idx), 1.0);
+            }
+            *seen = self.sampler.see_on(simd, &rays, self.view.spread);
+            self.shade.see_on(simd, &mut seen.light, &seen.doppler);
             for idx in (0..n).filter(|idx| !seen.is_found[*idx]) {
                 let light = self.divided(place(idx), 1.0, 0);
                 (0..4).for_each(|channel| seen.light[channel][idx] = light[channel]);
@@ -93,7 +102,7 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
     }
 
     /// The ray of a square of the film, `side` samples wide; `None` where the lens shows nothing.
-    #[inline]
+    #[inline(always)]
     fn ray(&self, [x, y]: [f64; 2], side: f64) -> Option<SkyRay> {
         let (seen, observer) = (&self.film, &self.view.observer);
         if let Some(FlatFilm { corner, across, down }) = self.view.flat {

@@ -24,27 +24,25 @@ const MARGIN: i32 = 2;
 pub struct DopplerGrid {
     first: i32,
     last: i32,
-    /// Weighted daylight at each factor, computed once for all surfaces.
-    light: OnceLock<Vec<WeightedDaylight>>,
+    /// Weighted daylight at each factor, computed once for all surfaces, when it is first read.
+    light: Box<[OnceLock<Box<WeightedDaylight>>]>,
     /// Quadrature weights at each factor by each rule for infrared, for [`DopplerGrid::xyz`].
-    nodes: [OnceLock<Vec<Quadrature<N_NODES>>>; 2],
+    nodes: [Box<[OnceLock<Box<Quadrature<N_NODES>>>]>; 2],
 }
 
 impl DopplerGrid {
     /// A grid that covers a range of ln D.
     pub fn new(ln_doppler: RangeInclusive<f64>) -> Self {
         let row = |ln: f64| (ln.clamp(-MAX_LN_DOPPLER, MAX_LN_DOPPLER) / LN_STEP).floor() as i32;
-        Self {
-            first: row(*ln_doppler.start()).min(0) - MARGIN,
-            last: row(*ln_doppler.end()).max(0) + 1 + MARGIN,
-            light: OnceLock::new(),
-            nodes: [const { OnceLock::new() }; 2],
-        }
+        let first = row(*ln_doppler.start()).min(0) - MARGIN;
+        let last = row(*ln_doppler.end()).max(0) + 1 + MARGIN;
+        let n_points = (last - first + 1) as usize;
+        Self { first, last, light: empty(n_points), nodes: [empty(n_points), empty(n_points)] }
     }
 
     /// The number of Doppler factors.
     pub fn n_points(&self) -> usize {
-        (self.last - self.first + 1) as usize
+        self.light.len()
     }
 
     /// The ln D of each, in increasing order.
@@ -52,21 +50,26 @@ impl DopplerGrid {
         (self.first..=self.last).map(|row| f64::from(row) * LN_STEP)
     }
 
-    /// Tabulates a spectrum at every Doppler factor of the grid.
-    pub fn table(&self, spectrum: &Spectrum) -> DopplerTable {
-        let points = match &spectrum.0 {
-            Kind::Reflected(surface) => {
-                self.light().iter().map(|light| surface.xyz_under(light).map(libm::log)).collect()
-            }
-            _ => self.factors().map(|doppler| spectrum.ln_shifted(doppler)).collect(),
-        };
-        DopplerTable { first: self.first, points }
+    /// The Doppler factor of a point.
+    pub fn doppler(&self, idx: usize) -> f64 {
+        libm::exp(f64::from(self.first + idx as i32) * LN_STEP)
+    }
+
+    /// ln X, ln Y, ln Z of a spectrum at a point; −∞ where there is no light.
+    pub fn ln_xyz(&self, spectrum: &Spectrum, idx: usize) -> [f64; 3] {
+        match &spectrum.0 {
+            Kind::Reflected(surface) => surface.xyz_under(self.light(idx)).map(libm::log),
+            _ => spectrum.ln_shifted(self.doppler(idx)),
+        }
     }
 
     /// A table whose points are computed when they are first read.
-    pub fn lazy_table(&self) -> LazyTable {
-        let chunks = std::iter::repeat_with(OnceLock::new).take(self.n_points().div_ceil(CHUNK)).collect();
-        LazyTable { first: self.first, n_points: self.n_points(), chunks }
+    pub fn table(&self) -> DopplerTable {
+        DopplerTable {
+            first: self.first,
+            n_points: self.n_points(),
+            chunks: empty(self.n_points().div_ceil(CHUNK)),
+        }
     }
 
     /// X, Y, Z as from [`Spectrum::shifted`], at one ln D and without a table. For surfaces the
@@ -76,31 +79,39 @@ impl DopplerGrid {
         let Kind::Reflected(surface) = &spectrum.0 else { return spectrum.shifted(libm::exp(ln_doppler)) };
         let cell = Cell::new(self.first, self.n_points(), ln_doppler);
         if cell.fraction == 0.0 {
-            return surface.xyz_under(&self.light()[cell.idx]);
+            return surface.xyz_under(self.light(cell.idx));
         }
         let rule = surface.rule();
-        let nodes = || self.light().iter().map(|light| Quadrature::new(light, rule)).collect();
-        let nodes = self.nodes[rule as usize].get_or_init(nodes);
-        cell.interpolate(ln_xyz_at_nodes(surface, &nodes[cell.idx - 1..cell.idx + 3]))
+        let nodes = |idx: usize| {
+            let new = || Box::new(Quadrature::new(self.light(idx), rule));
+            &**self.nodes[rule as usize][idx].get_or_init(new)
+        };
+        cell.interpolate(ln_xyz_at_nodes(surface, std::array::from_fn(|i| nodes(cell.idx + i - 1))))
     }
 
-    fn light(&self) -> &[WeightedDaylight] {
-        self.light.get_or_init(|| self.factors().map(WeightedDaylight::new).collect())
+    fn light(&self, idx: usize) -> &WeightedDaylight {
+        self.light[idx].get_or_init(|| Box::new(WeightedDaylight::new(self.doppler(idx))))
     }
+}
 
-    fn factors(&self) -> impl Iterator<Item = f64> {
-        self.ln_doppler().map(libm::exp)
-    }
+fn empty<T>(n: usize) -> Box<[OnceLock<T>]> {
+    std::iter::repeat_with(OnceLock::new).take(n).collect()
 }
 
 /// ln X, ln Y, ln Z of a surface at four points.
-fn ln_xyz_at_nodes(surface: &Reflectance, around: &[Quadrature<N_NODES>]) -> [[f64; 3]; 4] {
+fn ln_xyz_at_nodes(surface: &Reflectance, around: [&Quadrature<N_NODES>; 4]) -> [[f64; 3]; 4] {
     let values = surface.curve().map_or([1.0; N_NODES], |curve| around[0].curve(curve));
     // Interpolation polynomials can fall slightly below 0.
-    std::array::from_fn(|k| surface.xyz_at_nodes(&values, &around[k]).map(|sum| libm::log(sum.max(0.0))))
+    around.map(|nodes| surface.xyz_at_nodes(&values, nodes).map(|sum| libm::log(sum.max(0.0))))
 }
 
-/// A table over ln D of ln X, ln Y, ln Z of L(λ) = L'(λD), without the factor D⁵.  Eq. (P12), (P19)
+/// Points of a [`DopplerTable`] that are allocated together.
+const CHUNK: usize = 16;
+
+type Chunk = Box<[OnceLock<[f64; 3]>; CHUNK]>;
+
+/// A table over ln D of ln X, ln Y, ln Z of L(λ) = L'(λD), without the factor D⁵, whose points are
+/// computed when they are first read.  Eq. (P12), (P19)
 ///
 /// Logarithms, because far from D = 1 mainly the exponential tail of Planck's law is left. A cubic
 /// through four points does not follow it well, but its logarithm is nearly linear. Where a point
@@ -109,61 +120,35 @@ fn ln_xyz_at_nodes(surface: &Reflectance, around: &[Quadrature<N_NODES>]) -> [[f
 pub struct DopplerTable {
     /// ln D of the first point, in steps of [`LN_STEP`].
     first: i32,
-    points: Vec<[f64; 3]>,
+    n_points: usize,
+    chunks: Box<[OnceLock<Chunk>]>,
 }
 
 impl DopplerTable {
-    /// X, Y, Z as from [`Spectrum::shifted`], interpolated at a ln D. Outside the table's range,
-    /// the values at its nearer end.
+    /// X, Y, Z interpolated at a ln D. Outside the table's range, the values at its nearer end.
+    /// `ln_xyz`: returns the logarithms at a point of the grid, always by the same function.
     ///
     /// ```
     /// use ugphysics::spectrum::{DopplerGrid, Spectrum};
     ///
     /// let green = Spectrum::from_linear_srgb([0.1, 0.5, 0.1]);
-    /// let table = DopplerGrid::new(-1.0..=1.0).table(&green);
-    /// let [_, near, _] = table.xyz(0.123_f64);
+    /// let grid = DopplerGrid::new(-1.0..=1.0);
+    /// let [_, near, _] = grid.table().xyz(0.123_f64, |idx| grid.ln_xyz(&green, idx));
     /// let [_, exact, _] = green.shifted(1.130_884_420_947_05);
     /// assert!((near / exact - 1.0).abs() < 3e-4);
     /// ```
-    pub fn xyz(&self, ln_doppler: f64) -> [f64; 3] {
-        let cell = Cell::new(self.first, self.points.len(), ln_doppler);
-        cell.interpolate(std::array::from_fn(|i| self.points[cell.idx + i - 1]))
-    }
-
-    /// ln X, ln Y, ln Z at the points of the grid; −∞ where there is no light.
-    pub fn points(&self) -> &[[f64; 3]] {
-        &self.points
-    }
-}
-
-/// Points of a [`LazyTable`] that are allocated together.
-const CHUNK: usize = 16;
-
-type Chunk = Box<[OnceLock<[f64; 3]>; CHUNK]>;
-
-/// As a [`DopplerTable`], of any X, Y, Z; points are computed when they are first read.
-#[derive(Debug)]
-pub struct LazyTable {
-    first: i32,
-    n_points: usize,
-    chunks: Box<[OnceLock<Chunk>]>,
-}
-
-impl LazyTable {
-    /// X, Y, Z interpolated at a ln D. `xyz`: returns those at a D, always by the same function.
-    pub fn xyz(&self, ln_doppler: f64, xyz: impl Fn(f64) -> [f64; 3]) -> [f64; 3] {
+    pub fn xyz(&self, ln_doppler: f64, ln_xyz: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
         let cell = Cell::new(self.first, self.n_points, ln_doppler);
-        let point = |idx: usize| {
-            let chunk = self.chunks[idx / CHUNK].get_or_init(|| Box::new([const { OnceLock::new() }; CHUNK]));
-            *chunk[idx % CHUNK].get_or_init(|| {
-                let ln_doppler = f64::from(self.first + idx as i32) * LN_STEP;
-                xyz(libm::exp(ln_doppler)).map(libm::log)
-            })
-        };
         if cell.fraction == 0.0 {
-            return point(cell.idx).map(libm::exp);
+            return self.point(cell.idx, ln_xyz).map(libm::exp);
         }
-        cell.interpolate(std::array::from_fn(|i| point(cell.idx + i - 1)))
+        cell.interpolate(std::array::from_fn(|i| self.point(cell.idx + i - 1, &ln_xyz)))
+    }
+
+    /// The logarithms at a point of the grid.
+    pub fn point(&self, idx: usize, ln_xyz: impl Fn(usize) -> [f64; 3]) -> [f64; 3] {
+        let chunk = self.chunks[idx / CHUNK].get_or_init(|| Box::new([const { OnceLock::new() }; CHUNK]));
+        *chunk[idx % CHUNK].get_or_init(|| ln_xyz(idx))
     }
 }
 

@@ -75,6 +75,9 @@ pub(crate) fn parts(wavelength_nm: f64) -> (f64, [f64; N_LEVELS]) {
         let last = LEVELS_NM[N_LEVELS - 1] as usize + 1;
         (FIRST_NM as usize..=last).map(|nm| shares(nm as f64)).collect()
     });
+    if wavelength_nm <= FIRST_NM {
+        return (1.0, [0.0; N_LEVELS]);
+    }
     let at = (wavelength_nm - FIRST_NM).max(0.0);
     let row = (at as usize).min(ROWS.len() - 2);
     let part = (at - row as f64).min(1.0);

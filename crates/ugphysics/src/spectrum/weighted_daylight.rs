@@ -28,7 +28,8 @@ pub(crate) struct WeightedDaylight {
 
 impl WeightedDaylight {
     pub fn new(doppler: f64) -> Self {
-        let [inside, joined] = [[0; 3]; 2].map(|channels| channels.map(|_| Vec::new()));
+        let [inside, joined] =
+            [[0; 3]; 2].map(|channels| channels.map(|_| Vec::with_capacity(CIE_1931.len())));
         let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
         let mut light =
             Self { doppler, ultraviolet, beyond: [0.0; 3], infrared, first_nm: 0.0, inside, joined };
@@ -62,7 +63,8 @@ impl WeightedDaylight {
 
     /// Emitted wavelengths of the rows of `inside`, nm.
     pub fn wavelengths(&self) -> impl Iterator<Item = f64> {
-        (0..self.inside[0].len()).map(|row| (self.first_nm + row as f64) * self.doppler)
+        // Rows as i32, which vectors convert to f64.
+        (0..self.inside[0].len() as i32).map(|row| (self.first_nm + f64::from(row)) * self.doppler)
     }
 }
 

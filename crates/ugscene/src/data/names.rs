@@ -75,6 +75,14 @@ impl UniqueNames {
         fresh
     }
 
+    /// Adds a [fresh](Self::fresh) name to a table.
+    pub fn add(&mut self, name: String, table: &mut Names) -> NameId {
+        let fresh = if self.taken.contains_key(&name) { self.unused(&name) } else { name };
+        let id = table.add(&fresh);
+        self.taken.insert(fresh, 1);
+        id
+    }
+
     /// Adds a [fresh](Self::fresh) name to the table that has the original.
     pub fn add_copy(&mut self, original: NameId, table: &mut Names) -> NameId {
         let fresh = self.unused(table.get(original));
@@ -88,11 +96,14 @@ impl UniqueNames {
         fresh.push_str(name);
         let Some(&last) = self.taken.get(name) else { return fresh };
         let mut count = last;
-        while self.taken.contains_key(&fresh) {
+        loop {
             count += 1;
             fresh.truncate(name.len());
             // Writing to a string does not fail.
             let _ = write!(fresh, "_{count}");
+            if !self.taken.contains_key(&fresh) {
+                break;
+            }
         }
         if let Some(last) = self.taken.get_mut(name) {
             *last = count;
