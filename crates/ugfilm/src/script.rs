@@ -330,7 +330,10 @@ impl Script {
         let mut commands = Commands(self.tools.iter().map(begin).collect());
         for setting in self.settings(left_out) {
             let values = self.values(setting, frame)?;
-            for &row in &setting.owners {
+            // The first program states the view ahead in the scene.
+            let is_stated = setting.name == "va" && self.get("ahead").is_some();
+            let owners = &setting.owners;
+            for &row in if is_stated { &owners[..owners.len().min(1)] } else { owners } {
                 commands.0[row].push(spelling(&setting.name));
                 commands.0[row].extend(values.iter().cloned());
             }

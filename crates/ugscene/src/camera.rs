@@ -106,6 +106,16 @@ impl View {
     pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
+        let seen;
+        let options = if options.is_ahead && scene.stage.seen_geometry().is_some() {
+            // They state the view at rest; the scene's camera has that in motion.
+            let both = |(_, down): (f64, Option<f64>)| camera.view_angle.map(|[a, b]| (a, down.map(|_| b)));
+            let view_angle = options.view_angle.and_then(both);
+            seen = CameraOptions { center: None, up: None, view_angle, ..options.clone() };
+            &seen
+        } else {
+            options
+        };
         let default_camera = DefaultCamera::new(scene, options, samples, |_| Vec::new())?;
         let (eye, center) = match default_camera {
             Some(DefaultCamera { eye, center, .. }) => (eye, center),
@@ -224,7 +234,7 @@ pub(crate) fn middle(scene: &Scene) -> DVec3 {
 
 /// The unit vector to the right, and whether `up` had to be replaced because it is parallel
 /// to the view.
-fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
+pub(crate) fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
     /// Sine of the angle between up and view below which they count as parallel.
     const LEAST: f64 = 1e-9;
     let across = forward.cross(ugphysics::unit_or_zero(up));
