@@ -49,7 +49,7 @@ fn edges() -> Config {
     let white = Hsv { hue: 0.0, saturation: 0.0, value: 1.0 };
     Config {
         picture: ugrainbow::PictureOptions { size: [240, 180], ..ugrainbow::PictureOptions::default() },
-        wireframe: Some(Wireframe { has_faces: false, color: Some(white) }),
+        wireframe: Some(Wireframe { has_faces: false, color: Some(white), ..Wireframe::default() }),
         line_width: 2.0,
         ..Config::default()
     }

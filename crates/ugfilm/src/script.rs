@@ -163,7 +163,7 @@ impl Script {
     /// Leaves textures to rays in the pipe of three programs, unless an option excludes rays.
     pub fn draw_textures(&mut self) {
         /// Options of `ugrainbow` that need colours at vertices.
-        const SCANLINE: [&str; 4] = ["cb", "og", "vec", "wf"];
+        const SCANLINE: [&str; 7] = ["cb", "og", "vec", "wf", "sil", "crease", "hl"];
         let needs_vertices = |Setting { name, .. }: &Setting| SCANLINE.contains(&name.as_str());
         if self.tools.len() == PIPE.len() && self.options.iter().any(needs_vertices) {
             self.set("no-textures", Vec::new());

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::camera_options::{CameraError, CameraOptions, Film};
+use crate::camera_options::{CameraError, CameraOptions, Film, right_of};
 use crate::half_space::HalfSpace;
 use crate::{Camera, DefaultCamera, Projection, Scene};
 
@@ -230,20 +230,6 @@ impl View {
 pub(crate) fn middle(scene: &Scene) -> DVec3 {
     // Halved first: the sum of two large coordinates may overflow.
     scene.bounds().map_or(DVec3::ZERO, |(low, high)| low * 0.5 + high * 0.5)
-}
-
-/// The unit vector to the right, and whether `up` had to be replaced because it is parallel
-/// to the view.
-pub(crate) fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
-    /// Sine of the angle between up and view below which they count as parallel.
-    const LEAST: f64 = 1e-9;
-    let across = forward.cross(ugphysics::unit_or_zero(up));
-    if across.length() > LEAST {
-        return (across.normalize(), false);
-    }
-    // +y is up for a vertical view, as on a map.
-    let axis = if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::Z };
-    (forward.cross(axis).normalize(), true)
 }
 
 fn slab(camera: &Camera, is_perspective: bool, distance: f64) -> Result<Slab, CameraError> {

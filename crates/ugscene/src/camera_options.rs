@@ -135,3 +135,17 @@ pub(crate) fn half_side(degrees: f64) -> Result<f64, CameraError> {
     let half = libm::tan(0.5 * degrees.to_radians());
     if is_flat && half > 0.0 { Ok(half) } else { Err(CameraError::ViewAngle(degrees)) }
 }
+
+/// The unit vector to the right, and whether `up` had to be replaced because it is parallel
+/// to the view.
+pub(crate) fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
+    /// Sine of the angle between up and view below which they count as parallel.
+    const LEAST: f64 = 1e-9;
+    let across = forward.cross(ugphysics::unit_or_zero(up));
+    if across.length() > LEAST {
+        return (across.normalize(), false);
+    }
+    // +y is up for a vertical view, as on a map.
+    let axis = if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::Z };
+    (forward.cross(axis).normalize(), true)
+}

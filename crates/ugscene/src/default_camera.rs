@@ -3,9 +3,8 @@
 use glam::{DQuat, DVec3};
 
 use crate::RelativeMotion;
-use crate::camera::right_of;
 use crate::camera_fit::{Frame, Place, Subject};
-use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film};
+use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film, right_of};
 use crate::{BodyId, FaceOrWire, Scene};
 
 /// From the view centre to the eye, where z is up: from the front (−y), the right and above. No

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ugphysics::{Velocity, aberrate};
 
-use crate::camera::{right_of, view_distance};
-use crate::camera_options::{CameraError, half_side, half_width_of};
+use crate::camera::view_distance;
+use crate::camera_options::{CameraError, half_side, half_width_of, right_of};
 use crate::{Camera, Projection};
 
 /// Cosine of the greatest angle between a view and the motion at which the camera looks ahead.
