@@ -20,6 +20,9 @@ pub struct Edge {
     pub face: u32,
     /// Its ends, the same for all vertices at one place, in ascending order.
     pub places: [u32; 2],
+    /// On which side of a silhouette, seen from its first end to the other, the body is not: 1 if
+    /// on the right, −1 on the left, 0 for other edges.
+    pub outward: f64,
     body: BodyId,
     /// The face has its ends in this order, too.
     is_forward: bool,
@@ -36,7 +39,7 @@ pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
             let is_forward = a < b;
             let (ends, places) = if is_forward { (ends, [a, b]) } else { ([ends[1], ends[0]], [b, a]) };
             // The text of a scene is below 4 GiB, so row numbers fit.
-            Edge { ends, face: row as u32, places, body: face.body, is_forward }
+            Edge { ends, face: row as u32, places, outward: 0.0, body: face.body, is_forward }
         };
         let edges = face_edges(scene, face).map(edge);
         edges.filter(|edge| edge.places[0] != edge.places[1]).collect::<Vec<_>>()
@@ -51,7 +54,7 @@ pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
         let of_faces: Vec<&Edge> = of_faces.filter(|same| same.len() == 1).flatten().collect();
         match of_faces[..] {
             [] => None,
-            [one, other] => is_between(painter, [one, other], kind).then_some(*one),
+            [one, other] => between(painter, [one, other], kind),
             [first, ..] => Some(*first),
         }
     };
@@ -85,7 +88,8 @@ fn places(scene: &Scene, rest: &[DVec3]) -> Vec<u32> {
         let (low, high) = boxes[body(row).index()];
         let most = SAME * (high - low).max_element();
         let near = rows[..at].iter().rev().take(MOST).copied();
-        let mut near = near.take_while(|&other| body(other) == body(row) && along(row) - along(other) <= most);
+        let mut near =
+            near.take_while(|&other| body(other) == body(row) && along(row) - along(other) <= most);
         if let Some(other) = near.find(|&other| rest[row as usize].distance(rest[other as usize]) <= most) {
             places[row as usize] = places[other as usize];
         }
@@ -93,27 +97,38 @@ fn places(scene: &Scene, rest: &[DVec3]) -> Vec<u32> {
     places
 }
 
-/// True if the edge between two faces is drawn.
-fn is_between(painter: &Painter<'_>, edges: [&Edge; 2], kind: EdgeKind) -> bool {
+/// The edge between two faces, if it is drawn.
+fn between(painter: &Painter<'_>, edges: [&Edge; 2], kind: EdgeKind) -> Option<Edge> {
     let faces = edges.map(|edge| &painter.scene.faces[edge.face as usize]);
     // If both run along the edge alike, one of them is inside out.
     let is_inside_out = edges[0].is_forward == edges[1].is_forward;
-    let is_bent_over = || {
-        let [one, other] = faces.map(|face| is_turned_away(painter, face));
-        (one == other) == is_inside_out
+    let least_cosine = match kind {
+        EdgeKind::All => FLAT,
+        EdgeKind::Creases { angle } => libm::cos(angle),
+        EdgeKind::Silhouette => f64::NEG_INFINITY,
     };
-    let is_crease = |least: f64| {
+    let is_crease = || {
         let [one, other] = faces.map(|face| normal(painter, face));
         let cosine = |(one, other): (DVec3, DVec3)| one.dot(if is_inside_out { -other } else { other });
         // A degenerate piece is coplanar with every face.
-        one.zip(other).map(cosine).is_some_and(|cosine| cosine < least)
+        one.zip(other).map(cosine).is_some_and(|cosine| cosine < least_cosine)
     };
-    match kind {
-        EdgeKind::Silhouette => is_bent_over(),
-        _ if faces[0].color != faces[1].color => true,
-        EdgeKind::All => is_crease(FLAT),
-        EdgeKind::Creases { angle } => is_crease(libm::cos(angle)) || is_bent_over(),
-    }
+    let [one, other] = edges.map(|edge| kind != EdgeKind::All && is_on_left(painter, edge));
+    let is_silhouette = kind != EdgeKind::All && one == other;
+    let outward = if !is_silhouette {
+        0.0
+    } else if one {
+        1.0
+    } else {
+        -1.0
+    };
+    let is_border = kind != EdgeKind::Silhouette && faces[0].color != faces[1].color;
+    (is_silhouette || is_border || is_crease()).then_some(Edge { outward, ..*edges[0] })
+}
+
+/// True if the face of an edge is seen on its left, from the first end to the other.
+fn is_on_left(painter: &Painter<'_>, edge: &Edge) -> bool {
+    is_turned_away(painter, &painter.scene.faces[edge.face as usize]) != edge.is_forward
 }
 
 /// The normal of a face at rest; `None` if it has no area.
@@ -148,7 +163,7 @@ pub fn chained(edges: Vec<Edge>) -> Vec<(Edge, bool)> {
     };
     let reversed = |edge: Edge| {
         let ([a, b], [from, to]) = (edge.ends, edge.places);
-        Edge { ends: [b, a], places: [to, from], ..edge }
+        Edge { ends: [b, a], places: [to, from], outward: -edge.outward, ..edge }
     };
     let from = |place: u32, row: usize| {
         let edge = edges[row];

@@ -53,6 +53,8 @@ pub struct Line {
     pub rows: Option<[u32; 2]>,
     /// It continues the line before it.
     pub continues: bool,
+    /// The side of a silhouette on which the body is not, see [`Edge::outward`].
+    outward: f64,
 }
 
 /// The apparent shape of lines that are straight at rest.
@@ -113,6 +115,8 @@ pub struct Stroke {
     pub is_end: [bool; 2],
     /// Its width, in units of that of visible lines.
     pub width: f64,
+    /// See [`Line`].
+    outward: f64,
     /// It continues the one before it.
     continues: bool,
     /// How far it is from the beginning of those it continues to its own, in samples.
@@ -154,6 +158,7 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
                 colors: ends.map(&end),
                 rows,
                 continues: row > 0,
+                outward: 0.0,
             });
         }
     }
@@ -171,7 +176,15 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
         }
     };
     let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));
-    Line { item: edge.face, body: face.body, ends: edge.ends, colors, rows, continues: false }
+    Line {
+        item: edge.face,
+        body: face.body,
+        ends: edge.ends,
+        colors,
+        rows,
+        continues: false,
+        outward: edge.outward,
+    }
 }
 
 /// A colour that is neither shifted nor attenuated.
@@ -185,7 +198,7 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (
         let joint = |joint: &Joint| vertex(painter.view.place(joint.seen), &joint.color);
         let joints: Vec<_> = shape.joints(line).iter().map(joint).collect();
         let piece = |(row, ends): (usize, &[Vertex<TRANSPARENT_VALUES>])| {
-            piece(painter, line.item, [ends[0], ends[1]], line.continues || row > 0)
+            piece(painter, line, [ends[0], ends[1]], line.continues || row > 0)
         };
         joints.windows(2).enumerate().filter_map(piece).collect::<Vec<_>>()
     };
@@ -208,14 +221,15 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (
 /// The piece between two joints, clipped to the slab.
 fn piece(
     painter: &Painter<'_>,
-    item: u32,
+    line: &Line,
     ends: [Vertex<TRANSPARENT_VALUES>; 2],
     continues: bool,
 ) -> Option<Stroke> {
     let view = painter.view;
     let ends = clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
     let mut numbers = ends.iter().flat_map(|end| [end.x, end.y, end.key].into_iter().chain(end.values));
-    let stroke = Stroke { item, ends, is_end: [true; 2], width: 1.0, continues, from: 0.0 };
+    let &Line { item, outward, .. } = line;
+    let stroke = Stroke { item, ends, is_end: [true; 2], width: 1.0, outward, continues, from: 0.0 };
     numbers.all(f64::is_finite).then_some(stroke)
 }
 
@@ -234,8 +248,13 @@ impl Stroke {
     /// Its parts that are in the picture: what is drawn of those that are hidden, and those that
     /// are not. `width`: of lines.
     fn parts(&self, visibility: &Visibility<'_>, hidden: HiddenLines, width: f64) -> Vec<Self> {
-        let [a, b] = self.ends.map(|end| [end.x, end.y, end.key]);
         let length = self.length();
+        // Visibility of a silhouette is that of its outer side: faces of a moving body are seen
+        // bent, and the polygons drawn for them may bulge over the silhouette.
+        let out = if length > 0.0 { 0.5 * width * self.outward / length } else { 0.0 };
+        let [from, to] = &self.ends;
+        let [along_x, along_y] = [to.x - from.x, to.y - from.y];
+        let [a, b] = [from, to].map(|end| [end.x - out * along_y, end.y + out * along_x, end.key]);
         // A line seen end-on is a dot.
         let is_drawn = |[start, end]: &[f64; 2]| (end - start) * length > LEAST || length <= LEAST;
         let stroke = |[start, end]: [f64; 2], width: f64| Self {
