@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugscene::{BodyId, Face, Scene, VertexId, face_edges, unit_normal, vertex_bodies};
+use ugpicture::spots;
+use ugscene::{BodyId, Face, VertexId, face_edges, unit_normal};
 
 use crate::config::EdgeKind;
 use crate::painter::Painter;
@@ -19,7 +20,7 @@ pub struct Edge {
     /// Row of the face, or of the first of several.
     pub face: u32,
     /// Its ends, the same for all vertices at one place, in ascending order.
-    pub places: [u32; 2],
+    pub places: [usize; 2],
     /// On which side of a silhouette, seen from its first end to the other, the body is not: 1 if
     /// on the right, −1 on the left, 0 for other edges.
     pub outward: f64,
@@ -32,7 +33,7 @@ pub struct Edge {
 /// rest are one, also of faces without common vertices.
 pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
     let scene = painter.scene;
-    let places = places(scene, painter.appearance.surface.all_rest());
+    let places = places(painter.appearance.surface.all_rest());
     let of_face = |(row, face): (usize, &Face)| {
         let edge = |ends: [VertexId; 2]| {
             let [a, b] = ends.map(|end| places[end.index()]);
@@ -61,69 +62,40 @@ pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
     shared.into_par_iter().filter_map(drawn).collect()
 }
 
-/// For each vertex one at its place, the same for all that are there and part of its body.
-fn places(scene: &Scene, rest: &[DVec3]) -> Vec<u32> {
-    /// Greatest distance of vertices at one place, in units of the size of the body. Turned copies
-    /// of a part meet only so exactly.
+/// For each vertex the row of one at its place. Turned copies of a part meet only up to the digits
+/// in its text.
+fn places(rest: &[DVec3]) -> Vec<usize> {
+    /// Greatest distance of vertices at one place, in units of the size of the scene.
     const SAME: f64 = 1e-8;
-    /// In no symmetry plane of usual bodies, so that few vertices have one coordinate along it.
-    const ASLANT: DVec3 = DVec3::new(0.541_3, 0.313_7, 0.780_1);
-    /// Most vertices with nearly one coordinate that are compared with another.
-    const MOST: usize = 64;
-    let bodies = vertex_bodies(scene);
-    let mut boxes = vec![(DVec3::INFINITY, DVec3::NEG_INFINITY); scene.bodies.len()];
-    for (&place, body) in rest.iter().zip(&bodies) {
-        let (low, high) = &mut boxes[body.index()];
-        (*low, *high) = (low.min(place), high.max(place));
-    }
-    let along = |row: u32| rest[row as usize].dot(ASLANT);
-    let body = |row: u32| bodies[row as usize];
-    let mut rows: Vec<u32> = (0..rest.len() as u32).collect();
-    rows.par_sort_unstable_by(|&one, &other| {
-        let by_place = || along(one).total_cmp(&along(other)).then(one.cmp(&other));
-        body(one).cmp(&body(other)).then_with(by_place)
-    });
-    let mut places: Vec<u32> = (0..rest.len() as u32).collect();
-    for (at, &row) in rows.iter().enumerate() {
-        let (low, high) = boxes[body(row).index()];
-        let most = SAME * (high - low).max_element();
-        let near = rows[..at].iter().rev().take(MOST).copied();
-        let mut near =
-            near.take_while(|&other| body(other) == body(row) && along(row) - along(other) <= most);
-        if let Some(other) = near.find(|&other| rest[row as usize].distance(rest[other as usize]) <= most) {
-            places[row as usize] = places[other as usize];
-        }
-    }
-    places
+    let low = rest.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = rest.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    spots(rest, SAME * (high - low).max_element())
 }
 
 /// The edge between two faces, if it is drawn.
 fn between(painter: &Painter<'_>, edges: [&Edge; 2], kind: EdgeKind) -> Option<Edge> {
     let faces = edges.map(|edge| &painter.scene.faces[edge.face as usize]);
-    // If both run along the edge alike, one of them is inside out.
-    let is_inside_out = edges[0].is_forward == edges[1].is_forward;
+    let [one, other] = faces.map(|face| normal(painter, face));
+    // A degenerate piece is coplanar with every face.
+    let cosine = one.zip(other).map_or(1.0, |(one, other)| one.dot(other));
+    // If both run along the edge alike, one of them is inside out, or lies in a hole of the other.
+    let is_alike = edges[0].is_forward == edges[1].is_forward;
+    let is_in_hole = is_alike && cosine > FLAT;
+    let cosine = if is_alike && !is_in_hole { -cosine } else { cosine };
     let least_cosine = match kind {
         EdgeKind::All => FLAT,
         EdgeKind::Creases { angle } => libm::cos(angle),
         EdgeKind::Silhouette => f64::NEG_INFINITY,
     };
-    let is_crease = || {
-        let [one, other] = faces.map(|face| normal(painter, face));
-        let cosine = |(one, other): (DVec3, DVec3)| one.dot(if is_inside_out { -other } else { other });
-        // A degenerate piece is coplanar with every face.
-        one.zip(other).map(cosine).is_some_and(|cosine| cosine < least_cosine)
-    };
-    let [one, other] = edges.map(|edge| kind != EdgeKind::All && is_on_left(painter, edge));
-    let is_silhouette = kind != EdgeKind::All && one == other;
-    let outward = if !is_silhouette {
-        0.0
-    } else if one {
-        1.0
-    } else {
-        -1.0
+    let has_silhouette = kind != EdgeKind::All && !is_in_hole;
+    let [one, other] = edges.map(|edge| has_silhouette && is_on_left(painter, edge));
+    let outward = match (has_silhouette && one == other, one) {
+        (false, _) => 0.0,
+        (true, true) => 1.0,
+        (true, false) => -1.0,
     };
     let is_border = kind != EdgeKind::Silhouette && faces[0].color != faces[1].color;
-    (is_silhouette || is_border || is_crease()).then_some(Edge { outward, ..*edges[0] })
+    (outward != 0.0 || is_border || cosine < least_cosine).then_some(Edge { outward, ..*edges[0] })
 }
 
 /// True if the face of an edge is seen on its left, from the first end to the other.
@@ -152,10 +124,10 @@ fn is_turned_away(painter: &Painter<'_>, face: &Face) -> bool {
 /// Edges in the order in which they follow each other, each with whether it continues the one
 /// before it: where two meet, and no third.
 pub fn chained(edges: Vec<Edge>) -> Vec<(Edge, bool)> {
-    let mut at: Vec<(u32, usize)> =
+    let mut at: Vec<(usize, usize)> =
         edges.iter().enumerate().flat_map(|(row, edge)| edge.places.map(|place| (place, row))).collect();
     at.par_sort_unstable();
-    let next = |place: u32, row: usize| {
+    let next = |place: usize, row: usize| {
         let first = at.partition_point(|(other, _)| *other < place);
         let meet = at[first..].iter().take_while(|(other, _)| *other == place).map(|(_, row)| *row);
         let [one, other] = meet.take(3).collect::<Vec<_>>()[..] else { return None };
@@ -165,7 +137,7 @@ pub fn chained(edges: Vec<Edge>) -> Vec<(Edge, bool)> {
         let ([a, b], [from, to]) = (edge.ends, edge.places);
         Edge { ends: [b, a], places: [to, from], outward: -edge.outward, ..edge }
     };
-    let from = |place: u32, row: usize| {
+    let from = |place: usize, row: usize| {
         let edge = edges[row];
         if edge.places[0] == place { edge } else { reversed(edge) }
     };

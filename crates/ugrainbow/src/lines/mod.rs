@@ -263,17 +263,20 @@ impl Stroke {
             width,
             ..*self
         };
-        let visible = visibility.parts(a, b);
+        let mut visible = visibility.parts(a, b);
+        visible.retain(is_drawn);
         let behind = match hidden {
             HiddenLines::Omitted => Vec::new(),
             HiddenLines::Thin => visibility.hidden_parts(a, b, &visible),
             HiddenLines::Dashed => {
                 let hidden = visibility.hidden_parts(a, b, &visible);
-                hidden.into_iter().flat_map(|part| self.dashes(part, DASH.map(|part| width * part))).collect()
+                // At least samples long, so that the picture bounds how many there are.
+                let dash = DASH.map(|part| width.max(1.0) * part);
+                hidden.into_iter().flat_map(|part| self.dashes(part, dash)).collect()
             }
         };
         let behind = behind.into_iter().filter(is_drawn).map(|part| stroke(part, HIDDEN_WIDTH));
-        behind.chain(visible.iter().copied().filter(is_drawn).map(|part| stroke(part, 1.0))).collect()
+        behind.chain(visible.into_iter().map(|part| stroke(part, 1.0))).collect()
     }
 
     /// The dashes of a part. `dash`, `gap`: their lengths.
@@ -285,7 +288,6 @@ impl Stroke {
             let begin = number * period - self.from;
             [begin, begin + dash].map(|at| if length > 0.0 { (at / length).clamp(start, end) } else { start })
         };
-        // The picture bounds how many there are.
         let dashes = (0..=(last - first) as usize).map(|number| dash(first + number as f64));
         dashes.filter(|[start, end]| start < end).collect()
     }
