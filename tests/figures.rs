@@ -196,7 +196,8 @@ fn vector_figures_show_the_same_as_the_png() {
     teapot.lorentz.smooth = true;
     let mut cued = cubes.clone();
     cued.rainbow.depth_cue = Some(ugrainbow::DepthCue { range: None, least: 0.2 });
-    let edges = |has_faces| Some(ugrainbow::Wireframe { has_faces, color: None });
+    let edges =
+        |has_faces| Some(ugrainbow::Wireframe { has_faces, color: None, ..ugrainbow::Wireframe::default() });
     let mut wires = sphere.clone();
     wires.rainbow.wireframe = edges(false);
     let mut edged = ship();

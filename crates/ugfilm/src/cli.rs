@@ -504,8 +504,8 @@ fn default_camera(scene: &Scene, script: &Script) -> Result<Option<DefaultCamera
         script.pipe(frame, &[], Format::Png).ok()?.programs().iter().find_map(Program::motion)
     };
     let motions: Vec<MotionOptions> = (0..=FITTED_STEPS).filter_map(motion).collect();
-    ugscene::common_camera(scene, &CameraOptions::default(), [4, 3], &motions)
-        .map_err(|error| Failure::failed(error.words()))
+    let options = CameraOptions { is_ahead: script.get("ahead").is_some(), ..CameraOptions::default() };
+    ugscene::common_camera(scene, &options, [4, 3], &motions).map_err(|error| Failure::failed(error.words()))
 }
 
 impl Args {

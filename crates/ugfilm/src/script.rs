@@ -161,7 +161,7 @@ impl Script {
     /// Leaves textures to rays in the pipe of three programs, unless an option excludes rays.
     pub fn draw_textures(&mut self) {
         /// Options of `ugrainbow` that need colours at vertices.
-        const SCANLINE: [&str; 4] = ["cb", "og", "vec", "wf"];
+        const SCANLINE: [&str; 7] = ["cb", "og", "vec", "wf", "sil", "crease", "hl"];
         let needs_vertices = |Setting { name, .. }: &Setting| SCANLINE.contains(&name.as_str());
         if self.tools.len() == PIPE.len() && self.options.iter().any(needs_vertices) {
             self.set("no-textures", Vec::new());
@@ -327,7 +327,10 @@ impl Script {
         let mut commands = Commands(self.tools.iter().map(begin).collect());
         for setting in self.settings(left_out) {
             let values = self.values(setting, frame)?;
-            for &row in &setting.owners {
+            // The first program states the view ahead in the scene.
+            let is_stated = setting.name == "va" && self.get("ahead").is_some();
+            let owners = &setting.owners;
+            for &row in if is_stated { &owners[..owners.len().min(1)] } else { owners } {
                 commands.0[row].push(spelling(&setting.name));
                 commands.0[row].extend(values.iter().cloned());
             }

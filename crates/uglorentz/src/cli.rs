@@ -202,7 +202,7 @@ impl Args {
             (None, Some(milliradians)) => Pieces::UpTo(milliradians * 1e-3),
             (None, None) => Pieces::UpTo(DEFAULT_ERROR),
         };
-        let camera = self.camera.options();
+        let camera = CameraOptions { is_ahead: self.motion.is_ahead(), ..self.camera.options() };
         let motion = self.motion.options()?;
         Ok(Config {
             velocity: motion.velocity,

@@ -236,13 +236,13 @@ impl Args {
                 "-ad leaves out samples, and -aa 1 has one a pixel: leave out -ad, or give more with -aa",
             ));
         }
+        let format = picture_format(self.dt, output, self.explain.is_some())?;
+        let mut picture = self.picture.options(Output::Color(format), self.annotations.options()?)?;
+        picture.camera.is_ahead = self.motion.is_ahead();
         Ok(Config {
             motion: self.motion.options()?,
             shift: self.color_shift(),
-            picture: self.picture.options(
-                Output::Color(picture_format(self.dt, output, self.explain.is_some())?),
-                self.annotations.options()?,
-            )?,
+            picture,
             rays: RayOptions {
                 depth: self.rd,
                 cutoff: self.rc,

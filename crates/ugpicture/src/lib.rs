@@ -65,6 +65,7 @@ mod picture_file;
 mod quantity;
 pub mod rays;
 mod rendering;
+mod spots;
 pub mod textures;
 mod units;
 
@@ -85,6 +86,7 @@ pub use output::Output;
 pub use picture_file::PictureFile;
 pub use quantity::{IsoOptions, MapOptions, Quantity};
 pub use rendering::{Rendering, VectorFigure};
+pub use spots::spots;
 pub use ugimage::label::TextForm;
 pub use ugimage::{Filter, Tone};
 pub use units::{Unit, Units};

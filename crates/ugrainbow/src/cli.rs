@@ -20,7 +20,7 @@ use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{HueScale, Provenance};
 use ugskybox::cli::SkyArgs;
 
-use crate::config::{Config, DepthCue, LINE_WIDTH, Wireframe};
+use crate::config::{Config, DepthCue, EdgeKind, HiddenLines, LINE_WIDTH, Wireframe};
 use crate::explain::explain;
 use crate::{PROVENANCE, run_with};
 
@@ -95,6 +95,27 @@ pub struct Args {
     /// Draw edges of faces as black lines, over the faces
     #[arg(long, visible_alias = "edges", help_heading = LINES)]
     ed: bool,
+
+    /// Silhouette: of edges only those where a body turns away from the eye, and those of a single face
+    ///
+    /// Like -wf, or with -ed over the faces. Which side of a face is seen is decided in its rest frame,
+    /// so pieces made by uglorentz add no lines.
+    #[arg(long, visible_alias = "silhouette", conflicts_with = "crease", help_heading = LINES)]
+    sil: bool,
+
+    /// Of edges only the silhouette and creases of at least ANGLE degrees, 0 to 180
+    ///
+    /// Like -wf, or with -ed over the faces. An angle of 20 leaves out the edges of polygons in place
+    /// of curved surfaces. Edges between different colours are drawn.
+    #[arg(long, value_name = "ANGLE", value_parser = number(crease), help_heading = LINES)]
+    crease: Option<f64>,
+
+    /// Lines that are hidden by faces: dash, thin [default: not drawn]
+    ///
+    /// Like -wf; both have 0.6 of the width of visible lines.
+    #[arg(long, value_name = "STYLE", visible_alias = "hidden-lines", conflicts_with = "ed",
+          value_parser = one_of(["dash", "thin"], hidden_lines), help_heading = LINES)]
+    hl: Option<HiddenLines>,
 
     /// Colour of the edges, as for -bg [default: colours of the faces with -wf, black with -ed]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
@@ -234,7 +255,7 @@ impl Args {
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {
         let given = self.lc.as_deref().map(|words| color("lines -lc", words)).transpose()?;
-        if !self.wf && !self.ed {
+        if !(self.wf || self.ed || self.sil || self.crease.is_some() || self.hl.is_some()) {
             return match given {
                 Some(_) => {
                     Err(Failure::Usage("-lc is the colour of edges: add -wf or -ed, or leave it out".into()))
@@ -244,7 +265,12 @@ impl Args {
         }
         let black = || Hsv { hue: 0.0, saturation: 0.0, value: 0.0 };
         let color = if self.ed { Some(given.unwrap_or_else(black)) } else { given };
-        Ok(Some(Wireframe { has_faces: self.ed, color }))
+        let edges = match self.crease {
+            Some(degrees) => EdgeKind::Creases { angle: degrees.to_radians() },
+            None if self.sil => EdgeKind::Silhouette,
+            None => EdgeKind::All,
+        };
+        Ok(Some(Wireframe { has_faces: self.ed, color, edges, hidden: self.hl.unwrap_or_default() }))
     }
 
     fn depth_cue(&self) -> Result<Option<DepthCue>, Failure> {
@@ -306,5 +332,23 @@ fn line_width(width: f64) -> Result<f64, String> {
         Ok(width)
     } else {
         Err(format!("a line is more than 0 and at most {MAX_LINE_WIDTH} pixels wide"))
+    }
+}
+
+/// An angle between two faces, in degrees.
+fn crease(angle: f64) -> Result<f64, String> {
+    if (0.0..=180.0).contains(&angle) {
+        Ok(angle)
+    } else {
+        Err("a crease is from 0 to 180 degrees".to_owned())
+    }
+}
+
+/// What is drawn of hidden lines.
+fn hidden_lines(name: &str) -> Result<HiddenLines, String> {
+    match name {
+        "dash" => Ok(HiddenLines::Dashed),
+        "thin" => Ok(HiddenLines::Thin),
+        _ => Err("neither dash nor thin".to_owned()),
     }
 }

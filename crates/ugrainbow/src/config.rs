@@ -109,13 +109,45 @@ impl Config {
 pub const LINE_WIDTH: f64 = 1.2;
 
 /// Edges of faces as lines. They are not lit.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Wireframe {
     /// Draw the faces as well; otherwise they only occlude lines.
     pub has_faces: bool,
     /// Colour of the edges, neither shifted nor attenuated; `None`: the colours of the corners of
     /// their faces.
     pub color: Option<Hsv>,
+    /// Which edges.
+    pub edges: EdgeKind,
+    /// What is drawn of hidden lines, if faces are not drawn.
+    pub hidden: HiddenLines,
+}
+
+/// Which edges of faces are drawn. Those that belong to one face, or to more than two, always are.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum EdgeKind {
+    /// All, but those between coplanar faces of one colour.
+    #[default]
+    All,
+    /// Those between faces of different colours or whose planes are at least at this angle, in
+    /// radians, and the silhouette.
+    Creases {
+        /// The angle.
+        angle: f64,
+    },
+    /// Those between a face that is seen from the front and one from behind.
+    Silhouette,
+}
+
+/// What is drawn of the parts of lines that faces occlude.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HiddenLines {
+    /// Nothing.
+    #[default]
+    Omitted,
+    /// Dashes.
+    Dashed,
+    /// Thin lines.
+    Thin,
 }
 
 /// Depth cueing: linearly in depth along the view, the light of surfaces is replaced by that of the

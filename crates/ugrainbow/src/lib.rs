@@ -107,7 +107,7 @@ mod vector;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, draw};
-pub use config::{Config, DepthCue, Wireframe};
+pub use config::{Config, DepthCue, EdgeKind, HiddenLines, Wireframe};
 pub use error::Error;
 pub use render::{PROVENANCE, light, render, render_with, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};

@@ -13,7 +13,7 @@ use ugraster::{
 use ugscene::Face;
 
 use crate::clip::ClipCounts;
-use crate::config::{Config, DrawMode};
+use crate::config::{Config, DrawMode, HiddenLines};
 use crate::drawlist::DrawList;
 use crate::exact::{CurvedLines, Faces};
 use crate::lines::{LineShape, Occluders, StraightLines, Stroke, Visibility, lines, pieces, strips, strokes};
@@ -123,20 +123,20 @@ impl<'a, const N: usize> Layers<'a, N> {
         }
     }
 
-    /// The visible parts of pieces of lines.
-    fn shown(&self, painter: &Painter<'_>, all: &[Stroke], width: f64) -> Vec<Stroke> {
+    /// What is drawn of pieces of lines.
+    fn shown(&self, painter: &Painter<'_>, all: &[Stroke], hidden: HiddenLines, width: f64) -> Vec<Stroke> {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()];
         // One sample more than half the width.
         let margin = 0.5 * width + 1.0;
         match &self.surfaces {
             Surfaces::Rays(faces) => {
                 let is_hidden = |[x, y, key]: DepthPoint| faces.hides([x, y], key);
-                strokes(all, &Visibility::by_rays(&is_hidden, size, margin))
+                strokes(all, &Visibility::by_rays(&is_hidden, size, margin), hidden, width)
             }
             Surfaces::Polygons(list) => {
                 let boxes = all.iter().map(Stroke::bounds);
                 let occluders = Occluders::new(list.outlines(), boxes, size, margin);
-                strokes(all, &Visibility::behind(occluders, size, margin))
+                strokes(all, &Visibility::behind(occluders, size, margin), hidden, width)
             }
         }
     }
@@ -231,7 +231,8 @@ impl<'a> RenderLayers<'a> {
         let strokes = if pieces.is_empty() {
             Vec::new()
         } else {
-            with_layers!(&solid, |layers| layers.shown(&painter, &pieces, width))
+            let hidden = mode.wireframe.map_or(HiddenLines::Omitted, |wireframe| wireframe.hidden);
+            with_layers!(&solid, |layers| layers.shown(&painter, &pieces, hidden, width))
         };
         if mode.has_faces() {
             clip_counts = clip_counts.merge(with_layers!(&solid, |layers| layers.clip_counts()));

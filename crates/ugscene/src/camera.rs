@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::camera_options::{CameraError, CameraOptions, Film};
+use crate::camera_options::{CameraError, CameraOptions, Film, right_of};
 use crate::half_space::HalfSpace;
 use crate::{Camera, DefaultCamera, Projection, Scene};
 
@@ -106,6 +106,16 @@ impl View {
     pub fn new(scene: &Scene, options: &CameraOptions, samples: [u32; 2]) -> Result<Self, CameraError> {
         let none = Camera::default();
         let camera = scene.camera().unwrap_or(&none);
+        let seen;
+        let options = if options.is_ahead && scene.stage.seen_geometry().is_some() {
+            // They state the view at rest; the scene's camera has that in motion.
+            let both = |(_, down): (f64, Option<f64>)| camera.view_angle.map(|[a, b]| (a, down.map(|_| b)));
+            let view_angle = options.view_angle.and_then(both);
+            seen = CameraOptions { center: None, up: None, view_angle, ..options.clone() };
+            &seen
+        } else {
+            options
+        };
         let default_camera = DefaultCamera::new(scene, options, samples, |_| Vec::new())?;
         let (eye, center) = match default_camera {
             Some(DefaultCamera { eye, center, .. }) => (eye, center),
@@ -220,20 +230,6 @@ impl View {
 pub(crate) fn middle(scene: &Scene) -> DVec3 {
     // Halved first: the sum of two large coordinates may overflow.
     scene.bounds().map_or(DVec3::ZERO, |(low, high)| low * 0.5 + high * 0.5)
-}
-
-/// The unit vector to the right, and whether `up` had to be replaced because it is parallel
-/// to the view.
-fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
-    /// Sine of the angle between up and view below which they count as parallel.
-    const LEAST: f64 = 1e-9;
-    let across = forward.cross(ugphysics::unit_or_zero(up));
-    if across.length() > LEAST {
-        return (across.normalize(), false);
-    }
-    // +y is up for a vertical view, as on a map.
-    let axis = if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::Z };
-    (forward.cross(axis).normalize(), true)
 }
 
 fn slab(camera: &Camera, is_perspective: bool, distance: f64) -> Result<Slab, CameraError> {

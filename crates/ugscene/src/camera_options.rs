@@ -24,6 +24,9 @@ pub struct CameraOptions {
     pub view_angle: Option<(f64, Option<f64>)>,
     /// Parallel projection.
     pub is_orthographic: bool,
+    /// The view of a camera that moves is that of a camera at rest, aberrated (`--ahead`): the
+    /// options above state it at rest.
+    pub is_ahead: bool,
 }
 
 /// Why a camera is invalid.
@@ -117,7 +120,7 @@ pub(crate) fn half_film(options: &CameraOptions, size: [u32; 2]) -> Result<[f64;
 
 /// Half the width of the film at distance 1, from any two of view angle, film size and focal
 /// length: fs = 2 fl tan(va/2).
-fn half_width_of(camera: &Camera) -> Result<f64, CameraError> {
+pub(crate) fn half_width_of(camera: &Camera) -> Result<f64, CameraError> {
     match (camera.view_angle, camera.film_size, camera.focal_length) {
         (Some([across, _]), _, _) => half_side(across),
         (None, Some([width, _]), Some(length)) if width > 0.0 && length > 0.0 => Ok(0.5 * width / length),
@@ -131,4 +134,18 @@ pub(crate) fn half_side(degrees: f64) -> Result<f64, CameraError> {
     let is_flat = 0.0 < degrees && degrees < 180.0;
     let half = libm::tan(0.5 * degrees.to_radians());
     if is_flat && half > 0.0 { Ok(half) } else { Err(CameraError::ViewAngle(degrees)) }
+}
+
+/// The unit vector to the right, and whether `up` had to be replaced because it is parallel
+/// to the view.
+pub(crate) fn right_of(forward: DVec3, up: DVec3) -> (DVec3, bool) {
+    /// Sine of the angle between up and view below which they count as parallel.
+    const LEAST: f64 = 1e-9;
+    let across = forward.cross(ugphysics::unit_or_zero(up));
+    if across.length() > LEAST {
+        return (across.normalize(), false);
+    }
+    // +y is up for a vertical view, as on a map.
+    let axis = if forward.y.abs() < 0.9 { DVec3::Y } else { DVec3::Z };
+    (forward.cross(axis).normalize(), true)
 }

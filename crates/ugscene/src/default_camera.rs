@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use crate::RelativeMotion;
 use crate::camera_fit::{Frame, Place, Subject};
-use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film};
+use crate::camera_options::{CameraError, CameraOptions, DEFAULT_VIEW_ANGLE, half_film, right_of};
 use crate::{BodyId, FaceOrWire, Scene};
 
 /// From the view centre to the eye, where z is up: from the front (−y), the right and above. No
@@ -43,7 +43,8 @@ impl DefaultCamera {
     /// `size`: of the picture, of which only the aspect ratio matters. `motions`: of a body, each
     /// as in one of the pictures; none at rest. A moving body is fitted as it is seen when its
     /// middle is seen where it is at rest (`-in`). If one moves toward the eye, the eye is on
-    /// another side.
+    /// another side; with `options.is_ahead` the eye is where they move to, and sees them as at
+    /// rest.
     ///
     /// # Errors
     /// [`CameraError::ViewAngle`].
@@ -68,10 +69,17 @@ impl DefaultCamera {
         let radius = if radius > 0.0 { radius } else { 1.0 };
         let bodies = bodies(scene, &points, motions);
         let velocities = bodies.iter().flat_map(|(_, motions)| motions).map(|one| one.velocity().beta());
-        let toward_eye = toward_eye(options.up, velocities);
+        let behind = if options.is_ahead { velocities.clone().sum::<DVec3>() } else { DVec3::ZERO };
+        let (toward_eye, bodies) = if behind == DVec3::ZERO {
+            (toward_eye(options.up, velocities), bodies)
+        } else {
+            // What comes toward the camera, as seen by one at rest in its place.
+            let at_rest = bodies.iter().map(|(middle, _)| (*middle, Vec::new())).collect();
+            (behind.normalize(), at_rest)
+        };
         // At the least distance the sphere around everything is seen with the radius `tangent`.
         let tangent = NEAREST_FILLED * half[0].min(half[1]);
-        let across = (-toward_eye).cross(up(options.up)).normalize();
+        let across = right_of(-toward_eye, up(options.up)).0;
         let frame = Frame {
             axes: [across, toward_eye.cross(across), toward_eye],
             filled: [FILLED[0] * half[0], FILLED[1] * half[1]],

@@ -17,6 +17,7 @@ use super::seen::SeenScene;
 use super::style::Style;
 use crate::error::Error;
 use crate::note::Note;
+use crate::spots::spots;
 
 /// Cosine of the angle, 35 degrees, below which adjacent faces count as one curved surface.
 const CREASE: f64 = 0.819;
@@ -28,9 +29,6 @@ const COPLANAR: f64 = 0.9999;
 /// place: vertices are repeated for other colours, and parts of a body meet up to the digits in its
 /// text.
 const SAME_PLACE: f64 = 0.1;
-
-/// The same, relative to the greatest coordinate.
-const ROUNDING: f64 = 1e-9;
 
 /// Draws the outlines of moving bodies as they would look at rest. Returns a note if nothing moves.
 pub fn draw<E: From<Error>>(
@@ -147,27 +145,6 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<Edge>
         }
     }
     edges
-}
-
-/// For each place, the row of the first that is no farther from it than `same` along each axis.
-fn spots(places: &[DVec3], same: f64) -> Vec<usize> {
-    let reach = places.iter().map(|place| place.abs().max_element()).fold(0.0, f64::max);
-    let same = same.max(ROUNDING * reach);
-    // The cast saturates.
-    let cell = |place: DVec3| (place / (2.0 * same)).floor().to_array().map(|x| x as i64);
-    // Only looked up, so its order does not matter.
-    let mut known: HashMap<[i64; 3], usize> = HashMap::new();
-    let spot = |(row, &place): (usize, &DVec3)| {
-        let ends = [cell(place - same), cell(place + same)];
-        let near = (0..8).map(|corner| [0, 1, 2].map(|axis| ends[corner >> axis & 1][axis]));
-        let is_same = |&first: &usize| (places[first] - place).abs().max_element() <= same;
-        let first = near.filter_map(|cell| known.get(&cell).copied()).find(is_same);
-        first.unwrap_or_else(|| {
-            known.insert(cell(place), row);
-            row
-        })
-    };
-    places.iter().enumerate().map(spot).collect()
 }
 
 impl Edge {

@@ -2,53 +2,167 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugscene::{Face, VertexId, face_edges, unit_normal};
+use ugpicture::spots;
+use ugscene::{BodyId, Face, VertexId, face_edges, unit_normal};
 
+use crate::config::EdgeKind;
 use crate::painter::Painter;
 
-/// Sine of the greatest angle between the planes of faces that count as coplanar.
-const FLAT: f64 = 0.01;
+/// Cosine of the greatest angle between the planes of faces that count as coplanar; its sine is
+/// 0.01.
+const FLAT: f64 = 0.999_95;
 
 /// An edge of a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Edge {
     /// From where to where.
     pub ends: [VertexId; 2],
     /// Row of the face, or of the first of several.
     pub face: u32,
+    /// Its ends, the same for all vertices at one place, in ascending order.
+    pub places: [usize; 2],
+    /// On which side of a silhouette, seen from its first end to the other, the body is not: 1 if
+    /// on the right, −1 on the left, 0 for other edges.
+    pub outward: f64,
+    body: BodyId,
+    /// The face has its ends in this order, too.
+    is_forward: bool,
 }
 
-/// The edges of all faces, each once, except between two coplanar faces of one colour and body at
-/// rest. So a face that `uglorentz` has subdivided has the edges it had before.
-pub fn edges(painter: &Painter<'_>) -> Vec<Edge> {
+/// The edges of all faces that are of this kind, each once. Edges at the same place of a body at
+/// rest are one, also of faces without common vertices.
+pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
     let scene = painter.scene;
+    let places = places(painter.appearance.surface.all_rest());
     let of_face = |(row, face): (usize, &Face)| {
-        let sides = face_edges(scene, face).filter(|[a, b]| a != b).map(|[a, b]| [a.min(b), a.max(b)]);
-        // The text of a scene is below 4 GiB, so row numbers fit.
-        sides.map(|ends| Edge { ends, face: row as u32 }).collect::<Vec<_>>()
+        let edge = |ends: [VertexId; 2]| {
+            let [a, b] = ends.map(|end| places[end.index()]);
+            let is_forward = a < b;
+            let (ends, places) = if is_forward { (ends, [a, b]) } else { ([ends[1], ends[0]], [b, a]) };
+            // The text of a scene is below 4 GiB, so row numbers fit.
+            Edge { ends, face: row as u32, places, outward: 0.0, body: face.body, is_forward }
+        };
+        let edges = face_edges(scene, face).map(edge);
+        edges.filter(|edge| edge.places[0] != edge.places[1]).collect::<Vec<_>>()
     };
     let mut edges: Vec<Edge> = scene.faces.par_iter().enumerate().flat_map_iter(of_face).collect();
-    edges.par_sort_unstable_by_key(|edge| (edge.ends, edge.face));
-    let shared: Vec<&[Edge]> = edges.chunk_by(|one, other| one.ends == other.ends).collect();
-    let is_drawn = |shared: &&[Edge]| match shared {
-        [one, other] => !is_inside(painter, [one.face, other.face]),
-        _ => true,
+    edges.par_sort_unstable_by_key(|edge| (edge.places, edge.body, edge.face, edge.is_forward));
+    let is_one = |one: &Edge, other: &Edge| (one.places, one.body) == (other.places, other.body);
+    let shared: Vec<&[Edge]> = edges.chunk_by(is_one).collect();
+    let drawn = |shared: &[Edge]| {
+        // A sliver between vertices at one place runs there and back.
+        let of_faces = shared.chunk_by(|one, other| one.face == other.face);
+        let of_faces: Vec<&Edge> = of_faces.filter(|same| same.len() == 1).flatten().collect();
+        match of_faces[..] {
+            [] => None,
+            [one, other] => between(painter, [one, other], kind),
+            [first, ..] => Some(*first),
+        }
     };
-    shared.into_par_iter().filter(is_drawn).map(|shared| shared[0]).collect()
+    shared.into_par_iter().filter_map(drawn).collect()
 }
 
-/// True if the edge between two faces lies inside one surface, so that it is not drawn.
-fn is_inside(painter: &Painter<'_>, faces: [u32; 2]) -> bool {
-    let [one, other] = faces.map(|row| &painter.scene.faces[row as usize]);
-    if one.color != other.color || one.body != other.body {
-        return false;
-    }
-    let normal = |face: &Face| {
-        let outline = painter.scene.face_contours(face).next()?;
-        Some(unit_normal(outline.iter().map(|&vertex| painter.appearance.surface.rest(vertex))))
-            .filter(|&normal| normal != DVec3::ZERO)
-    };
-    let is_one_plane = |a: DVec3, b: DVec3| a.dot(b) > 0.0 && a.cross(b).length() < FLAT;
+/// For each vertex the row of one at its place. Turned copies of a part meet only up to the digits
+/// in its text.
+fn places(rest: &[DVec3]) -> Vec<usize> {
+    /// Greatest distance of vertices at one place, in units of the size of the scene.
+    const SAME: f64 = 1e-8;
+    let low = rest.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+    let high = rest.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    spots(rest, SAME * (high - low).max_element())
+}
+
+/// The edge between two faces, if it is drawn.
+fn between(painter: &Painter<'_>, edges: [&Edge; 2], kind: EdgeKind) -> Option<Edge> {
+    let faces = edges.map(|edge| &painter.scene.faces[edge.face as usize]);
+    let [one, other] = faces.map(|face| normal(painter, face));
     // A degenerate piece is coplanar with every face.
-    normal(one).zip(normal(other)).is_none_or(|(a, b)| is_one_plane(a, b))
+    let cosine = one.zip(other).map_or(1.0, |(one, other)| one.dot(other));
+    // If both run along the edge alike, one of them is inside out, or lies in a hole of the other.
+    let is_alike = edges[0].is_forward == edges[1].is_forward;
+    let is_in_hole = is_alike && cosine > FLAT;
+    let cosine = if is_alike && !is_in_hole { -cosine } else { cosine };
+    let least_cosine = match kind {
+        EdgeKind::All => FLAT,
+        EdgeKind::Creases { angle } => libm::cos(angle),
+        EdgeKind::Silhouette => f64::NEG_INFINITY,
+    };
+    let has_silhouette = kind != EdgeKind::All && !is_in_hole;
+    let [one, other] = edges.map(|edge| has_silhouette && is_on_left(painter, edge));
+    let outward = match (has_silhouette && one == other, one) {
+        (false, _) => 0.0,
+        (true, true) => 1.0,
+        (true, false) => -1.0,
+    };
+    let is_border = kind != EdgeKind::Silhouette && faces[0].color != faces[1].color;
+    (outward != 0.0 || is_border || cosine < least_cosine).then_some(Edge { outward, ..*edges[0] })
+}
+
+/// True if the face of an edge is seen on its left, from the first end to the other.
+fn is_on_left(painter: &Painter<'_>, edge: &Edge) -> bool {
+    is_turned_away(painter, &painter.scene.faces[edge.face as usize]) != edge.is_forward
+}
+
+/// The normal of a face at rest; `None` if it has no area.
+fn normal(painter: &Painter<'_>, face: &Face) -> Option<DVec3> {
+    let outline = painter.scene.face_contours(face).next()?;
+    let rest = outline.iter().map(|&vertex| painter.appearance.surface.rest(vertex));
+    Some(unit_normal(rest)).filter(|&normal| normal != DVec3::ZERO)
+}
+
+/// True if a face is seen from behind. In its rest frame light comes straight from a body that is
+/// not on a world line, so all of a flat face is seen from the side on which the eye is there.
+fn is_turned_away(painter: &Painter<'_>, face: &Face) -> bool {
+    let surface = &painter.appearance.surface;
+    if !painter.view.is_perspective || surface.frames().world_line(face.body).is_some() {
+        return painter.is_seen_from_behind(face);
+    }
+    let corner = painter.scene.face_contours(face).next().and_then(|outline| outline.first());
+    corner.zip(normal(painter, face)).is_some_and(|(&corner, normal)| normal.dot(surface.rest(corner)) > 0.0)
+}
+
+/// Edges in the order in which they follow each other, each with whether it continues the one
+/// before it: where two meet, and no third.
+pub fn chained(edges: Vec<Edge>) -> Vec<(Edge, bool)> {
+    let mut at: Vec<(usize, usize)> =
+        edges.iter().enumerate().flat_map(|(row, edge)| edge.places.map(|place| (place, row))).collect();
+    at.par_sort_unstable();
+    let next = |place: usize, row: usize| {
+        let first = at.partition_point(|(other, _)| *other < place);
+        let meet = at[first..].iter().take_while(|(other, _)| *other == place).map(|(_, row)| *row);
+        let [one, other] = meet.take(3).collect::<Vec<_>>()[..] else { return None };
+        Some(if one == row { other } else { one })
+    };
+    let reversed = |edge: Edge| {
+        let ([a, b], [from, to]) = (edge.ends, edge.places);
+        Edge { ends: [b, a], places: [to, from], outward: -edge.outward, ..edge }
+    };
+    let from = |place: usize, row: usize| {
+        let edge = edges[row];
+        if edge.places[0] == place { edge } else { reversed(edge) }
+    };
+    let mut is_done = vec![false; edges.len()];
+    let mut chains = Vec::with_capacity(edges.len());
+    for row in 0..edges.len() {
+        if is_done[row] {
+            continue;
+        }
+        // Back to where the chain begins, or once around it.
+        let (mut first, mut start) = (row, edges[row].places[0]);
+        while let Some(before) = next(start, first).filter(|&before| before != row) {
+            (first, start) = (before, from(start, before).places[1]);
+        }
+        let (mut row, mut place, mut continues) = (first, start, false);
+        loop {
+            let edge = from(place, row);
+            is_done[row] = true;
+            chains.push((edge, continues));
+            (place, continues) = (edge.places[1], true);
+            match next(place, row).filter(|&other| !is_done[other]) {
+                Some(other) => row = other,
+                None => break,
+            }
+        }
+    }
+    chains
 }

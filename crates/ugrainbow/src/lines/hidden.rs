@@ -30,13 +30,24 @@ impl<'a> Visibility<'a> {
 
     /// The parts of the segment from `a` to `b` that are in the picture and not hidden.
     pub fn parts(&self, a: DepthPoint, b: DepthPoint) -> Vec<[f64; 2]> {
-        let Some(within) = self.picture.as_ref().and_then(|picture| picture.over(a, b)) else {
-            return Vec::new();
-        };
+        let Some(within) = self.within(a, b) else { return Vec::new() };
         match &self.occlusion {
             Occlusion::Polygons(occluders) => occluders.visible(a, b, within),
             Occlusion::Rays(is_hidden) => visible_parts([a, b], within, is_hidden),
         }
+    }
+
+    /// The parts of the segment from `a` to `b` that are in the picture and hidden: between those
+    /// that are `visible`.
+    pub fn hidden_parts(&self, a: DepthPoint, b: DepthPoint, visible: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        let Some([start, end]) = self.within(a, b) else { return Vec::new() };
+        let starts = [start].into_iter().chain(visible.iter().map(|part| part[1]));
+        let ends = visible.iter().map(|part| part[0]).chain([end]);
+        starts.zip(ends).filter(|(start, end)| start < end).map(|(start, end)| [start, end]).collect()
+    }
+
+    fn within(&self, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
+        self.picture.as_ref()?.over(a, b)
     }
 }
 

@@ -11,7 +11,7 @@
 mod edges;
 mod hidden;
 
-use edges::{Edge, edges};
+use edges::{Edge, chained, edges};
 use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Hsv, srgb_decode};
@@ -19,7 +19,7 @@ use ugraster::{Corner, PolygonList, TRANSPARENT_VALUES};
 use ugscene::{BodyId, CameraPoint, VertexId, Wire};
 
 use crate::clip::{ClipCounts, Vertex, clip_segment};
-use crate::config::Wireframe;
+use crate::config::{HiddenLines, Wireframe};
 use crate::packing::pack_transparent;
 use crate::painter::Painter;
 pub use hidden::{Occluders, Visibility, occluded_part};
@@ -31,6 +31,12 @@ pub const LIFT: f64 = 5e-4;
 
 /// Visible parts shorter than this, in samples, are due to rounding and left out.
 const LEAST: f64 = 1e-3;
+
+/// Width of hidden lines, in units of that of lines.
+const HIDDEN_WIDTH: f64 = 0.6;
+
+/// Dashes of hidden lines and the gaps between them, in units of the width of lines.
+const DASH: [f64; 2] = [5.0, 3.0];
 
 /// A straight line at rest.
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +51,10 @@ pub struct Line {
     pub colors: [Swatch; 2],
     /// Indices of the spectra of the ends, if colours are spectra.
     pub rows: Option<[u32; 2]>,
+    /// It continues the line before it.
+    pub continues: bool,
+    /// The side of a silhouette on which the body is not, see [`Edge::outward`].
+    outward: f64,
 }
 
 /// The apparent shape of lines that are straight at rest.
@@ -103,6 +113,14 @@ pub struct Stroke {
     /// True where the line itself ends, false where it becomes hidden. At its own ends it is
     /// extended by half its width, so that the pieces of a polyline join.
     pub is_end: [bool; 2],
+    /// Its width, in units of that of visible lines.
+    pub width: f64,
+    /// See [`Line`].
+    outward: f64,
+    /// It continues the one before it.
+    continues: bool,
+    /// How far it is from the beginning of those it continues to its own, in samples.
+    from: f64,
 }
 
 /// Wires, and the edges that `wireframe` requests.
@@ -114,8 +132,15 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn Li
         push_wire(painter, (n_faces + row) as u32, wire, shape, &mut lines);
     }
     if let Some(wireframe) = wireframe {
-        let edges = edges(painter);
-        lines.extend(edges.iter().map(|edge| edge_line(painter, edge, wireframe, shape)));
+        let edges = edges(painter, wireframe.edges);
+        let edges = match wireframe.hidden {
+            HiddenLines::Dashed => chained(edges),
+            _ => edges.into_iter().map(|edge| (edge, false)).collect(),
+        };
+        lines.extend(edges.iter().map(|(edge, continues)| Line {
+            continues: *continues,
+            ..edge_line(painter, edge, wireframe, shape)
+        }));
     }
     lines
 }
@@ -123,10 +148,18 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn Li
 fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShape, lines: &mut Vec<Line>) {
     let end = painter.wire_swatch(wire, shape.keeps_light(wire.body));
     for contour in painter.scene.wire_contours(wire) {
-        for ends in contour.windows(2) {
+        for (row, ends) in contour.windows(2).enumerate() {
             let ends = [ends[0], ends[1]];
             let rows = Some(ends.map(|vertex| painter.wire_end_row(vertex, wire)));
-            lines.push(Line { item, body: wire.body, ends, colors: ends.map(&end), rows });
+            lines.push(Line {
+                item,
+                body: wire.body,
+                ends,
+                colors: ends.map(&end),
+                rows,
+                continues: row > 0,
+                outward: 0.0,
+            });
         }
     }
 }
@@ -143,7 +176,15 @@ fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &d
         }
     };
     let rows = wireframe.color.is_none().then(|| edge.ends.map(|end| painter.appearance.surface.row(end)));
-    Line { item: edge.face, body: face.body, ends: edge.ends, colors, rows }
+    Line {
+        item: edge.face,
+        body: face.body,
+        ends: edge.ends,
+        colors,
+        rows,
+        continues: false,
+        outward: edge.outward,
+    }
 }
 
 /// A colour that is neither shifted nor attenuated.
@@ -156,9 +197,17 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (
     let of = |line: &Line| {
         let joint = |joint: &Joint| vertex(painter.view.place(joint.seen), &joint.color);
         let joints: Vec<_> = shape.joints(line).iter().map(joint).collect();
-        joints.windows(2).filter_map(|ends| piece(painter, line.item, [ends[0], ends[1]])).collect::<Vec<_>>()
+        let piece = |(row, ends): (usize, &[Vertex<TRANSPARENT_VALUES>])| {
+            piece(painter, line, [ends[0], ends[1]], line.continues || row > 0)
+        };
+        joints.windows(2).enumerate().filter_map(piece).collect::<Vec<_>>()
     };
-    let pieces: Vec<Stroke> = lines.par_iter().flat_map_iter(of).collect();
+    let mut pieces: Vec<Stroke> = lines.par_iter().flat_map_iter(of).collect();
+    let mut from = 0.0;
+    for piece in &mut pieces {
+        piece.from = if piece.continues { from } else { 0.0 };
+        from = piece.from + piece.length();
+    }
     let is_in_picture = |piece: &&Stroke| {
         let size = [painter.grid.sample_columns(), painter.grid.sample_rows()].map(f64::from);
         let [low, high] = piece.bounds();
@@ -170,11 +219,18 @@ pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (
 }
 
 /// The piece between two joints, clipped to the slab.
-fn piece(painter: &Painter<'_>, item: u32, ends: [Vertex<TRANSPARENT_VALUES>; 2]) -> Option<Stroke> {
+fn piece(
+    painter: &Painter<'_>,
+    line: &Line,
+    ends: [Vertex<TRANSPARENT_VALUES>; 2],
+    continues: bool,
+) -> Option<Stroke> {
     let view = painter.view;
     let ends = clip_segment(view.slab, ends)?.map(|end| lifted(painter, end).project(view.is_perspective));
     let mut numbers = ends.iter().flat_map(|end| [end.x, end.y, end.key].into_iter().chain(end.values));
-    numbers.all(f64::is_finite).then_some(Stroke { item, ends, is_end: [true; 2] })
+    let &Line { item, outward, .. } = line;
+    let stroke = Stroke { item, ends, is_end: [true; 2], width: 1.0, outward, continues, from: 0.0 };
+    numbers.all(f64::is_finite).then_some(stroke)
 }
 
 impl Stroke {
@@ -184,24 +240,67 @@ impl Stroke {
         [[a.x.min(b.x), a.y.min(b.y)], [a.x.max(b.x), a.y.max(b.y)]]
     }
 
-    /// The parts of it that are in the picture and not hidden.
-    fn visible(&self, visibility: &Visibility<'_>) -> Vec<Self> {
-        let [a, b] = self.ends.map(|end| [end.x, end.y, end.key]);
-        let length = libm::hypot(b[0] - a[0], b[1] - a[1]);
+    fn length(&self) -> f64 {
+        let [a, b] = &self.ends;
+        libm::hypot(b.x - a.x, b.y - a.y)
+    }
+
+    /// Its parts that are in the picture: what is drawn of those that are hidden, and those that
+    /// are not. `width`: of lines.
+    fn parts(&self, visibility: &Visibility<'_>, hidden: HiddenLines, width: f64) -> Vec<Self> {
+        let length = self.length();
+        // Visibility of a silhouette is that of its outer side: faces of a moving body are seen
+        // bent, and the polygons drawn for them may bulge over the silhouette.
+        let out = if length > 0.0 { 0.5 * width * self.outward / length } else { 0.0 };
+        let [from, to] = &self.ends;
+        let [along_x, along_y] = [to.x - from.x, to.y - from.y];
+        let [a, b] = [from, to].map(|end| [end.x - out * along_y, end.y + out * along_x, end.key]);
         // A line seen end-on is a dot.
         let is_drawn = |[start, end]: &[f64; 2]| (end - start) * length > LEAST || length <= LEAST;
-        let stroke = |[start, end]: [f64; 2]| Self {
-            item: self.item,
+        let stroke = |[start, end]: [f64; 2], width: f64| Self {
             ends: [start, end].map(|part| between(&self.ends[0], &self.ends[1], part)),
             is_end: [start == 0.0, end == 1.0],
+            width,
+            ..*self
         };
-        visibility.parts(a, b).into_iter().filter(is_drawn).map(stroke).collect()
+        let mut visible = visibility.parts(a, b);
+        visible.retain(is_drawn);
+        let behind = match hidden {
+            HiddenLines::Omitted => Vec::new(),
+            HiddenLines::Thin => visibility.hidden_parts(a, b, &visible),
+            HiddenLines::Dashed => {
+                let hidden = visibility.hidden_parts(a, b, &visible);
+                // At least samples long, so that the picture bounds how many there are.
+                let dash = DASH.map(|part| width.max(1.0) * part);
+                hidden.into_iter().flat_map(|part| self.dashes(part, dash)).collect()
+            }
+        };
+        let behind = behind.into_iter().filter(is_drawn).map(|part| stroke(part, HIDDEN_WIDTH));
+        behind.chain(visible.into_iter().map(|part| stroke(part, 1.0))).collect()
+    }
+
+    /// The dashes of a part. `dash`, `gap`: their lengths.
+    fn dashes(&self, [start, end]: [f64; 2], [dash, gap]: [f64; 2]) -> Vec<[f64; 2]> {
+        let (length, period) = (self.length(), dash + gap);
+        let first = ((self.from + start * length) / period).floor();
+        let last = ((self.from + end * length) / period).floor();
+        let dash = |number: f64| {
+            let begin = number * period - self.from;
+            [begin, begin + dash].map(|at| if length > 0.0 { (at / length).clamp(start, end) } else { start })
+        };
+        let dashes = (0..=(last - first) as usize).map(|number| dash(first + number as f64));
+        dashes.filter(|[start, end]| start < end).collect()
     }
 }
 
-/// The visible parts of pieces.
-pub fn strokes(pieces: &[Stroke], visibility: &Visibility<'_>) -> Vec<Stroke> {
-    pieces.par_iter().flat_map_iter(|piece| piece.visible(visibility)).collect()
+/// What is drawn of pieces. `width`: of lines, in samples.
+pub fn strokes(
+    pieces: &[Stroke],
+    visibility: &Visibility<'_>,
+    hidden: HiddenLines,
+    width: f64,
+) -> Vec<Stroke> {
+    pieces.par_iter().flat_map_iter(|piece| piece.parts(visibility, hidden, width)).collect()
 }
 
 fn vertex(place: CameraPoint, color: &Swatch) -> Vertex<TRANSPARENT_VALUES> {
@@ -238,8 +337,9 @@ pub fn between(
 /// Strokes as strips of this width, in samples.
 pub fn strips(painter: &Painter<'_>, strokes: &[Stroke], width: f64) -> PolygonList<TRANSPARENT_VALUES> {
     let mut list = PolygonList::default();
-    for Stroke { item, ends: [a, b], is_end } in strokes {
-        let length = libm::hypot(b.x - a.x, b.y - a.y);
+    for stroke in strokes {
+        let Stroke { item, ends: [a, b], is_end, .. } = stroke;
+        let (length, width) = (stroke.length(), width * stroke.width);
         let along = if length > 0.0 { [(b.x - a.x) / length, (b.y - a.y) / length] } else { [1.0, 0.0] };
         let [along_x, along_y] = along.map(|part| 0.5 * width * part);
         let [before, behind] = is_end.map(|is_end| f64::from(u8::from(is_end)));

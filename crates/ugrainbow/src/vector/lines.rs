@@ -81,7 +81,7 @@ fn push_line<S>(
     elements: &mut Vec<Element<S>>,
 ) {
     let Stroke { ends: [a, b], is_end, .. } = stroke;
-    let length = libm::hypot(b.x - a.x, b.y - a.y);
+    let (length, width) = (libm::hypot(b.x - a.x, b.y - a.y), width * stroke.width);
     // A line extends beyond its end by half its width.
     let out = if length > 0.0 { 0.5 * width / length } else { 0.0 };
     let place = |part: f64| {

@@ -66,14 +66,16 @@ pub fn draw<'a>(
 ) -> Result<DrawnScene<'a>, Error> {
     let size = config.picture.size;
     let mut scale = scale(size);
-    let mut setup = prepare(scene, &at_scale(config, scale))?;
-    let mut layers = RenderLayers::new(&setup, config);
+    let mut fine = at_scale(config, scale);
+    let mut setup = prepare(scene, &fine)?;
+    let mut layers = RenderLayers::new(&setup, &fine);
     let coarser = coarser(scale, seen::n_fragments(&layers, size.map(|side| side * scale)));
     if coarser < scale {
         scale = coarser;
         drop(layers);
-        setup = prepare(scene, &at_scale(config, scale))?;
-        layers = RenderLayers::new(&setup, config);
+        fine = at_scale(config, scale);
+        setup = prepare(scene, &fine)?;
+        layers = RenderLayers::new(&setup, &fine);
     }
     let layers = layers.with_progress(progress);
     if backdrop(&config.picture).light().is_none() && layers.has_transparent_faces() {
@@ -96,6 +98,7 @@ pub fn draw<'a>(
 fn at_scale(config: &Config, scale: u32) -> Config {
     let mut fine = config.clone();
     (fine.picture.size, fine.picture.samples) = (config.picture.size.map(|side| side * scale), 1);
+    fine.line_width *= f64::from(scale);
     fine
 }
 

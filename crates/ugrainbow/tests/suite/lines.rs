@@ -3,12 +3,16 @@
 use glam::DVec3;
 use ugimage::Frame;
 use ugphysics::{Hsv, srgb_decode};
-use ugrainbow::{Config, Wireframe};
+use ugrainbow::{Config, EdgeKind, HiddenLines, Wireframe};
 
 use crate::common::{config, draw};
 
-const ONLY_EDGES: Wireframe =
-    Wireframe { has_faces: false, color: Some(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }) };
+const ONLY_EDGES: Wireframe = Wireframe {
+    has_faces: false,
+    color: Some(Hsv { hue: 0.0, saturation: 0.0, value: 1.0 }),
+    edges: EdgeKind::All,
+    hidden: HiddenLines::Omitted,
+};
 
 /// Linear light of the red channel, added up down a column.
 fn down(frame: &Frame, x: u32) -> f64 {

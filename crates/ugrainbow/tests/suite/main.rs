@@ -8,6 +8,7 @@ mod explain;
 mod figures;
 mod filter;
 mod light;
+mod line_drawings;
 mod lines;
 mod render;
 mod translucency;

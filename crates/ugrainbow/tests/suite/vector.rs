@@ -163,7 +163,8 @@ fn faces_of_one_colour_beside_each_other_are_one_area() {
 
 #[test]
 fn edges_of_faces_are_lines() {
-    let wireframe = Some(ugrainbow::Wireframe { has_faces: false, color: None });
+    let wireframe =
+        Some(ugrainbow::Wireframe { has_faces: false, color: None, ..ugrainbow::Wireframe::default() });
     let config = Config { wireframe, line_width: 2.0, ..Config::default() };
     let text = svg_with(&format!("{COLORS}{FAR}{NEAR}"), config);
     assert!(areas(&text).is_empty(), "{text}");

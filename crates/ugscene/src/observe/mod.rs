@@ -13,6 +13,7 @@ mod rest_frames;
 mod seen_event;
 mod seen_vertices;
 mod shown_effects;
+mod view_ahead;
 mod world_lines;
 
 use std::fmt;
@@ -232,7 +233,7 @@ impl PlacedBodies {
         clocks::count_from_eye(scene, (&motions, &frames), &placement)?;
         camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
-        set_camera(scene, eye, center, camera).map_err(MotionError::Camera)?;
+        set_camera(scene, eye, center, camera, of_camera).map_err(MotionError::Camera)?;
         turn_camera(scene, eye, &observer);
         let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } = *options;
         if has_motion || options.geometry != ShownEffects::default() {
@@ -352,7 +353,7 @@ pub fn moving_camera(
     let observer = Observer::take(&mut scene, options, camera.eye)?;
     let eye = eye(&scene, camera.eye);
     camera.check_up().map_err(MotionError::Camera)?;
-    set_camera(&mut scene, eye, Some(middle), camera).map_err(MotionError::Camera)?;
+    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity).map_err(MotionError::Camera)?;
     turn_camera(&mut scene, eye, &observer);
     Ok(Some((scene.cameras.swap_remove(row), observer.velocity)))
 }
@@ -371,7 +372,7 @@ fn turn_camera(scene: &mut Scene, eye: DVec3, observer: &Observer) {
 }
 
 /// Writes the eye and the options into the scene's camera, so that programs downstream use them.
-/// `center`: the view centre of the default camera.
+/// `center`: the view centre of the default camera. `velocity`: of the camera in the scene.
 ///
 /// # Errors
 /// [`CameraError::NoDirection`], which programs downstream would report otherwise.
@@ -380,7 +381,9 @@ fn set_camera(
     eye: DVec3,
     center: Option<DVec3>,
     options: &CameraOptions,
+    velocity: Velocity,
 ) -> Result<(), CameraError> {
+    let middle = crate::camera::middle(scene);
     if scene.cameras.is_empty() {
         scene.cameras.push(Camera::default());
     }
@@ -399,6 +402,9 @@ fn set_camera(
         camera.view_angle = Some(angles);
         // They would contradict the view angle.
         (camera.film_size, camera.focal_length) = (None, None);
+    }
+    if options.is_ahead {
+        view_ahead::look_ahead(camera, eye, middle, velocity)?;
     }
     camera.center.map_or(Ok(()), |center| crate::view_distance(eye, center).map(drop))
 }

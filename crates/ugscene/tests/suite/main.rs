@@ -12,6 +12,7 @@ mod history;
 mod normals;
 mod rounds;
 mod view;
+mod view_ahead;
 
 use ugscene::{Scene, shorten};
 

@@ -152,8 +152,10 @@ fn pictures_in_which_nothing_is_seen_say_why() {
         ],
     );
     // Black lines, on black and on white.
-    let lines =
-        Config { wireframe: Some(Wireframe { has_faces: false, color: Some(BLACK) }), ..config.clone() };
+    let lines = Config {
+        wireframe: Some(Wireframe { has_faces: false, color: Some(BLACK), ..Wireframe::default() }),
+        ..config.clone()
+    };
     let text = format!("{square}; cam -ep 1 0 20;");
     check(&text, &lines, &["the lines are black on black: choose another colour with -lc or -bg"]);
     let mut on_white = lines;
