@@ -15,13 +15,11 @@ use ugpipe::{
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
+use ugsheet::film::{Caption, DEFAULT_RATE, FrameNames, Kind, MOST_GIF_RATE, rate};
 
-use crate::animation::MOST_GIF_RATE;
 use crate::blur::MotionBlur;
-use crate::encode::Kind;
 use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
-use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, remove_kept_exposure};
-use crate::lesson::Caption;
+use crate::frame_files::{keep_exposure, kept_exposure, remove_kept_exposure};
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
@@ -192,7 +190,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if args.across.is_some() && !matches!(output, Output::Film(Kind::Html)) && args.print.is_none() {
         return Err(Failure::usage("-across is for pages: give -fo FILE.html"));
     }
-    let rate = args.fps.unwrap_or(25.0);
+    let rate = args.fps.unwrap_or(DEFAULT_RATE);
     let mut script = args.script(context)?;
     let frames = args.numbers(script.n_frames)?;
     let read = Read::new(args, &mut script, context)?;
@@ -581,13 +579,4 @@ fn ease(word: &str) -> Result<Ease, String> {
 fn shutter_time(word: &str) -> Result<f64, String> {
     let time = finite(word)?;
     if time > 0.0 && time <= 1000.0 { Ok(time) } else { Err("above 0, at most 1000".to_owned()) }
-}
-
-fn rate(word: &str) -> Result<f64, String> {
-    let rate = finite(word)?;
-    if (0.01..=1000.0).contains(&rate) {
-        Ok(rate)
-    } else {
-        Err("from 0.01 to 1000 frames a second".to_owned())
-    }
 }

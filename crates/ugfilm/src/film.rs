@@ -7,14 +7,12 @@ use std::sync::{Mutex, PoisonError};
 use ugimage::{Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png, read_png_header};
 use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
+use ugsheet::film::{Caption, FrameNames, Kind, Shape};
 use ugsheet::{Motion, Picture};
 
-use crate::animation::Shape;
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
-use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
-use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
-use crate::lesson::Caption;
+use crate::frame_files::{claim, is_done, remove_stale_claims};
 use crate::levels::WrongBrightness;
 use crate::note::Note;
 use crate::pipe::{DrawnLight, FilmSubject, Pipe};
@@ -379,37 +377,10 @@ impl Film<'_> {
         let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
-        if kind.is_encoded() {
-            let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
-            context.write_by_name(|path, steps| {
-                let mut ffmpeg = Ffmpeg::new(kind, shape, is_opaque, path)?;
-                summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
-                ffmpeg.finish()
-            })?;
-            return Ok(summary);
-        }
-        context.write_stream(|out, steps| {
-            // Nothing is written before the first frame is drawn.
-            let (mut waiting, mut stream) = (Some(out), None);
-            let mut push = |frame: &Frame| {
-                if let Some(out) = waiting.take() {
-                    stream = Some(Stream::new(kind, shape, captions.to_vec(), out)?);
-                }
-                stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
-            };
-            let mut broken = None;
-            let drawn = self.frames(frames, keep, steps, |frame| {
-                push(frame).map_err(|error| {
-                    let failure = Failure::failed(&error);
-                    broken = Some(error);
-                    failure
-                })
-            });
-            if let Some(error) = broken {
-                return Ok(Err(error));
-            }
-            summary = drawn?;
-            Ok(stream.map_or(Ok(()), Stream::finish))
+        let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
+        ugsheet::film::write(context, (kind, shape, is_opaque), captions.to_vec(), |steps, push| {
+            summary = self.frames(frames, keep, steps, push)?;
+            Ok(())
         })?;
         Ok(summary)
     }

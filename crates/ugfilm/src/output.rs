@@ -5,9 +5,7 @@ use std::path::Path;
 use ugimage::Format;
 use ugpicture::cli::format_for;
 use ugpipe::Failure;
-
-use crate::encode::Kind;
-use crate::frame_files::FrameNames;
+use ugsheet::film::{FrameNames, Kind};
 
 /// Where frames go.
 pub enum Output {

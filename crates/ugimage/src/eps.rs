@@ -3,9 +3,10 @@
 use crate::postscript::{color_image, creator_comment, history_comments};
 use crate::{Frame, Metadata};
 
-/// The frame as an EPS file, one pixel per point.
+/// The frame as an EPS file, one pixel per point, or as many as its metadata state.
 pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
-    wrap([frame.width(), frame.height()], 2, metadata, &color_image(frame))
+    let points = metadata.points([frame.width(), frame.height()]);
+    wrap(points, 2, metadata, &color_image(frame, points))
 }
 
 /// Makes an EPS file of the PostScript code `drawing`, which draws `width` × `height` points.

@@ -38,16 +38,16 @@ fn comment_line(text: &str) -> String {
     text.chars().map(printed).take(MAX_COMMENT).collect()
 }
 
-/// PostScript level 2 code that draws the frame with its lower left corner at the origin, one pixel
-/// per point.
+/// PostScript level 2 code that draws the frame with its lower left corner at the origin, `across` x
+/// `up` points large.
 ///
 /// The filters are stored in variables so that both can be flushed after the last pixel. The
 /// interpreter then continues directly after the data.
-pub fn color_image(frame: &Frame) -> Vec<u8> {
+pub fn color_image(frame: &Frame, [across, up]: [u32; 2]) -> Vec<u8> {
     let (width, height) = (frame.width(), frame.height());
     let mut out = format!(
         "gsave\n\
-         {width} {height} scale\n\
+         {across} {up} scale\n\
          /DeviceRGB setcolorspace\n\
          /UgImage {{\n\
          /UgText currentfile /ASCII85Decode filter def\n\

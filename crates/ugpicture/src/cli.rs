@@ -127,7 +127,7 @@ impl PictureArgs {
         let per_inch = if let Output::Vector(_) = output { 72.0 } else { PIXELS_PER_INCH };
         Ok(PictureOptions {
             camera: self.camera.options(),
-            size: [0, 1].map(|side| self.sz[side].at(per_inch)),
+            size: Side::both(&self.sz, per_inch).map_err(Failure::Usage)?,
             per_inch: self.sz.iter().any(|side| side.is_length()).then_some(per_inch),
             samples: self.aa,
             filter: self.fl,

@@ -27,6 +27,20 @@ impl Side {
         matches!(self, Self::Inches(_))
     }
 
+    /// Width and height in pixels, or in points, of which `per_inch` are an inch.
+    ///
+    /// # Errors
+    /// One side is a length and the other is not.
+    pub fn both(sides: &[Self], per_inch: f64) -> Result<[u32; 2], String> {
+        let &[width, height] = sides else { return Err("-sz has a width and a height".to_owned()) };
+        if width.is_length() == height.is_length() {
+            return Ok([width, height].map(|side| side.at(per_inch)));
+        }
+        Err("-sz: one side has a unit and the other has none: write both as lengths, 8.6cm 6cm, or both \
+             without units"
+            .to_owned())
+    }
+
     /// Value parser of sides: `800`, `8.6cm`.
     ///
     /// # Errors

@@ -2,10 +2,11 @@
 
 use std::io::{self, Write};
 
-use crate::animation::Shape;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use ugimage::{Compression, Format, Frame, Metadata};
+
+use super::animation::Shape;
 
 /// The page around the pictures.
 const TEMPLATE: &str = include_str!("lesson.html");

@@ -6,7 +6,7 @@ use gif::{DisposalMethod, Encoder as GifEncoder, Frame as GifFrame, Repeat};
 use png::{BitDepth, ColorType, Compression, Encoder as PngEncoder, Writer};
 use ugimage::Frame;
 
-use crate::palette::Palette;
+use super::palette::Palette;
 
 /// Frames a second that a GIF can have: browsers show one of less than 1/50 s for 1/10 s.
 pub const MOST_GIF_RATE: f64 = 50.0;

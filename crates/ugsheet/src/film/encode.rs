@@ -5,11 +5,10 @@ use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
 
 use ugimage::Frame;
-use ugpipe::{Failure, Running};
-use ugscene::shorten;
+use ugpipe::{Context, Failure, Running, Steps};
 
-use crate::animation::{AnimatedPng, Gif, Shape, fraction};
-use crate::lesson::{Caption, Lesson};
+use super::animation::{AnimatedPng, Gif, Shape, fraction};
+use super::lesson::{Caption, Lesson};
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,8 +63,51 @@ impl Kind {
     }
 }
 
+/// Writes a film to the output of a program, of which nothing is written before its first frame is
+/// drawn. `draw` passes the frames on in order. `captions`: of the pictures on a page; `is_opaque`: no
+/// frame is transparent.
+///
+/// # Errors
+/// A frame cannot be drawn, or the film cannot be written.
+pub fn write(
+    context: &mut Context,
+    (kind, shape, is_opaque): (Kind, Shape, bool),
+    captions: Vec<Caption>,
+    draw: impl FnOnce(&Steps<'_>, &mut dyn FnMut(&Frame) -> Result<(), Failure>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    if kind.is_encoded() {
+        return context.write_by_name(|path, steps| {
+            let mut ffmpeg = Ffmpeg::new(kind, shape, is_opaque, path)?;
+            draw(steps, &mut |frame| ffmpeg.push(frame))?;
+            ffmpeg.finish()
+        });
+    }
+    context.write_stream(|out, steps| {
+        let (mut waiting, mut stream) = (Some((out, captions)), None);
+        let mut push = |frame: &Frame| {
+            if let Some((out, captions)) = waiting.take() {
+                stream = Some(Stream::new(kind, shape, captions, out)?);
+            }
+            stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
+        };
+        let mut broken = None;
+        let drawn = draw(steps, &mut |frame| {
+            push(frame).map_err(|error| {
+                let failure = Failure::failed(&error);
+                broken = Some(error);
+                failure
+            })
+        });
+        if let Some(error) = broken {
+            return Ok(Err(error));
+        }
+        drawn?;
+        Ok(stream.map_or(Ok(()), Stream::finish))
+    })
+}
+
 /// Writes frames to a stream, in order.
-pub enum Stream<'w> {
+enum Stream<'w> {
     /// Animated PNG.
     Apng(AnimatedPng<'w>),
     /// GIF.
@@ -158,7 +200,7 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
 }
 
 /// ffmpeg, which gets raw frames and writes a file.
-pub struct Ffmpeg {
+struct Ffmpeg {
     is_opaque: bool,
     program: Running,
     input: Option<ChildStdin>,
@@ -237,8 +279,8 @@ impl Ffmpeg {
             .child_mut()
             .wait()
             .map_or_else(|error| error.to_string(), |status| status.to_string());
-        let line = text.lines().rev().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
-        Failure::failed(format!("ffmpeg failed with {status}: {}", line.as_deref().unwrap_or("no message")))
+        let line = text.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("no message");
+        Failure::failed(format!("ffmpeg failed with {status}: {line}"))
     }
 }
 

@@ -1,0 +1,222 @@
+//! Films that are read, frame by frame.
+
+use std::fs;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+
+use image::codecs::gif::GifDecoder;
+use image::codecs::png::PngDecoder;
+use image::{AnimationDecoder, Frames, ImageDecoder, ImageError, ImageResult, Limits};
+use ugimage::{Frame, Metadata, PictureLimits, read_png, read_png_header};
+use ugpipe::{CommonArgs, Context, Failure, Input};
+
+use super::frame_names::FrameNames;
+
+/// A film, or a picture, which is a film of one frame.
+pub struct Footage {
+    /// Its name for labels.
+    pub label: String,
+    /// Its name for messages.
+    pub name: String,
+    /// Width and height of all its frames.
+    pub size: [u32; 2],
+    /// How many frames it has, 1 or more.
+    pub n_frames: u32,
+    /// Frames a second, if its file states them.
+    pub rate: Option<f64>,
+    source: Source,
+    limits: PictureLimits,
+}
+
+enum Source {
+    Gif(Vec<u8>),
+    Apng(Vec<u8>),
+    Picture(Vec<u8>),
+    Files(Vec<PathBuf>),
+}
+
+/// The frames of a film with their records.
+pub type FootageFrames<'f> = Box<dyn Iterator<Item = Result<(Frame, Metadata), Failure>> + 'f>;
+
+/// True for the name of numbered files, and for a folder.
+pub fn names_frames(path: &Path) -> bool {
+    path.is_dir() || (!path.exists() && FrameNames::new(&path.to_string_lossy()).is_some())
+}
+
+/// True for a file with a film.
+pub fn is_film(file: &[u8]) -> bool {
+    is_gif(file) || is_apng(file)
+}
+
+fn is_gif(file: &[u8]) -> bool {
+    file.starts_with(b"GIF8")
+}
+
+fn is_apng(file: &[u8]) -> bool {
+    PngDecoder::new(Cursor::new(file)).is_ok_and(|png| png.is_apng().unwrap_or(false))
+}
+
+impl Footage {
+    /// A film in a file, or a picture. `path`: its file, `None` for standard input.
+    ///
+    /// # Errors
+    /// The file is none, or is broken.
+    pub fn in_file(path: Option<&Path>, input: Input, limits: PictureLimits) -> Result<Self, Failure> {
+        let label = path.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
+        let Input { name, text } = input;
+        let source = if is_gif(&text) {
+            Source::Gif(text)
+        } else if is_apng(&text) {
+            Source::Apng(text)
+        } else {
+            Source::Picture(text)
+        };
+        let mut film = Self {
+            label: label.unwrap_or_default(),
+            name,
+            size: [1; 2],
+            n_frames: 1,
+            rate: None,
+            source,
+            limits,
+        };
+        if let Source::Picture(file) = &film.source {
+            film.size = read_png_header(file).map_err(|error| film.broken(None, error))?.0;
+        } else {
+            (film.size, film.n_frames, film.rate) = film.measured()?;
+        }
+        Ok(film)
+    }
+
+    /// A film in numbered files, or in a folder of them.
+    ///
+    /// # Errors
+    /// There are no frames, one is missing, cannot be read, or has another size than the first.
+    pub fn in_files(path: &Path, context: &Context, limits: PictureLimits) -> Result<Self, Failure> {
+        let name = path.display().to_string();
+        let refused = |why: &str| Failure::Failed(format!("`{name}`: {why}"));
+        let unread = |error| Failure::Read { name: name.clone(), error };
+        let pattern = if path.is_dir() { None } else { FrameNames::new(&path.to_string_lossy()) };
+        let names = pattern.map_or_else(|| FrameNames::in_folder(path), Ok).map_err(unread)?;
+        let numbers = names.numbers().map_err(unread)?;
+        let Some(&first) = numbers.first() else {
+            return Err(refused(&format!("there are no frames, such as {}", names.path(1).display())));
+        };
+        if let Some(missing) = (first..).zip(&numbers).find(|(expected, number)| expected != *number) {
+            let missing = names.path(missing.0);
+            return Err(refused(&format!("frame {} is missing: draw it first", missing.display())));
+        }
+        let paths: Vec<PathBuf> = numbers.iter().map(|&number| names.path(number)).collect();
+        let mut film = Self {
+            label: if path.is_dir() { folder_name(path) } else { names.name() },
+            name,
+            size: [0; 2],
+            n_frames: paths.len() as u32,
+            rate: None,
+            source: Source::Files(Vec::new()),
+            limits,
+        };
+        for path in &paths {
+            let header = read_png_header(&context.input_file(path)?.text);
+            let size = header.map_err(|error| film.broken(Some(path), error))?.0;
+            if film.size == [0; 2] {
+                film.size = size;
+            }
+            film.check_size(size, Some(path))?;
+        }
+        Ok(Self { source: Source::Files(paths), ..film })
+    }
+
+    /// The size of a film in one file, its number of frames, and its rate.
+    fn measured(&self) -> Result<([u32; 2], u32, Option<f64>), Failure> {
+        let (mut size, mut n_frames, mut seconds) = (self.size, 0_u32, 0.0);
+        for frame in self.animation()? {
+            let frame = frame.map_err(|error| self.undecoded(&error))?;
+            let (count, of) = frame.delay().numer_denom_ms();
+            seconds += f64::from(count) / f64::from(of) / 1000.0;
+            size = frame.buffer().dimensions().into();
+            n_frames += 1;
+        }
+        if n_frames == 0 {
+            return Err(Failure::Failed(format!("`{}` has no frames", self.name)));
+        }
+        let rate = f64::from(n_frames) / seconds;
+        // A GIF rounds times to hundredths of a second.
+        let ticks = |rate: f64| (100.0 * f64::from(n_frames) / rate).round();
+        let whole = rate.round().max(1.0);
+        let rate = if ticks(rate) == ticks(whole) { whole } else { rate };
+        Ok((size, n_frames, (seconds > 0.0).then_some(rate)))
+    }
+
+    /// The frames of a film in one file.
+    fn animation(&self) -> Result<Frames<'_>, Failure> {
+        self.decoder().map_err(|error| self.undecoded(&error))
+    }
+
+    fn decoder(&self) -> ImageResult<Frames<'_>> {
+        let mut limits = Limits::default();
+        limits.max_alloc = Some(self.limits.bytes);
+        Ok(match &self.source {
+            Source::Gif(file) => {
+                let mut decoder = GifDecoder::new(Cursor::new(file))?;
+                decoder.set_limits(limits)?;
+                decoder.into_frames()
+            }
+            Source::Apng(file) => PngDecoder::with_limits(Cursor::new(file), limits)?.apng()?.into_frames(),
+            Source::Picture(_) | Source::Files(_) => Frames::new(Box::new(std::iter::empty())),
+        })
+    }
+
+    /// Decodes the frames, one after the other.
+    ///
+    /// # Errors
+    /// The file is broken.
+    pub fn frames(&self) -> Result<FootageFrames<'_>, Failure> {
+        let picture = |path: Option<&Path>, file: &[u8]| {
+            let (frame, metadata) = read_png(file, &self.limits).map_err(|error| self.broken(path, error))?;
+            self.check_size([frame.width(), frame.height()], path)?;
+            Ok((frame, metadata))
+        };
+        Ok(match &self.source {
+            Source::Picture(file) => Box::new(std::iter::once_with(move || picture(None, file))),
+            Source::Files(paths) => {
+                let read = |path: &PathBuf| {
+                    let name = || path.display().to_string();
+                    fs::read(path).map_err(|error| Failure::Read { name: name(), error })
+                };
+                Box::new(paths.iter().map(move |path| picture(Some(path), &read(path)?)))
+            }
+            Source::Gif(_) | Source::Apng(_) => Box::new(self.animation()?.map(|frame| {
+                let pixels = frame.map_err(|error| self.undecoded(&error))?.into_buffer().into_raw();
+                let pixels = pixels.as_chunks().0.to_vec();
+                let is_opaque = pixels.iter().all(|pixel: &[u8; 4]| pixel[3] == 255);
+                Ok((Frame::new(self.size, is_opaque, pixels), Metadata::default()))
+            })),
+        })
+    }
+
+    fn check_size(&self, size: [u32; 2], path: Option<&Path>) -> Result<(), Failure> {
+        if size == self.size {
+            return Ok(());
+        }
+        let ([width, height], [columns, rows]) = (size, self.size);
+        let why =
+            format!("{width} x {height} pixels, the frames before {columns} x {rows}: draw all with one -sz");
+        Err(self.broken(path, why))
+    }
+
+    fn broken(&self, path: Option<&Path>, error: impl std::fmt::Display) -> Failure {
+        let name = path.map_or_else(|| self.name.clone(), |path| path.display().to_string());
+        Failure::Failed(format!("`{name}`: {error}"))
+    }
+
+    fn undecoded(&self, error: &ImageError) -> Failure {
+        let [width, height] = self.size.map(u64::from);
+        let needed = matches!(error, ImageError::Limits(_)).then_some(16 * width * height);
+        self.broken(None, format!("{error}{}", CommonArgs::memory_remedy(needed)))
+    }
+}
+
+fn folder_name(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
