@@ -27,7 +27,7 @@ use crate::pipe::{FilmSubject, Pipe};
 use crate::program::Program;
 use crate::script::Script;
 use crate::sight::{Sight, Unseen};
-use crate::timeline::Ease;
+use crate::timeline::{Ease, Quantity, Timeline};
 use crate::{keys, print};
 
 /// Draws the frames of a film or a figure sequence
@@ -193,6 +193,15 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let rate = args.fps.unwrap_or(DEFAULT_RATE);
     let mut script = args.script(context)?;
     let frames = args.numbers(script.n_frames)?;
+    let follows = script.fixed("ex").is_some_and(|word| word == "follow");
+    if follows && args.across.is_some() {
+        return Err(Failure::usage(
+            "-ex follow is for films with one slider: leave out -across, or give -ex hold",
+        ));
+    }
+    if follows || script.fixed("ex").is_some_and(|word| word == "hold") {
+        script.set("ex", vec!["auto".to_owned()]);
+    }
     let read = Read::new(args, &mut script, context)?;
     let mut forecast = Forecast::default();
     if let Read::Scene(scene) = &read {
@@ -217,12 +226,25 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if script.fixed("ex").as_deref() == Some("auto") {
         let film = Film { subject, script: &script, format, blur, light: HeldLight::default() };
         let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
-        let measured = exposure(&film, names, args.print.is_some(), context)?;
-        let stops = measured.stops.to_string();
-        context.note(&format!("one exposure for all frames: -ex {stops}"));
+        let measured = exposure(&film, follows, names, args.print.is_some(), context)?;
+        let least = measured.stops.iter().map(|(_, stops)| *stops).reduce(f64::min).unwrap_or(0.0);
+        let most = measured.stops.iter().map(|(_, stops)| *stops).reduce(f64::max).unwrap_or(0.0);
+        let told = if least == most {
+            format!("one exposure for all frames: -ex {least}")
+        } else {
+            format!(
+                "the exposure follows the light, from -ex {least} to {most}; -ex hold gives all frames one"
+            )
+        };
+        context.note(&told);
         tell_wrong(&measured.wrong, measured.n_frames, "measured", context);
+        let keys = measured.stops.iter().map(|&(frame, stops)| (script.time(f64::from(frame)), vec![stops]));
+        let exposure = match least == most {
+            true => Timeline::Fixed(vec![least.to_string()]),
+            false => Timeline::through(keys.collect(), Quantity::Plain).map_err(Failure::Failed)?,
+        };
+        script.set_timeline("ex", exposure);
         (forecast.wrong, light) = (measured.wrong, measured.light);
-        script.set("ex", vec![stops]);
     }
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
         script.set("ex", vec!["0".to_owned()]);
@@ -304,20 +326,21 @@ fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Resu
 /// written there, unless their commands are only printed.
 fn exposure(
     film: &Film<'_>,
+    follows: bool,
     names: Option<&FrameNames>,
     is_printed: bool,
     context: &Context,
 ) -> Result<MeasuredExposure, Failure> {
     film.size()?;
-    let key = names.map_or(Ok(None), |_| film.exposure_key())?;
-    let Some((names, key)) = names.zip(key) else { return film.exposure(&context.steps()) };
+    let key = names.map_or(Ok(None), |_| film.exposure_key(follows))?;
+    let Some((names, key)) = names.zip(key) else { return film.exposure(follows, &context.steps()) };
     if let Some(stops) = kept_exposure(names, &key) {
         return Ok(MeasuredExposure { stops, ..MeasuredExposure::default() });
     }
-    let measured = film.exposure(&context.steps())?;
+    let measured = film.exposure(follows, &context.steps())?;
     if !is_printed {
         // Where it cannot be written the frames cannot either, which is told of them.
-        let _ = keep_exposure(names, &key, measured.stops);
+        let _ = keep_exposure(names, &key, &measured.stops);
     }
     Ok(measured)
 }

@@ -12,6 +12,7 @@ use ugsheet::{Motion, Picture};
 
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
 use crate::error::Error;
+use crate::exposure::smoothed;
 use crate::frame_files::{claim, is_done, remove_stale_claims};
 use crate::levels::WrongBrightness;
 use crate::note::Note;
@@ -24,6 +25,9 @@ const MOST_CHECKED: usize = 64;
 
 /// Frames from which the exposure of a film is chosen.
 const MOST_MEASURED: u32 = 48;
+
+/// Frames whose exposure is metered, of a film whose exposure follows.
+const MOST_METERED: u32 = 250;
 
 /// Longest side of these frames, in pixels.
 const MEASURED_SIDE: u32 = 128;
@@ -70,8 +74,8 @@ pub struct Summary {
 /// The exposure of a film.
 #[derive(Debug, Default)]
 pub struct MeasuredExposure {
-    /// In stops.
-    pub stops: f64,
+    /// In stops, at frames in ascending order; a single one holds for the whole film.
+    pub stops: Vec<(u32, f64)>,
     /// How many frames were measured.
     pub n_frames: usize,
     /// Those whose brightness is wrong at this exposure.
@@ -203,11 +207,12 @@ impl Film<'_> {
         Ok(is_short && self.blur.is_none() && first.draws_polygons() && is_made_of_light(&first.picture))
     }
 
-    /// The automatic exposure of all lit pixels of the film, in stops.
+    /// The automatic exposure of all lit pixels of the film, or one that follows the light of single
+    /// frames.
     ///
     /// # Errors
     /// A frame cannot be drawn.
-    pub fn exposure(&self, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
+    pub fn exposure(&self, follows: bool, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
         let mut picture = about(1, self.pipe(1))?.picture;
         let is_held = self.holds_light()?;
         let measure = |frame| {
@@ -218,21 +223,38 @@ impl Film<'_> {
             Ok((coarse(&light), is_held.then_some((light, notes))))
         };
         let mut frames = Vec::new();
-        self.each(("measuring", steps), &self.spread(MOST_MEASURED), measure, |frame, measured| {
+        self.each(("measuring", steps), &self.metered(follows), measure, |frame, measured| {
             frames.push((frame, measured));
             Ok(())
         })?;
-        let pixels: Vec<[f32; 4]> =
-            frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
-        let stops = auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), picture.tone);
-        picture.exposure = Some(Exposure::Stops(stops));
-        let mut exposure = MeasuredExposure { stops, n_frames: frames.len(), ..MeasuredExposure::default() };
+        let stops = if follows {
+            let meter = |(frame, (light, _)): &(u32, (LinearFrame, _))| {
+                let is_lit = |&[r, g, b, part]: &[f32; 4]| part > 0.0 && r.max(g).max(b) > 0.0;
+                let stops = auto_exposure(light, picture.tone);
+                (*frame, light.pixels().iter().any(is_lit).then_some(stops))
+            };
+            let metered: Vec<_> = frames.iter().map(meter).collect();
+            smoothed(&metered, self.script.n_frames, self.script.is_loop)
+        } else {
+            let pixels: Vec<[f32; 4]> =
+                frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
+            let all = LinearFrame::new([pixels.len() as u32, 1], true, pixels);
+            vec![(1, auto_exposure(&all, picture.tone))]
+        };
+        let mut exposure = MeasuredExposure { n_frames: frames.len(), ..MeasuredExposure::default() };
         let mut held = BTreeMap::new();
         for (number, (measured, light)) in frames {
+            let row = stops.partition_point(|(frame, _)| *frame <= number).saturating_sub(1);
+            picture.exposure = stops.get(row).map(|(_, stops)| Exposure::Stops(*stops));
             levels_note(&measured, &picture).iter().for_each(|note| exposure.wrong.add(number, note));
             held.extend(light.map(|light| (number, light)));
         }
-        Ok(MeasuredExposure { light: Mutex::new(held), ..exposure })
+        Ok(MeasuredExposure { stops, light: Mutex::new(held), ..exposure })
+    }
+
+    /// The frames in which the exposure is measured.
+    fn metered(&self, follows: bool) -> Vec<u32> {
+        self.spread(if follows { MOST_METERED } else { MOST_MEASURED })
     }
 
     /// A hash of all that the exposure depends on: the commands of the measured frames, and the
@@ -240,10 +262,10 @@ impl Film<'_> {
     ///
     /// # Errors
     /// The commands of a frame are wrong.
-    pub fn exposure_key(&self) -> Result<Option<String>, Failure> {
+    pub fn exposure_key(&self, follows: bool) -> Result<Option<String>, Failure> {
         let FilmSubject::Scene(scene) = self.subject else { return Ok(None) };
-        let mut text = env!("CARGO_PKG_VERSION").to_owned();
-        for frame in self.spread(MOST_MEASURED) {
+        let mut text = format!("{} {follows}", env!("CARGO_PKG_VERSION"));
+        for frame in self.metered(follows) {
             text.push('\n');
             text += &about(frame, self.script.commands(f64::from(frame), &[]))?.line(None, None);
         }

@@ -16,29 +16,33 @@ fn exposure_of(names: &FrameNames) -> PathBuf {
     first.with_file_name(format!(".{name}.exposure"))
 }
 
-/// The exposure of a film in stops, from a file beside its first frame if that has the same `key`:
-/// a hash of all that the exposure depends on.
-pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
-    /// More than a key and a number need.
-    const MAX_BYTES: u64 = 4096;
+/// The exposure of a film, frames and stops, from a file beside its first frame if that has the same
+/// `key`: a hash of all that the exposure depends on.
+pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<Vec<(u32, f64)>> {
+    /// More than a key and its numbers need.
+    const MAX_BYTES: u64 = 1 << 16;
     let path = exposure_of(names);
     // Links are not followed: they may lead to what has no end, or to another's file.
     fs::symlink_metadata(&path).ok().filter(|found| found.is_file() && found.len() <= MAX_BYTES)?;
     let text = fs::read_to_string(path).ok()?;
-    let (kept, stops) = text.trim_end().split_once(' ')?;
-    finite(stops).ok().filter(|_| kept == key)
+    let mut words = text.split_whitespace();
+    words.next().filter(|kept| *kept == key)?;
+    let words: Vec<&str> = words.collect();
+    let (pairs, []) = words.as_chunks::<2>() else { return None };
+    pairs.iter().map(|[frame, stops]| Some((frame.parse().ok()?, finite(stops).ok()?))).collect()
 }
 
 /// Writes the file that [`kept_exposure`] reads, unless something else than a file is in its place.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep_exposure(names: &FrameNames, key: &str, stops: f64) -> Result<(), Failure> {
+pub fn keep_exposure(names: &FrameNames, key: &str, stops: &[(u32, f64)]) -> Result<(), Failure> {
     let path = exposure_of(names);
     if is_occupied(&path) {
         return Ok(());
     }
-    Context::write_now(&path, format!("{key} {stops}\n").as_bytes())
+    let numbers: String = stops.iter().map(|(frame, stops)| format!(" {frame} {stops}")).collect();
+    Context::write_now(&path, format!("{key}{numbers}\n").as_bytes())
 }
 
 /// Removes the file that [`kept_exposure`] reads, if all `n_frames` frames are there.
@@ -174,7 +178,7 @@ mod tests {
             fs::write(&precious, "key 3").unwrap();
             std::os::unix::fs::symlink(&precious, &helper).unwrap();
             fs::write(names.path(1), "").unwrap();
-            keep_exposure(&names, "other", 1.0).unwrap();
+            keep_exposure(&names, "other", &[(1, 1.0)]).unwrap();
             if helper == exposure_of(&names) {
                 assert_eq!(kept_exposure(&names, "key"), None);
             }

@@ -44,7 +44,7 @@
 //! options                                   the options of the programs, as our own
 //! script                                    the command lines and programs of every frame
 //! sight  levels                             what will be in view; frames that are nearly black
-//! keys                                      key frames
+//! keys  exposure                            key frames; exposures that follow the light
 //! film                                      frames, in files or in a film
 //! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
@@ -55,6 +55,8 @@ mod blur;
 #[cfg(feature = "cli")]
 mod cli;
 mod error;
+#[cfg(feature = "cli")]
+mod exposure;
 #[cfg(feature = "cli")]
 mod film;
 #[cfg(feature = "cli")]

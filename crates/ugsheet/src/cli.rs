@@ -457,7 +457,7 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
     let name = args.format_name(context.output_name());
     let pattern = context.output_name().and_then(|path| FrameNames::new(&path.to_string_lossy()));
     let kind = name.as_deref().and_then(Kind::from_name);
-    let (config, _) = args.config(None)?;
+    let (config, per_inch) = args.config(None)?;
     let joined = Joined::new(films, &config, args.fps)?;
     joined.tell_held(context);
     tell_scaled(joined.sheet(), context);
@@ -465,7 +465,8 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
     if let (Some(names), None | Some(Kind::Ppm)) = (&pattern, kind) {
         let format = args.format(context.output_name())?;
         let write = |number, frame: &Frame, history: &Metadata| {
-            Context::write_now(&names.path(number), &format.encode(frame, history))
+            let history = Metadata { per_inch, ..history.clone() };
+            Context::write_now(&names.path(number), &format.encode(frame, &history))
         };
         return joined.draw(&command, &context.steps(), write);
     }

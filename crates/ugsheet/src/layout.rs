@@ -13,6 +13,9 @@ const CAPTION: f64 = 1.1;
 /// Ratio of the size of pictures to the default text size.
 const PER_TEXT: f64 = 28.0;
 
+/// Pictures are not enlarged by less than this.
+const KEPT: f64 = 1.05;
+
 /// Smallest and largest default text size, in pixels.
 const SIZES: [f64; 2] = [10.0, 48.0];
 
@@ -63,7 +66,8 @@ impl Layout {
         Ok(layout.centred(sides))
     }
 
-    /// The sheet with its pictures as large as this size allows.
+    /// The sheet with its pictures as large as this size allows. They keep their pixels if these are
+    /// nearly as many.
     fn fitted(
         config: &Config,
         pictures: &[Picture],
@@ -86,6 +90,9 @@ impl Layout {
                 Err(Error::Text { .. }) => return layout,
                 _ => high = scale,
             }
+        }
+        if (1.0..KEPT).contains(&low) {
+            return Self::scaled(config, pictures, labels, 1.0);
         }
         best.ok_or(Error::Narrow)
     }

@@ -131,7 +131,7 @@ impl Footage {
     fn measured(&self) -> Result<([u32; 2], u32, Option<f64>), Failure> {
         let (mut size, mut n_frames, mut seconds) = (self.size, 0_u32, 0.0);
         for frame in self.animation()? {
-            let frame = frame.map_err(|error| self.undecoded(&error))?;
+            let frame = frame.map_err(|error| self.undecoded(n_frames, &error))?;
             let (count, of) = frame.delay().numer_denom_ms();
             seconds += f64::from(count) / f64::from(of) / 1000.0;
             size = frame.buffer().dimensions().into();
@@ -150,7 +150,7 @@ impl Footage {
 
     /// The frames of a film in one file.
     fn animation(&self) -> Result<Frames<'_>, Failure> {
-        self.decoder().map_err(|error| self.undecoded(&error))
+        self.decoder().map_err(|error| self.undecoded(0, &error))
     }
 
     fn decoder(&self) -> ImageResult<Frames<'_>> {
@@ -186,12 +186,15 @@ impl Footage {
                 };
                 Box::new(paths.iter().map(move |path| picture(Some(path), &read(path)?)))
             }
-            Source::Gif(_) | Source::Apng(_) => Box::new(self.animation()?.map(|frame| {
-                let pixels = frame.map_err(|error| self.undecoded(&error))?.into_buffer().into_raw();
-                let pixels = pixels.as_chunks().0.to_vec();
-                let is_opaque = pixels.iter().all(|pixel: &[u8; 4]| pixel[3] == 255);
-                Ok((Frame::new(self.size, is_opaque, pixels), Metadata::default()))
-            })),
+            Source::Gif(_) | Source::Apng(_) => {
+                Box::new((0..).zip(self.animation()?).map(|(n_before, frame)| {
+                    let frame = frame.map_err(|error| self.undecoded(n_before, &error))?;
+                    let pixels = frame.into_buffer().into_raw();
+                    let pixels = pixels.as_chunks().0.to_vec();
+                    let is_opaque = pixels.iter().all(|pixel: &[u8; 4]| pixel[3] == 255);
+                    Ok((Frame::new(self.size, is_opaque, pixels), Metadata::default()))
+                }))
+            }
         })
     }
 
@@ -210,10 +213,14 @@ impl Footage {
         Failure::Failed(format!("`{name}`: {error}"))
     }
 
-    fn undecoded(&self, error: &ImageError) -> Failure {
-        let [width, height] = self.size.map(u64::from);
-        let needed = matches!(error, ImageError::Limits(_)).then_some(16 * width * height);
-        self.broken(None, format!("{error}{}", CommonArgs::memory_remedy(needed)))
+    fn undecoded(&self, n_before: u32, error: &ImageError) -> Failure {
+        if let ImageError::Limits(_) = error {
+            let [width, height] = self.size.map(u64::from);
+            let remedy =
+                CommonArgs::memory_remedy(Some(self.limits.bytes.max(16 * width * height).saturating_mul(2)));
+            return self.broken(None, format!("its frames exceed the limit of memory{remedy}"));
+        }
+        self.broken(None, format!("it is broken after {n_before} frames, write it again: {error}"))
     }
 }
 

@@ -1,5 +1,6 @@
 //! Films side by side.
 
+use ugimage::label::number::significant;
 use ugimage::{Frame, Metadata};
 use ugpipe::{Context, Failure, Progress, Steps, Words};
 
@@ -93,9 +94,12 @@ fn common_rate(films: &[Footage]) -> Result<f64, Failure> {
         let n_frames = f64::from(film.n_frames.min(first.n_frames));
         if (n_frames / rate - n_frames / other).abs() > 0.011 {
             return Err(Failure::Usage(format!(
-                "`{}` has {rate:.4} frames a second and `{}` {other:.4}; frames are joined one by one: \
-                 say how fast with -fps",
-                first.name, film.name
+                "`{}` has {} frames a second and `{}` {}; frames are joined one by one: say how many a \
+                 second with -fps",
+                first.name,
+                significant(rate, 4),
+                film.name,
+                significant(other, 4)
             )));
         }
     }
