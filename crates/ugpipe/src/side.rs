@@ -58,3 +58,21 @@ impl Side {
         inches.map(Self::Inches).ok_or_else(|| "must be a length above 0 and of at most 1000 in".to_owned())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_sides_have_units_or_neither() {
+        let both = |[width, height]: [&str; 2], per_inch| {
+            Side::both(&[Side::parse(width).unwrap(), Side::parse(height).unwrap()], per_inch)
+        };
+        assert_eq!(both(["8.6cm", "60mm"], 300.0), Ok([1016, 709]));
+        assert_eq!(both(["1in", "72pt"], 72.0), Ok([72, 72]));
+        assert_eq!(both(["640", "480"], 300.0), Ok([640, 480]));
+        for mixed in [["8.6cm", "600"], ["600", "8.6cm"]] {
+            assert!(both(mixed, 300.0).unwrap_err().contains("write both as lengths"));
+        }
+    }
+}

@@ -412,12 +412,12 @@ fn print_sheet(
     inputs: &[Input],
     context: &mut Context,
 ) -> Result<(), Failure> {
+    let pictures = paths.iter().zip(inputs).map(|(path, input)| picture(*path, input));
+    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
     let format = args.format(context.output_name())?;
     if context.output_is_terminal() && format.is_binary() {
         return Err(Failure::usage(NO_TERMINAL));
     }
-    let pictures = paths.iter().zip(inputs).map(|(path, input)| picture(*path, input));
-    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
     let stated: Vec<f64> = pictures.iter().filter_map(|picture| picture.history.per_inch).collect();
     let per_inch = stated.first().copied().filter(|first| stated.iter().all(|other| other == first));
     if per_inch.is_none() && !stated.is_empty() && args.sz.is_none() {
@@ -469,6 +469,10 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
             Context::write_now(&names.path(number), &format.encode(frame, &history))
         };
         return joined.draw(&command, &context.steps(), write);
+    }
+    if let (Some(_), Some(kind)) = (&pattern, kind) {
+        let name = kind.name();
+        return Err(Failure::Usage(format!("{name} is a whole film, not a frame: give a name without %d")));
     }
     let Some(kind) = kind else {
         return Err(Failure::usage(

@@ -74,27 +74,26 @@ impl Layout {
         labels: &[String],
         size: [u32; 2],
     ) -> Result<Self, Error> {
-        /// The width of a sheet grows with the scale, so halving this often finds a pixel.
-        const STEPS: usize = 40;
+        // The width does not depend on texts, whose layout takes long.
+        let bare = Config { letters: false, title: String::new(), caption: String::new(), ..config.clone() };
+        let blank = vec![String::new(); pictures.len()];
         let widest = pictures.iter().map(|picture| picture.size[0]).max().unwrap_or(1);
-        // A row with this picture would fill the sheet.
-        let (mut low, mut high) = (0.0, f64::from(size[0]) / f64::from(widest));
-        let mut best = None;
-        for _ in 0..STEPS {
-            let scale = 0.5 * (low + high);
-            let layout = Self::scaled(config, pictures, labels, scale);
-            match layout {
-                Ok(layout) if layout.size[0] <= size[0] && layout.size[1] <= size[1] => {
-                    (low, best) = (scale, Some(layout));
-                }
-                Err(Error::Text { .. }) => return layout,
-                _ => high = scale,
-            }
+        // A row with this picture alone fills the sheet.
+        let most = f64::from(size[0]) / f64::from(widest);
+        let mut scale = largest(32, most, |scale| {
+            Self::scaled(&bare, pictures, &blank, scale).is_ok_and(|layout| layout.size[0] <= size[0])
+        });
+        let is_low = |scale: f64| {
+            Self::scaled(config, pictures, labels, scale).is_ok_and(|layout| layout.size[1] <= size[1])
+        };
+        if size[1] < u32::MAX && !is_low(scale) {
+            scale = largest(16, scale, is_low);
         }
-        if (1.0..KEPT).contains(&low) {
-            return Self::scaled(config, pictures, labels, 1.0);
+        if (1.0..KEPT).contains(&scale) {
+            scale = 1.0;
         }
-        best.ok_or(Error::Narrow)
+        let layout = Self::scaled(config, pictures, labels, scale)?;
+        if scale > 0.0 { Ok(layout) } else { Err(Error::Narrow) }
     }
 
     /// The sheet with its pictures scaled by a factor.
@@ -170,6 +169,16 @@ impl Layout {
         }
         drawing
     }
+}
+
+/// The largest number up to `high` that fits, to 1 part in 2 to the power `n_steps`; 0 if none does.
+fn largest(n_steps: u32, high: f64, fits: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, high);
+    for _ in 0..n_steps {
+        let middle = 0.5 * (low + high);
+        *(if fits(middle) { &mut low } else { &mut high }) = middle;
+    }
+    low
 }
 
 /// The default text size. It depends on the mean area of the pictures only, so that sheets of

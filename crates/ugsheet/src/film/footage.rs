@@ -52,8 +52,18 @@ fn is_gif(file: &[u8]) -> bool {
     file.starts_with(b"GIF8")
 }
 
+/// True for a PNG file with the chunk `acTL` before its pixels, also if it is cut off.
 fn is_apng(file: &[u8]) -> bool {
-    PngDecoder::new(Cursor::new(file)).is_ok_and(|png| png.is_apng().unwrap_or(false))
+    let Some(mut rest) = file.strip_prefix(b"\x89PNG\r\n\x1a\n") else { return false };
+    while let [a, b, c, d, kind @ ..] = rest {
+        if kind.starts_with(b"acTL") || kind.starts_with(b"IDAT") {
+            return kind.starts_with(b"acTL");
+        }
+        // After the kind come as many bytes, and four of a checksum.
+        let length = u32::from_be_bytes([*a, *b, *c, *d]) as usize;
+        rest = kind.get(length.saturating_add(8)..).unwrap_or_default();
+    }
+    false
 }
 
 impl Footage {
