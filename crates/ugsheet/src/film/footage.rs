@@ -237,3 +237,56 @@ impl Footage {
 fn folder_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
+
+#[cfg(test)]
+mod tests {
+    use ugtesting::Random;
+
+    use super::super::animation::{AnimatedPng, Gif, Shape};
+    use super::*;
+
+    fn films() -> [Vec<u8>; 2] {
+        let shape = Shape { size: [9, 7], n_frames: 4, n_rows: 1, rate: 25.0 };
+        let frame = |number: u8| {
+            let mut frame = Frame::clear(9, 7);
+            frame.pixels_mut()[usize::from(number)..].fill([50 * number, 9, 200, 255]);
+            frame
+        };
+        let [mut gif, mut apng] = [Vec::new(), Vec::new()];
+        let mut writer = Gif::new(&mut gif, shape).unwrap();
+        (1..5).for_each(|number| writer.push(&frame(number)).unwrap());
+        writer.finish().unwrap();
+        let mut writer = AnimatedPng::new(&mut apng, shape).unwrap();
+        (1..5).for_each(|number| writer.push(&frame(number)).unwrap());
+        writer.finish().unwrap();
+        [gif, apng]
+    }
+
+    fn read(file: Vec<u8>) -> Result<Vec<Frame>, Failure> {
+        let limits = PictureLimits { bytes: 1 << 24, ..PictureLimits::default() };
+        let film = Footage::in_file(None, Input { name: "film".to_owned(), text: file }, limits)?;
+        let frames =
+            film.frames()?.map(|frame| frame.map(|(frame, _)| frame)).collect::<Result<Vec<_>, _>>()?;
+        assert_eq!(frames.len() as u32, film.n_frames);
+        assert!(frames.iter().all(|frame| [frame.width(), frame.height()] == film.size));
+        Ok(frames)
+    }
+
+    #[test]
+    fn damaged_films_are_refused_or_read() {
+        let films = films();
+        let [gif, apng] = films.clone().map(|film| read(film).unwrap());
+        assert!(gif.len() == 4 && gif == apng);
+        let mut random = Random(51);
+        for _ in 0..2000 {
+            let mut film = random.pick(&films).clone();
+            for _ in 0..1 + random.below(4) {
+                let at = random.below(film.len());
+                film[at] = random.bits() as u8;
+            }
+            film.truncate(if random.one_in(3) { random.below(film.len()) } else { film.len() });
+            // Either is right: damage to colours cannot be seen.
+            let _ = read(film);
+        }
+    }
+}
