@@ -15,7 +15,7 @@ use ugpipe::{
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
-use ugsheet::film::{Caption, DEFAULT_RATE, FrameNames, Kind, MOST_GIF_RATE, rate};
+use ugsheet::film::{Caption, DEFAULT_RATE, FilmKind, FrameNames, MOST_GIF_RATE, rate};
 
 use crate::blur::MotionBlur;
 use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
@@ -178,7 +178,7 @@ pub fn manual() -> Manual {
 pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let output = Output::new(args.dt.as_deref(), args.sheet.is_some(), context.output_name())?;
     let keep = args.keep.as_deref().map(|names| names_of(names, "--keep")).transpose()?;
-    let has_rate = matches!(output, Output::Film(kind) if kind != Kind::Ppm);
+    let has_rate = matches!(output, Output::Film(kind) if kind != FilmKind::Ppm);
     if args.fps.is_some() && !has_rate && args.print.is_none() {
         return Err(Failure::usage(
             "numbered frames, ppm and sheets have no frames a second: leave out -fps",
@@ -187,7 +187,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if keep.is_some() && !matches!(output, Output::Film(_)) {
         return Err(Failure::usage("--keep is for films in one file: leave it out, or give -fo film.apng"));
     }
-    if args.across.is_some() && !matches!(output, Output::Film(Kind::Html)) && args.print.is_none() {
+    if args.across.is_some() && !matches!(output, Output::Film(FilmKind::Html)) && args.print.is_none() {
         return Err(Failure::usage("-across is for pages: give -fo FILE.html"));
     }
     let rate = args.fps.unwrap_or(DEFAULT_RATE);
@@ -278,7 +278,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
                 let line = print::script(&film, std::iter::once(frame), &names, input.as_deref())?;
                 Ok(Caption { values: script.changing(f64::from(frame))?, line })
             };
-            let captions = frames.iter().filter(|_| *kind == Kind::Html).map(caption);
+            let captions = frames.iter().filter(|_| *kind == FilmKind::Html).map(caption);
             let captions = captions.collect::<Result<Vec<_>, _>>()?;
             let target = Target { captions: &captions, kind: *kind, rate, keep: keep.as_ref() };
             film.write_film(&frames, target, context)?
@@ -297,7 +297,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 /// Refuses a film that its format cannot hold.
-fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Result<(), Failure> {
+fn check_kind(kind: FilmKind, rate: f64, script: &Script, context: &Context) -> Result<(), Failure> {
     // A frame that is wrong is reported when it is drawn.
     let Ok(Pipe { picture, .. }) = script.pipe(1.0, &[], Format::Png) else { return Ok(()) };
     let name = kind.name();
@@ -309,12 +309,12 @@ fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Resu
         return Err(Failure::Usage(format!("-pz packs PNG files, not a film in {name}: leave it out")));
     }
     let [width, height] = picture.size.map(|side| side.next_multiple_of(2));
-    if kind == Kind::Mp4 && picture.size != [width, height] {
+    if kind == FilmKind::Mp4 && picture.size != [width, height] {
         let message =
             format!("widths and heights of mp4 are even: give -sz {width} {height}, or write a webm");
         return Err(Failure::Usage(message));
     }
-    if kind == Kind::Gif && rate > MOST_GIF_RATE {
+    if kind == FilmKind::Gif && rate > MOST_GIF_RATE {
         context.note(&format!(
             "browsers play a gif at {MOST_GIF_RATE} frames a second at most: it has this rate, not {rate}"
         ));

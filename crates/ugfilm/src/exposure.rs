@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn dark_frames_have_none_and_loops_close() {
-        let lit = |frame: u32| (frame % 2 == 0).then_some(f64::from(frame));
+        let lit = |frame: u32| frame.is_multiple_of(2).then_some(f64::from(frame));
         assert_eq!(smoothed(&metered(lit, 6), 6, false).len(), 3);
         assert_eq!(smoothed(&metered(|_| None, 6), 6, true), []);
         let ends = smoothed(&metered(|frame| Some(if frame == 1 { 4.0 } else { 0.0 }), 8), 8, true);

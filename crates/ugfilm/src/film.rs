@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use ugimage::{Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png, read_png_header};
 use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
-use ugsheet::film::{Caption, FrameNames, Kind, Shape};
+use ugsheet::film::{Caption, FilmKind, FilmShape, FrameNames};
 use ugsheet::{Motion, Picture};
 
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
@@ -396,7 +396,7 @@ impl Film<'_> {
     ) -> Result<Summary, Failure> {
         let Target { captions, kind, rate, keep } = target;
         let n_rows = self.script.n_rows();
-        let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
+        let shape = FilmShape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
         let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
@@ -451,7 +451,7 @@ pub struct Target<'t> {
     /// The captions of its frames on a page.
     pub captions: &'t [Caption],
     /// Its kind.
-    pub kind: Kind,
+    pub kind: FilmKind,
     /// Frames a second.
     pub rate: f64,
     /// Files in which single frames are kept.

@@ -107,7 +107,7 @@ pub fn remove_stale_claims(names: &FrameNames) {
     let folder = first.parent().filter(|folder| !folder.as_os_str().is_empty());
     stale::remove(folder.unwrap_or(Path::new(".")), |name| {
         let frame = name.strip_prefix('.').and_then(|name| name.strip_suffix(".claim"));
-        frame.is_some_and(|frame| names.is_one(frame))
+        frame.is_some_and(|frame| names.number(frame).is_some())
     });
 }
 

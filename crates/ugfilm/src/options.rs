@@ -251,7 +251,7 @@ fn all_options() -> Vec<Arg> {
             }
             if is_exposure {
                 arg = arg.help(EXPOSURE_HELP[0]).long_help(EXPOSURE_HELP.join("\n\n"));
-                arg = arg.value_name("E|auto|hold|follow");
+                arg = arg.value_name("E|WORD");
             }
             options.push(if has_own_names { arg } else { arg.visible_alias(Resettable::Reset) });
         }

@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn no_data_line_looks_like_a_comment() {
         for frame in frames() {
-            let image = color_image(&frame);
+            let image = color_image(&frame, [3, 2]);
             assert!(image.split(|&c| c == b'\n').all(|line| !line.starts_with(b"%") && line.len() <= 100));
         }
     }

@@ -12,7 +12,7 @@ use ugpipe::{
     one_of, sha256, whole,
 };
 
-use crate::film::{self, Caption, Footage, FrameNames, Joined, Kind};
+use crate::film::{self, Caption, FilmKind, Footage, FrameNames, Joined};
 use crate::recipe::{Recipe, recipes};
 use crate::{Config, Error, Labels, Motion, Picture, Sheet, history, join};
 
@@ -36,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "TEXT", action = ArgAction::Append, conflicts_with = "lb")]
     label: Vec<String>,
 
-    /// Kind of labels if --label is not given
+    /// FilmKind of labels if --label is not given
     #[arg(long, value_name = "KIND", default_value = "auto", visible_alias = "labels", value_enum)]
     lb: LabelKind,
 
@@ -56,7 +56,7 @@ pub struct Args {
     #[arg(long, value_name = "PIXELS", value_parser = text_size, visible_alias = "text-size")]
     ts: Option<f64>,
 
-    /// Width of the sheet, and height if given, in pixels, or in mm, cm, in, pt
+    /// Width and height of the sheet in pixels, or in mm, cm, in, pt
     ///
     /// All pictures are scaled by one factor. A length has as many pixels to the inch as the pictures
     /// state, otherwise 300, which the sheet states; its labels have 8 pt by default. Without -sz the
@@ -79,7 +79,7 @@ pub struct Args {
           visible_alias = "background")]
     bg: Option<Vec<String>>,
 
-    /// Output format: png, ppm, eps, ps, pdf, svg [default: by the extension of -fo, else png]
+    /// Output format [default: by the extension of -fo, else png]
     ///
     /// Of films: apng, gif, y4m, ppm, html, mp4 and webm with ffmpeg; or numbered files, -fo
     /// sheet_%04d.png. Their widths and heights are even.
@@ -112,7 +112,7 @@ const EXAMPLES: &str = "Examples:
   ugsheet -cols 2 rest.png 0.5c.png 0.9c.png 0.99c.png > sheet.png
   ugsheet -lt --label 'at rest' --label 'β = 0.9' -cap 'A ship passes' rest.png fast.png > ship.png
   ugsheet -sz 17.8cm -lt -fo figure.png rest.png fast.png
-  ugsheet -cols 1 -fo both.gif shape.gif light.gif
+  ugsheet -fo both.gif film.gif frame_%04d.png
   ugsheet --tiles tile_*.png > whole.png
   ugsheet --history rest.png";
 
@@ -146,7 +146,7 @@ const FORMATS: [&str; 12] =
     ["png", "ppm", "eps", "ps", "pdf", "svg", "apng", "gif", "y4m", "html", "mp4", "webm"];
 
 fn format_known(name: &str) -> Result<String, String> {
-    let is_known = picture_format(name).is_some() || Kind::from_name(name).is_some();
+    let is_known = picture_format(name).is_some() || FilmKind::from_name(name).is_some();
     is_known.then(|| name.to_owned()).ok_or_else(|| format!("not one of the formats {}", FORMATS.join(", ")))
 }
 
@@ -159,7 +159,7 @@ const LABEL_POINTS: f64 = 8.0;
 
 impl ToolArgs for Args {
     const ESSENTIAL: &'static [&'static str] =
-        &["-sz", "-cols", "--label", "-lb", "-lt", "--title", "-cap", "-ts", "-gap", "-bg", "-dt", "-fo"];
+        &["-sz", "-cols", "--label", "-lb", "-lt", "-cap", "-ts", "-gap", "-bg", "-dt", "-fo"];
 
     fn common(&self) -> &CommonArgs {
         &self.common
@@ -223,7 +223,7 @@ impl Args {
 
     fn format(&self, file: Option<&Path>) -> Result<Format, Failure> {
         let Some(name) = self.format_name(file) else { return Ok(Format::Png) };
-        picture_format(&name).ok_or_else(|| match Kind::from_name(&name) {
+        picture_format(&name).ok_or_else(|| match FilmKind::from_name(&name) {
             Some(_) => {
                 Failure::Usage(format!("`{name}` is a format of films, and the pictures are no films"))
             }
@@ -244,7 +244,7 @@ fn picture(path: Option<&Path>, input: &Input) -> Result<Picture, Failure> {
 }
 
 /// The failure of a sheet that cannot be laid out.
-pub(crate) fn refused(error: &Error) -> Failure {
+fn refused(error: &Error) -> Failure {
     match error {
         Error::Count { .. } | Error::Text { .. } | Error::Narrow => Failure::usage(error.words()),
         error => Failure::failed(error.words()),
@@ -456,13 +456,16 @@ fn tell_scaled(sheet: &Sheet, context: &Context) {
 fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(), Failure> {
     let name = args.format_name(context.output_name());
     let pattern = context.output_name().and_then(|path| FrameNames::new(&path.to_string_lossy()));
-    let kind = name.as_deref().and_then(Kind::from_name);
+    let kind = name.as_deref().and_then(FilmKind::from_name);
     let (config, per_inch) = args.config(None)?;
-    let joined = Joined::new(films, &config, args.fps)?;
+    let pictures: Vec<Picture> = films.iter().map(Footage::picture).collect();
+    let sheet =
+        Sheet::new(&Config { is_even: true, ..config }, &pictures).map_err(|error| refused(&error))?;
+    tell_scaled(&sheet, context);
+    let joined = Joined::new(films, sheet, args.fps)?;
     joined.tell_held(context);
-    tell_scaled(joined.sheet(), context);
     let command = context.command_line().to_owned();
-    if let (Some(names), None | Some(Kind::Ppm)) = (&pattern, kind) {
+    if let (Some(names), None | Some(FilmKind::Ppm)) = (&pattern, kind) {
         let format = args.format(context.output_name())?;
         let write = |number, frame: &Frame, history: &Metadata| {
             let history = Metadata { per_inch, ..history.clone() };
@@ -485,7 +488,7 @@ fn print_film(args: &Args, films: &[Footage], context: &mut Context) -> Result<(
     }
     let captions = (1..=joined.shape.n_frames)
         .map(|number| Caption { values: number.to_string(), line: command.clone() });
-    let captions = captions.filter(|_| kind == Kind::Html).collect();
+    let captions = captions.filter(|_| kind == FilmKind::Html).collect();
     film::write(context, (kind, joined.shape, true), captions, |steps, push| {
         joined.draw(&command, steps, |_, frame, _| push(frame))
     })

@@ -7,12 +7,12 @@ use std::process::{ChildStdin, Command, Stdio};
 use ugimage::Frame;
 use ugpipe::{Context, Failure, Running, Steps};
 
-use super::animation::{AnimatedPng, Gif, Shape, fraction};
+use super::animation::{AnimatedPng, FilmShape, Gif, fraction};
 use super::lesson::{Caption, Lesson};
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FilmKind {
     /// Animated PNG, all colours.
     Apng,
     /// GIF, 256 colours.
@@ -29,7 +29,7 @@ pub enum Kind {
     Webm,
 }
 
-impl Kind {
+impl FilmKind {
     /// All of them.
     pub const ALL: [Self; 7] =
         [Self::Apng, Self::Gif, Self::Y4m, Self::Ppm, Self::Html, Self::Mp4, Self::Webm];
@@ -71,7 +71,7 @@ impl Kind {
 /// A frame cannot be drawn, or the film cannot be written.
 pub fn write(
     context: &mut Context,
-    (kind, shape, is_opaque): (Kind, Shape, bool),
+    (kind, shape, is_opaque): (FilmKind, FilmShape, bool),
     captions: Vec<Caption>,
     draw: impl FnOnce(&Steps<'_>, &mut dyn FnMut(&Frame) -> Result<(), Failure>) -> Result<(), Failure>,
 ) -> Result<(), Failure> {
@@ -125,10 +125,15 @@ impl<'w> Stream<'w> {
     ///
     /// # Errors
     /// Writing fails, or the format cannot hold the film.
-    pub fn new(kind: Kind, shape: Shape, captions: Vec<Caption>, out: &'w mut dyn Write) -> io::Result<Self> {
+    pub fn new(
+        kind: FilmKind,
+        shape: FilmShape,
+        captions: Vec<Caption>,
+        out: &'w mut dyn Write,
+    ) -> io::Result<Self> {
         Ok(match kind {
-            Kind::Gif => Self::Gif(Gif::new(out, shape)?),
-            Kind::Y4m => {
+            FilmKind::Gif => Self::Gif(Gif::new(out, shape)?),
+            FilmKind::Y4m => {
                 let ([width, height], [count, seconds]) = (shape.size, fraction(shape.rate));
                 writeln!(
                     out,
@@ -136,9 +141,9 @@ impl<'w> Stream<'w> {
                 )?;
                 Self::Y4m(out, Vec::new())
             }
-            Kind::Ppm => Self::Ppm(out),
-            Kind::Html => Self::Html(Lesson::new(out, captions, shape)?),
-            Kind::Apng | Kind::Mp4 | Kind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
+            FilmKind::Ppm => Self::Ppm(out),
+            FilmKind::Html => Self::Html(Lesson::new(out, captions, shape)?),
+            FilmKind::Apng | FilmKind::Mp4 | FilmKind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
         })
     }
 
@@ -211,11 +216,13 @@ impl Ffmpeg {
     ///
     /// # Errors
     /// There is no ffmpeg.
-    pub fn new(kind: Kind, shape: Shape, is_opaque: bool, path: &Path) -> Result<Self, Failure> {
+    pub fn new(kind: FilmKind, shape: FilmShape, is_opaque: bool, path: &Path) -> Result<Self, Failure> {
         let [width, height] = shape.size;
         let [count, seconds] = fraction(shape.rate);
         let codec: &[&str] = match kind {
-            Kind::Webm => &["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"],
+            FilmKind::Webm => {
+                &["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"]
+            }
             _ => &["-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", "-f", "mp4"],
         };
         let [pixels, planes] = if is_opaque { ["rgb24", "yuv420p"] } else { ["rgba", "yuva420p"] };

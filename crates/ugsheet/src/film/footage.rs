@@ -1,7 +1,7 @@
 //! Films that are read, frame by frame.
 
 use std::fs;
-use std::io::Cursor;
+use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
 use image::codecs::gif::GifDecoder;
@@ -11,11 +11,12 @@ use ugimage::{Frame, Metadata, PictureLimits, read_png, read_png_header};
 use ugpipe::{CommonArgs, Context, Failure, Input};
 
 use super::frame_names::FrameNames;
+use crate::{Motion, Picture};
 
 /// A film, or a picture, which is a film of one frame.
 pub struct Footage {
     /// Its name for labels.
-    pub label: String,
+    label: String,
     /// Its name for messages.
     pub name: String,
     /// Width and height of all its frames.
@@ -104,37 +105,25 @@ impl Footage {
     /// There are no frames, one is missing, cannot be read, or has another size than the first.
     pub fn in_files(path: &Path, context: &Context, limits: PictureLimits) -> Result<Self, Failure> {
         let name = path.display().to_string();
-        let refused = |why: &str| Failure::Failed(format!("`{name}`: {why}"));
-        let unread = |error| Failure::Read { name: name.clone(), error };
-        let pattern = if path.is_dir() { None } else { FrameNames::new(&path.to_string_lossy()) };
-        let names = pattern.map_or_else(|| FrameNames::in_folder(path), Ok).map_err(unread)?;
-        let numbers = names.numbers().map_err(unread)?;
-        let Some(&first) = numbers.first() else {
-            return Err(refused(&format!("there are no frames, such as {}", names.path(1).display())));
-        };
-        if let Some(missing) = (first..).zip(&numbers).find(|(expected, number)| expected != *number) {
-            let missing = names.path(missing.0);
-            return Err(refused(&format!("frame {} is missing: draw it first", missing.display())));
-        }
-        let paths: Vec<PathBuf> = numbers.iter().map(|&number| names.path(number)).collect();
-        let mut film = Self {
-            label: if path.is_dir() { folder_name(path) } else { names.name() },
-            name,
-            size: [0; 2],
-            n_frames: paths.len() as u32,
-            rate: None,
-            source: Source::Files(Vec::new()),
-            limits,
-        };
-        for path in &paths {
+        let names = if path.is_dir() { None } else { FrameNames::new(&name) };
+        let label = names.as_ref().map_or_else(|| file_name(path), FrameNames::name);
+        let paths = frame_paths(path, names.as_ref());
+        let paths = paths.map_err(|error| Failure::Read { name: name.clone(), error })?;
+        let (n_frames, source) = (paths.len() as u32, Source::Files(Vec::new()));
+        let mut film = Self { label, name, size: [1; 2], n_frames, rate: None, source, limits };
+        for (row, path) in paths.iter().enumerate() {
             let header = read_png_header(&context.input_file(path)?.text);
             let size = header.map_err(|error| film.broken(Some(path), error))?.0;
-            if film.size == [0; 2] {
-                film.size = size;
-            }
+            film.size = if row == 0 { size } else { film.size };
             film.check_size(size, Some(path))?;
         }
         Ok(Self { source: Source::Files(paths), ..film })
+    }
+
+    /// What its first frame is on a sheet.
+    pub fn picture(&self) -> Picture {
+        let (motion, history) = (Motion::default(), Metadata::default());
+        Picture { name: self.label.clone(), size: self.size, motion, history }
     }
 
     /// The size of a film in one file, its number of frames, and its rate.
@@ -234,19 +223,63 @@ impl Footage {
     }
 }
 
-fn folder_name(path: &Path) -> String {
+fn file_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// The files of a film in the order of their numbers: those of a pattern, or the PNG files of a folder.
+fn frame_paths(path: &Path, names: Option<&FrameNames>) -> io::Result<Vec<PathBuf>> {
+    let first = names.map(|names| names.path(1));
+    let folder = first.as_deref().map_or(Some(path), Path::parent);
+    let folder = folder.filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let is_one = |path: &PathBuf| {
+        let name = file_name(path);
+        let is_own = |names: &FrameNames| names.number(&name).is_some_and(|n| names.path(n).ends_with(&name));
+        let is_png = || name.ends_with(".png") && !name.starts_with('.');
+        names.map_or_else(is_png, is_own) && path.is_file()
+    };
+    let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<_>>>()?;
+    paths.retain(is_one);
+    // A longer number is a greater one.
+    paths.sort_by_cached_key(|path| (file_name(path).len(), file_name(path)));
+    let Some(first_path) = paths.first() else {
+        let expected = first.map_or_else(|| "frame_0001.png".to_owned(), |first| first.display().to_string());
+        return Err(io::Error::other(format!("There are no frames, such as {expected}")));
+    };
+    let before =
+        |path: &Path| file_name(path).trim_end_matches(".png").trim_end_matches(char::is_numeric).len();
+    let is_other = |path: &PathBuf| {
+        file_name(path).get(..before(path)) != file_name(first_path).get(..before(first_path))
+    };
+    let Some(names) = names else {
+        return match paths.iter().find(|path| is_other(path)) {
+            None => Ok(paths),
+            Some(other) => Err(io::Error::other(format!(
+                "{} is not a frame of the film of {}: name its frames, as {}",
+                other.display(),
+                first_path.display(),
+                folder.join("frame_%04d.png").display()
+            ))),
+        };
+    };
+    let first = names.number(&file_name(first_path)).unwrap_or(1);
+    match (first..).zip(&paths).find(|(number, path)| !path.ends_with(file_name(&names.path(*number)))) {
+        None => Ok(paths),
+        Some((number, _)) => {
+            Err(io::Error::other(format!("Frame {} is missing: draw it first", names.path(number).display())))
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use ugtesting::Random;
 
-    use super::super::animation::{AnimatedPng, Gif, Shape};
+    use super::super::animation::{AnimatedPng, FilmShape, Gif};
     use super::*;
 
     fn films() -> [Vec<u8>; 2] {
-        let shape = Shape { size: [9, 7], n_frames: 4, n_rows: 1, rate: 25.0 };
+        let shape = FilmShape { size: [9, 7], n_frames: 4, n_rows: 1, rate: 25.0 };
         let frame = |number: u8| {
             let mut frame = Frame::clear(9, 7);
             frame.pixels_mut()[usize::from(number)..].fill([50 * number, 9, 200, 255]);

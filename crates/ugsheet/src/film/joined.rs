@@ -5,45 +5,32 @@ use ugimage::{Frame, Metadata};
 use ugpipe::{Context, Failure, Progress, Steps, Words};
 
 use super::DEFAULT_RATE;
-use super::animation::Shape;
+use super::animation::FilmShape;
 use super::footage::Footage;
-use crate::{Config, Motion, Picture, Sheet, history};
+use crate::{Sheet, history};
 
 /// Films on one sheet, frame by frame. A film that has ended holds its last frame.
 pub struct Joined<'f> {
     films: &'f [Footage],
     sheet: Sheet,
     /// Size, number of frames and rate.
-    pub shape: Shape,
+    pub shape: FilmShape,
 }
 
 impl<'f> Joined<'f> {
-    /// Joins films. `rate`: frames a second; by default those of the films, which must agree.
+    /// Joins films on a sheet. `rate`: frames a second; by default those of the films, which must
+    /// agree.
     ///
     /// # Errors
-    /// The rates of the films differ, or the sheet is refused.
-    pub fn new(films: &'f [Footage], config: &Config, rate: Option<f64>) -> Result<Self, Failure> {
-        let picture = |film: &Footage| Picture {
-            name: film.label.clone(),
-            size: film.size,
-            motion: Motion::default(),
-            history: Metadata::default(),
-        };
-        let pictures: Vec<Picture> = films.iter().map(picture).collect();
-        let sheet = Sheet::new(&Config { is_even: true, ..config.clone() }, &pictures);
-        let sheet = sheet.map_err(|error| crate::cli::refused(&error))?;
+    /// The rates of the films differ.
+    pub fn new(films: &'f [Footage], sheet: Sheet, rate: Option<f64>) -> Result<Self, Failure> {
         let rate = match rate {
             Some(rate) => rate,
             None => common_rate(films)?.clamp(0.01, 1000.0),
         };
         let n_frames = films.iter().map(|film| film.n_frames).max().unwrap_or(1);
-        let shape = Shape { size: sheet.size(), n_frames, n_rows: 1, rate };
+        let shape = FilmShape { size: sheet.size(), n_frames, n_rows: 1, rate };
         Ok(Self { films, sheet, shape })
-    }
-
-    /// The sheet of all frames.
-    pub fn sheet(&self) -> &Sheet {
-        &self.sheet
     }
 
     /// Says which films hold their last frame.

@@ -8,8 +8,8 @@ mod joined;
 mod lesson;
 mod palette;
 
-pub use animation::{MOST_GIF_RATE, Shape};
-pub use encode::{Kind, write};
+pub use animation::{FilmShape, MOST_GIF_RATE};
+pub use encode::{FilmKind, write};
 pub(crate) use footage::{Footage, is_film, names_frames};
 pub use frame_names::FrameNames;
 pub(crate) use joined::Joined;

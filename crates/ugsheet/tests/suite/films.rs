@@ -162,11 +162,15 @@ fn what_is_no_film_is_refused() {
     fs::write(at("others/a_1.png"), "no picture").unwrap();
     fs::remove_file(at("bb_2.png")).unwrap();
     for (args, status, message) in [
-        ("-dt gif empty", 1, "it has no numbered PNG files"),
-        ("-dt gif none_%d.png", 1, "there are no frames, such as none_1.png"),
-        ("-dt gif bb_%d.png", 1, "frame bb_2.png is missing: draw it first"),
+        ("-dt gif empty", 1, "There are no frames, such as frame_0001.png"),
+        ("-dt gif none_%d.png", 1, "There are no frames, such as none_1.png"),
+        ("-dt gif bb_%d.png", 1, "Frame bb_2.png is missing: draw it first"),
         ("-dt gif mixed", 1, "16 x 20 pixels, the frames before 8 x 8: draw all with one -sz"),
-        ("-dt gif several", 1, "name these, as several/frame_%04d.png"),
+        (
+            "-dt gif several",
+            1,
+            "several/b_1.png is not a frame of the film of several/a_1.png: name its frames, as several/frame_%04d.png",
+        ),
         ("-dt gif others", 1, "`others/a_1.png`: not a PNG file"),
         ("a.gif", 2, "these are films: give -fo FILE with gif"),
         ("-fo a.png a.gif", 2, "these are films"),
