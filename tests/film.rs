@@ -17,11 +17,12 @@ fn files(shell: &Shell, folder: &str) -> BTreeMap<String, Vec<u8>> {
 }
 
 /// Films of every renderer, with options that change.
-const FILMS: [&str; 8] = [
+const FILMS: [&str; 9] = [
     "-frames 5 -vel '0 0 0 .. .9 0 0' -in -sz 80 60 dice.ug",
     "-frames 5 -ti -2..2 -vel 0 .8 0 -in -sp -ex auto -ease smooth -sz 80 60 dice.ug",
     "-frames 4 -ti -2..6 -vel 0 .8 0 -follow -va 20 -sz 80 60 dice.ug",
     "-frames 4 -cv '0 0 0 .. 0 .9 0' -xc -sp -ex -2..-4 -sz 60 40 -aa 2 street.ug",
+    "-frames 5 -cv '0 0 0 .. 0 .9 0' -ex follow -sp -sz 60 40 street.ug",
     "-frames 4 -vel 0 0 0..-.6 -in -vec -cap 'β = {beta}' -sz 80 60 dice.ug",
     "-warp -frames 4 -cv '0 0 0 .. 0 .9 0' -sp -ex auto -pz -va 100..80 -sz 60 40 sky.png",
     "-warp -pan -frames 4 -cv '0 0 0 .. 0 .9 0' -sz 60 30 sky.png",
@@ -357,6 +358,62 @@ fn one_exposure_and_one_camera_for_all_frames() {
     assert!(messages.contains("no camera in the scene") && messages.contains("in all frames"), "{messages}");
 }
 
+/// The exposure that follows a still scene is that of the whole film, frames have it in whatever
+/// order and by whatever process they are drawn, and it is between those of single frames.
+#[test]
+fn exposures_follow_the_light() {
+    let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
+    let draw = |folder: &str, options: &str| {
+        shell.run(&format!("mkdir -p {folder}; ugfilm {options} -sz 64 48 street.ug -fo {folder}/f_%02d.png"))
+    };
+    for still in ["-frames 3", "-frames 3 -rays -aa 1", "-frames 3 -blur 1"] {
+        let [_, followed] = draw("still", &format!("{still} -ex follow"));
+        let [_, held] = draw("held", &format!("{still} -ex hold"));
+        draw("auto", &format!("{still} -ex auto"));
+        let frames = ["still", "held", "auto"].map(|folder| files(&shell, folder));
+        assert!(frames[0].len() == 3 && frames[0] == frames[2] && frames[1] == frames[2], "{still}");
+        assert!(followed.contains("one exposure for all frames") && followed == held, "{followed}");
+        shell.run("rm -r still held auto");
+    }
+    let film = "-frames 12 -cv '0 0 0 .. 0 .95 0'";
+    let [_, notes] = draw("whole", &format!("{film} -ex follow"));
+    assert!(notes.contains("the exposure follows the light, from -ex "), "{notes}");
+    for part in ["-only 7..9", "-only 2,12 -nt 1", "", ""] {
+        draw("parts", &format!("{film} {part} -ex follow"));
+    }
+    assert_eq!(files(&shell, "parts"), files(&shell, "whole"));
+    draw("parts", &format!("{film} -ex hold"));
+    assert_ne!(files(&shell, "parts"), files(&shell, "whole"));
+    let stops = |exposure: &str| -> Vec<f64> {
+        let [commands, _] =
+            shell.run(&format!("ugfilm {film} {exposure} -sz 64 48 street.ug -fo x.gif --print"));
+        let stops =
+            commands.lines().map(|line| line.split(" -ex ").nth(1).unwrap().split(' ').next().unwrap());
+        stops.map(|stops| stops.parse().unwrap()).collect()
+    };
+    let (followed, held) = (stops("-ex follow"), stops("-ex hold"));
+    assert!(followed.len() == 12 && followed.windows(2).all(|pair| pair[0] > pair[1]), "{followed:?}");
+    assert!(followed[0] > held[0] && followed[11] < held[11]);
+    let wrong = format!("ugfilm {film} -across va 2 -va 40..50 -ex follow street.ug -fo x.html");
+    let (status, messages) = shell.fail(&wrong);
+    assert!(status == Some(2) && messages.contains("leave out -across, or give -ex hold"), "{messages}");
+}
+
+/// A mesh and a camera on a motion, in one line.
+#[test]
+fn a_camera_moves_past_a_mesh() {
+    let shell = Shell::new(&["dice.ug"]);
+    shell.run("mkdir meshes; ugmesh -dt gltf dice.ug > meshes/dice.gltf");
+    let film = "ugfilm -frames 3 -ti 0..6 -sz 40 30 -fo f_%d.png";
+    let scene = "motion car -at 0 -9 1 -acc 0 .1 0 ; cam -ep 0 -9 1 -vc 0 0 0 <car> ;";
+    shell.run(&format!("echo 'include \"meshes/dice.gltf\" ; {scene}' | {film}"));
+    let drawn = || [1, 2, 3].map(|number| shell.pixels(&format!("f_{number}.png")));
+    let included = drawn();
+    shell.run(&format!("rm f_*; (ugparse flatten meshes/dice.gltf; echo '{scene}') | {film}"));
+    let converted = drawn();
+    assert!(included == converted && included[0] != included[1] && included[1] != included[2]);
+}
+
 #[test]
 fn the_exposure_of_a_film_is_kept_for_the_next_start() {
     let shell = Shell::new(&["dice.ug", "shadow.ug", "street.ug"]);
@@ -367,13 +424,13 @@ fn the_exposure_of_a_film_is_kept_for_the_next_start() {
     };
     let found = film("-only 1", "dice.ug");
     // A number that was not measured shows that the file is read.
-    shell.run("sed -i 's/ .*/ 9.125/' .f_1.png.exposure");
+    shell.run("sed -i 's/ .*/ 1 9.125/' .f_1.png.exposure");
     let kept = "ugfilm: note: one exposure for all frames: -ex 9.125";
     assert_eq!(film("-only 1", "dice.ug"), kept);
     // It is that of other options or another scene no longer.
     assert_ne!(film("-br photon -only 1", "dice.ug"), kept);
     assert_eq!(film("-only 1", "dice.ug"), found);
-    shell.run("sed -i 's/ .*/ 9.125/' .f_1.png.exposure");
+    shell.run("sed -i 's/ .*/ 1 9.125/' .f_1.png.exposure");
     shell.run("sed 's/^l 0.35/l 0.3/' dice.ug > dim.ug");
     assert_ne!(film("-only 1", "dim.ug"), kept);
     // Nothing is left beside a complete film.

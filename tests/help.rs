@@ -166,7 +166,8 @@ fn examples_in_help_work() {
     let pictures = Page::of_commands("pictures", &[
         "ugrainbow -sz 90 60 ship.ug -fo rest.png; for name in fast 0.5c 0.9c 0.99c; do cp rest.png $name.png; done; \
          ugrainbow -vec -sz 90 60 ship.ug -fo rest.pdf; cp rest.pdf fast.pdf; \
-         for y in 0 8; do ugphoton -sz 16 16 -crop 0 $y 16 8 ship.ug > tile_$y.png; done".to_owned(),
+         for y in 0 8; do ugphoton -sz 16 16 -crop 0 $y 16 8 ship.ug > tile_$y.png; done; \
+         for file in film.gif frame_%04d.png; do ugfilm -frames 2 -sz 16 16 ship.ug -fo $file; done".to_owned(),
     ]);
     pictures.run(&pictures.commands[0], folder.path(), programs).unwrap();
     for manual in

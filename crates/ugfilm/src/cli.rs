@@ -15,13 +15,11 @@ use ugpipe::{
 };
 use ugscene::cli::{RepeatArgs, ShiftArgs};
 use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
+use ugsheet::film::{Caption, DEFAULT_RATE, FilmKind, FrameNames, MOST_GIF_RATE, rate};
 
-use crate::animation::MOST_GIF_RATE;
 use crate::blur::MotionBlur;
-use crate::encode::Kind;
 use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
-use crate::frame_files::{FrameNames, keep_exposure, kept_exposure, remove_kept_exposure};
-use crate::lesson::Caption;
+use crate::frame_files::{keep_exposure, kept_exposure, remove_kept_exposure};
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
 use crate::output::{Output, names_of};
@@ -29,7 +27,7 @@ use crate::pipe::{FilmSubject, Pipe};
 use crate::program::Program;
 use crate::script::Script;
 use crate::sight::{Sight, Unseen};
-use crate::timeline::Ease;
+use crate::timeline::{Ease, Quantity, Timeline};
 use crate::{keys, print};
 
 /// Draws the frames of a film or a figure sequence
@@ -175,7 +173,7 @@ impl ToolArgs for Args {
 pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let output = Output::new(args.dt.as_deref(), args.sheet.is_some(), context.output_name())?;
     let keep = args.keep.as_deref().map(|names| names_of(names, "--keep")).transpose()?;
-    let has_rate = matches!(output, Output::Film(kind) if kind != Kind::Ppm);
+    let has_rate = matches!(output, Output::Film(kind) if kind != FilmKind::Ppm);
     if args.fps.is_some() && !has_rate && args.print.is_none() {
         return Err(Failure::usage(
             "numbered frames, ppm and sheets have no frames a second: leave out -fps",
@@ -184,12 +182,21 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if keep.is_some() && !matches!(output, Output::Film(_)) {
         return Err(Failure::usage("--keep is for films in one file: leave it out, or give -fo film.apng"));
     }
-    if args.across.is_some() && !matches!(output, Output::Film(Kind::Html)) && args.print.is_none() {
+    if args.across.is_some() && !matches!(output, Output::Film(FilmKind::Html)) && args.print.is_none() {
         return Err(Failure::usage("-across is for pages: give -fo FILE.html"));
     }
-    let rate = args.fps.unwrap_or(25.0);
+    let rate = args.fps.unwrap_or(DEFAULT_RATE);
     let mut script = args.script(context)?;
     let frames = args.numbers(script.n_frames)?;
+    let follows = script.fixed("ex").is_some_and(|word| word == "follow");
+    if follows && args.across.is_some() {
+        return Err(Failure::usage(
+            "-ex follow is for films with one slider: leave out -across, or give -ex hold",
+        ));
+    }
+    if follows || script.fixed("ex").is_some_and(|word| word == "hold") {
+        script.set("ex", vec!["auto".to_owned()]);
+    }
     let read = Read::new(args, &mut script, context)?;
     let mut forecast = Forecast::default();
     if let Read::Scene(scene) = &read {
@@ -214,12 +221,25 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     if script.fixed("ex").as_deref() == Some("auto") {
         let film = Film { subject, script: &script, format, blur, light: HeldLight::default() };
         let names = output.names().or(keep.as_ref()).filter(|_| args.sheet.is_none());
-        let measured = exposure(&film, names, args.print.is_some(), context)?;
-        let stops = measured.stops.to_string();
-        context.note(&format!("one exposure for all frames: -ex {stops}"));
+        let measured = exposure(&film, follows, names, args.print.is_some(), context)?;
+        let least = measured.stops.iter().map(|(_, stops)| *stops).reduce(f64::min).unwrap_or(0.0);
+        let most = measured.stops.iter().map(|(_, stops)| *stops).reduce(f64::max).unwrap_or(0.0);
+        let told = if least == most {
+            format!("one exposure for all frames: -ex {least}")
+        } else {
+            format!(
+                "the exposure follows the light, from -ex {least} to {most}; -ex hold gives all frames one"
+            )
+        };
+        context.note(&told);
         tell_wrong(&measured.wrong, measured.n_frames, "measured", context);
+        let keys = measured.stops.iter().map(|&(frame, stops)| (script.time(f64::from(frame)), vec![stops]));
+        let exposure = match least == most {
+            true => Timeline::Fixed(vec![least.to_string()]),
+            false => Timeline::through(keys.collect(), Quantity::Plain).map_err(Failure::Failed)?,
+        };
+        script.set_timeline("ex", exposure);
         (forecast.wrong, light) = (measured.wrong, measured.light);
-        script.set("ex", vec![stops]);
     }
     if blur.is_some() && script.get("ex").is_none() && !format.is_linear() {
         script.set("ex", vec!["0".to_owned()]);
@@ -253,7 +273,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
                 let line = print::script(&film, std::iter::once(frame), &names, input.as_deref())?;
                 Ok(Caption { values: script.changing(f64::from(frame))?, line })
             };
-            let captions = frames.iter().filter(|_| *kind == Kind::Html).map(caption);
+            let captions = frames.iter().filter(|_| *kind == FilmKind::Html).map(caption);
             let captions = captions.collect::<Result<Vec<_>, _>>()?;
             let target = Target { captions: &captions, kind: *kind, rate, keep: keep.as_ref() };
             film.write_film(&frames, target, context)?
@@ -272,7 +292,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
 }
 
 /// Refuses a film that its format cannot hold.
-fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Result<(), Failure> {
+fn check_kind(kind: FilmKind, rate: f64, script: &Script, context: &Context) -> Result<(), Failure> {
     // A frame that is wrong is reported when it is drawn.
     let Ok(Pipe { picture, .. }) = script.pipe(1.0, &[], Format::Png) else { return Ok(()) };
     let name = kind.name();
@@ -284,12 +304,12 @@ fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Resu
         return Err(Failure::Usage(format!("-pz packs PNG files, not a film in {name}: leave it out")));
     }
     let [width, height] = picture.size.map(|side| side.next_multiple_of(2));
-    if kind == Kind::Mp4 && picture.size != [width, height] {
+    if kind == FilmKind::Mp4 && picture.size != [width, height] {
         let message =
             format!("widths and heights of mp4 are even: give -sz {width} {height}, or write a webm");
         return Err(Failure::Usage(message));
     }
-    if kind == Kind::Gif && rate > MOST_GIF_RATE {
+    if kind == FilmKind::Gif && rate > MOST_GIF_RATE {
         context.note(&format!(
             "browsers play a gif at {MOST_GIF_RATE} frames a second at most: it has this rate, not {rate}"
         ));
@@ -301,20 +321,21 @@ fn check_kind(kind: Kind, rate: f64, script: &Script, context: &Context) -> Resu
 /// written there, unless their commands are only printed.
 fn exposure(
     film: &Film<'_>,
+    follows: bool,
     names: Option<&FrameNames>,
     is_printed: bool,
     context: &Context,
 ) -> Result<MeasuredExposure, Failure> {
     film.size()?;
-    let key = names.map_or(Ok(None), |_| film.exposure_key())?;
-    let Some((names, key)) = names.zip(key) else { return film.exposure(&context.steps()) };
+    let key = names.map_or(Ok(None), |_| film.exposure_key(follows))?;
+    let Some((names, key)) = names.zip(key) else { return film.exposure(follows, &context.steps()) };
     if let Some(stops) = kept_exposure(names, &key) {
         return Ok(MeasuredExposure { stops, ..MeasuredExposure::default() });
     }
-    let measured = film.exposure(&context.steps())?;
+    let measured = film.exposure(follows, &context.steps())?;
     if !is_printed {
         // Where it cannot be written the frames cannot either, which is told of them.
-        let _ = keep_exposure(names, &key, measured.stops);
+        let _ = keep_exposure(names, &key, &measured.stops);
     }
     Ok(measured)
 }
@@ -568,13 +589,4 @@ fn ranges(list: &str) -> Result<Ranges, String> {
 fn shutter_time(word: &str) -> Result<f64, String> {
     let time = finite(word)?;
     if time > 0.0 && time <= 1000.0 { Ok(time) } else { Err("above 0, at most 1000".to_owned()) }
-}
-
-fn rate(word: &str) -> Result<f64, String> {
-    let rate = finite(word)?;
-    if (0.01..=1000.0).contains(&rate) {
-        Ok(rate)
-    } else {
-        Err("from 0.01 to 1000 frames a second".to_owned())
-    }
 }

@@ -7,14 +7,13 @@ use std::sync::{Mutex, PoisonError};
 use ugimage::{Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png, read_png_header};
 use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
+use ugsheet::film::{Caption, FilmKind, FilmShape, FrameNames};
 use ugsheet::{Motion, Picture};
 
-use crate::animation::Shape;
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
-use crate::encode::{Ffmpeg, Kind, Stream};
 use crate::error::Error;
-use crate::frame_files::{FrameNames, claim, is_done, remove_stale_claims};
-use crate::lesson::Caption;
+use crate::exposure::smoothed;
+use crate::frame_files::{claim, is_done, remove_stale_claims};
 use crate::levels::WrongBrightness;
 use crate::note::Note;
 use crate::pipe::{DrawnLight, FilmSubject, Pipe};
@@ -26,6 +25,9 @@ const MOST_CHECKED: usize = 64;
 
 /// Frames from which the exposure of a film is chosen.
 const MOST_MEASURED: u32 = 48;
+
+/// Frames whose exposure is metered, of a film whose exposure follows.
+const MOST_METERED: u32 = 250;
 
 /// Longest side of these frames, in pixels.
 const MEASURED_SIDE: u32 = 128;
@@ -72,8 +74,8 @@ pub struct Summary {
 /// The exposure of a film.
 #[derive(Debug, Default)]
 pub struct MeasuredExposure {
-    /// In stops.
-    pub stops: f64,
+    /// In stops, at frames in ascending order; a single one holds for the whole film.
+    pub stops: Vec<(u32, f64)>,
     /// How many frames were measured.
     pub n_frames: usize,
     /// Those whose brightness is wrong at this exposure.
@@ -205,11 +207,12 @@ impl Film<'_> {
         Ok(is_short && self.blur.is_none() && first.draws_polygons() && is_made_of_light(&first.picture))
     }
 
-    /// The automatic exposure of all lit pixels of the film, in stops.
+    /// The automatic exposure of all lit pixels of the film, or one that follows the light of single
+    /// frames.
     ///
     /// # Errors
     /// A frame cannot be drawn.
-    pub fn exposure(&self, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
+    pub fn exposure(&self, follows: bool, steps: &Steps<'_>) -> Result<MeasuredExposure, Failure> {
         let mut picture = about(1, self.pipe(1))?.picture;
         let is_held = self.holds_light()?;
         let measure = |frame| {
@@ -220,21 +223,38 @@ impl Film<'_> {
             Ok((coarse(&light), is_held.then_some((light, notes))))
         };
         let mut frames = Vec::new();
-        self.each(("measuring", steps), &self.spread(MOST_MEASURED), measure, |frame, measured| {
+        self.each(("measuring", steps), &self.metered(follows), measure, |frame, measured| {
             frames.push((frame, measured));
             Ok(())
         })?;
-        let pixels: Vec<[f32; 4]> =
-            frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
-        let stops = auto_exposure(&LinearFrame::new([pixels.len() as u32, 1], true, pixels), picture.tone);
-        picture.exposure = Some(Exposure::Stops(stops));
-        let mut exposure = MeasuredExposure { stops, n_frames: frames.len(), ..MeasuredExposure::default() };
+        let stops = if follows {
+            let meter = |(frame, (light, _)): &(u32, (LinearFrame, _))| {
+                let is_lit = |&[r, g, b, part]: &[f32; 4]| part > 0.0 && r.max(g).max(b) > 0.0;
+                let stops = auto_exposure(light, picture.tone);
+                (*frame, light.pixels().iter().any(is_lit).then_some(stops))
+            };
+            let metered: Vec<_> = frames.iter().map(meter).collect();
+            smoothed(&metered, self.script.n_frames, self.script.is_loop)
+        } else {
+            let pixels: Vec<[f32; 4]> =
+                frames.iter().flat_map(|(_, (measured, _))| measured.pixels()).copied().collect();
+            let all = LinearFrame::new([pixels.len() as u32, 1], true, pixels);
+            vec![(1, auto_exposure(&all, picture.tone))]
+        };
+        let mut exposure = MeasuredExposure { n_frames: frames.len(), ..MeasuredExposure::default() };
         let mut held = BTreeMap::new();
         for (number, (measured, light)) in frames {
+            let row = stops.partition_point(|(frame, _)| *frame <= number).saturating_sub(1);
+            picture.exposure = stops.get(row).map(|(_, stops)| Exposure::Stops(*stops));
             levels_note(&measured, &picture).iter().for_each(|note| exposure.wrong.add(number, note));
             held.extend(light.map(|light| (number, light)));
         }
-        Ok(MeasuredExposure { light: Mutex::new(held), ..exposure })
+        Ok(MeasuredExposure { stops, light: Mutex::new(held), ..exposure })
+    }
+
+    /// The frames in which the exposure is measured.
+    fn metered(&self, follows: bool) -> Vec<u32> {
+        self.spread(if follows { MOST_METERED } else { MOST_MEASURED })
     }
 
     /// A hash of all that the exposure depends on: the commands of the measured frames, and the
@@ -242,10 +262,10 @@ impl Film<'_> {
     ///
     /// # Errors
     /// The commands of a frame are wrong.
-    pub fn exposure_key(&self) -> Result<Option<String>, Failure> {
+    pub fn exposure_key(&self, follows: bool) -> Result<Option<String>, Failure> {
         let FilmSubject::Scene(scene) = self.subject else { return Ok(None) };
-        let mut text = env!("CARGO_PKG_VERSION").to_owned();
-        for frame in self.spread(MOST_MEASURED) {
+        let mut text = format!("{} {follows}", env!("CARGO_PKG_VERSION"));
+        for frame in self.metered(follows) {
             text.push('\n');
             text += &about(frame, self.script.commands(f64::from(frame), &[]))?.line(None, None);
         }
@@ -376,40 +396,13 @@ impl Film<'_> {
     ) -> Result<Summary, Failure> {
         let Target { captions, kind, rate, keep } = target;
         let n_rows = self.script.n_rows();
-        let shape = Shape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
+        let shape = FilmShape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
-        if kind.is_encoded() {
-            let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
-            context.write_by_name(|path, steps| {
-                let mut ffmpeg = Ffmpeg::new(kind, shape, is_opaque, path)?;
-                summary = self.frames(frames, keep, steps, |frame| ffmpeg.push(frame))?;
-                ffmpeg.finish()
-            })?;
-            return Ok(summary);
-        }
-        context.write_stream(|out, steps| {
-            // Nothing is written before the first frame is drawn.
-            let (mut waiting, mut stream) = (Some(out), None);
-            let mut push = |frame: &Frame| {
-                if let Some(out) = waiting.take() {
-                    stream = Some(Stream::new(kind, shape, captions.to_vec(), out)?);
-                }
-                stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
-            };
-            let mut broken = None;
-            let drawn = self.frames(frames, keep, steps, |frame| {
-                push(frame).map_err(|error| {
-                    let failure = Failure::failed(&error);
-                    broken = Some(error);
-                    failure
-                })
-            });
-            if let Some(error) = broken {
-                return Ok(Err(error));
-            }
-            summary = drawn?;
-            Ok(stream.map_or(Ok(()), Stream::finish))
+        let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
+        ugsheet::film::write(context, (kind, shape, is_opaque), captions.to_vec(), |steps, push| {
+            summary = self.frames(frames, keep, steps, push)?;
+            Ok(())
         })?;
         Ok(summary)
     }
@@ -458,7 +451,7 @@ pub struct Target<'t> {
     /// The captions of its frames on a page.
     pub captions: &'t [Caption],
     /// Its kind.
-    pub kind: Kind,
+    pub kind: FilmKind,
     /// Frames a second.
     pub rate: f64,
     /// Files in which single frames are kept.

@@ -7,82 +7,47 @@ use std::path::{Path, PathBuf};
 
 use ugimage::{Metadata, read_history};
 use ugpipe::{Claim, Context, Failure, finite, is_occupied, stale};
+use ugsheet::film::FrameNames;
 
-/// Names of numbered files: `frame_%04d.png`.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FrameNames {
-    before: String,
-    n_digits: usize,
-    after: String,
+/// The hidden file beside the first frame that has the exposure of the film.
+fn exposure_of(names: &FrameNames) -> PathBuf {
+    let first = names.path(1);
+    let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    first.with_file_name(format!(".{name}.exposure"))
 }
 
-impl Default for FrameNames {
-    /// `frame_%04d.png`.
-    fn default() -> Self {
-        Self { before: "frame_".to_owned(), n_digits: 4, after: ".png".to_owned() }
-    }
-}
-
-impl FrameNames {
-    /// Names with a number in place of `%d`, or of `%04d` with at least as many digits. `None` if
-    /// there is no such place.
-    pub fn new(pattern: &str) -> Option<Self> {
-        let (before, rest) = pattern.split_once('%')?;
-        let (digits, after) = rest.split_once('d')?;
-        let is_width = digits.bytes().all(|byte| byte.is_ascii_digit()) && digits.len() <= 2;
-        let n_digits = if digits.is_empty() { 1 } else { digits.parse().ok()? };
-        is_width.then(|| Self { before: before.to_owned(), n_digits, after: after.to_owned() })
-    }
-
-    /// The file of a frame, counted from 1.
-    pub fn path(&self, frame: u32) -> PathBuf {
-        let Self { before, n_digits, after } = self;
-        PathBuf::from(format!("{before}{frame:0n_digits$}{after}"))
-    }
-
-    /// The hidden file beside the first frame that has the exposure of the film.
-    fn exposure(&self) -> PathBuf {
-        let first = self.path(1);
-        let name = first.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-        first.with_file_name(format!(".{name}.exposure"))
-    }
-
-    /// True for the file name of a frame, without its folder.
-    fn is_one(&self, file_name: &str) -> bool {
-        let before = self.before.rsplit_once('/').map_or(self.before.as_str(), |(_, name)| name);
-        let number = file_name.strip_prefix(before).and_then(|rest| rest.strip_suffix(self.after.as_str()));
-        number.is_some_and(|number| !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit()))
-    }
-}
-
-/// The exposure of a film in stops, from a file beside its first frame if that has the same `key`:
-/// a hash of all that the exposure depends on.
-pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<f64> {
-    /// More than a key and a number need.
-    const MAX_BYTES: u64 = 4096;
-    let path = names.exposure();
+/// The exposure of a film, frames and stops, from a file beside its first frame if that has the same
+/// `key`: a hash of all that the exposure depends on.
+pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<Vec<(u32, f64)>> {
+    /// More than a key and its numbers need.
+    const MAX_BYTES: u64 = 1 << 16;
+    let path = exposure_of(names);
     // Links are not followed: they may lead to what has no end, or to another's file.
     fs::symlink_metadata(&path).ok().filter(|found| found.is_file() && found.len() <= MAX_BYTES)?;
     let text = fs::read_to_string(path).ok()?;
-    let (kept, stops) = text.trim_end().split_once(' ')?;
-    finite(stops).ok().filter(|_| kept == key)
+    let mut words = text.split_whitespace();
+    words.next().filter(|kept| *kept == key)?;
+    let words: Vec<&str> = words.collect();
+    let (pairs, []) = words.as_chunks::<2>() else { return None };
+    pairs.iter().map(|[frame, stops]| Some((frame.parse().ok()?, finite(stops).ok()?))).collect()
 }
 
 /// Writes the file that [`kept_exposure`] reads, unless something else than a file is in its place.
 ///
 /// # Errors
 /// The file cannot be written.
-pub fn keep_exposure(names: &FrameNames, key: &str, stops: f64) -> Result<(), Failure> {
-    let path = names.exposure();
+pub fn keep_exposure(names: &FrameNames, key: &str, stops: &[(u32, f64)]) -> Result<(), Failure> {
+    let path = exposure_of(names);
     if is_occupied(&path) {
         return Ok(());
     }
-    Context::write_now(&path, format!("{key} {stops}\n").as_bytes())
+    let numbers: String = stops.iter().map(|(frame, stops)| format!(" {frame} {stops}")).collect();
+    Context::write_now(&path, format!("{key}{numbers}\n").as_bytes())
 }
 
 /// Removes the file that [`kept_exposure`] reads, if all `n_frames` frames are there.
 pub fn remove_kept_exposure(names: &FrameNames, n_frames: u32) {
-    let kept = names.exposure();
+    let kept = exposure_of(names);
     if !is_occupied(&kept) && kept.exists() && (1..=n_frames).all(|frame| names.path(frame).exists()) {
         // What cannot be removed does no harm.
         let _ = fs::remove_file(kept);
@@ -142,7 +107,7 @@ pub fn remove_stale_claims(names: &FrameNames) {
     let folder = first.parent().filter(|folder| !folder.as_os_str().is_empty());
     stale::remove(folder.unwrap_or(Path::new(".")), |name| {
         let frame = name.strip_prefix('.').and_then(|name| name.strip_suffix(".claim"));
-        frame.is_some_and(|frame| names.is_one(frame))
+        frame.is_some_and(|frame| names.number(frame).is_some())
     });
 }
 
@@ -151,17 +116,6 @@ mod tests {
     use ugimage::{Format, Frame};
 
     use super::*;
-
-    #[test]
-    fn names_have_the_number_in_their_place() {
-        let name = |pattern: &str| Some(FrameNames::new(pattern)?.path(7).display().to_string());
-        assert_eq!(name("f_%04d.png").as_deref(), Some("f_0007.png"));
-        assert_eq!(name("a/%d.exr").as_deref(), Some("a/7.exr"));
-        assert_eq!(FrameNames::new("%02d").unwrap().path(12345), PathBuf::from("12345"));
-        for pattern in ["film.png", "f_%4x.png", "f%.png", "%123d", "%-4d"] {
-            assert_eq!(name(pattern), None, "{pattern}");
-        }
-    }
 
     #[test]
     fn whole_files_of_the_same_commands_are_done() {
@@ -220,12 +174,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let names = FrameNames::new(&format!("{}/f_%d.png", folder.path().display())).unwrap();
         let precious = folder.path().join("thesis.txt");
-        for helper in [names.exposure(), claim_of(&names.path(1))] {
+        for helper in [exposure_of(&names), claim_of(&names.path(1))] {
             fs::write(&precious, "key 3").unwrap();
             std::os::unix::fs::symlink(&precious, &helper).unwrap();
             fs::write(names.path(1), "").unwrap();
-            keep_exposure(&names, "other", 1.0).unwrap();
-            if helper == names.exposure() {
+            keep_exposure(&names, "other", &[(1, 1.0)]).unwrap();
+            if helper == exposure_of(&names) {
                 assert_eq!(kept_exposure(&names, "key"), None);
             }
             drop(claim(&names.path(1)).unwrap());

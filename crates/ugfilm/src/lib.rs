@@ -44,22 +44,19 @@
 //! options                                   the options of the programs, as our own
 //! script                                    the command lines and programs of every frame
 //! sight  levels                             what will be in view; frames that are nearly black
-//! animation                                 animated PNG and GIF
-//! keys  lesson  encode                      key frames; a page with a slider; film formats
+//! keys  exposure                            key frames; exposures that follow the light
 //! film                                      frames, in files or in a film
 //! output  print                             where frames go; commands for a shell
 //! cli                                       the command line
 //! ```
 
 #[cfg(feature = "cli")]
-mod animation;
-#[cfg(feature = "cli")]
 mod blur;
 #[cfg(feature = "cli")]
 mod cli;
-#[cfg(feature = "cli")]
-mod encode;
 mod error;
+#[cfg(feature = "cli")]
+mod exposure;
 #[cfg(feature = "cli")]
 mod film;
 #[cfg(feature = "cli")]
@@ -67,16 +64,12 @@ mod frame_files;
 #[cfg(feature = "cli")]
 mod keys;
 #[cfg(feature = "cli")]
-mod lesson;
-#[cfg(feature = "cli")]
 mod levels;
 mod note;
 #[cfg(feature = "cli")]
 mod options;
 #[cfg(feature = "cli")]
 mod output;
-#[cfg(feature = "cli")]
-mod palette;
 mod pipe;
 #[cfg(feature = "cli")]
 mod print;

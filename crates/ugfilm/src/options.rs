@@ -217,6 +217,17 @@ const SIZE_HELP: [&str; 2] = [
     -vec it is in points. Widths and heights of mp4 are even.",
 ];
 
+/// The exposure, which a film may measure.
+const EXPOSURE: &str = "ex";
+
+/// Its help in short, and what the long help adds.
+const EXPOSURE_HELP: [&str; 2] = [
+    "Exposure in stops, or auto, hold, follow",
+    "auto and hold: one for all frames, so that 99 of 100 pixels of the film that are not black are at or \
+    below white. follow: each frame has that of its own light, smoothed over an eighth of the film, 12 \
+    frames at most on either side.",
+];
+
 /// The options of all programs; of those with one name the first.
 fn all_options() -> Vec<Arg> {
     let mut options: Vec<Arg> = Vec::new();
@@ -229,6 +240,7 @@ fn all_options() -> Vec<Arg> {
             if options.iter().any(|other| other.get_long() == arg.get_long()) {
                 continue;
             }
+            let is_exposure = arg.get_long() == Some(EXPOSURE);
             let is_taken =
                 |alias: &str| options.iter().any(|other| all_names(other).any(|name| name == alias));
             // Options of two programs may have the same second name.
@@ -236,6 +248,10 @@ fn all_options() -> Vec<Arg> {
             let mut arg = of_film(arg, tool.heading);
             if is_size {
                 arg = arg.help(SIZE_HELP[0]).long_help(SIZE_HELP.join("\n\n"));
+            }
+            if is_exposure {
+                arg = arg.help(EXPOSURE_HELP[0]).long_help(EXPOSURE_HELP.join("\n\n"));
+                arg = arg.value_name("E|WORD");
             }
             options.push(if has_own_names { arg } else { arg.visible_alias(Resettable::Reset) });
         }

@@ -5,16 +5,14 @@ use std::path::Path;
 use ugimage::Format;
 use ugpicture::cli::format_for;
 use ugpipe::Failure;
-
-use crate::encode::Kind;
-use crate::frame_files::FrameNames;
+use ugsheet::film::{FilmKind, FrameNames};
 
 /// Where frames go.
 pub enum Output {
     /// Numbered files.
     Files(FrameNames, Format),
     /// One file.
-    Film(Kind),
+    Film(FilmKind),
     /// Several frames on one picture.
     Sheet,
 }
@@ -38,11 +36,11 @@ impl Output {
         let names = name.as_deref().and_then(FrameNames::new);
         let ending = file.and_then(Path::extension).map(|ending| ending.to_string_lossy().into_owned());
         let word = format.map(str::to_owned).or(ending);
-        let kind = word.as_deref().and_then(Kind::from_name);
+        let kind = word.as_deref().and_then(FilmKind::from_name);
         match (names, kind) {
             (None, Some(kind)) => Ok(Self::Film(kind)),
             // Pictures of this format are single frames, too.
-            (Some(names), None | Some(Kind::Ppm)) => {
+            (Some(names), None | Some(FilmKind::Ppm)) => {
                 let given = format.map(ugpicture::cli::format_named).transpose();
                 Ok(Self::Files(names, format_for(given.map_err(Failure::usage)?, file)?))
             }
@@ -51,7 +49,7 @@ impl Output {
                 kind.name()
             ))),
             (None, None) => {
-                let kinds = Kind::ALL.map(Kind::name).join(", ");
+                let kinds = FilmKind::ALL.map(FilmKind::name).join(", ");
                 let other = word.map(|word| format!("`{word}` is not a kind of film; ")).unwrap_or_default();
                 Err(Failure::Usage(format!(
                     "{other}give numbered files, -fo frame_%04d.png, or a film: -fo FILE or -dt with {kinds}"

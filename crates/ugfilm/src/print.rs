@@ -4,9 +4,9 @@ use std::fmt::Write;
 
 use ugimage::Format;
 use ugpipe::Failure;
+use ugsheet::film::FrameNames;
 
 use crate::film::Film;
-use crate::frame_files::FrameNames;
 use crate::script::DONE_TO_LIGHT;
 
 /// The commands of these frames, one in a line. Of a frame with motion blur, those of its moments

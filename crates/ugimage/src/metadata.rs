@@ -9,11 +9,44 @@ pub struct Metadata {
     pub software: String,
     /// How the image was made: the command lines of the pipe, one per line.
     pub comment: String,
-    /// Pixels in an inch. It is written to PNG files alone.
+    /// Pixels in an inch. PNG files state it, and PDF, SVG, PostScript and EPS have that size.
     pub per_inch: Option<f64>,
     /// Of a panorama, what viewers of 360° pictures read. It is written to PNG files alone.
     pub panorama: Option<PanoramaArea>,
     /// From the scene to the axes of the camera, and to normalized device coordinates: matrices for
     /// row vectors, row after row. They are written to EXR files alone.
     pub camera: Option<Box<[[f64; 16]; 2]>>,
+}
+
+impl Metadata {
+    /// The size in points of a picture with these pixels, rounded to whole points. Without a number
+    /// of pixels in an inch a pixel is a point.
+    pub(crate) fn points(&self, size: [u32; 2]) -> [u32; 2] {
+        let per_point = self.per_inch.map_or(1.0, |per_inch| per_inch / 72.0);
+        size.map(|side| ((f64::from(side) / per_point).round() as u32).max(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Format, Frame};
+
+    /// 600 x 300 pixels at 300 to the inch are 144 x 72 points in every format of pages.
+    #[test]
+    fn pages_have_the_size_of_their_resolution() {
+        let frame = Frame::opaque(600, 300);
+        for (per_inch, width, height) in [(Some(300.0), 144, 72), (Some(72.0), 600, 300), (None, 600, 300)] {
+            let metadata = Metadata { per_inch, ..Metadata::default() };
+            for (format, expected) in [
+                (Format::Pdf, format!("/MediaBox [0 0 {width} {height}]")),
+                (Format::Svg, format!("width=\"{width}pt\" height=\"{height}pt\"")),
+                (Format::Eps, format!("%%BoundingBox: 0 0 {width} {height}\n")),
+                (Format::Ps, format!("/PageSize [{width} {height}]")),
+            ] {
+                let file = String::from_utf8_lossy(&format.encode(&frame, &metadata)).into_owned();
+                assert!(file.contains(&expected), "{format:?}: {expected}");
+            }
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! PDF: one page with an embedded image, one pixel per point.
+//! PDF: one page with an embedded image, one pixel per point, or as many as its metadata state.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::writers::Resources;
@@ -33,6 +33,7 @@ pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
         let alphas: Vec<u8> = frame.pixels().iter().map(|pixel| pixel[3]).collect();
         image(&mut pdf, MASK, size, Channels::Grey, &alphas, false);
     }
+    let size = metadata.points(size);
     let mut content = Content::new();
     content.transform([size[0] as f32, 0.0, 0.0, size[1] as f32, 0.0, 0.0]);
     content.x_object(Name(b"I"));

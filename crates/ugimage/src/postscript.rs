@@ -6,9 +6,10 @@ use ugphysics::srgb_decode;
 use crate::{Frame, Metadata, Quantizer};
 
 /// The frame as a PostScript document of one page, or as an EPS file to be placed in a document; one
-/// pixel per point.
+/// pixel per point, or as many as its metadata state.
 pub fn encode(frame: &Frame, metadata: &Metadata, is_encapsulated: bool) -> Vec<u8> {
-    wrap([frame.width(), frame.height()], 2, metadata, &color_image(frame), is_encapsulated)
+    let points = metadata.points([frame.width(), frame.height()]);
+    wrap(points, 2, metadata, &color_image(frame, points), is_encapsulated)
 }
 
 /// Makes a file of the PostScript code `drawing`, which draws `width` × `height` points.
@@ -76,16 +77,16 @@ fn comment_line(text: &str) -> String {
     text.chars().map(printed).take(MAX_COMMENT).collect()
 }
 
-/// PostScript level 2 code that draws the frame with its lower left corner at the origin, one pixel
-/// per point.
+/// PostScript level 2 code that draws the frame with its lower left corner at the origin, `across` x
+/// `up` points large.
 ///
 /// The filters are stored in variables so that both can be flushed after the last pixel. The
 /// interpreter then continues directly after the data.
-fn color_image(frame: &Frame) -> Vec<u8> {
+fn color_image(frame: &Frame, [across, up]: [u32; 2]) -> Vec<u8> {
     let (width, height) = (frame.width(), frame.height());
     let mut out = format!(
         "gsave\n\
-         {width} {height} scale\n\
+         {across} {up} scale\n\
          /DeviceRGB setcolorspace\n\
          /UgImage {{\n\
          /UgText currentfile /ASCII85Decode filter def\n\
@@ -257,7 +258,7 @@ mod tests {
     #[test]
     fn no_data_line_looks_like_a_comment() {
         for frame in frames() {
-            let image = color_image(&frame);
+            let image = color_image(&frame, [3, 2]);
             assert!(image.split(|&c| c == b'\n').all(|line| !line.starts_with(b"%") && line.len() <= 100));
         }
     }

@@ -259,13 +259,16 @@ fn no_memory<T>(len: usize) -> ReadError {
     ReadError::new(&format!("there is not enough memory for its pixels, {n_bytes} bytes"))
 }
 
-/// The first texts with the keywords `Software` and `Comment`, and the first panorama that an XMP
-/// packet states. Invalid chunks are omitted.
+/// The first texts with the keywords `Software` and `Comment`, the pixels in an inch, and the first
+/// panorama that an XMP packet states. Invalid chunks are omitted.
 pub(crate) fn metadata(file: &[u8]) -> Metadata {
     let mut metadata = Metadata::default();
     let mut rest = file.get(8..).unwrap_or_default();
     while let Some((kind, data, after)) = chunk(rest) {
         rest = after;
+        if kind == b"pHYs" {
+            metadata.per_inch = metadata.per_inch.or_else(|| per_inch(data));
+        }
         if !matches!(kind, b"tEXt" | b"zTXt" | b"iTXt") {
             continue;
         }
@@ -285,6 +288,17 @@ pub(crate) fn metadata(file: &[u8]) -> Metadata {
         }
     }
     metadata
+}
+
+/// The pixels in an inch of a chunk `pHYs`, which has pixels in a metre: the whole number that is
+/// rounded to these, if there is one. `None` for pixels that are not square, and without a unit.
+fn per_inch(data: &[u8]) -> Option<f64> {
+    const INCH: f64 = 0.0254;
+    let (&[x, y], [1]) = data.as_chunks::<4>() else { return None };
+    let per_metre = f64::from(u32::from_be_bytes(x));
+    let whole = (per_metre * INCH).round();
+    let is_whole = (whole / INCH).round() == per_metre;
+    (x == y && per_metre > 0.0).then_some(if is_whole { whole } else { per_metre * INCH })
 }
 
 /// What a PNG file says about itself: its colours, its orientation, and the text of an XMP packet.

@@ -1,4 +1,4 @@
-//! SVG: an image embedded as PNG, one pixel per user unit.
+//! SVG: an image embedded as PNG, one pixel per user unit, or as many as its metadata state.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -8,7 +8,7 @@ use crate::{Frame, Metadata, png};
 
 /// The frame as an SVG file; transparency is kept.
 pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
-    let size @ [width, height] = [frame.width(), frame.height()];
+    let size @ [width, height] = metadata.points([frame.width(), frame.height()]);
     // No metadata in the embedded PNG: the SVG file has it already.
     let picture = STANDARD.encode(png::encode(frame, &Metadata::default(), Compression::Fast));
     let image = format!(

@@ -89,7 +89,8 @@ pub struct Args {
 
     /// Size of the picture in pixels, of which the aspect ratio is used
     ///
-    /// For -cull, and for the camera of a scene without one.
+    /// For -cull, and for the camera of a scene without one. Lengths have 300 pixels to the inch here;
+    /// -vec rounds them to points, so its aspect ratio may differ by half a point on a side.
     #[arg(long = "sz", visible_alias = "size", num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
           default_values = ["1024", "768"], value_parser = Side::parse,
           help_heading = CAMERA)]
@@ -209,7 +210,7 @@ impl Args {
             camera_velocity: motion.camera_velocity,
             eye: camera.eye,
             camera,
-            size: [0, 1].map(|side| self.size[side].at(PIXELS_PER_INCH)),
+            size: Side::both(&self.size, PIXELS_PER_INCH).map_err(Failure::Usage)?,
             cull: self.cull,
             time: motion.time,
             anchor: motion.anchor,

@@ -25,7 +25,8 @@ use crate::token::{comment, escape, line_end, word};
 /// Replaces `include` statements by the text of files, `execute` statements by the output of
 /// programs, the file name after `-path` by the events in that file, and that of a picture by its
 /// path from the current folder; the bytes of pictures are kept for the scene. With the feature
-/// `cli` it reads a mesh of another format, with the files that it names.
+/// `cli` it reads a mesh of another format, with the files that it names, and included meshes become
+/// statements.
 ///
 /// `load` returns the requested bytes. It is called for a program only with [`Options::execute`].
 /// Names are relative to the file that contains the statement; in a text without a file (`<stdin>`)
@@ -287,12 +288,45 @@ impl Inclusion<'_> {
         }
         let (path, text) = self.fetch(statement)?;
         let file = Source::new(path.display().to_string(), text);
+        #[cfg(feature = "cli")]
+        let file = self.statements(file, statement)?;
         // Messages quote lines. Those of a file that is no scene, such as a list of passwords, must
         // not become visible.
         let is_scene = begins_like_a_scene(&file.text);
         let text = Text::new(file, self.options)
             .map_err(|found| if is_scene { found } else { self.not_a_scene(statement) })?;
         Ok((path, text))
+    }
+
+    /// The file itself, or the statements of a mesh, which stand for it.
+    #[cfg(feature = "cli")]
+    fn statements(&mut self, file: Source, statement: RequestStatement) -> Result<Source, Diagnostics> {
+        let Some(format) = ugmeshfile::MeshFormat::detect_mesh(&file.name, &file.text) else {
+            return Ok(file);
+        };
+        let name = file.name.clone();
+        let read = crate::mesh::read(file, format, self.options, &mut *self.loader);
+        // Errors would quote lines.
+        let mesh = read.ok().and_then(|file| (*file.mesh?).map(|mesh| mesh.scene));
+        let mut scene = mesh.ok_or_else(|| self.not_a_scene(statement))?;
+        // Statements name files relative to their own.
+        let folder = Path::new(&name).parent().unwrap_or(Path::new(""));
+        for file in scene.textures.iter_mut().filter_map(|texture| texture.image.file.as_mut()) {
+            if let Ok(beside) = Path::new(file).strip_prefix(folder) {
+                *file = beside.to_string_lossy().into_owned();
+            }
+        }
+        let text = crate::write(&scene);
+        self.n_bytes = self.n_bytes.saturating_add(text.len() as u64);
+        if self.n_bytes > self.options.limits.get(Limit::Text) {
+            let (source, finding) = self.finding(statement);
+            let finding = finding("with the statements of this mesh the scene is too large".to_owned());
+            return Err(Diagnostics::one(
+                source,
+                finding.limited(&self.options.limits, Limit::Text, "split it"),
+            ));
+        }
+        Ok(Source::new(name, text))
     }
 
     fn not_a_scene(&self, statement: RequestStatement) -> Diagnostics {
@@ -302,8 +336,7 @@ impl Inclusion<'_> {
             RequestKind::Include | RequestKind::Path | RequestKind::Image => format!("file `{shown}`"),
             RequestKind::Execute => format!("the output of `{shown}`"),
         };
-        let help =
-            "it must begin with a statement or a comment; errors in it are shown if it is read by itself";
+        let help = "it must begin with a statement or a comment, or be a mesh; errors in it are shown if it is read by itself";
         Diagnostics::one(source, finding(format!("{text} is not UniGrafix")).help(help))
     }
 

@@ -40,8 +40,9 @@ pub struct PictureArgs {
 
     /// Size of the picture in pixels, or in mm, cm, in, pt
     ///
-    /// A length, as in -sz 8.6cm 6cm, has 300 pixels to the inch, which a PNG file states. With
-    /// -vec numbers are points, and lengths are rounded to these.
+    /// A length, as in -sz 8.6cm 6cm, has 300 pixels to the inch, which a PNG file states; files in
+    /// PDF, SVG, PostScript and EPS have that size. With -vec numbers are points, and lengths are
+    /// rounded to these.
     #[arg(long, num_args = 2, value_names = ["W", "H"], action = ArgAction::Set,
           default_values = ["1024", "768"], value_parser = Side::parse,
           visible_alias = "size", help_heading = PICTURE)]
@@ -127,7 +128,7 @@ impl PictureArgs {
         let per_inch = if let Output::Vector(_) = output { 72.0 } else { PIXELS_PER_INCH };
         Ok(PictureOptions {
             camera: self.camera.options(),
-            size: [0, 1].map(|side| self.sz[side].at(per_inch)),
+            size: Side::both(&self.sz, per_inch).map_err(Failure::Usage)?,
             per_inch: self.sz.iter().any(|side| side.is_length()).then_some(per_inch),
             samples: self.aa,
             filter: self.fl,

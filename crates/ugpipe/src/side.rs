@@ -27,6 +27,20 @@ impl Side {
         matches!(self, Self::Inches(_))
     }
 
+    /// Width and height in pixels, or in points, of which `per_inch` are an inch.
+    ///
+    /// # Errors
+    /// One side is a length and the other is not.
+    pub fn both(sides: &[Self], per_inch: f64) -> Result<[u32; 2], String> {
+        let &[width, height] = sides else { return Err("-sz has a width and a height".to_owned()) };
+        if width.is_length() == height.is_length() {
+            return Ok([width, height].map(|side| side.at(per_inch)));
+        }
+        Err("-sz: one side has a unit and the other has none: write both as lengths, 8.6cm 6cm, or both \
+             without units"
+            .to_owned())
+    }
+
     /// Value parser of sides: `800`, `8.6cm`.
     ///
     /// # Errors
@@ -42,5 +56,23 @@ impl Side {
         // NaN is outside.
         let inches = inches.ok().filter(|inches| *inches > 0.0 && *inches <= 1000.0);
         inches.map(Self::Inches).ok_or_else(|| "must be a length above 0 and of at most 1000 in".to_owned())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_sides_have_units_or_neither() {
+        let both = |[width, height]: [&str; 2], per_inch| {
+            Side::both(&[Side::parse(width).unwrap(), Side::parse(height).unwrap()], per_inch)
+        };
+        assert_eq!(both(["8.6cm", "60mm"], 300.0), Ok([1016, 709]));
+        assert_eq!(both(["1in", "72pt"], 72.0), Ok([72, 72]));
+        assert_eq!(both(["640", "480"], 300.0), Ok([640, 480]));
+        for mixed in [["8.6cm", "600"], ["600", "8.6cm"]] {
+            assert!(both(mixed, 300.0).unwrap_err().contains("write both as lengths"));
+        }
     }
 }

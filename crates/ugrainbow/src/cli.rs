@@ -114,7 +114,8 @@ pub struct Args {
     ///
     /// Like -wf; both have 0.6 of the width of visible lines.
     #[arg(long, value_name = "STYLE", visible_alias = "hidden-lines", conflicts_with = "ed",
-          value_parser = one_of(["dash", "thin"], hidden_lines), help_heading = LINES)]
+          value_parser = one_of("ways", [("dash", HiddenLines::Dashed), ("thin", HiddenLines::Thin)]),
+          help_heading = LINES)]
     hl: Option<HiddenLines>,
 
     /// Colour of the edges, as for -bg [default: colours of the faces with -wf, black with -ed]
@@ -341,14 +342,5 @@ fn crease(angle: f64) -> Result<f64, String> {
         Ok(angle)
     } else {
         Err("a crease is from 0 to 180 degrees".to_owned())
-    }
-}
-
-/// What is drawn of hidden lines.
-fn hidden_lines(name: &str) -> Result<HiddenLines, String> {
-    match name {
-        "dash" => Ok(HiddenLines::Dashed),
-        "thin" => Ok(HiddenLines::Thin),
-        _ => Err("neither dash nor thin".to_owned()),
     }
 }

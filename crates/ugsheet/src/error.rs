@@ -34,6 +34,9 @@ pub enum Error {
     /// The sheet has more than 2²⁸ pixels, or the pictures are too narrow for text.
     #[error("the sheet has more than {MAX_PIXELS} pixels; draw smaller pictures")]
     Size,
+    /// A sheet of the size asked for has no room for its pictures.
+    #[error("the sheet has no room for the pictures beside gaps, margins and text")]
+    Narrow,
     /// The system has not enough memory for the sheet.
     #[error("there is not enough memory for {} x {} pixels, {bytes} bytes", size[0], size[1])]
     Memory {

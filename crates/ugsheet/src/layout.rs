@@ -13,19 +13,32 @@ const CAPTION: f64 = 1.1;
 /// Ratio of the size of pictures to the default text size.
 const PER_TEXT: f64 = 28.0;
 
+/// Pictures are not enlarged by less than this.
+const KEPT: f64 = 1.05;
+
 /// Smallest and largest default text size, in pixels.
 const SIZES: [f64; 2] = [10.0, 48.0];
 
 /// The positions of everything on a sheet, in pixels.
+#[derive(Clone, Debug)]
 pub struct Layout {
     /// Width and height of the sheet.
     pub size: [u32; 2],
-    /// Upper left corners of the pictures.
-    pub pictures: Vec<[u32; 2]>,
+    /// The pictures.
+    pub pictures: Vec<Place>,
     /// The lines of text, and where their baselines begin.
-    pub lines: Vec<(Line, Point)>,
+    lines: Vec<(Line, Point)>,
     /// The colour of the text.
-    pub ink: Rgb,
+    ink: Rgb,
+}
+
+/// The place of a picture, in pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// Its upper left corner.
+    pub corner: [u32; 2],
+    /// Its width and height.
+    pub size: [u32; 2],
 }
 
 impl Layout {
@@ -33,19 +46,69 @@ impl Layout {
     /// picture.
     ///
     /// # Errors
-    /// The font lacks a character, or the sheet is too large.
+    /// The font lacks a character, or the sheet is too large, or too narrow for its pictures.
     pub fn new(config: &Config, pictures: &[Picture], labels: &[String]) -> Result<Self, Error> {
-        let text = config.text_size.unwrap_or_else(|| text_size(pictures));
+        let layout = match config.size {
+            Some((width, height)) => {
+                Self::fitted(config, pictures, labels, [width, height.unwrap_or(u32::MAX)])?
+            }
+            None => Self::scaled(config, pictures, labels, 1.0)?,
+        };
+        let [width, height] = layout.size;
+        let [width, height] = match config.size {
+            Some((width, whole)) => [width, whole.unwrap_or(height)],
+            None => [width, height],
+        };
+        let sides = [width, height].map(|side| if config.is_even { side.next_multiple_of(2) } else { side });
+        if u64::from(sides[0]) * u64::from(sides[1]) > MAX_PIXELS {
+            return Err(Error::Size);
+        }
+        Ok(layout.centred(sides))
+    }
+
+    /// The sheet with its pictures as large as this size allows. They keep their pixels if these are
+    /// nearly as many.
+    fn fitted(
+        config: &Config,
+        pictures: &[Picture],
+        labels: &[String],
+        size: [u32; 2],
+    ) -> Result<Self, Error> {
+        // The width does not depend on texts, whose layout takes long.
+        let bare = Config { letters: false, title: String::new(), caption: String::new(), ..config.clone() };
+        let blank = vec![String::new(); pictures.len()];
+        let widest = pictures.iter().map(|picture| picture.size[0]).max().unwrap_or(1);
+        // A row with this picture alone fills the sheet.
+        let most = f64::from(size[0]) / f64::from(widest);
+        let mut scale = largest(32, most, |scale| {
+            Self::scaled(&bare, pictures, &blank, scale).is_ok_and(|layout| layout.size[0] <= size[0])
+        });
+        let is_low = |scale: f64| {
+            Self::scaled(config, pictures, labels, scale).is_ok_and(|layout| layout.size[1] <= size[1])
+        };
+        if size[1] < u32::MAX && !is_low(scale) {
+            scale = largest(16, scale, is_low);
+        }
+        if (1.0..KEPT).contains(&scale) {
+            scale = 1.0;
+        }
+        let layout = Self::scaled(config, pictures, labels, scale)?;
+        if scale > 0.0 { Ok(layout) } else { Err(Error::Narrow) }
+    }
+
+    /// The sheet with its pictures scaled by a factor.
+    fn scaled(config: &Config, pictures: &[Picture], labels: &[String], scale: f64) -> Result<Self, Error> {
+        let scaled = |side: u32| ((f64::from(side) * scale).round() as u32).max(1);
+        let sizes: Vec<[u32; 2]> = pictures.iter().map(|picture| picture.size.map(scaled)).collect();
+        let text = config.text_size.unwrap_or_else(|| text_size(&sizes));
         let gap = (0.9 * text).round() as u32;
         let [gap, margin] = config.gap.unwrap_or([gap; 2]);
-        let n = pictures.len();
+        let n = sizes.len();
         let n_columns = config
             .columns
             .map_or_else(|| n.isqrt() + usize::from(n.isqrt().pow(2) < n), |columns| columns as usize);
         let n_columns = n_columns.clamp(1, n);
-        let widest = |column: usize| {
-            pictures.iter().skip(column).step_by(n_columns).map(|picture| picture.size[0]).max()
-        };
+        let widest = |column: usize| sizes.iter().skip(column).step_by(n_columns).map(|size| size[0]).max();
         let widths: Vec<u32> = (0..n_columns).map(|column| widest(column).unwrap_or(0)).collect();
         let inner: u64 = widths.iter().map(|&width| u64::from(width)).sum::<u64>()
             + (n_columns as u64 - 1) * u64::from(gap);
@@ -57,16 +120,16 @@ impl Layout {
         let mut page = Page { width, margin, row: margin, lines: Vec::new() };
         page.heading(&config.title, TITLE * text)?;
         let mut places = Vec::with_capacity(n);
-        for (row, cells) in pictures.chunks(n_columns).enumerate() {
+        for (row, cells) in sizes.chunks(n_columns).enumerate() {
             if row > 0 {
                 page.advance(gap)?;
             }
-            let height = cells.iter().map(|picture| picture.size[1]).max().unwrap_or(0);
+            let height = cells.iter().map(|size| size[1]).max().unwrap_or(0);
             let mut column = margin;
             let mut label_rows = 0;
-            for (idx, picture) in cells.iter().enumerate() {
-                let [free, above] = [widths[idx] - picture.size[0], height - picture.size[1]];
-                places.push([column + free / 2, page.row + above / 2]);
+            for (idx, &size) in cells.iter().enumerate() {
+                let [free, above] = [widths[idx] - size[0], height - size[1]];
+                places.push(Place { corner: [column + free / 2, page.row + above / 2], size });
                 let number = row * n_columns + idx;
                 let label = with_letter(config.letters, number, &labels[number]);
                 let top = page.row.checked_add(height).ok_or(Error::Size)?;
@@ -78,11 +141,24 @@ impl Layout {
         }
         page.caption(&config.caption, CAPTION * text)?;
         page.advance(margin)?;
-        let size = [width, page.row];
-        if u64::from(width) * u64::from(page.row) > MAX_PIXELS {
-            return Err(Error::Size);
+        Ok(Self {
+            size: [width, page.row],
+            pictures: places,
+            lines: page.lines,
+            ink: ink_on(config.background),
+        })
+    }
+
+    /// The same in the middle of a sheet that is as large or larger.
+    fn centred(mut self, size: [u32; 2]) -> Self {
+        let [left, top] = [0, 1].map(|axis| size[axis].saturating_sub(self.size[axis]) / 2);
+        for Place { corner, .. } in &mut self.pictures {
+            *corner = [corner[0] + left, corner[1] + top];
         }
-        Ok(Self { size, pictures: places, lines: page.lines, ink: ink_on(config.background) })
+        for (_, [x, y]) in &mut self.lines {
+            (*x, *y) = (*x + f64::from(left), *y + f64::from(top));
+        }
+        Self { size, ..self }
     }
 
     /// The text of the sheet.
@@ -95,14 +171,21 @@ impl Layout {
     }
 }
 
+/// The largest number up to `high` that fits, to 1 part in 2 to the power `n_steps`; 0 if none does.
+fn largest(n_steps: u32, high: f64, fits: impl Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (0.0, high);
+    for _ in 0..n_steps {
+        let middle = 0.5 * (low + high);
+        *(if fits(middle) { &mut low } else { &mut high }) = middle;
+    }
+    low
+}
+
 /// The default text size. It depends on the mean area of the pictures only, so that sheets of
 /// similar pictures have the same text size.
-fn text_size(pictures: &[Picture]) -> f64 {
-    let sum: f64 = pictures
-        .iter()
-        .map(|Picture { size: [width, height], .. }| f64::from(*width) * f64::from(*height))
-        .sum();
-    let mean = (sum / pictures.len() as f64).sqrt();
+fn text_size(sizes: &[[u32; 2]]) -> f64 {
+    let sum: f64 = sizes.iter().map(|size| f64::from(size[0]) * f64::from(size[1])).sum();
+    let mean = (sum / sizes.len() as f64).sqrt();
     (mean / PER_TEXT).round().clamp(SIZES[0], SIZES[1])
 }
 

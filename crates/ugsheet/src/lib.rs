@@ -28,10 +28,13 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod error;
+#[cfg(feature = "cli")]
+pub mod film;
 mod labels;
 mod layout;
 #[cfg(feature = "cli")]
 mod recipe;
+mod scaling;
 mod shell_words;
 mod tiles;
 
@@ -77,6 +80,11 @@ pub struct Config {
     pub gap: Option<[u32; 2]>,
     /// Text size of labels in pixels; by default 1/28 of the size of the pictures.
     pub text_size: Option<f64>,
+    /// Width of the sheet and, if there is one, height. All pictures are scaled by one factor, so
+    /// that the sheet fits; without it they keep their pixels.
+    pub size: Option<(u32, Option<u32>)>,
+    /// Whether width and height are even, as encoders of films need them.
+    pub is_even: bool,
 }
 
 impl Default for Config {
@@ -91,39 +99,87 @@ impl Default for Config {
             background: [255; 3],
             gap: None,
             text_size: None,
+            size: None,
+            is_even: false,
         }
     }
 }
 
-/// Makes a sheet. `frame_of` returns the pixels of a picture by its index; it is called once for
-/// each picture, in order, so that only one has to be in memory.
+/// A sheet that is laid out, for pictures of known sizes.
+#[derive(Clone, Debug)]
+pub struct Sheet {
+    pictures: Vec<Picture>,
+    layout: Layout,
+    background: Rgb,
+}
+
+impl Sheet {
+    /// Lays out a sheet.
+    ///
+    /// # Errors
+    /// There are no pictures, the number of labels is wrong, the font lacks a character, or the
+    /// sheet is too large, or too narrow for its pictures.
+    pub fn new(config: &Config, pictures: &[Picture]) -> Result<Self, Error> {
+        let labels = config.labels.checked(pictures)?;
+        let layout = Layout::new(config, pictures, &labels)?;
+        Ok(Self { pictures: pictures.to_vec(), layout, background: config.background })
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.layout.size
+    }
+
+    /// The pictures.
+    pub fn pictures(&self) -> &[Picture] {
+        &self.pictures
+    }
+
+    /// The sizes of the pictures on the sheet, in pixels.
+    pub fn picture_sizes(&self) -> impl Iterator<Item = [u32; 2]> {
+        self.layout.pictures.iter().map(|place| place.size)
+    }
+
+    /// Draws the sheet. `frame_of` returns the pixels of a picture by its index; it is called once
+    /// for each picture, in order, so that only one has to be in memory.
+    ///
+    /// # Errors
+    /// The sheet is too large for the memory, or a picture cannot be read or has another size.
+    pub fn draw(&self, mut frame_of: impl FnMut(usize) -> Result<Frame, Error>) -> Result<Frame, Error> {
+        let mut frame = blank(self.layout.size)?;
+        let [red, green, blue] = self.background;
+        frame.pixels_mut().fill([red, green, blue, 255]);
+        let quantizer = ugimage::Quantizer::new();
+        for (idx, (picture, place)) in self.pictures.iter().zip(&self.layout.pictures).enumerate() {
+            let pixels = frame_of(idx)?;
+            if [pixels.width(), pixels.height()] != picture.size {
+                return Err(Error::Picture(format!("`{}` has changed while it was read", picture.name)));
+            }
+            let pixels = if place.size == picture.size {
+                pixels
+            } else {
+                scaling::scaled(&pixels, place.size, &quantizer)
+            };
+            copy(&pixels, place.corner, &mut frame, |pixel, under| match pixel[3] {
+                255 => pixel,
+                alpha => over(pixel, f64::from(alpha) / 255.0, under, &quantizer),
+            });
+        }
+        self.layout.drawing().paint(&mut frame);
+        Ok(frame)
+    }
+}
+
+/// Makes a sheet, see [`Sheet`].
 ///
 /// # Errors
-/// There are no pictures, the number of labels is wrong, the font lacks a character, the sheet is
-/// too large for its limit or the memory, or a picture cannot be read or has another size.
+/// Those of [`Sheet::new`] and [`Sheet::draw`].
 pub fn sheet(
     config: &Config,
     pictures: &[Picture],
-    mut frame_of: impl FnMut(usize) -> Result<Frame, Error>,
+    frame_of: impl FnMut(usize) -> Result<Frame, Error>,
 ) -> Result<Frame, Error> {
-    let labels = config.labels.checked(pictures)?;
-    let layout = Layout::new(config, pictures, &labels)?;
-    let mut frame = blank(layout.size)?;
-    let [red, green, blue] = config.background;
-    frame.pixels_mut().fill([red, green, blue, 255]);
-    let quantizer = ugimage::Quantizer::new();
-    for (idx, (picture, &place)) in pictures.iter().zip(&layout.pictures).enumerate() {
-        let pixels = frame_of(idx)?;
-        if [pixels.width(), pixels.height()] != picture.size {
-            return Err(Error::Picture(format!("`{}` has changed while it was read", picture.name)));
-        }
-        copy(&pixels, place, &mut frame, |pixel, under| match pixel[3] {
-            255 => pixel,
-            alpha => over(pixel, f64::from(alpha) / 255.0, under, &quantizer),
-        });
-    }
-    layout.drawing().paint(&mut frame);
-    Ok(frame)
+    Sheet::new(config, pictures)?.draw(frame_of)
 }
 
 /// The history of a sheet: those of all its pictures, and the command that made it, if one did.

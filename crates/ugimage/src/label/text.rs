@@ -14,6 +14,7 @@ pub const DESCENT: f64 = 0.25;
 pub const SPACING: f64 = 1.35;
 
 /// A line of text at a size.
+#[derive(Clone, Debug)]
 pub struct Line {
     text: String,
     size: f64,

@@ -27,6 +27,38 @@ fn a_mesh_is_a_scene() {
     assert!(out.ends_with("f (v1 v2 v3 v4) red;\n"), "{out}");
 }
 
+/// An included mesh is the scene that it is by itself, with its textures, also in a definition.
+#[test]
+fn meshes_are_included() {
+    let options = Options::default();
+    let crate_folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes"));
+    let parsed = |name: &str, text: &str| {
+        let source = ugparse::include(Source::new(name, text), &options, |request| {
+            let name = request.path.file_name().unwrap_or_default();
+            assert_eq!(request.path, Path::new("meshes").join(name));
+            std::fs::read(crate_folder.join(name)).map_err(ugparse::RequestError::System)
+        })?;
+        ugparse::parse(&source, &options)
+    };
+    let mesh = std::fs::read_to_string(crate_folder.join("crate.gltf")).unwrap();
+    let alone = ugparse::write(&parsed("meshes/crate.gltf", &mesh).unwrap().scene);
+    let included = parsed("scene.ug", "include \"meshes/crate.gltf\" ;").unwrap().scene;
+    assert_eq!(String::from_utf8(ugparse::write(&included)), String::from_utf8(alone));
+    let twice = "def crate ; include \"meshes/crate.gltf\" ; end ; i (crate) ; i (crate -tx 3) ;";
+    let twice = parsed("scene.ug", twice).unwrap().scene;
+    assert_eq!(
+        [twice.faces.len(), twice.vertices.len()],
+        [included.faces.len(), included.vertices.len()].map(|n| 2 * n)
+    );
+    assert!(included.faces.len() >= 6 && included.drawn_texture_name().is_some());
+    // Lines of an included mesh are not quoted.
+    let source = Source::new("scene.ug", "include a.obj ;");
+    let error = ugparse::include(source, &options, |_| Ok(b"v 0 0 0\nf 1 2 secret\n".to_vec()))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains("file `a.obj` is not UniGrafix") && !error.contains("secret"), "{error}");
+}
+
 #[test]
 fn messages_have_the_lines_of_the_mesh() {
     let check = |text: &str, expected: &str| {

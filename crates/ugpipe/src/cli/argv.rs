@@ -19,6 +19,7 @@ use clap::builder::ValueRange;
 use clap::{Arg, ArgAction, Command};
 
 use crate::cli::values::finite;
+use crate::side::Side;
 
 /// Terminates the values of an option with a variable number of them. [`rewrite`] inserts it for
 /// clap; users do not write it.
@@ -227,8 +228,8 @@ fn join_times(arg: &Arg, words: &mut VecDeque<OsString>) {
 /// Copies the values of `arg` unchanged, except that numbers joined by commas or, as in `80x60`, by
 /// `x` are separated, and numbers over time are joined.
 ///
-/// The required values come first, up to the next option. Optional values are numbers in all our
-/// programs, which distinguishes them from file names. A negative number is the value of an option
+/// The required values come first, up to the next option. Optional values are numbers or lengths in all
+/// our programs, which distinguishes them from file names. A negative number is the value of an option
 /// with one value even if the option takes only positive ones, and is attached to it by `=`: clap
 /// would take it for an option.
 fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out: &mut Vec<OsString>) {
@@ -251,7 +252,7 @@ fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out
     while n_taken < range.max_values() {
         let is_needed = n_taken < range.min_values();
         let belongs = |word: &OsString| {
-            if is_needed { may_be_value(command, arg, word) } else { is_number(word) }
+            if is_needed { may_be_value(command, arg, word) } else { is_number(word) || is_length(word) }
         };
         let Some(value) = next_if(words, belongs) else { break };
         out.push(value);
@@ -285,6 +286,11 @@ fn ends_at_options(arg: &Arg) -> bool {
 /// True for a number, and for numbers over the time of a film: `-10..10`.
 fn is_number(word: &OsStr) -> bool {
     word.to_str().is_some_and(|word| word.split("..").all(|number| finite(number.trim()).is_ok()))
+}
+
+/// True for a number with a unit of length: `6cm`.
+fn is_length(word: &OsStr) -> bool {
+    word.to_str().and_then(|word| Side::parse(word).ok()).is_some_and(Side::is_length)
 }
 
 fn is_variable(range: ValueRange) -> bool {
@@ -348,6 +354,7 @@ mod tests {
         check("-vel -.9,0,0", "--vel -.9 0 0");
         check("-velocity=.9,0,0 -gw", "--velocity .9 0 0 --gw");
         check("-va 40x30 ship.ug", "--va 40 30 ship.ug");
+        check("-an 2in 72pt ship.ug", "--an 2in 72pt ; ship.ug");
         check("-title a,b", "--title a,b");
         // Values over time may have blanks.
         check("-title 0 .. 5", "--title 0..5");

@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
 
+mod films;
+
 use std::fs;
 
 use ugimage::{Format, Frame, Metadata, PictureLimits, read_png};
@@ -146,6 +148,82 @@ fn invalid_requests_are_errors() {
     };
     let read = |_| unreachable!("no pixels are read");
     assert_eq!(ugsheet::sheet(&Config::default(), &[huge.clone(), huge], read), Err(Error::Size));
+}
+
+/// Sheets have the width asked for, and the height; pictures keep their shape and their light.
+#[test]
+fn sheets_have_the_size_asked_for() {
+    let pictures = [picture("a", 300, 200, 1), picture("b", 150, 250, 2), picture("c", 300, 200, 3)];
+    for width in [151, 1016] {
+        for columns in [1, 3] {
+            let config = Config { columns: Some(columns), size: Some((width, None)), ..Config::default() };
+            let drawn = sheet(&config, &pictures).unwrap();
+            assert_eq!(drawn.width(), width, "{columns} columns");
+            let config = Config { size: Some((width, Some(500))), is_even: true, ..config };
+            assert_eq!(
+                [sheet(&config, &pictures).unwrap()].map(|s| [s.width(), s.height()]),
+                [[width.next_multiple_of(2), 500]]
+            );
+        }
+    }
+    // An even picture stays even, and the mean of light is that of the picture.
+    let mut grey = picture("grey", 64, 64, 1);
+    grey.frame.pixels_mut().fill([90, 90, 90, 255]);
+    let mut checks = grey.clone();
+    for (idx, pixel) in checks.frame.pixels_mut().iter_mut().enumerate() {
+        *pixel = if (idx + idx / 64) % 2 == 0 { [0, 0, 0, 255] } else { [255, 255, 255, 255] };
+    }
+    for (picture, expected) in [(grey, 90), (checks, 188)] {
+        let config =
+            Config { labels: Labels::None, gap: Some([0; 2]), size: Some((16, None)), ..Config::default() };
+        let drawn = sheet(&config, &[picture]).unwrap();
+        assert_eq!([drawn.width(), drawn.height()], [16, 16]);
+        assert!(
+            drawn.pixels().iter().all(|pixel| pixel[0].abs_diff(expected) < 3),
+            "{:?}",
+            drawn.pixel(3, 3)
+        );
+    }
+    // Pictures that nearly fill the sheet keep their pixels.
+    let config = Config { columns: Some(1), size: Some((330, None)), ..Config::default() };
+    assert_eq!(places(&pictures[0].frame, &sheet(&config, &pictures).unwrap()).len(), 1);
+    let config = Config { size: Some((9, None)), ..Config::default() };
+    assert_eq!(sheet(&config, &pictures), Err(Error::Narrow));
+}
+
+/// The resolution of the pictures is that of the sheet; a length has 300 pixels to the inch
+/// otherwise, and its labels have 8 points.
+#[test]
+fn sheets_state_their_resolution() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, per_inch) in [("a", Some(300.0)), ("b", Some(600.0)), ("c", None)] {
+        let metadata = Metadata { per_inch, ..Metadata::default() };
+        let file = Format::Png.encode(&picture(name, 90, 70, 5).frame, &metadata);
+        fs::write(folder.path().join(format!("{name}.png")), file).unwrap();
+    }
+    let ugsheet = UGSHEET.in_folder(&folder);
+    for (args, width, per_inch) in [
+        ("-gap 0 a.png a.png", 180, Some(300.0)),
+        ("-gap 0 b.png c.png", 180, Some(600.0)),
+        ("-gap 0 c.png c.png", 180, None),
+        ("-gap 0 a.png b.png", 180, None),
+        ("-sz 8.6cm a.png a.png", 1016, Some(300.0)),
+        ("-sz 8.6cm b.png", 2031, Some(600.0)),
+        ("-sz 1in a.png b.png", 300, Some(300.0)),
+        ("-sz 200 a.png", 200, None),
+    ] {
+        let file = ugsheet.output(args, "");
+        let (frame, metadata) = read_png(&file, &PictureLimits::default()).unwrap();
+        assert_eq!((frame.width(), metadata.per_inch), (width, per_inch), "{args}");
+    }
+    let notes = ugsheet.notes("a.png b.png", "");
+    assert!(notes.contains("different resolutions, so the sheet states none"), "{notes}");
+    let notes = ugsheet.notes("-sz 8.6cm c.png c.png", "");
+    assert!(notes.contains("; drawn with -sz "), "{notes}");
+    ugsheet.output("-sz 2in 72pt c.png -fo a.svg", "");
+    let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("width=\"144pt\" height=\"72pt\""));
+    ugsheet.refuses("-sz 8.6cm 600 c.png", "", 2, "-sz: one side has a unit and the other has none");
 }
 
 /// A folder with `rest.png` and `fast.png`, which have histories.

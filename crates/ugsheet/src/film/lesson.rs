@@ -2,10 +2,11 @@
 
 use std::io::{self, Write};
 
-use crate::animation::Shape;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use ugimage::{Compression, Format, Frame, Metadata};
+
+use super::animation::FilmShape;
 
 /// The page around the pictures.
 const TEMPLATE: &str = include_str!("lesson.html");
@@ -31,7 +32,7 @@ impl<'w> Lesson<'w> {
     ///
     /// # Errors
     /// Writing fails.
-    pub fn new(out: &'w mut dyn Write, captions: Vec<Caption>, shape: Shape) -> io::Result<Self> {
+    pub fn new(out: &'w mut dyn Write, captions: Vec<Caption>, shape: FilmShape) -> io::Result<Self> {
         let (head, tail) = TEMPLATE.split_once("@PICTURES@").unwrap_or((TEMPLATE, ""));
         out.write_all(head.as_bytes())?;
         let tail = tail

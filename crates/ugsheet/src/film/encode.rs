@@ -5,15 +5,14 @@ use std::path::Path;
 use std::process::{ChildStdin, Command, Stdio};
 
 use ugimage::Frame;
-use ugpipe::{Failure, Running};
-use ugscene::shorten;
+use ugpipe::{Context, Failure, Running, Steps};
 
-use crate::animation::{AnimatedPng, Gif, Shape, fraction};
-use crate::lesson::{Caption, Lesson};
+use super::animation::{AnimatedPng, FilmShape, Gif, fraction};
+use super::lesson::{Caption, Lesson};
 
 /// The kind of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum FilmKind {
     /// Animated PNG, all colours.
     Apng,
     /// GIF, 256 colours.
@@ -30,7 +29,7 @@ pub enum Kind {
     Webm,
 }
 
-impl Kind {
+impl FilmKind {
     /// All of them.
     pub const ALL: [Self; 7] =
         [Self::Apng, Self::Gif, Self::Y4m, Self::Ppm, Self::Html, Self::Mp4, Self::Webm];
@@ -64,8 +63,51 @@ impl Kind {
     }
 }
 
+/// Writes a film to the output of a program, of which nothing is written before its first frame is
+/// drawn. `draw` passes the frames on in order. `captions`: of the pictures on a page; `is_opaque`: no
+/// frame is transparent.
+///
+/// # Errors
+/// A frame cannot be drawn, or the film cannot be written.
+pub fn write(
+    context: &mut Context,
+    (kind, shape, is_opaque): (FilmKind, FilmShape, bool),
+    captions: Vec<Caption>,
+    draw: impl FnOnce(&Steps<'_>, &mut dyn FnMut(&Frame) -> Result<(), Failure>) -> Result<(), Failure>,
+) -> Result<(), Failure> {
+    if kind.is_encoded() {
+        return context.write_by_name(|path, steps| {
+            let mut ffmpeg = Ffmpeg::new(kind, shape, is_opaque, path)?;
+            draw(steps, &mut |frame| ffmpeg.push(frame))?;
+            ffmpeg.finish()
+        });
+    }
+    context.write_stream(|out, steps| {
+        let (mut waiting, mut stream) = (Some((out, captions)), None);
+        let mut push = |frame: &Frame| {
+            if let Some((out, captions)) = waiting.take() {
+                stream = Some(Stream::new(kind, shape, captions, out)?);
+            }
+            stream.as_mut().map_or(Ok(()), |stream| stream.push(frame))
+        };
+        let mut broken = None;
+        let drawn = draw(steps, &mut |frame| {
+            push(frame).map_err(|error| {
+                let failure = Failure::failed(&error);
+                broken = Some(error);
+                failure
+            })
+        });
+        if let Some(error) = broken {
+            return Ok(Err(error));
+        }
+        drawn?;
+        Ok(stream.map_or(Ok(()), Stream::finish))
+    })
+}
+
 /// Writes frames to a stream, in order.
-pub enum Stream<'w> {
+enum Stream<'w> {
     /// Animated PNG.
     Apng(AnimatedPng<'w>),
     /// GIF.
@@ -83,10 +125,15 @@ impl<'w> Stream<'w> {
     ///
     /// # Errors
     /// Writing fails, or the format cannot hold the film.
-    pub fn new(kind: Kind, shape: Shape, captions: Vec<Caption>, out: &'w mut dyn Write) -> io::Result<Self> {
+    pub fn new(
+        kind: FilmKind,
+        shape: FilmShape,
+        captions: Vec<Caption>,
+        out: &'w mut dyn Write,
+    ) -> io::Result<Self> {
         Ok(match kind {
-            Kind::Gif => Self::Gif(Gif::new(out, shape)?),
-            Kind::Y4m => {
+            FilmKind::Gif => Self::Gif(Gif::new(out, shape)?),
+            FilmKind::Y4m => {
                 let ([width, height], [count, seconds]) = (shape.size, fraction(shape.rate));
                 writeln!(
                     out,
@@ -94,9 +141,9 @@ impl<'w> Stream<'w> {
                 )?;
                 Self::Y4m(out, Vec::new())
             }
-            Kind::Ppm => Self::Ppm(out),
-            Kind::Html => Self::Html(Lesson::new(out, captions, shape)?),
-            Kind::Apng | Kind::Mp4 | Kind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
+            FilmKind::Ppm => Self::Ppm(out),
+            FilmKind::Html => Self::Html(Lesson::new(out, captions, shape)?),
+            FilmKind::Apng | FilmKind::Mp4 | FilmKind::Webm => Self::Apng(AnimatedPng::new(out, shape)?),
         })
     }
 
@@ -158,7 +205,7 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
 }
 
 /// ffmpeg, which gets raw frames and writes a file.
-pub struct Ffmpeg {
+struct Ffmpeg {
     is_opaque: bool,
     program: Running,
     input: Option<ChildStdin>,
@@ -169,11 +216,13 @@ impl Ffmpeg {
     ///
     /// # Errors
     /// There is no ffmpeg.
-    pub fn new(kind: Kind, shape: Shape, is_opaque: bool, path: &Path) -> Result<Self, Failure> {
+    pub fn new(kind: FilmKind, shape: FilmShape, is_opaque: bool, path: &Path) -> Result<Self, Failure> {
         let [width, height] = shape.size;
         let [count, seconds] = fraction(shape.rate);
         let codec: &[&str] = match kind {
-            Kind::Webm => &["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"],
+            FilmKind::Webm => {
+                &["-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-row-mt", "1", "-f", "webm"]
+            }
             _ => &["-c:v", "libx264", "-crf", "16", "-movflags", "+faststart", "-f", "mp4"],
         };
         let [pixels, planes] = if is_opaque { ["rgb24", "yuv420p"] } else { ["rgba", "yuva420p"] };
@@ -237,8 +286,8 @@ impl Ffmpeg {
             .child_mut()
             .wait()
             .map_or_else(|error| error.to_string(), |status| status.to_string());
-        let line = text.lines().rev().find(|line| !line.trim().is_empty()).map(|line| shorten(line.trim()));
-        Failure::failed(format!("ffmpeg failed with {status}: {}", line.as_deref().unwrap_or("no message")))
+        let line = text.lines().map(str::trim).rfind(|line| !line.is_empty()).unwrap_or("no message");
+        Failure::failed(format!("ffmpeg failed with {status}: {line}"))
     }
 }
 

@@ -6,14 +6,14 @@ use gif::{DisposalMethod, Encoder as GifEncoder, Frame as GifFrame, Repeat};
 use png::{BitDepth, ColorType, Compression, Encoder as PngEncoder, Writer};
 use ugimage::Frame;
 
-use crate::palette::Palette;
+use super::palette::Palette;
 
 /// Frames a second that a GIF can have: browsers show one of less than 1/50 s for 1/10 s.
 pub const MOST_GIF_RATE: f64 = 50.0;
 
 /// The frames of a film, one after the other.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
+pub struct FilmShape {
     /// Width and height in pixels.
     pub size: [u32; 2],
     /// How many frames.
@@ -99,7 +99,7 @@ impl<'w> AnimatedPng<'w> {
     ///
     /// # Errors
     /// Writing fails.
-    pub fn new(out: &'w mut dyn Write, shape: Shape) -> io::Result<Self> {
+    pub fn new(out: &'w mut dyn Write, shape: FilmShape) -> io::Result<Self> {
         let [width, height] = shape.size;
         let mut encoder = PngEncoder::new(out, width, height);
         encoder.set_color(ColorType::Rgba);
@@ -163,7 +163,7 @@ impl<'w> Gif<'w> {
     ///
     /// # Errors
     /// Writing fails, or the film is larger than a GIF can be.
-    pub fn new(out: &'w mut dyn Write, shape: Shape) -> io::Result<Self> {
+    pub fn new(out: &'w mut dyn Write, shape: FilmShape) -> io::Result<Self> {
         let side = |length: u32| {
             u16::try_from(length).map_err(|_| io::Error::other("a GIF has at most 65535 pixels along a side"))
         };
