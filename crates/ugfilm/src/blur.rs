@@ -52,8 +52,8 @@ impl Shot {
     /// # Errors
     /// It is the mean of moments, which has no annotations but a caption, no channels and no
     /// vectors.
-    pub fn check(&self) -> Result<(), Error> {
-        let is_light = self.moments.is_empty() || is_made_of_light(&self.frame.picture);
+    pub fn check(&self, subject: FilmSubject<'_>) -> Result<(), Error> {
+        let is_light = self.moments.is_empty() || is_made_of_light(&self.frame.picture, subject);
         if is_light { Ok(()) } else { Err(Error::Mean) }
     }
 
@@ -67,11 +67,11 @@ impl Shot {
         subject: FilmSubject<'_>,
         light: Option<DrawnLight>,
     ) -> Result<(Rendering, Vec<Note>), Error> {
-        let light = light.filter(|_| is_made_of_light(&self.frame.picture));
+        let light = light.filter(|_| is_made_of_light(&self.frame.picture, subject));
         if self.moments.is_empty() && light.is_none() {
             return self.frame.draw(subject);
         }
-        self.check()?;
+        self.check(subject)?;
         let metadata = self.metadata(subject);
         let canvas = Canvas::new(&self.frame.picture)?;
         let (frame, mut notes) = match light {
@@ -103,10 +103,11 @@ impl Shot {
 }
 
 /// True if a picture with these options can be made of its light, without the scene.
-pub fn is_made_of_light(picture: &PictureOptions) -> bool {
+pub fn is_made_of_light(picture: &PictureOptions, subject: FilmSubject<'_>) -> bool {
     let PictureOptions { annotations, channels, output, .. } = picture;
     let needs_scene = annotations.legend || annotations.outline || annotations.grid;
-    !needs_scene && channels.is_empty() && !matches!(output, Output::Vector(_))
+    let has_labels = matches!(subject, FilmSubject::Scene(scene) if scene.labels().next().is_some());
+    !needs_scene && !has_labels && channels.is_empty() && !matches!(output, Output::Vector(_))
 }
 
 /// The record in the file. No single pipe draws it, so it has none of the lines that

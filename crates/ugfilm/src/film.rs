@@ -164,7 +164,7 @@ impl Film<'_> {
         let checked = frames.iter().step_by(step).chain(frames.last());
         checked
             .into_iter()
-            .try_for_each(|&frame| about(frame, self.shot(frame)?.check().map_err(Failure::of)))
+            .try_for_each(|&frame| about(frame, self.shot(frame)?.check(self.subject).map_err(Failure::of)))
     }
 
     /// At most `most` frames spread evenly over the film, among them the first and the last.
@@ -204,7 +204,10 @@ impl Film<'_> {
         let n_frames = u64::from(self.script.n_frames);
         let bytes = (width * height).saturating_mul(n_frames * size_of::<[f32; 4]>() as u64);
         let is_short = n_frames <= MOST_MEASURED.into() && bytes <= MOST_LIGHT;
-        Ok(is_short && self.blur.is_none() && first.draws_polygons() && is_made_of_light(&first.picture))
+        Ok(is_short
+            && self.blur.is_none()
+            && first.draws_polygons()
+            && is_made_of_light(&first.picture, self.subject))
     }
 
     /// The automatic exposure of all lit pixels of the film, or one that follows the light of single

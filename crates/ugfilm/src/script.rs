@@ -22,11 +22,11 @@ const FOR_ALL: [&str; 2] = ["sz", "va"];
 /// Options that are velocities.
 const VELOCITIES: [&str; 2] = ["vel", "cv"];
 
-/// The option of which every frame has its own text.
-const CAPTION: &str = "cap";
+/// The options of which every frame has its own text.
+const TEXTS: [&str; 2] = ["cap", "title"];
 
 /// Options for what is done to the light of a picture.
-pub const DONE_TO_LIGHT: &[&str] = &[CAPTION, "ex", "tc"];
+pub const DONE_TO_LIGHT: &[&str] = &["cap", "title", "ex", "tc"];
 
 /// The subject of every frame.
 pub struct Script {
@@ -181,7 +181,7 @@ impl Script {
         let has_place =
             |text: &String| ["{beta}", "{gamma}", "{speed}"].iter().any(|place| text.contains(place));
         let is_given = VELOCITIES.iter().any(|name| self.get(name).is_some());
-        !is_given && self.fixed(CAPTION).as_ref().is_some_and(has_place)
+        !is_given && TEXTS.iter().any(|name| self.fixed(name).as_ref().is_some_and(has_place))
     }
 
     /// True if no option changes over the film.
@@ -242,8 +242,13 @@ impl Script {
             Output::Vector(_) => Output::Vector(format),
             _ => Output::Color(format),
         };
-        if let Some(setting) = self.settings(left_out).find(|setting| setting.name == CAPTION) {
-            pipe.picture.annotations.caption = self.values(setting, frame)?.concat();
+        let annotations = &mut pipe.picture.annotations;
+        for setting in self.settings(left_out) {
+            match setting.name.as_str() {
+                "cap" => annotations.caption = self.values(setting, frame)?.concat(),
+                "title" => annotations.title = self.values(setting, frame)?.concat(),
+                _ => {}
+            }
         }
         Ok(pipe)
     }
@@ -271,7 +276,7 @@ impl Script {
     /// The programs of a frame. Words that are those of an earlier frame are not parsed again.
     fn programs(&self, frame: f64) -> Result<Vec<Program>, Failure> {
         let mut parsed = Vec::new();
-        for (row, words) in self.commands(frame, &[CAPTION])?.0.into_iter().enumerate() {
+        for (row, words) in self.commands(frame, &TEXTS)?.0.into_iter().enumerate() {
             let program = match self.parsed.get().map(|parsed| &parsed[row]) {
                 Some((earlier, program)) if *earlier == words => program.clone(),
                 _ => ParsedCommand::from_words(&words)?.program,
@@ -288,7 +293,9 @@ impl Script {
         let time = self.time_of(&setting.name, frame);
         let values = setting.timeline.at(time, self.ease);
         match setting.name.as_str() {
-            CAPTION => values.iter().map(|text| self.filled(text, frame)).collect(),
+            name if TEXTS.contains(&name) => {
+                values.iter().map(|text| self.filled(name, text, frame)).collect()
+            }
             _ => Ok(values),
         }
     }
@@ -344,7 +351,7 @@ impl Script {
 
     /// A caption with the numbers of a frame: `{frame}`, `{beta}`, `{gamma}`, `{speed}`, `{t}`, and
     /// the names of options with one number.
-    fn filled(&self, text: &str, frame: f64) -> Result<String, Failure> {
+    fn filled(&self, option: &str, text: &str, frame: f64) -> Result<String, Failure> {
         let mut filled = String::new();
         let mut rest = text;
         while let Some((before, after)) = rest.split_once('{') {
@@ -353,7 +360,7 @@ impl Script {
             filled += &self.number(name, frame).ok_or_else(|| {
                 let known =
                     "{frame}, {beta}, {gamma}, {speed}, {t}, or an option of this film with one number, as {ti}";
-                refused("cap", &format!("`{{{name}}}` is not one of {known}"))
+                refused(option, &format!("`{{{name}}}` is not one of {known}"))
             })?;
             rest = after;
         }

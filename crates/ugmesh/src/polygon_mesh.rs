@@ -36,7 +36,10 @@ impl PolygonMesh {
     /// surfaces; in others these have their plain colour.
     pub fn new(mut scene: Scene, kind: Polygons, has_camera: bool, has_textures: bool) -> Self {
         let mut notes = Vec::new();
-        note_count(&mut notes, scene.wires.len(), "wire is left out", "wires are left out");
+        let n_labels = scene.labels().count();
+        let n_wires = scene.wires.len() - n_labels;
+        note_count(&mut notes, n_wires, "wire is left out", "wires are left out");
+        note_count(&mut notes, n_labels, "label is left out", "labels are left out");
         note_count(&mut notes, scene.lights.len(), "light is left out", "lights are left out");
         if !has_camera {
             note_count(&mut notes, scene.cameras.len(), "camera is left out", "cameras are left out");

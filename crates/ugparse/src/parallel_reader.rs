@@ -141,6 +141,7 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
         |part| &mut part.wires,
         |wire, offset| {
             wire.name = wire.name.map(|name| offset.name(name));
+            wire.text = wire.text.map(|text| offset.name(text));
             wire.contours =
                 wire.contours.start + offset.first_contour..wire.contours.end + offset.first_contour;
             wire.color = offset.color(wire.color);

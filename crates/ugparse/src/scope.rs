@@ -285,6 +285,7 @@ impl<'t> Scope<'t> {
             contours,
             color: self.color(text, wire.color),
             body: self.bodies.of_stated(text, wire.motion),
+            text: wire.text.map(|span| self.add_name(span.of(text))),
         };
         self.wires.push(wire, span);
     }

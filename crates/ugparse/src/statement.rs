@@ -126,6 +126,8 @@ pub(crate) struct FaceStatement {
     pub shape: FaceShape,
     /// Centre, axis and radius of a round face that is given by numbers; such a face has no contours.
     pub round: Option<RoundShape>,
+    /// The text of a label, which is a wire with one vertex.
+    pub text: Option<Span>,
 }
 
 /// The light level or surface of a face.

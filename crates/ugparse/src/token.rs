@@ -339,6 +339,26 @@ pub(crate) fn file_name(input: Input<'_>) -> Parsed<'_, Input<'_>> {
     }
 }
 
+/// Most characters of a label.
+const LABEL: usize = 200;
+
+/// The text of a label, in quotes.
+pub(crate) fn label_text(at: Input<'_>) -> Parsed<'_, Input<'_>> {
+    let wrong = "text of 1 to 200 letters in quotes, without braces and line breaks";
+    let Some(quoted) = at.strip_prefix(b"\"") else { return fail(at, Reason::Expected(wrong)) };
+    let end = memchr2(b'"', b'\n', quoted).filter(|&end| quoted[end] == b'"');
+    let text = end.map(|end| &quoted[..end]);
+    let is_allowed = |text: &&[u8]| {
+        let text = std::str::from_utf8(text).unwrap_or_default();
+        let is_free = |c: char| !c.is_control() && !matches!(c, '{' | '}');
+        !text.trim().is_empty() && text.chars().count() <= LABEL && text.chars().all(is_free)
+    };
+    match text.filter(is_allowed) {
+        Some(text) => Ok((&quoted[text.len() + 1..], text)),
+        None => fail(at, Reason::Expected(wrong)),
+    }
+}
+
 pub(crate) const FILE_NAME: &str = "a file name, in quotes if there are blanks in it";
 
 /// The input after the next `;` outside comments.

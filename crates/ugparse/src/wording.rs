@@ -86,6 +86,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
     Some(match keyword {
         b"v" => "v ID x y z [color] [nx ny nz] [(u v)] ;",
         b"w" => "w [ID] (vertices) … [color] [< vx vy vz >] ;",
+        b"label" => "label [ID] \"text\" vertex [< vx vy vz >] ;",
         b"f" => "f [ID] (vertices) … [color] [level or surface] [< vx vy vz >] ;",
         b"sphere" => "sphere [ID] x y z radius [color] [level or surface] [< vx vy vz >] ;",
         b"cylinder" => "cylinder [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",

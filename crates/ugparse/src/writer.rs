@@ -9,7 +9,7 @@ use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
     AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours,
     Item, Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
-    Texture, Wrap,
+    Texture, VertexId, Wire, Wrap,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -108,9 +108,13 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.wires, Item::Wire, |w, wire| {
-            w.begin("w", wire.name);
-            w.contours(&scene.contours, wire.contours.clone());
-            w.optional_color(wire.color);
+            w.begin(if wire.text.is_some() { "label" } else { "w" }, wire.name);
+            if let Some(text) = wire.text {
+                w.label(text, wire);
+            } else {
+                w.contours(&scene.contours, wire.contours.clone());
+                w.optional_color(wire.color);
+            }
             w.body(wire.body);
             w.text(";");
         })?;
@@ -383,14 +387,24 @@ impl<'s> Writer<'s> {
         for contour in contours.iter(rows) {
             self.text(" (");
             for (idx, &corner) in contour.iter().enumerate() {
-                let name = self.scene.names.get(self.scene.vertices[corner.index()].name);
                 if idx > 0 {
                     self.out.push(b' ');
                 }
-                self.out.extend_from_slice(name.as_bytes());
+                self.corner(corner);
             }
             self.text(")");
         }
+    }
+
+    fn corner(&mut self, corner: VertexId) {
+        let name = self.scene.names.get(self.scene.vertices[corner.index()].name);
+        self.out.extend_from_slice(name.as_bytes());
+    }
+
+    /// A label after its name: the text and the vertex.
+    fn label(&mut self, text: NameId, wire: &Wire) {
+        self.out.extend_from_slice(format!(" \"{}\" ", self.scene.names.get(text)).as_bytes());
+        self.corner(self.scene.contours.get(wire.contours.start)[0]);
     }
 
     /// A colour that changes with own time.

@@ -25,7 +25,7 @@ pub fn notes(scenery: &Scenery<'_>, config: &Config, statistics: &Statistics) ->
         let (ambient, from_eye) = (DEFAULT_AMBIENT, DEFAULT_FROM_EYE);
         notes.push(Note::NoLights { ambient, from_eye, has_shadows: true });
     }
-    if !scene.wires.is_empty() {
+    if scene.has_lines() {
         notes.push(Note::NoWires);
     }
     if view.is_up_replaced {

@@ -231,12 +231,13 @@ impl PreparedScene {
             pixel_centers::find_items(scenery, size, samples, found);
             Ok(())
         };
+        let is_single = config.lens == Lens::Pinhole && config.stereo.is_none() && config.crop.is_none();
         let wires = |scene: &_, camera: &_| wires::visible(scene, camera, config);
         let subject = Subject::Surfaces {
             view: &scenery.view,
             items: &items,
             scene: Some(&scenery.scene),
-            wires: if config.lens == Lens::Pinhole { Some(&wires) } else { None },
+            wires: if is_single { Some(&wires) } else { None },
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let is_uncut = scenery.keeps_highlights || config.sky.is_some() && config.shift.is_spectral();

@@ -67,14 +67,13 @@ impl Canvas {
         &self.options
     }
 
-    /// Refuses a pixel that is not in the part that the renderer draws.
+    /// A pixel of the whole picture as a pixel of the part that the renderer draws.
     ///
     /// # Errors
-    /// [`Error::Pixel`].
-    pub fn check_pixel(&self, pixel: [u32; 2]) -> Result<(), Error> {
-        let size = self.options.size;
-        let is_inside = pixel[0] < size[0] && pixel[1] < size[1];
-        if is_inside { Ok(()) } else { Err(Error::Pixel { pixel, size }) }
+    /// [`Error::Pixel`]: it is not in that part.
+    pub fn pixel_of_scene(&self, pixel: [u32; 2]) -> Result<[u32; 2], Error> {
+        let outside = Error::Pixel { pixel, size: self.options.size };
+        self.layout.pixel_of_scene(pixel).ok_or(outside)
     }
 
     /// Develops and annotates what was drawn. `metadata`: what the file says about its making.

@@ -20,7 +20,7 @@ use crate::channel::Channel;
 use crate::explain::{Explanation, WriteSample};
 use crate::exposure::Exposure;
 use crate::lens::Lens;
-use crate::options::{AnnotationOptions, PictureOptions};
+use crate::options::{AnnotationOptions, PictureOptions, Place};
 use crate::output::Output;
 use crate::picture_file::PictureFile;
 use crate::quantity::{IsoOptions, MapOptions, Quantity};
@@ -207,9 +207,14 @@ fn fisheye(angle: f64) -> Result<f64, String> {
 /// Annotations: flatten it into the arguments of a renderer, last of its own.
 #[derive(Args, Clone, Debug)]
 pub struct AnnotationArgs {
+    /// Title above the picture, wrapped as needed
+    #[arg(long, value_name = "TEXT", help_heading = ANNOTATIONS)]
+    title: Option<String>,
+
     /// Caption below the picture, wrapped as needed; line breaks are kept
     ///
-    /// -sz is the size of the whole picture, so caption and legend leave fewer rows for the scene.
+    /// -sz is the size of the whole picture, so title, caption and legend leave fewer rows for the scene;
+    /// -lp beside leaves all of them.
     #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
     cap: Option<String>,
 
@@ -220,6 +225,14 @@ pub struct AnnotationArgs {
     /// receding), with β, γ and D.
     #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]
     lg: bool,
+
+    /// Place of caption, legend and scale: below, beside the picture, or over its corner top-left ...
+    ///
+    /// Beside it they leave fewer columns for the scene; in a corner (top-left, top-right,
+    /// bottom-left, bottom-right) they leave all of it, and cover a part.
+    #[arg(long, value_name = "PLACE", visible_alias = "legend-place", value_parser = place,
+          help_heading = ANNOTATIONS)]
+    lp: Option<Place>,
 
     /// Outline of moving bodies as they would look at rest, centred where each body is seen
     #[arg(long, visible_alias = "undistorted", help_heading = ANNOTATIONS)]
@@ -270,6 +283,13 @@ pub struct AnnotationArgs {
 
 fn text_size(pixels: f64) -> Result<f64, String> {
     if (4.0..=200.0).contains(&pixels) { Ok(pixels) } else { Err("text is 4 to 200 pixels large".to_owned()) }
+}
+
+/// Value parser: where caption and legend are.
+fn place(word: &str) -> Result<Place, String> {
+    let named = Place::NAMES.into_iter().find(|(name, _)| *name == word);
+    let names = || format!("one of {}", Place::NAMES.map(|(name, _)| name).join(", "));
+    named.map(|(_, place)| place).ok_or_else(names)
 }
 
 /// A word of -map or -iso.
@@ -325,7 +345,9 @@ impl AnnotationArgs {
             Ok::<_, Failure>(IsoOptions { quantity, values })
         };
         Ok(AnnotationOptions {
+            title: self.title.clone().unwrap_or_default(),
             caption: self.cap.clone().unwrap_or_default(),
+            place: self.lp.unwrap_or_default(),
             legend: self.lg,
             outline: self.dl,
             grid: self.gr,

@@ -62,10 +62,10 @@ pub enum Error {
     #[error("vector graphics are at most {MAX_VECTOR_SIDE} points along a side")]
     VectorSize,
     /// A word of the caption, or the legend, is wider than the picture.
-    #[error("the picture is too narrow for a caption, legend or scale")]
+    #[error("the picture is too narrow for a title, caption, legend or scale")]
     TooNarrow,
     /// Caption and legend are almost as high as the picture.
-    #[error("caption and legend leave no room for the picture")]
+    #[error("title, caption and legend leave no room for the picture")]
     NoRoom,
     /// A pixel to be explained that is not in the picture.
     #[error(

@@ -81,7 +81,7 @@ pub use limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE};
 pub use line::{DepthPoint, clip_line, in_picture, visible_parts};
 pub use metadata::metadata;
 pub use note::Note;
-pub use options::{AnnotationOptions, PictureOptions};
+pub use options::{AnnotationOptions, PictureOptions, Place};
 pub use output::Output;
 pub use picture_file::PictureFile;
 pub use quantity::{IsoOptions, MapOptions, Quantity};

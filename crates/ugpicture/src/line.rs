@@ -28,6 +28,11 @@ pub fn in_picture(view: &View, [a, b]: [DVec3; 2]) -> Option<[DVec3; 2]> {
     Some([start, end].map(|part| a + (b - a) * part))
 }
 
+/// True if a point, relative to the eye, is in the picture and between the clipping planes.
+pub fn is_in_picture(view: &View, point: DVec3) -> bool {
+    view.half_spaces().into_iter().flatten().all(|side| side.normal.dot(point) + side.offset >= 0.0)
+}
+
 /// A place in the picture with depth: column, row and depth key, which is linear in the picture.
 pub type DepthPoint = [f64; 3];
 

@@ -30,6 +30,12 @@ pub enum Note {
     },
     /// Vertices are to be repeated, but have colours as seen.
     NotRepeated,
+    /// So many labels are at vertices outside the picture.
+    LabelsOutside(usize),
+    /// Only a pinhole camera shows labels.
+    NoLabels,
+    /// A body that a picture of the whole size shows is cut.
+    CutByText,
     /// Rays do not meet wires.
     NoWires,
     /// Round faces of bodies on world lines are drawn as polygons.
@@ -183,6 +189,12 @@ impl fmt::Display for Note {
             Self::NotRepeated => "vertices with colours as seen are not repeated",
             Self::CutRounds => {
                 "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
+            }
+            Self::LabelsOutside(1) => "a label is at a vertex outside the picture",
+            Self::LabelsOutside(n) => return write!(f, "{n} labels are at vertices outside the picture"),
+            Self::NoLabels => "labels are left out: only pictures of a single pinhole camera have them",
+            Self::CutByText => {
+                "title, caption or legend take rows from the picture, which cut off a part of a body"
             }
             Self::NoWires => "wires are left out: rays do not meet lines",
             Self::UpReplaced => "the up direction is zero or parallel to the view, so another axis is up",

@@ -201,11 +201,45 @@ impl PictureOptions {
     }
 }
 
+/// Where caption, legend and scale are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Place {
+    /// On strips below the scene.
+    #[default]
+    Below,
+    /// In a column to the right of the scene.
+    Beside,
+    /// Over the upper left corner of the scene.
+    TopLeft,
+    /// Over the upper right corner.
+    TopRight,
+    /// Over the lower left corner.
+    BottomLeft,
+    /// Over the lower right corner.
+    BottomRight,
+}
+
+impl Place {
+    /// All places, with their names.
+    pub const NAMES: [(&'static str, Self); 6] = [
+        ("below", Self::Below),
+        ("beside", Self::Beside),
+        ("top-left", Self::TopLeft),
+        ("top-right", Self::TopRight),
+        ("bottom-left", Self::BottomLeft),
+        ("bottom-right", Self::BottomRight),
+    ];
+}
+
 /// Which annotations a picture has.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AnnotationOptions {
+    /// Text above the picture; none if it is blank.
+    pub title: String,
     /// Text below the picture; none if it is blank.
     pub caption: String,
+    /// Where caption, legend and scale are, if not below the picture.
+    pub place: Place,
     /// Below the picture: the visible spectrum with its wavelengths, velocities, γ, and the Doppler
     /// factors that are seen.
     pub legend: bool,
@@ -226,6 +260,7 @@ pub struct AnnotationOptions {
 impl AnnotationOptions {
     /// True if there are some.
     pub fn is_any(&self) -> bool {
-        *self != Self { units: self.units.clone(), ..Self::default() }
+        let Self { place, text_size, ref units, .. } = *self;
+        *self != Self { place, text_size, units: units.clone(), ..Self::default() }
     }
 }

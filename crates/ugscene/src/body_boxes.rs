@@ -203,7 +203,7 @@ fn add_box(scene: &mut Scene, part: &Part) {
         add_vertex(scene, point);
     });
     let contours = scene.contours.push_all([corners]);
-    scene.wires.push(Wire { name: None, contours, color: None, body: part.body });
+    scene.wires.push(Wire { name: None, contours, color: None, body: part.body, text: None });
 }
 
 fn add_vertex(scene: &mut Scene, position: DVec3) -> VertexId {

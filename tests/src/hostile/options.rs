@@ -51,7 +51,7 @@ const EXCLUDED: [&str; 18] = [
 ];
 
 /// Values that are possible, by the names of options, where a number between 0 and 1 is not enough.
-const VALUES: [(&str, &[&str]); 30] = [
+const VALUES: [(&str, &[&str]); 31] = [
     ("--infrared-rule", &["measured", "constant"]),
     ("--across", &["va 2", "vel 3"]),
     ("-c", &["30km/h", "1e-9 m/s"]),
@@ -71,6 +71,7 @@ const VALUES: [(&str, &[&str]); 30] = [
     ("--infrared", &["0.sky"]),
     ("-iso", &["D", "D .5 1 2", "time", "distance 3"]),
     ("-lb", &["none", "names"]),
+    ("-lp", &["below", "beside", "top-left", "bottom-right"]),
     ("-map", &["D", "D .5 2", "speed", "z -1 9"]),
     ("-only", &["1", "1..2"]),
     ("-part", &["-180 180 -90 90", "-90 90 -45 45"]),

@@ -24,12 +24,13 @@ const DEFINITION: &str = "def d ; v a % ; v b % ; v c 0 0 1 ; v e 1 0 0 ;
 f (a b c) ^ ; f (a e b) red1 ; f (b e c) ; f (c e a) red2 ~ ; end ;\n";
 
 /// Statements that are valid whatever replaces their signs.
-const MILD: [&str; 19] = [
+const MILD: [&str; 20] = [
     "f (* * *) ^ ~ ;",
     "f @ (* * *) ^ # ~ ;",
     "f (v0 v1 v2 v3) red0 mirror ~ ;",
     "f (v4 v5 v6) red1 glass ~ ;",
     "w (* * *) ^ ~ ;",
+    "label @ \"at # (γ; 2)\" * ~ ;",
     "sphere @ % 1# ^ ~ ;",
     "cylinder # # # 2 # # # red0 glass ~ ;",
     "tube 0 0 # # 1 # # red0 # ~ ;",
@@ -47,12 +48,13 @@ const MILD: [&str; 19] = [
 ];
 
 /// Statements that may be invalid.
-const WILD: [&str; 23] = [
+const WILD: [&str; 24] = [
     "f (* * * * * *)(* * *) ^ ~ ;",
     "f (@ * *) ;",
     "sphere @ (* * *)(* * *) red0 mirror ~ ; disc (* * * *) ^ ; cylinder (* * * *)(* * * *) ^ ~ ;",
     "sphere % % ; tube @ % % # ^ ~ ; disc % % % ; cylinder % # red0 ;",
     "v @ % ^ % ;",
+    "label @ \"@ { # \" * ; label \"\" * ; label \"漢\" @ ~ ; label @ ;",
     "v v0 % ;",
     "a (d) 4000# -tx # ;",
     "def @ ; i (@) ; end ;",

@@ -74,9 +74,18 @@ pub enum Element<S> {
     },
     /// A line of text.
     Text(Text),
-    /// Clips the following elements to the given number of pixel rows from the top; `None` ends the
-    /// clipping.
-    ClipRows(Option<u32>),
+    /// Begins a window, whose upper left corner is the origin of the following elements and whose
+    /// edges clip them; `None` ends it.
+    Window(Option<Window>),
+}
+
+/// A rectangle of pixels in a larger picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// Column and row of the upper left corner.
+    pub corner: [u32; 2],
+    /// Width and height.
+    pub size: [u32; 2],
 }
 
 /// A line of text in the embedded font, DejaVu Sans, which has all of its characters.
@@ -92,7 +101,12 @@ pub struct Text {
     pub size: f64,
     /// Its colour.
     pub color: Rgb,
+    /// True for letters slanted by [`SLANT`].
+    pub is_slanted: bool,
 }
+
+/// Tangent of the angle by which the stems of slanted letters lean to the right.
+pub const SLANT: f64 = 0.2;
 
 /// A triangle with a colour at each corner, interpolated linearly between them in display encoding.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -187,8 +201,8 @@ enum PaintOp<'a> {
     Text(&'a Text),
     /// All consecutive triangles.
     Mesh(Mesh),
-    /// See [`Element::ClipRows`].
-    ClipRows(Option<u32>),
+    /// See [`Element::Window`].
+    Window(Option<Window>),
 }
 
 /// The lines of text of a figure.
@@ -214,7 +228,7 @@ fn paint_ops(figure: &Figure<GouraudTriangle>) -> impl Iterator<Item = PaintOp<'
                 PaintOp::Line { ends: *ends, width: *width, color: *color }
             }
             Element::Text(text) => PaintOp::Text(text),
-            Element::ClipRows(rows) => PaintOp::ClipRows(*rows),
+            Element::Window(window) => PaintOp::Window(*window),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();
                 mesh.push(triangle);

@@ -5,7 +5,8 @@ use pdf_writer::{Content, Filter, Name, Pdf, Ref, Str};
 
 use super::pdf_font::{FONT_NAME, PdfFont};
 use super::{
-    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Text, paint_ops, texts,
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, SLANT, Text, Window,
+    paint_ops, texts,
 };
 use crate::Metadata;
 use crate::pdf::{FIRST, deflate, document};
@@ -82,18 +83,24 @@ impl Page<'_> {
                     self.meshes.push(mesh);
                 }
                 PaintOp::Text(text) => self.show(text),
-                PaintOp::ClipRows(rows) => self.clip_rows(figure.size[0], rows),
+                PaintOp::Window(window) => self.window(window),
             }
         }
     }
 
-    /// Begins or ends clipping. Saving and restoring the graphics state also affects colour and
+    /// Begins or ends a window. Saving and restoring the graphics state also affects colour and
     /// line width, so they are set again.
-    fn clip_rows(&mut self, width: u32, rows: Option<u32>) {
+    fn window(&mut self, window: Option<Window>) {
         (self.color, self.width) = (None, None);
-        match rows {
-            Some(rows) => {
-                self.content.save_state().rect(0.0, 0.0, width as f32, rows as f32);
+        match window {
+            Some(Window { corner, size }) => {
+                self.content.save_state();
+                if corner != [0, 0] {
+                    let [left, top] = corner.map(|side| side as f32);
+                    self.content.transform([1.0, 0.0, 0.0, 1.0, left, top]);
+                }
+                let [width, height] = size.map(|side| side as f32);
+                self.content.rect(0.0, 0.0, width, height);
                 self.content.clip_nonzero().end_path();
             }
             None => {
@@ -132,7 +139,8 @@ impl Page<'_> {
         let [x, y] = rounded(&text.origin);
         // Rows of the page count downwards, letters stand upright.
         self.content.begin_text().set_font(Name(FONT_NAME), text.size as f32);
-        self.content.set_text_matrix([1.0, 0.0, 0.0, -1.0, x, y]);
+        let slant = if text.is_slanted { SLANT as f32 } else { 0.0 };
+        self.content.set_text_matrix([1.0, 0.0, slant, -1.0, x, y]);
         let mut line = self.content.show_positioned();
         let mut items = line.items();
         for (bytes, adjustment) in self.font.runs(text) {

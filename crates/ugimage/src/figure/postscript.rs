@@ -2,7 +2,8 @@
 
 use super::postscript_font::{definition, show};
 use super::{
-    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, number, paint_ops, texts,
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Window, number, paint_ops,
+    texts,
 };
 use crate::Metadata;
 use crate::pdf::deflate;
@@ -74,7 +75,7 @@ fn drawing(figure: &Figure<GouraudTriangle>) -> Vec<u8> {
                 page.set_color(text.color);
                 page.add(&show(text));
             }
-            PaintOp::ClipRows(rows) => page.clip_rows(figure.size[0], rows),
+            PaintOp::Window(window) => page.window(window),
         }
     }
     page.add("grestore\n");
@@ -109,12 +110,18 @@ impl Page {
         self.out.extend_from_slice(text.as_bytes());
     }
 
-    /// Begins or ends clipping. Saving and restoring the graphics state also affects colour and
+    /// Begins or ends a window. Saving and restoring the graphics state also affects colour and
     /// line width, so they are set again.
-    fn clip_rows(&mut self, width: u32, rows: Option<u32>) {
+    fn window(&mut self, window: Option<Window>) {
         (self.color, self.width) = (None, None);
-        match rows {
-            Some(rows) => self.add(&format!("gsave 0 0 {width} {rows} rectclip\n")),
+        match window {
+            Some(Window { corner: [left, top], size: [width, height] }) => {
+                let moved = match (left, top) {
+                    (0, 0) => String::new(),
+                    _ => format!("{left} {top} translate "),
+                };
+                self.add(&format!("gsave {moved}0 0 {width} {height} rectclip\n"));
+            }
             None => self.add("grestore\n"),
         }
     }

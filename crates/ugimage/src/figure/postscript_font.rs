@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Text, number};
+use super::{SLANT, Text, number};
 use crate::postscript::Ascii85;
 use crate::typeface;
 
@@ -40,10 +40,12 @@ pub fn definition<'a>(texts: impl Iterator<Item = &'a Text>, out: &mut Vec<u8>) 
 }
 
 /// Code that shows a line, each character at its place.
-pub fn show(Text { text, places, origin: [x, y], size, .. }: &Text) -> String {
+pub fn show(Text { text, places, origin: [x, y], size, is_slanted, .. }: &Text) -> String {
+    let slant = number(if *is_slanted { SLANT * size } else { 0.0 });
     let size = number(*size);
     // Rows of the page count downwards, letters stand upright.
-    let mut code = format!("/{} findfont [{size} 0 0 -{size} 0 0] makefont setfont\n", typeface::SUBSET_NAME);
+    let mut code =
+        format!("/{} findfont [{size} 0 {slant} -{size} 0 0] makefont setfont\n", typeface::SUBSET_NAME);
     for (character, place) in text.chars().zip(places) {
         code += &format!("{} {} m /{} glyphshow\n", number(x + place), number(*y), glyph_name(character));
     }

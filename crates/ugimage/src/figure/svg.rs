@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, Text, number, seams, texts};
+use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, Text, Window, number, seams, texts};
 use crate::svg::{document, escaped};
 use crate::{Metadata, typeface};
 
@@ -46,12 +46,15 @@ pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
                 out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
             }
             Element::Text(text) => out += &text_element(text),
-            Element::ClipRows(Some(rows)) => {
-                out +=
-                    &format!("<clipPath id=\"c\"><path d=\"M0 0H{}V{rows}H0z\"/></clipPath>", figure.size[0]);
-                out += "<g clip-path=\"url(#c)\">\n";
+            Element::Window(Some(Window { corner: [left, top], size: [width, height] })) => {
+                out += &format!("<clipPath id=\"c\"><path d=\"M0 0H{width}V{height}H0z\"/></clipPath>");
+                let moved = match (left, top) {
+                    (0, 0) => String::new(),
+                    _ => format!(" transform=\"translate({left} {top})\""),
+                };
+                out += &format!("<g clip-path=\"url(#c)\"{moved}>\n");
             }
-            Element::ClipRows(None) => out += "</g>\n",
+            Element::Window(None) => out += "</g>\n",
         }
     }
     out += "</g>\n";
@@ -68,10 +71,11 @@ fn font_face() -> String {
 }
 
 /// A line of text. Viewers apply the kerning of the font, as [`Text::places`] do.
-fn text_element(Text { text, origin, size, color, .. }: &Text) -> String {
+fn text_element(Text { text, origin, size, color, is_slanted, .. }: &Text) -> String {
     let ([x, y], size) = (origin.map(number), number(*size));
     format!(
-        "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\" fill=\"{}\">{}</text>\n",
+        "<text x=\"{x}\" y=\"{y}\" font-size=\"{size}\"{} fill=\"{}\">{}</text>\n",
+        if *is_slanted { " font-style=\"oblique\"" } else { "" },
         hex(*color),
         escaped(text)
     )

@@ -81,9 +81,9 @@ impl Drawing {
         }
     }
 
-    /// Adds a line of text whose baseline begins at `origin`.
+    /// Adds a line of text whose baseline begins at `origin`. Symbols of physics are slanted.
     pub fn text(&mut self, line: &Line, origin: Point, color: Rgb) {
-        self.shapes.push(Shape::Text(line.at(origin, color)));
+        self.shapes.extend(line.at(origin, color).map(Shape::Text));
     }
 
     /// Adds an arrow from one point to another; `width` is the width of its shaft.
@@ -101,6 +101,19 @@ impl Drawing {
         let end = [neck[0] + 0.5 * head * x, neck[1] + 0.5 * head * y];
         self.lines(vec![[from, end]], width, color);
         self.area(vec![to, side(0.42 * head), side(-0.42 * head)], color);
+    }
+
+    /// Adds the shapes of another drawing, whose upper left corner is at `corner`.
+    pub fn push(&mut self, other: Self, corner: Point) {
+        let moved = |point: &mut Point| (0..2).for_each(|axis| point[axis] += corner[axis]);
+        self.shapes.extend(other.shapes.into_iter().map(|mut shape| {
+            match &mut shape {
+                Shape::Area { contours, .. } => contours.iter_mut().flatten().for_each(moved),
+                Shape::Lines { lines, .. } => lines.iter_mut().flatten().for_each(moved),
+                Shape::Text(text) => moved(&mut text.origin),
+            }
+            shape
+        }));
     }
 
     /// The shapes as elements of a vector figure.

@@ -61,12 +61,14 @@ impl SizedFont {
         self.scale * f64::from(self.font.h_advance_unscaled(glyph.0) + kern)
     }
 
-    /// The outlines of a glyph whose origin, on the baseline, is at `origin`.
-    pub fn contours(&self, glyph: Glyph, origin: Point) -> Vec<Vec<Point>> {
+    /// The outlines of a glyph whose origin, on the baseline, is at `origin`. `slant`: tangent of the
+    /// angle by which it leans to the right.
+    pub fn contours(&self, glyph: Glyph, origin: Point, slant: f64) -> Vec<Vec<Point>> {
         let mut contours: Vec<Vec<Point>> = Vec::new();
         let Some(outline) = self.font.outline(glyph.0) else { return contours };
         let place = |point: ab_glyph::Point| {
-            [origin[0] + self.scale * f64::from(point.x), origin[1] - self.scale * f64::from(point.y)]
+            let [x, y] = [point.x, point.y].map(|part| self.scale * f64::from(part));
+            [origin[0] + x + slant * y, origin[1] - y]
         };
         let mut last = None;
         for curve in outline.curves {
@@ -145,7 +147,7 @@ mod tests {
     fn no_glyph_has_outlines_that_overlap() {
         let font = SizedFont::new(200.0);
         for character in font.font.codepoint_ids().map(|(_, character)| character) {
-            let contours = font.contours(font.glyph(character).unwrap(), [0.0, 200.0]);
+            let contours = font.contours(font.glyph(character).unwrap(), [0.0, 200.0], 0.0);
             for row in (0..300).step_by(4) {
                 for column in (0..300).step_by(5) {
                     let place = [f64::from(column) + 0.37 - 40.0, f64::from(row) + 0.41];

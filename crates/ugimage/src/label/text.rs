@@ -1,6 +1,6 @@
 //! Lines of text, and paragraphs broken into lines.
 
-use crate::figure::{Point, Rgb, Text};
+use crate::figure::{Point, Rgb, SLANT, Text};
 
 use crate::label::font::{Glyph, MissingCharacter, SizedFont};
 
@@ -48,17 +48,44 @@ impl Line {
         self.width
     }
 
-    /// The line with a baseline that begins at `origin`.
-    pub fn at(&self, origin: Point, color: Rgb) -> Text {
-        Text { text: self.text.clone(), places: self.places.clone(), origin, size: self.size, color }
+    /// The line with a baseline that begins at `origin`, in runs of upright or slanted characters.
+    pub fn at(&self, [x, y]: Point, color: Rgb) -> impl Iterator<Item = Text> {
+        let chars: Vec<char> = self.text.chars().collect();
+        let slanted: Vec<(bool, usize)> = (0..chars.len()).map(|at| (is_symbol(&chars, at), at)).collect();
+        let runs = slanted.chunk_by(|one, next| one.0 == next.0).map(|run| {
+            let (is_slanted, first) = run[0];
+            let (size, start) = (self.size, self.places[first]);
+            let places = run.iter().map(|&(_, at)| self.places[at] - start).collect();
+            let text = chars[first..first + run.len()].iter().collect();
+            Text { text, places, origin: [x + start, y], size, color, is_slanted }
+        });
+        runs.collect::<Vec<_>>().into_iter()
+    }
+}
+
+/// True for a letter that stands alone and is a symbol of a quantity: β, γ, λ, τ anywhere, others
+/// before a sign such as `=`, so that no unit or word is one.
+fn is_symbol(text: &[char], at: usize) -> bool {
+    let is_letter = |c: Option<&char>| c.is_some_and(|c| c.is_alphanumeric());
+    let (before, after) = text.split_at(at);
+    if is_letter(before.last()) || is_letter(after.get(1)) {
+        return false;
+    }
+    let next = after[1..].iter().find(|&&c| c != ' ');
+    match after[0] {
+        'β' | 'γ' | 'λ' | 'τ' => true,
+        'D' if before.ends_with(&['f', 'a', 'c', 't', 'o', 'r', ' ']) => true,
+        'D' | 'v' | 'z' | 't' | 'x' | 'y' => next.is_some_and(|c| "=<>≤≥≈".contains(*c)),
+        _ => false,
     }
 }
 
 /// The outlines of all characters of a line.
-pub fn contours(Text { text, places, origin: [x, y], size, .. }: &Text) -> Vec<Vec<Point>> {
+pub fn contours(Text { text, places, origin: [x, y], size, is_slanted, .. }: &Text) -> Vec<Vec<Point>> {
+    let slant = if *is_slanted { SLANT } else { 0.0 };
     let font = SizedFont::new(*size);
     let glyphs = text.chars().zip(places).filter_map(|(c, place)| Some((font.glyph(c).ok()?, place)));
-    glyphs.flat_map(|(glyph, place)| font.contours(glyph, [x + place, *y])).collect()
+    glyphs.flat_map(|(glyph, place)| font.contours(glyph, [x + place, *y], slant)).collect()
 }
 
 /// Text broken into lines of at most `width` pixels: at line breaks, between words, and inside a
@@ -130,9 +157,46 @@ mod tests {
     }
 
     #[test]
+    fn symbols_are_slanted_and_words_and_units_upright() {
+        let slanted = |text: &str| {
+            let line = Line::new(text, 10.0).unwrap();
+            let runs: Vec<Text> = line.at([3.0, 0.0], [0; 3]).collect();
+            let whole: String = runs.iter().map(|run| &run.text[..]).collect();
+            assert_eq!(whole, text);
+            let ends = runs.iter().map(|run| run.origin[0] + run.places[run.places.len() - 1] - 3.0);
+            assert!(
+                ends.zip(runs.iter().scan(0, |n, run| {
+                    *n += run.places.len();
+                    Some(*n)
+                }))
+                .all(|(end, n)| (end - line.places[n - 1]).abs() < 1e-9)
+            );
+            runs.into_iter().filter(|run| run.is_slanted).map(|run| run.text).collect::<String>()
+        };
+        let rows = [
+            ("β = 0.9,  γ = 2.29", "βγ"),
+            ("D = 0.3 – 2,  τ = 3 s", "Dτ"),
+            ("v = 300 km/s", "v"),
+            ("x = −3 m", "x"),
+            ("speed β", "β"),
+            ("t≈4", "t"),
+            ("Doppler factor D", "D"),
+            ("", ""),
+            ("vitamin D at t", ""),
+            ("γ-rays, αβγ, 2λ", "γ"),
+            ("D1 = 2", ""),
+        ];
+        for (text, symbols) in rows {
+            assert_eq!(slanted(text), symbols, "{text}");
+        }
+    }
+
+    #[test]
     fn letters_stay_within_ascent_and_descent() {
         for text in ["Éßgjpqy|ﬁ", "(γ = 2,29)²", "ÀÂÅ Ωβ∫"] {
-            let contours = contours(&Line::new(text, 100.0).unwrap().at([0.0, 0.0], [0; 3]));
+            let line = Line::new(text, 100.0).unwrap();
+            let contours = line.at([0.0, 0.0], [0; 3]).flat_map(|run| contours(&run));
+            let contours: Vec<_> = contours.collect();
             let rows: Vec<f64> = contours.iter().flatten().map(|place| place[1]).collect();
             // Accents on capitals reach higher than ASCENT.
             assert!(

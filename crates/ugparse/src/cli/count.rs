@@ -173,12 +173,14 @@ fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statemen
     let written = |count: fn(&Scope<'_>) -> usize| document.scopes.iter().map(count).sum();
     let row =
         |kind, count: fn(&Scope<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
+    let n_labels = scene.labels().count();
     vec![
         row("colours", |scope| scope.colors.table.len(), Some(scene.colors.len())),
         row("surfaces", |scope| scope.surfaces.table.len(), Some(scene.surfaces.len())),
         row("vertices", |scope| scope.vertices.len(), Some(scene.vertices.len())),
         row("faces", |scope| scope.faces.len(), Some(scene.faces.len())),
-        row("wires", |scope| scope.wires.len(), Some(scene.wires.len())),
+        row("wires", |scope| scope.wires.len() - label_count(scope), Some(scene.wires.len() - n_labels)),
+        row("labels", label_count, Some(n_labels)),
         row("lights", |scope| scope.lights.len(), Some(scene.lights.len())),
         row("cameras", |scope| scope.cameras.len(), Some(scene.cameras.len())),
         row("escapes", |scope| scope.escapes.len(), Some(scene.remarks.escapes.len())),
@@ -187,6 +189,10 @@ fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statemen
         row("instances", |scope| scope.calls.len() - array_count(scope), None),
         row("arrays", array_count, None),
     ]
+}
+
+fn label_count(scope: &Scope<'_>) -> usize {
+    scope.wires.rows.iter().filter(|wire| wire.text.is_some()).count()
 }
 
 fn array_count(scope: &Scope<'_>) -> usize {

@@ -6,6 +6,7 @@
 mod bodies;
 mod cameras;
 mod comments;
+mod labels;
 mod motions;
 mod names;
 mod paths;
@@ -111,6 +112,7 @@ fn expand_here<'t>(
     let (motions, wrong) = expander.set_motions(&motions);
     let is_valid = wrong.is_empty();
     expander.file(file);
+    labels::follow_vertices(&mut expander.scene);
     findings.extend(wrong);
     findings.extend(expander.finish_motions(&motions, is_valid));
     findings.extend(std::mem::take(&mut expander.undefined).into_values());

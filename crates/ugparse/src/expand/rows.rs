@@ -80,6 +80,7 @@ impl Expander<'_, '_> {
             contours: self.contours(placement, wire.contours.clone(), false),
             color: placement.color(wire.color, row, |default| default.first_wire),
             body: placement.bodies[wire.body.index()],
+            text: wire.text.map(|text| self.scene.names.add(scope.names.get(text))),
         };
         self.scene.wires.push(placed);
     }

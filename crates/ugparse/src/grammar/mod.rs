@@ -28,12 +28,12 @@ use crate::statement::{
     Statement, SurfaceStatement, VertexStatement,
 };
 use crate::token::{
-    FILE_NAME, Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, mark, number,
-    number32, point, require, wanted, word,
+    FILE_NAME, Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, label_text,
+    mark, number, number32, point, require, wanted, word,
 };
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam \
+pub(crate) const KEYWORDS: &str = "v w label f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam \
                                    motion sky def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
@@ -74,6 +74,7 @@ impl<'t> Grammar<'t> {
             b"v" => self.vertex(input),
             b"f" => self.face(input, references),
             b"w" => self.wire(input, references),
+            b"label" => self.label(input, references),
             b"sphere" => self.round(FaceShape::Sphere, input, references),
             b"cylinder" => self.round(FaceShape::Cylinder, input, references),
             b"tube" => self.round(FaceShape::Tube, input, references),
@@ -162,7 +163,7 @@ impl<'t> Grammar<'t> {
         let (input, color) = self.optional_name(input)?;
         let (input, shading) = self.shading(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Face(FaceStatement { name, color, shading, motion, shape, round })))
+        Ok((input, Statement::Face(FaceStatement { name, color, shading, motion, shape, round, text: None })))
     }
 
     /// `number` or `surface`
@@ -181,7 +182,23 @@ impl<'t> Grammar<'t> {
         let (input, color) = self.optional_name(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
         let (shading, shape, round) = (None, FaceShape::Polygon, None);
-        Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round })))
+        Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round, text: None })))
+    }
+
+    /// `label [ID] "text" vertex [< x y z >]`, our extension.
+    fn label<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
+        references.clear();
+        let (input, name) = self.optional_name(input)?;
+        let (at, ()) = blank(input)?;
+        let text = label_text(at)?.1;
+        let (input, vertex) = require(wanted(self.name(&at[text.len() + 2..]), "a vertex name"))?;
+        references.names.push(vertex);
+        references.ends.push(1);
+        let start = self.position(at) + 1;
+        let text = Some(Span { start, end: start + text.len() as u32 });
+        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        let (color, shading, shape, round) = (None, None, FaceShape::Polygon, None);
+        Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round, text })))
     }
 
     /// One or more `( vertex … )`.

@@ -71,7 +71,7 @@ pub(crate) fn has_three(corners: &[VertexId]) -> bool {
 
 /// Is a wire degenerate?
 pub(crate) fn is_short(contours: &Contours, wire: &Wire) -> bool {
-    contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
+    wire.text.is_none() && contours.iter(wire.contours.clone()).any(|contour| contour.len() < 2)
 }
 
 /// The warning for a degenerate wire.

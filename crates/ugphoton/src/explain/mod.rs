@@ -110,7 +110,7 @@ pub fn explain(
         return Err(SkyError::Explained.into());
     }
     let canvas = config.canvas()?;
-    canvas.check_pixel(pixel)?;
+    let pixel = canvas.pixel_of_scene(pixel)?;
     let config = &config.on(&canvas);
     let scenery = Scenery::new(Cow::Owned(as_seen(parsed.scene.clone(), config)?), config)?;
     let light_names = light_names(&scenery.scene);

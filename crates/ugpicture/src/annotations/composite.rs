@@ -1,6 +1,6 @@
 //! Annotations drawn over pixels, or added to a vector figure.
 
-use ugimage::figure::{Element, Figure};
+use ugimage::figure::{Element, Figure, Window};
 use ugimage::label::{Drawing, TextForm};
 use ugimage::{Frame, LinearFrame, Quantizer};
 
@@ -8,17 +8,17 @@ use crate::image::Image;
 use crate::note::Note;
 use crate::rendering::{Content, VectorFigure};
 
-/// Annotations over and below the picture of a scene, ready to be composited.
+/// Annotations over and beside the picture of a scene, ready to be composited.
 pub struct Annotations {
     /// Pixels of the whole picture.
     pub size: [u32; 2],
-    /// Rows of the scene, which is at the top.
-    pub scene_rows: u32,
-    /// Background of the strips below, as light developed for a display; `None` if transparent.
+    /// The part of it with the scene.
+    pub scene: Window,
+    /// Background of the strips around the scene, as light developed for a display; `None` if transparent.
     pub background: Option<[f32; 3]>,
-    /// Drawn over the scene.
+    /// Drawn over the scene, from its upper left corner.
     pub over: Drawing,
-    /// Drawn on the strips.
+    /// Drawn on the whole picture.
     pub strips: Drawing,
     /// The form of their text in vector figures.
     pub text: TextForm,
@@ -47,11 +47,11 @@ impl Annotations {
                 self.over.paint(&mut frame);
                 if self.has_strips() {
                     let quantizer = Quantizer::new();
-                    let below = self.background.map_or([0; 4], |light| {
+                    let strip = self.background.map_or([0; 4], |light| {
                         let [red, green, blue] = light.map(|part| quantizer.level(part));
                         [red, green, blue, 255]
                     });
-                    frame = Frame::new(self.size, frame.is_opaque(), self.taller(frame.pixels(), below));
+                    frame = Frame::new(self.size, frame.is_opaque(), self.larger(frame.pixels(), strip));
                 }
                 self.strips.paint(&mut frame);
                 Image::Display(frame)
@@ -59,10 +59,10 @@ impl Annotations {
             Image::Light(mut frame) => {
                 self.over.paint_light(&mut frame);
                 if self.has_strips() {
-                    let below =
+                    let strip =
                         self.background.map_or([0.0; 4], |[red, green, blue]| [red, green, blue, 0.0]);
                     frame =
-                        LinearFrame::new(self.size, frame.is_opaque(), self.taller(frame.pixels(), below));
+                        LinearFrame::new(self.size, frame.is_opaque(), self.larger(frame.pixels(), strip));
                 }
                 self.strips.paint_light(&mut frame);
                 Image::Light(frame)
@@ -71,13 +71,19 @@ impl Annotations {
     }
 
     fn has_strips(&self) -> bool {
-        self.scene_rows < self.size[1]
+        self.scene.size != self.size
     }
 
-    /// The pixels of the scene with strips below them.
-    fn taller<P: Copy>(&self, scene: &[P], below: P) -> Vec<P> {
-        let mut pixels = scene.to_vec();
-        pixels.resize(self.size[0] as usize * self.size[1] as usize, below);
+    /// The pixels of the scene with strips around them.
+    fn larger<P: Copy>(&self, scene: &[P], strip: P) -> Vec<P> {
+        let [width, height] = self.size.map(|side| side as usize);
+        let [left, top] = self.scene.corner.map(|side| side as usize);
+        let columns = self.scene.size[0] as usize;
+        let mut pixels = vec![strip; width * height];
+        let rows = pixels.chunks_exact_mut(width).skip(top);
+        for (row, seen) in rows.zip(scene.chunks_exact(columns)) {
+            row[left..left + columns].copy_from_slice(seen);
+        }
         pixels
     }
 
@@ -87,8 +93,8 @@ impl Annotations {
         figure.elements.extend(self.over.elements(self.text));
         if self.has_strips() {
             // Faces and lines may extend beyond the picture of the scene.
-            figure.elements.insert(0, Element::ClipRows(Some(self.scene_rows)));
-            figure.elements.push(Element::ClipRows(None));
+            figure.elements.insert(0, Element::Window(Some(self.scene)));
+            figure.elements.push(Element::Window(None));
         }
         figure.elements.extend(self.strips.elements(self.text));
         figure

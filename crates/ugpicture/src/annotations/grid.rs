@@ -9,6 +9,7 @@ use ugimage::figure::Point;
 use ugimage::label::number::significant;
 use ugimage::label::{DESCENT, Drawing, Line, MissingCharacter};
 
+use super::labels::is_apart;
 use super::seen::SeenScene;
 use super::style::Style;
 use crate::error::Error;
@@ -95,11 +96,8 @@ impl GroundGrid {
 }
 
 /// True if a box overlaps none of the others.
-fn is_free([low, high]: [Point; 2], others: &[[Point; 2]]) -> bool {
-    let is_apart = |[other_low, other_high]: &[Point; 2]| {
-        (0..2).any(|i| high[i] < other_low[i] || low[i] > other_high[i])
-    };
-    others.iter().all(is_apart)
+fn is_free(place: [Point; 2], others: &[[Point; 2]]) -> bool {
+    others.iter().all(|other| is_apart(&place, other))
 }
 
 /// The depth of the ground in the lower part of the picture, or that of the view centre if it is

@@ -1,15 +1,16 @@
-//! Annotations of a picture: a caption, a legend, a coordinate grid, the outlines of undistorted
+//! Annotations of a picture: a title, a caption, a legend, a coordinate grid, the outlines of undistorted
 //! bodies, and quantities of what is seen as false colours and lines.
 //!
-//! Caption and legend are on strips below the picture of the scene. The file keeps the requested
-//! size: the scene is drawn in the remaining rows, exactly as a picture of that size. Grid and
-//! outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]),
+//! The title is on a strip above the picture of the scene; caption and legend are on strips below it,
+//! in a column beside it or over one of its corners. The file keeps the requested size: the scene is
+//! drawn in the remaining part, exactly as a picture of that size. Grid and outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]),
 //! drawn after the light of the scene has been developed.
 
 mod color_bar;
 mod composite;
 mod grid;
 mod iso;
+mod labels;
 mod legend;
 mod map;
 mod motion;
@@ -19,18 +20,19 @@ mod style;
 
 use rayon::prelude::*;
 use ugimage::Frame;
-use ugimage::figure::Point;
+use ugimage::figure::{Point, Window};
 use ugimage::label::{DESCENT, Drawing, Line, SPACING, wrapped};
 use ugscene::{CameraOptions, Scene, View};
 
 use crate::background::Backdrop;
 use crate::emission::SeenItem;
 use crate::error::Error;
-use crate::options::{AnnotationOptions, PictureOptions};
+use crate::note::Note;
+use crate::options::{AnnotationOptions, PictureOptions, Place};
 pub use composite::Annotations;
 pub use map::Scale;
 use motion::MotionSummary;
-use seen::{SeenScene, velocities};
+use seen::{SeenScene, cuts_body, velocities};
 use style::Style;
 
 /// The subject of a picture's annotations. `E`: the error of a renderer.
@@ -74,13 +76,24 @@ pub type VisibleWires<'a, E> = dyn Fn(&Scene, &CameraOptions) -> Result<Vec<[Poi
 pub struct Layout {
     /// Pixels of the whole picture.
     size: [u32; 2],
-    /// Rows of the scene, which is at the top.
-    scene_rows: u32,
-    /// Rows of the scale of false colours below it.
+    /// The part with the scene.
+    scene: Window,
+    title: Paragraph,
+    panel: Panel,
+}
+
+/// The scale of false colours, the legend and the caption, one below the other.
+struct Panel {
+    /// Its part of the picture.
+    window: Window,
+    /// True if it covers the scene.
+    is_over: bool,
+    /// Rows of the scale.
     scale_rows: u32,
     /// Rows of the legend below that.
     legend_rows: u32,
-    caption: Vec<Line>,
+    /// Below both.
+    caption: Paragraph,
 }
 
 impl Layout {
@@ -95,31 +108,31 @@ impl Layout {
             return Err(Error::NotAnnotated);
         }
         let style = Style::new(options.size, annotations.text_size, None, options.output);
-        let [width, height] = options.size;
-        let room = f64::from(width) - 2.0 * style.margin();
-        let caption = wrapped(&annotations.caption, style.size, room)?;
-        let rows = |is_drawn: bool, rows: fn(&Style, u32) -> Option<u32>| {
-            if is_drawn { rows(&style, width).ok_or(Error::TooNarrow) } else { Ok(0) }
-        };
-        let scale_rows = rows(annotations.map.is_some(), color_bar::rows)?;
-        let legend_rows = rows(annotations.legend, legend::rows)?;
-        if caption.iter().any(|line| line.width() > room) {
-            return Err(Error::TooNarrow);
-        }
-        let below = scale_rows.saturating_add(legend_rows);
-        let strips = below.saturating_add(caption_rows(&style, caption.len()));
+        let size @ [width, height] = options.size;
+        let title = Paragraph::new(&annotations.title, TITLE * style.size, width, &style)?;
+        let place = annotations.place;
+        let panel = Panel::new(annotations, &style, size)?;
+        let [panel_width, panel_rows] = panel.window.size;
+        let below = if place == Place::Below { panel_rows } else { 0 };
+        let beside = if place == Place::Beside { panel_width } else { 0 };
         // Less than a third of the height is not enough for the scene.
-        match height.checked_sub(strips) {
-            Some(scene_rows) if scene_rows > 0 && scene_rows >= height / 3 => {
-                Ok(Self { size: options.size, scene_rows, scale_rows, legend_rows, caption })
-            }
-            _ => Err(Error::NoRoom),
-        }
+        let rows = height.checked_sub(title.rows(&style).saturating_add(below));
+        let rows = rows.filter(|&rows| rows > 0 && rows >= height / 3).ok_or(Error::NoRoom)?;
+        let scene = Window { corner: [0, height - below - rows], size: [width - beside, rows] };
+        let panel = panel.at(place, scene, (0.5 * style.size).round() as u32).ok_or(Error::NoRoom)?;
+        Ok(Self { size, scene, title, panel })
+    }
+
+    /// The column and row in the part with the scene of a pixel of the whole picture, if it is there.
+    pub fn pixel_of_scene(&self, pixel: [u32; 2]) -> Option<[u32; 2]> {
+        let Window { corner, size } = self.scene;
+        let part = |axis: usize| pixel[axis].checked_sub(corner[axis]).filter(|&at| at < size[axis]);
+        Some([part(0)?, part(1)?])
     }
 
     /// The options for the picture of the scene alone. `options`: of the whole picture.
     pub fn of_scene(&self, options: &PictureOptions) -> PictureOptions {
-        PictureOptions { size: [self.size[0], self.scene_rows], ..options.clone() }
+        PictureOptions { size: self.scene.size, ..options.clone() }
     }
 
     /// The picture of the scene in false colours with its scale, if the options ask for it.
@@ -159,23 +172,40 @@ impl Layout {
         let style = &Style::new(self.size, options.annotations.text_size, background, options.output);
         let mut all = Annotations {
             size: self.size,
-            scene_rows: self.scene_rows,
+            scene: self.scene,
             background,
             over: Drawing::default(),
             strips: Drawing::default(),
             text: options.text,
             notes: Vec::new(),
         };
+        let mut panel = Drawing::default();
+        let panel_width = f64::from(self.panel.window.size[0]);
         let AnnotationOptions { legend, outline, grid, ref iso, ref units, .. } = options.annotations;
         if let Subject::Surfaces { view, items, scene, wires } = annotated.subject {
-            if let (Some(scene), Some(wires), true) = (scene, wires, outline || grid) {
+            let has_labels = !options.output.format().is_linear()
+                && scene.is_some_and(|scene| scene.labels().next().is_some());
+            let is_smaller = self.scene.size != self.size && view.default_camera.is_none();
+            let needs_scene = outline || grid || has_labels || is_smaller;
+            if let (Some(scene), Some(wires), true) = (scene, wires, needs_scene) {
                 let seen = SeenScene::new(scene, view, options, wires)?;
+                if is_smaller {
+                    let whole = PictureOptions { size: self.size, ..options.clone() };
+                    let whole = SeenScene::new(scene, view, &whole, wires)?;
+                    all.notes.extend(cuts_body(scene, &whole.view, &seen.view).then_some(Note::CutByText));
+                }
                 if grid {
                     all.notes.extend(grid::draw(&seen, units, style, &mut all.over)?);
                 }
                 if outline {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
+                if has_labels {
+                    let note = labels::draw(&seen, style, &mut all.over).map_err(Error::from)?;
+                    all.notes.extend(note);
+                }
+            } else if has_labels {
+                all.notes.push(Note::NoLabels);
             }
             if let Some(iso) = iso {
                 let mut drawn = Ok(());
@@ -195,52 +225,127 @@ impl Layout {
                         annotated.is_shifted,
                     ));
                 })?;
-                let place = [self.size[0], self.scene_rows + self.scale_rows].map(f64::from);
                 if let Some(motion) = motion {
-                    legend::draw(&motion, units, style, place, &mut all.strips).map_err(Error::from)?;
+                    let place = [panel_width, self.panel.scale_rows.into()];
+                    legend::draw(&motion, units, style, place, &mut panel).map_err(Error::from)?;
                 }
             }
         } else if iso.is_some() {
             return Err(Error::NoSurfaces.into());
         }
         if let Some(scale) = scale {
-            let place = [self.size[0], self.scene_rows].map(f64::from);
-            color_bar::draw(scale, style, place, &mut all.strips).map_err(Error::from)?;
+            color_bar::draw(scale, style, [panel_width, 0.0], &mut panel).map_err(Error::from)?;
         }
-        self.push_caption(style, &mut all.strips);
+        let Panel { window: Window { corner, size }, scale_rows, legend_rows, ref caption, is_over } =
+            self.panel;
+        caption.draw(size[0], scale_rows + legend_rows, false, style, &mut panel);
+        let [corner, size] = [corner, size].map(|place| place.map(f64::from));
+        if is_over {
+            let end = [0, 1].map(|axis| corner[axis] + size[axis]);
+            all.strips.rectangle(corner, end, style.background);
+        }
+        all.strips.push(panel, corner);
+        self.title.draw(self.size[0], 0, true, style, &mut all.strips);
         Ok(all)
     }
+}
 
-    /// A single line is centred, several are left-aligned.
-    fn push_caption(&self, style: &Style, drawing: &mut Drawing) {
-        let Style { size, ink, .. } = *style;
-        let margin = style.margin();
-        let above = self.scene_rows + self.scale_rows + self.legend_rows;
-        let top = f64::from(above) + padding(style);
-        for (idx, line) in self.caption.iter().enumerate() {
-            let left = match self.caption.len() {
-                1 => (0.5 * (f64::from(self.size[0]) - line.width())).max(margin),
-                _ => margin,
-            };
-            // Base lines on whole rows look sharp.
-            let base = (top + size * (CAPITAL + SPACING * idx as f64)).round();
-            drawing.text(line, [left, base], ink);
+impl Panel {
+    /// Lays out its parts, at the upper left corner of a picture of this size. It is empty if it has none.
+    fn new(annotations: &AnnotationOptions, style: &Style, [width, _]: [u32; 2]) -> Result<Self, Error> {
+        let mut width = width;
+        if annotations.place != Place::Below {
+            width = (width / 2).min((PANEL * style.size).ceil() as u32);
         }
+        let rows = |is_drawn: bool, rows: fn(&Style, u32) -> Option<u32>| {
+            if is_drawn { rows(style, width).ok_or(Error::TooNarrow) } else { Ok(0) }
+        };
+        let scale_rows = rows(annotations.map.is_some(), color_bar::rows)?;
+        let legend_rows = rows(annotations.legend, legend::rows)?;
+        let caption = Paragraph::new(&annotations.caption, style.size, width, style)?;
+        if annotations.place != Place::Below && scale_rows + legend_rows == 0 {
+            let longest = caption.lines.iter().map(Line::width).fold(0.0, f64::max);
+            width = if longest > 0.0 { (longest + 2.0 * style.margin()).ceil() as u32 } else { 0 };
+        }
+        let rows = scale_rows.saturating_add(legend_rows).saturating_add(caption.rows(style));
+        let window = Window { corner: [0; 2], size: [width, rows] };
+        Ok(Self { window, is_over: false, scale_rows, legend_rows, caption })
+    }
+
+    /// Moves it to its place at the part of the picture with the scene; `None` if there is no room. `gap`: from
+    /// the edges of the scene that it covers.
+    fn at(mut self, place: Place, scene: Window, gap: u32) -> Option<Self> {
+        let ([left, top], [width, height]) = (scene.corner, scene.size);
+        let [columns, rows] = self.window.size;
+        if place == Place::Below || rows == 0 {
+            self.window.corner = [0, top + height];
+            return Some(self);
+        }
+        self.is_over = place != Place::Beside;
+        let gap = if self.is_over { gap } else { 0 };
+        let [right, low] = [width.checked_sub(columns + gap), height.checked_sub(rows + gap)];
+        self.window.corner = match place {
+            Place::Below | Place::Beside => low.map(|_| [left + width, top])?,
+            Place::TopLeft => low.zip(right).map(|_| [left + gap, top + gap])?,
+            Place::TopRight => low.and(right).map(|right| [left + right, top + gap])?,
+            Place::BottomLeft => right.and(low).map(|low| [left + gap, top + low])?,
+            Place::BottomRight => right.zip(low).map(|(right, low)| [left + right, top + low])?,
+        };
+        Some(self)
     }
 }
+
+/// Size of a title relative to that of a caption.
+const TITLE: f64 = 1.25;
+
+/// Greatest width of legend and caption beside or over the scene, in text sizes.
+const PANEL: f64 = 19.0;
 
 /// Height of capital letters with some space above, relative to the text size.
 const CAPITAL: f64 = 0.8;
 
-/// Space above and below a caption.
-fn padding(style: &Style) -> f64 {
-    0.6 * style.size
+/// Space above and below a paragraph, in sizes of a caption's text.
+const PADDING: f64 = 0.6;
+
+/// Lines of text on a strip.
+struct Paragraph {
+    lines: Vec<Line>,
+    /// Their em size in pixels.
+    size: f64,
 }
 
-fn caption_rows(style: &Style, n_lines: usize) -> u32 {
-    if n_lines == 0 {
-        return 0;
+impl Paragraph {
+    /// Text wrapped to a strip of this width, without its margins.
+    fn new(text: &str, size: f64, width: u32, style: &Style) -> Result<Self, Error> {
+        let room = f64::from(width) - 2.0 * style.margin();
+        let lines = wrapped(text, size, room)?;
+        let fits = lines.iter().all(|line| line.width() <= room);
+        if fits { Ok(Self { lines, size }) } else { Err(Error::TooNarrow) }
     }
-    let text = style.size * (CAPITAL + DESCENT + SPACING * (n_lines - 1) as f64);
-    (text + 2.0 * padding(style)).ceil() as u32
+
+    fn rows(&self, style: &Style) -> u32 {
+        let n_lines = self.lines.len();
+        if n_lines == 0 {
+            return 0;
+        }
+        let text = self.size * (CAPITAL + DESCENT + SPACING * (n_lines - 1) as f64);
+        (text + 2.0 * PADDING * style.size).ceil() as u32
+    }
+
+    /// Draws it on a strip of this width that begins at row `top`. A single line is centred, several
+    /// are left-aligned unless all are `centered`.
+    fn draw(&self, width: u32, top: u32, centered: bool, style: &Style, drawing: &mut Drawing) {
+        let margin = style.margin();
+        let top = f64::from(top) + PADDING * style.size;
+        for (idx, line) in self.lines.iter().enumerate() {
+            let left = if centered || self.lines.len() == 1 {
+                (0.5 * (f64::from(width) - line.width())).max(margin)
+            } else {
+                margin
+            };
+            // Base lines on whole rows look sharp.
+            let base = (top + self.size * (CAPITAL + SPACING * idx as f64)).round();
+            drawing.text(line, [left, base], style.ink);
+        }
+    }
 }

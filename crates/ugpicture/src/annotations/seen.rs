@@ -3,10 +3,11 @@
 use glam::DVec3;
 use ugimage::figure::Point;
 use ugphysics::Velocity;
-use ugscene::{CameraOptions, RestFrames, Scene, Vertex, View, Wire};
+use ugscene::{CameraOptions, RestFrames, Scene, Vertex, View, Wire, vertex_bodies};
 
 use super::VisibleWires;
 use crate::error::Error;
+use crate::line::is_in_picture;
 use crate::options::PictureOptions;
 
 /// A scene and its camera at one sample a pixel.
@@ -53,6 +54,18 @@ impl<'a, E: From<Error>> SeenScene<'a, E> {
     }
 }
 
+/// True if a body that is whole in the picture of one view is cut by the edges of another.
+pub fn cuts_body(scene: &Scene, whole: &View, part: &View) -> bool {
+    // In its picture, and in that of the part.
+    let mut bodies = vec![[true; 2]; scene.bodies.len()];
+    for (vertex, body) in scene.vertices.iter().zip(vertex_bodies(scene)) {
+        let point = vertex.position - part.eye;
+        let is_seen = &mut bodies[body.index()];
+        *is_seen = [is_seen[0] && is_in_picture(whole, point), is_seen[1] && is_in_picture(part, point)];
+    }
+    bodies.contains(&[true, false])
+}
+
 /// A scene with these lines as its only wires.
 fn with_wires(mut scene: Scene, eye: DVec3, lines: &[[DVec3; 2]]) -> Scene {
     let name = scene.names.add("line");
@@ -66,7 +79,7 @@ fn with_wires(mut scene: Scene, eye: DVec3, lines: &[[DVec3; 2]]) -> Scene {
             scene.add_vertex(Vertex { name, position: eye + end, color: None, normal: None, uv: None })
         });
         let contours = scene.contours.push_all([ends]);
-        scene.wires.push(Wire { name: None, contours, color: None, body });
+        scene.wires.push(Wire { name: None, contours, color: None, body, text: None });
     }
     scene
 }

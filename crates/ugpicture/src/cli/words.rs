@@ -17,7 +17,7 @@ impl Words for Error {
             Self::NotExr => "{}: with -ch write -dt exr",
             Self::NotDeveloped => "{}: leave out -ex and -tc, or write -dt png16",
             Self::NotAnnotated => {
-                "{}: leave out -cap, -lg, -dl, -gr, -map and -iso, or write -dt png16; -ch adds channels to EXR"
+                "{}: leave out -title, -cap, -lg, -dl, -gr, -map and -iso, or write -dt png16; -ch adds channels to EXR"
             }
             Self::MapVectors => "{}: leave out -vec, or -map",
             Self::NoSurfaces => "{}: leave out -map and -iso, or -cube",
@@ -29,8 +29,8 @@ impl Words for Error {
                     "vector graphics (-vec) are at most {MAX_VECTOR_SIDE} points along a side: give a smaller -sz"
                 );
             }
-            Self::TooNarrow => "{}: give a wider -sz, or leave out -cap, -lg and -map",
-            Self::NoRoom => "{}: give a larger -sz, or a shorter -cap",
+            Self::TooNarrow => "{}: give a wider -sz, or leave out -title, -cap, -lg and -map",
+            Self::NoRoom => "{}: give a larger -sz, or a shorter -title and -cap",
             Self::Pixel { pixel: [x, y], size: [width, height] } => {
                 return format!(
                     "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
@@ -72,6 +72,7 @@ impl Words for Note {
             Self::NothingInFront => remedies::NOTHING_IN_FRONT,
             Self::NothingInPicture => remedies::NOTHING_IN_PICTURE,
             Self::NothingMet => "{}; try -in, another -vc or a wider -va",
+            Self::CutByText => "{}: -lp beside leaves more rows, and a wider -va shows all of it",
             Self::NoPanorama => "{}: try another -vc, or a wider -va",
             Self::BackFacing => "{}; leave out -cb, or turn the faces round",
             Self::EdgeOn => "{}; try another -ep or a narrower -va",
@@ -98,6 +99,8 @@ impl Words for Note {
             Self::Source(_)
             | Self::NoLights { .. }
             | Self::NoWires
+            | Self::LabelsOutside(_)
+            | Self::NoLabels
             | Self::CutRounds
             | Self::NoLight { .. }
             | Self::OpenSolid(_)

@@ -97,7 +97,7 @@ pub fn explain(
         return Err(SkyError::Explained.into());
     }
     let canvas = Canvas::new(&config.picture)?;
-    canvas.check_pixel(pixel)?;
+    let pixel = canvas.pixel_of_scene(pixel)?;
     let config = &Config { picture: canvas.options().clone(), ..config.clone() };
     let picture = &config.picture;
     let setup = prepare(&parsed.scene, config)?;

@@ -239,17 +239,20 @@ pub enum Shading {
     Surface(SurfaceId),
 }
 
-/// Polylines.
+/// Polylines, or a label at a vertex.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wire {
     /// Its name, if it has one.
     pub name: Option<NameId>,
-    /// Rows of [`Scene::contours`], never empty. Each is an open polyline.
+    /// Rows of [`Scene::contours`], never empty. Each is an open polyline. A label has a single row
+    /// with its vertex.
     pub contours: Range<u32>,
     /// Colour; `None` as for faces.
     pub color: Option<ColorId>,
     /// The body it is part of.
     pub body: BodyId,
+    /// The text of a label; without it the wire is drawn as lines.
+    pub text: Option<NameId>,
 }
 
 /// A light.
@@ -510,6 +513,19 @@ impl Scene {
     /// The polylines of a wire.
     pub fn wire_contours(&self, wire: &Wire) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(wire.contours.clone())
+    }
+
+    /// The labels, each with its vertex and text.
+    pub fn labels(&self) -> impl Iterator<Item = (VertexId, &str)> {
+        self.wires.iter().filter_map(|wire| {
+            let vertex = *self.contours.corners(wire.contours.clone()).first()?;
+            Some((vertex, self.names.get(wire.text?)))
+        })
+    }
+
+    /// True if there is a wire that is no label.
+    pub fn has_lines(&self) -> bool {
+        self.wires.iter().any(|wire| wire.text.is_none())
     }
 
     /// Row of the selected camera: the first without a name, else the first.

@@ -1,6 +1,6 @@
 //! Every statement with and without each of its optional parts.
 
-use crate::language::{TRIANGLE, check, check_error, check_rest, warnings};
+use crate::language::{TRIANGLE, check, check_error, check_rest, flat, warnings};
 
 #[test]
 fn vertices() {
@@ -66,6 +66,46 @@ fn wires() {
     row("w (a a);", "w (a a);");
     check_error(&format!("{TRIANGLE}w ();"), "expected a vertex name, found `)`");
     check_error(&format!("{TRIANGLE}w (a b) .5;"), "expected `;`, found `.5`");
+}
+
+#[test]
+fn labels() {
+    let row = |label: &str, expected: &str| {
+        let out = flat(&format!("{TRIANGLE}{label}"));
+        assert_eq!(out.lines().find(|line| line.starts_with("label")), Some(expected), "{label}");
+    };
+    row("label \"the head\" a;", "label \"the head\" a;");
+    row("label head\"γ = 2; ( a )\"a { why } ;", "label head \"γ = 2; ( a )\" a;{ why }");
+    row("label label \"x\" a <0 .5 0>;", "label label \"x\" a <0 0.5 0>;");
+    // A label is part of the body of the first face, else wire, that uses its vertex.
+    row("label \"x\" a; w (a b) <0 .1 0>; f (c b a) <0 .2 0>; f (a b c);", "label \"x\" a <0 0.2 0>;");
+    let refused = |label: &str, expected: &str| check_error(&format!("{TRIANGLE}{label}"), expected);
+    let text = "expected text of 1 to 200 letters in quotes, without braces and line breaks";
+    let long = format!("label \"{}\" a;", "γ".repeat(201));
+    for label in
+        ["label a;", "label \"\" a;", "label \" \" a;", "label \"{\" a;", "label \"\u{7}\" a;", &long]
+    {
+        refused(label, text);
+    }
+    refused("label \"x\ny\" a;", text);
+    refused("label \"x;", text);
+    row(&long.replacen('γ', "", 1), &long.replacen('γ', "", 1));
+    refused("label \"x\";", "expected a vertex name, found `;`");
+    refused("label \"x\" d;", "vertex `d` is not defined");
+    refused("label \"x\" a b;", "expected `;`, found `b`");
+}
+
+/// Each instance has its labels, with their text unchanged; a path leads to a vertex of one.
+#[test]
+fn labels_of_instances() {
+    let text = "def d; v p 1 0 0; v q 0 1 0; v r 0 0 1; f (p q r) <.5 0 0>; label n \"end\" p; end;
+                i one (d -tx 2); a (d) 2 -tx 3; label \"path\" one:q;";
+    let labels = ["label one:n \"end\" one:p <0.5 0 0>;", "label #0:n \"end\" #0:p <0.5 0 0>;"];
+    let more = ["label #1:n \"end\" #1:p <0.5 0 0>;", "label \"path\" one:q <0.5 0 0>;"];
+    let out = flat(text);
+    let found: Vec<&str> = out.lines().filter(|line| line.starts_with("label")).collect();
+    assert_eq!(found, [&labels[..], &more[..]].concat());
+    check_error("def d; v p 0 0 0; end; i x (d); label \"t\" x:q;", "`x:q` is not defined");
 }
 
 #[test]
@@ -218,12 +258,12 @@ fn lax_passes_on_unknown_statements() {
     );
     // A carriage return without a line feed ends the line of a directive, so a comment after it is
     // on a line of its own.
-    let directive = crate::language::flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
+    let directive = flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
     assert!(directive.contains("# pragma\n") && !directive.contains("# pragma {"), "{directive}");
-    assert_eq!(crate::language::flat(&directive), directive);
+    assert_eq!(flat(&directive), directive);
     // More of them than the limit of errors: later statements are not lost.
     let many: String = (0..100).map(|idx| format!("x{idx};\n")).collect::<String>() + "v last 0 0 0;";
-    assert!(crate::language::flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
+    assert!(flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
     let refused = ugparse::parse(
         &ugparse::Source::new("test.ug", "thing 1 2"),
         &ugparse::Options { lax: true, ..Default::default() },
