@@ -230,7 +230,7 @@ pub struct AnnotationArgs {
     ///
     /// Beside it they leave fewer columns for the scene; in a corner (top-left, top-right,
     /// bottom-left, bottom-right) they leave all of it, and cover a part.
-    #[arg(long, value_name = "PLACE", visible_alias = "legend-place", value_parser = place,
+    #[arg(long, value_name = "PLACE", visible_alias = "legend-place", value_parser = ugpipe::one_of("places", Place::NAMES),
           help_heading = ANNOTATIONS)]
     lp: Option<Place>,
 
@@ -283,13 +283,6 @@ pub struct AnnotationArgs {
 
 fn text_size(pixels: f64) -> Result<f64, String> {
     if (4.0..=200.0).contains(&pixels) { Ok(pixels) } else { Err("text is 4 to 200 pixels large".to_owned()) }
-}
-
-/// Value parser: where caption and legend are.
-fn place(word: &str) -> Result<Place, String> {
-    let named = Place::NAMES.into_iter().find(|(name, _)| *name == word);
-    let names = || format!("one of {}", Place::NAMES.map(|(name, _)| name).join(", "));
-    named.map(|(_, place)| place).ok_or_else(names)
 }
 
 /// A word of -map or -iso.
