@@ -188,7 +188,7 @@ const RAYS: &str = "Rays";
 
 const EXAMPLES: &str = "Examples:
   ugphoton -vel .9 0 0 -in ship.ug > ship.png
-  ugphoton -cv 0 .5 0 -sp -ex auto street.ug > drive.png
+  ugphoton -cv 0 .9 0 --ahead street.ug > ahead.png
   ugphoton -vel .6 0 0 -in --no-shadows -lg ship.ug > legend.png
   ugphoton -vel 0 -.2 0 -in -dt exr -ch D,time ship.ug > light.exr";
 

@@ -176,6 +176,7 @@ const EXAMPLES: &str = "Examples:
   uglorentz -vel .3 0 0 -in ship.ug | ugdoppler | ugrainbow -sz 800 600 > ship.png
   uglorentz -vel 0 -.5 0 -in ship.ug | ugdoppler -sp | ugrainbow -ex auto -lg > blue.png
   uglorentz -vel .9 0 0 -in ship.ug | ugrainbow -vec -cap 'A ship at 0.9c' -fo figure.pdf
+  uglorentz -vel .9 0 0 -in teapot.ug | ugrainbow -crease 40 -hl dash -lc black -bg white > lines.png
   uglorentz -vel 0 -.2 0 -in -sd 1 ship.ug | ugrainbow -xc > exact.png";
 
 const LINES: &str = "Lines";

@@ -51,7 +51,8 @@ const EXCLUDED: [&str; 18] = [
 ];
 
 /// Values that are possible, by the names of options, where a number between 0 and 1 is not enough.
-const VALUES: [(&str, &[&str]); 31] = [
+const VALUES: [(&str, &[&str]); 32] = [
+    ("--crease", &["0", "20", "180"]),
     ("--infrared-rule", &["measured", "constant"]),
     ("--across", &["va 2", "vel 3"]),
     ("-c", &["30km/h", "1e-9 m/s"]),
