@@ -149,9 +149,9 @@ impl Plan {
                         colors.len() + *mixtures.entry(bits).or_insert(n_mixtures)
                     }
                 };
-                let is_tabulated = shares.parts().all(|(color, _)| {
-                    colors[row(color)].as_ref().is_some_and(SpectralColor::is_tabulated)
-                });
+                let is_tabulated = shares
+                    .parts()
+                    .all(|(color, _)| colors[row(color)].as_ref().is_some_and(SpectralColor::is_tabulated));
                 let ln = vertices.ln_factors[vertex];
                 // Colours of few vertices are computed for each D, without quantization.
                 let (step, ln) = if is_tabulated { quantizer.quantized(ln) } else { (ln.to_bits(), ln) };
@@ -219,15 +219,13 @@ fn push_colors(
                     ids.push(given);
                     continue;
                 }
-                let digits = quantizer.digits(ln_doppler);
+                let seen = |name: &str| quantizer.name_as_seen(name, ln_doppler);
                 match shares {
-                    ColorMix::One(None) => format!("white#{digits}"),
-                    ColorMix::One(Some(color)) => {
-                        [scene.names.get(scene.colors[color.index()].name), "#", &digits].concat()
-                    }
+                    ColorMix::One(None) => seen("white"),
+                    ColorMix::One(Some(color)) => seen(scene.names.get(scene.colors[color.index()].name)),
                     ColorMix::Mixed(_) => {
                         n_mixed += 1;
-                        format!("mixed{n_mixed}#{digits}")
+                        seen(&format!("mixed{n_mixed}"))
                     }
                 }
             }

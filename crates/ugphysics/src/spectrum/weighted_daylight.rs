@@ -28,7 +28,8 @@ pub(crate) struct WeightedDaylight {
 
 impl WeightedDaylight {
     pub fn new(doppler: f64) -> Self {
-        let [inside, joined] = [[0; 3]; 2].map(|channels| channels.map(|_| Vec::with_capacity(CIE_1931.len())));
+        let [inside, joined] =
+            [[0; 3]; 2].map(|channels| channels.map(|_| Vec::with_capacity(CIE_1931.len())));
         let (ultraviolet, infrared) = ([0.0; 3], [[0.0; N_LEVELS]; 3]);
         let mut light =
             Self { doppler, ultraviolet, beyond: [0.0; 3], infrared, first_nm: 0.0, inside, joined };

@@ -250,7 +250,8 @@ fn light_beyond_the_range_of_numbers_keeps_its_hue() {
         let cold = Spectrum::blackbody(kelvin, 1.0);
         let same = chromaticity(Spectrum::blackbody(kelvin * doppler, 1.0).seen(1.0));
         let gain = libm::pow(doppler, 5.0);
-        let table = grid.table().xyz(libm::log(doppler), |idx| grid.ln_xyz(&cold, idx)).map(|part| part * gain);
+        let table =
+            grid.table().xyz(libm::log(doppler), |idx| grid.ln_xyz(&cold, idx)).map(|part| part * gain);
         // As a lamp on white.
         let (lamp, white) = (LightSpectrum::new(&cold), SmoothCurve::new(|_| 1.0));
         assert!((lamp.seen_through(&white, 1.0)[1] - 1.0).abs() < 1e-9, "{kelvin}");
