@@ -205,6 +205,7 @@ fn push_colors(
     seen: &[[f64; 3]],
 ) {
     let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
+    names.reserve(seen.len());
     let (mut n_mixed, mut n_lit) = (0, 0);
     let mut ids = Vec::with_capacity(seen.len());
     for (slot, &xyz) in plan.slots.iter().zip(seen) {

@@ -73,6 +73,11 @@ impl UniqueNames {
         fresh
     }
 
+    /// Makes room for more names.
+    pub fn reserve(&mut self, n: usize) {
+        self.taken.reserve(n);
+    }
+
     /// Adds a [fresh](Self::fresh) name to a table.
     pub fn add(&mut self, name: String, table: &mut Names) -> NameId {
         let fresh = if self.taken.contains_key(&name) { self.unused(&name) } else { name };
