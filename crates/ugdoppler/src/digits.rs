@@ -1,12 +1,20 @@
 //! Doppler factors in names of colours.
 
-/// A Doppler factor for the name of a colour, with `_` for the point: as many decimal places as
-/// distinguish it from others that are `step` apart, all if there is no step.
-pub(crate) fn digits(doppler: f64, step: Option<f64>) -> String {
-    let Some(step) = step else { return format!("{doppler}").replace('.', "_") };
+/// The name of a colour as seen with a Doppler factor, which follows the name at rest with `_` for
+/// the point: as many decimal places as distinguish it from others that are `step` apart, all if
+/// there is no step.
+pub(crate) fn name_as_seen(name: &str, doppler: f64, step: Option<f64>) -> String {
+    // Names have no more bytes than this behind `name`, but for extreme factors.
+    let mut seen = String::with_capacity(name.len() + 16);
+    seen.push_str(name);
+    seen.push('#');
+    let Some(step) = step else { return seen + &format!("{doppler}").replace('.', "_") };
     // The number of digits at which a unit in the last place is below a step.
     let places = (-libm::log10(step)).ceil().clamp(0.0, 20.0) as usize;
-    few_digits(doppler, places).unwrap_or_else(|| format!("{doppler:.places$}").replace('.', "_"))
+    if !push_few_digits(&mut seen, doppler, places) {
+        seen += &format!("{doppler:.places$}").replace('.', "_");
+    }
+    seen
 }
 
 /// Powers of ten, which are exact.
@@ -15,25 +23,25 @@ const POWERS: [u32; 9] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000, 10_000_0
 /// As many as the last of [`POWERS`] has, and one more.
 const ZEROS: &str = "000000000";
 
-/// A number rounded to some decimal places, several times as fast as by `format`; `None` if it has
-/// too many digits or is close to a tie.
-fn few_digits(number: f64, places: usize) -> Option<String> {
-    let power = *POWERS.get(places)?;
+/// Appends a number rounded to some decimal places, several times as fast as by `format`; returns
+/// false if it has too many digits or is close to a tie.
+fn push_few_digits(text: &mut String, number: f64, places: usize) -> bool {
+    let Some(&power) = POWERS.get(places) else { return false };
     let scaled = number * f64::from(power);
     let nearest = scaled.round();
     // Below 10⁹ the product is off by less than 10⁻⁷, so only near a tie another integer may be
     // the nearest.
     let is_sure = (0.0..1e9).contains(&scaled) && (scaled - nearest).abs() < 0.499_999;
-    is_sure.then(|| {
-        let mut text = (nearest as u32).to_string();
+    if is_sure {
+        let digits = (nearest as u32).to_string();
+        // At least one digit before the point.
+        text.push_str(&ZEROS[..(places + 1).saturating_sub(digits.len())]);
+        text.push_str(&digits);
         if places > 0 {
-            // At least one digit before the point.
-            let missing = (places + 1).saturating_sub(text.len());
-            text.insert_str(0, &ZEROS[..missing]);
             text.insert(text.len() - places, '_');
         }
-        text
-    })
+    }
+    is_sure
 }
 
 #[cfg(test)]
@@ -57,18 +65,19 @@ mod tests {
                 _ => 1.0 / random.unit(),
             };
             let exact = format!("{number:.places$}").replace('.', "_");
-            if let Some(few) = few_digits(number, places) {
+            let mut few = String::new();
+            if push_few_digits(&mut few, number, places) {
                 assert_eq!(few, exact, "{number} {places}");
                 n_few += 1;
             }
             assert_eq!(
-                digits(number, Some(libm::pow(0.1, places as f64) * 0.99)),
-                digits_slow(number, places)
+                name_as_seen("a", number, Some(libm::pow(0.1, places as f64) * 0.99)),
+                format!("a#{}", digits_slow(number, places))
             );
         }
         assert!(n_few > 10_000, "{n_few}");
-        assert_eq!(digits(0.25, None), "0_25");
-        assert_eq!(digits(7.0, Some(2.0)), "7");
+        assert_eq!(name_as_seen("a", 0.25, None), "a#0_25");
+        assert_eq!(name_as_seen("a", 7.0, Some(2.0)), "a#7");
     }
 
     fn digits_slow(number: f64, places: usize) -> String {

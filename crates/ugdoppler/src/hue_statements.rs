@@ -6,7 +6,7 @@ use ugphysics::{hue_to_wavelength, srgb_decode, srgb_encode};
 use ugscene::{Color, ColorId, ColorValue, HueScale, NameId, Scene, Tint, UniqueNames};
 
 use crate::Config;
-use crate::digits::digits;
+use crate::digits::name_as_seen;
 use crate::notes::Note;
 
 /// The longest visible wavelength, nm: there a relative step of D changes the wavelength most.
@@ -171,7 +171,7 @@ impl<'s> HueStatements<'s> {
         }
         let name = if is_changed {
             let step = (self.step != 0.0).then_some(doppler * self.step);
-            [&base.name, "#", &digits(doppler, step)].concat()
+            name_as_seen(&base.name, doppler, step)
         } else {
             base.name.to_string()
         };

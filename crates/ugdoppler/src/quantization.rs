@@ -3,7 +3,7 @@
 use uglight::{SpectralColor, SpectralShift};
 use ugphysics::spectrum::{DopplerGrid, LN_STEP};
 
-use crate::digits::digits;
+use crate::digits::name_as_seen;
 
 /// ln of the X, Y or Z of a colour without light: below that of every positive number.
 const DARK: f64 = -750.0;
@@ -80,12 +80,12 @@ impl DopplerQuantizer {
         self.ln_doppler[next - 1] + part * LN_STEP
     }
 
-    /// D for the name of a colour: as many digits as distinguish the levels.
-    pub fn digits(&self, ln_doppler: f64) -> String {
+    /// The name of a colour as seen: with as many digits of D as distinguish the levels.
+    pub fn name_as_seen(&self, name: &str, ln_doppler: f64) -> String {
         let doppler = libm::exp(ln_doppler);
         let (cell, _) = self.cell(ln_doppler);
         let levels_in_cell = self.levels[cell + 1] - self.levels[cell];
         let is_stepped = self.is_rounding && levels_in_cell > 0.0 && levels_in_cell.is_finite();
-        digits(doppler, is_stepped.then(|| doppler * LN_STEP / levels_in_cell.max(1.0)))
+        name_as_seen(name, doppler, is_stepped.then(|| doppler * LN_STEP / levels_in_cell.max(1.0)))
     }
 }

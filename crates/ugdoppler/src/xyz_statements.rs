@@ -205,6 +205,7 @@ fn push_colors(
     seen: &[[f64; 3]],
 ) {
     let mut names: UniqueNames = scene.colors.iter().map(|color| scene.names.get(color.name)).collect();
+    names.reserve(seen.len());
     let (mut n_mixed, mut n_lit) = (0, 0);
     let mut ids = Vec::with_capacity(seen.len());
     for (slot, &xyz) in plan.slots.iter().zip(seen) {
@@ -219,15 +220,13 @@ fn push_colors(
                     ids.push(given);
                     continue;
                 }
-                let digits = quantizer.digits(ln_doppler);
+                let seen = |name: &str| quantizer.name_as_seen(name, ln_doppler);
                 match shares {
-                    ColorMix::One(None) => format!("white#{digits}"),
-                    ColorMix::One(Some(color)) => {
-                        [scene.names.get(scene.colors[color.index()].name), "#", &digits].concat()
-                    }
+                    ColorMix::One(None) => seen("white"),
+                    ColorMix::One(Some(color)) => seen(scene.names.get(scene.colors[color.index()].name)),
                     ColorMix::Mixed(_) => {
                         n_mixed += 1;
-                        format!("mixed{n_mixed}#{digits}")
+                        seen(&format!("mixed{n_mixed}"))
                     }
                 }
             }

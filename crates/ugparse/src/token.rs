@@ -254,10 +254,16 @@ pub(crate) fn number32(input: Input<'_>) -> Parsed<'_, f32> {
 }
 
 /// Powers of ten that are exact as f64.
-const POWERS_OF_TEN: [f64; 16] =
-    [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
+const POWERS_OF_TEN: [f64; 20] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
+    1e19,
+];
 
-/// A decimal number of at most 15 digits without exponent, and its length.
+/// Integers up to this are exact as f64.
+const MOST_EXACT: u64 = 1 << f64::MANTISSA_DIGITS;
+
+/// A decimal number without exponent whose digits are an integer up to [`MOST_EXACT`], and its
+/// length.
 ///
 /// Its digits and the power of ten are exact as f64, so their quotient is the nearest f64 (Clinger
 /// 1990): the same as the general algorithm, but faster.
@@ -283,7 +289,9 @@ pub(crate) fn short_decimal(input: Input<'_>) -> Option<(f64, usize)> {
         n_decimals = idx - first;
         n_digits += n_decimals;
     }
-    if n_digits == 0 || n_digits > 15 || input.get(idx).is_some_and(|&byte| !ends_word(byte)) {
+    // Up to 19 digits do not overflow.
+    let is_exact = (1..=19).contains(&n_digits) && digits <= MOST_EXACT;
+    if !is_exact || input.get(idx).is_some_and(|&byte| !ends_word(byte)) {
         return None;
     }
     let value = digits as f64 / POWERS_OF_TEN[n_decimals];

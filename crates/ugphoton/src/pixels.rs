@@ -353,6 +353,8 @@ impl<'a> Painting<'a> {
         is_wanted: impl Fn([u32; 2]) -> bool,
     ) {
         let n = self.samples;
+        // Where nothing is met, samples have the light of the background already.
+        let has_background = self.scenery.is_seen_from_origin();
         for top in samples.rows.clone().step_by(PACKET as usize) {
             for left in samples.columns.clone().step_by(PACKET as usize) {
                 let (right, bottom) =
@@ -362,8 +364,7 @@ impl<'a> Painting<'a> {
                 for (&place @ [column, row], (ray, first)) in
                     packet.places.iter().zip(packet.rays.iter().zip(&packet.first))
                 {
-                    if first.is_none() && self.scenery.is_seen_from_origin() {
-                        // Samples of the background have its light already.
+                    if first.is_none() && has_background {
                         continue;
                     }
                     let far = self.scenery.view.slab.far;

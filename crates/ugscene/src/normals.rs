@@ -8,10 +8,10 @@ use crate::{Face, Scene, VertexId, unit_normal};
 /// Angle at corner `idx` of a contour, radians in 0…π. For a reflex corner it is the outer angle,
 /// so weights are at most π.
 pub fn corner_angle(contour: &[VertexId], idx: usize, positions: &[DVec3]) -> f64 {
-    let len = contour.len();
-    let at = |idx: usize| positions[contour[idx % len].index()];
     // Halved first: the difference of large coordinates may overflow.
-    let [a, b] = [idx + len - 1, idx + 1].map(|end| at(end) * 0.5 - at(idx) * 0.5);
+    let half = |idx: usize| positions[contour[idx].index()] * 0.5;
+    let (before, after) = (idx.checked_sub(1).unwrap_or(contour.len() - 1), idx + 1);
+    let (a, b) = (half(before) - half(idx), half(if after < contour.len() { after } else { 0 }) - half(idx));
     ugphysics::angle(a, b)
 }
 

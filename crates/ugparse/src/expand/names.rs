@@ -29,9 +29,12 @@ impl Expander<'_, '_> {
     pub(super) fn make_names_unique(&mut self) {
         let is_flat = self.scopes.len() == 1;
         let Scene { names, vertices, faces, colors, surfaces, .. } = &mut self.scene;
-        rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
-        rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
-        // The vertex names of a flat file are unique already, but for those of round faces.
+        // The names in a flat file are unique already, but not the generated ones: of unnamed
+        // colours, and of vertices of round faces.
+        if !is_flat || self.scopes[0].colors.spans.contains(&None) {
+            rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
+            rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
+        }
         if !is_flat || faces.iter().any(|face| face.shape.is_round()) {
             rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
         }

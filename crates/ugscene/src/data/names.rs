@@ -1,7 +1,5 @@
 //! The names of a scene, in one buffer, and generation of unique names.
 
-use std::fmt::Write as _;
-
 use rustc_hash::FxHashMap;
 
 use super::ids::NameId;
@@ -75,6 +73,11 @@ impl UniqueNames {
         fresh
     }
 
+    /// Makes room for more names.
+    pub fn reserve(&mut self, n: usize) {
+        self.taken.reserve(n);
+    }
+
     /// Adds a [fresh](Self::fresh) name to a table.
     pub fn add(&mut self, name: String, table: &mut Names) -> NameId {
         let fresh = if self.taken.contains_key(&name) { self.unused(&name) } else { name };
@@ -92,23 +95,14 @@ impl UniqueNames {
     }
 
     fn unused(&mut self, name: &str) -> String {
-        let mut fresh = String::with_capacity(name.len() + 4);
-        fresh.push_str(name);
-        let Some(&last) = self.taken.get(name) else { return fresh };
-        let mut count = last;
         loop {
-            count += 1;
-            fresh.truncate(name.len());
-            // Writing to a string does not fail.
-            let _ = write!(fresh, "_{count}");
+            let Some(last) = self.taken.get_mut(name) else { return name.to_owned() };
+            *last += 1;
+            let fresh = [name, "_", &last.to_string()].concat();
             if !self.taken.contains_key(&fresh) {
-                break;
+                return fresh;
             }
         }
-        if let Some(last) = self.taken.get_mut(name) {
-            *last = count;
-        }
-        fresh
     }
 }
 

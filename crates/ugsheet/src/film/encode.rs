@@ -194,13 +194,18 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
     planes.resize(3 * pixels.len(), 0);
     let (luma, chroma) = planes.split_at_mut(pixels.len());
     let (blue_plane, red_plane) = chroma.split_at_mut(pixels.len());
+    // Many pixels are like the one before. Black:
+    let mut last = ([0; 3], [16, 128, 128]);
     for (row, &[red, green, blue, _]) in pixels.iter().enumerate() {
-        let [r, g, b] = [red, green, blue].map(|part| f64::from(part) / 255.0);
-        let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-        // None is negative, so truncation rounds to the nearest.
-        luma[row] = (16.5 + 219.0 * y) as u8;
-        blue_plane[row] = (128.5 + 224.0 * (b - y) / 1.8556) as u8;
-        red_plane[row] = (128.5 + 224.0 * (r - y) / 1.5748) as u8;
+        if last.0 != [red, green, blue] {
+            let [r, g, b] = [red, green, blue].map(|part| f64::from(part) / 255.0);
+            let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+            // None is negative, so truncation rounds to the nearest.
+            let levels =
+                [16.5 + 219.0 * y, 128.5 + 224.0 * (b - y) / 1.8556, 128.5 + 224.0 * (r - y) / 1.5748];
+            last = ([red, green, blue], levels.map(|level| level as u8));
+        }
+        [luma[row], blue_plane[row], red_plane[row]] = last.1;
     }
 }
 
