@@ -80,11 +80,11 @@ fn bad_usage_is_status_2() {
         ("-fit -1", "sizes (-scale, -fit) must be above 0"),
         ("-scale 2 -fit 1", "cannot be given together"),
         ("-scale nan", "not a finite number"),
-        ("-dt stl", "`-dt` takes "),
+        ("-dt stl", "`stl` is not valid for `-dt`: none of the formats ug, obj, "),
         ("-ascii", "-ascii applies only to PLY; add -dt ply"),
         ("-fo x.stl", ending),
         ("-name 'a b'", "a name consists of letters, digits and _, and begins with a letter"),
-        ("-up w", "`-up` takes "),
+        ("-up w", "`w` is not valid for `-up`: none of the axes x, y, z"),
         ("-if ug", "the input is already a UniGrafix scene; choose an output format with -dt"),
     ] {
         UGMESH.refuses(args, "v a 0 0 0;", 2, message);

@@ -49,7 +49,7 @@ const FILES: [(&str, &str); 37] = [
 #[derive(clap::Args, Debug)]
 pub struct ExampleArgs {
     /// File to write; without it, list the files
-    #[arg(value_name = "NAME", conflicts_with = "all", value_parser = one_of("examples", FILES.map(|(name, _)| short(name)).into_iter().zip(0..)))]
+    #[arg(value_name = "NAME", conflicts_with = "all", value_parser = one_of("examples", FILES.map(|(name, _)| short(name)).into_iter().zip(0_usize..)))]
     name: Option<usize>,
 
     /// Write every file into the current folder
