@@ -111,12 +111,13 @@ fn expand_here<'t>(
     expander.bodies = std::mem::take(&mut file.bodies);
     let (motions, wrong) = expander.set_motions(&motions);
     let is_valid = wrong.is_empty();
+    let has_unnamed = file.colors.spans.contains(&None);
     expander.file(file);
     labels::follow_vertices(&mut expander.scene);
     findings.extend(wrong);
     findings.extend(expander.finish_motions(&motions, is_valid));
     findings.extend(std::mem::take(&mut expander.undefined).into_values());
-    expander.make_names_unique();
+    expander.make_names_unique(has_unnamed);
     expander.place_comments(&document.comments, first_statement);
     findings.extend(expander.prefer_outer_camera());
     findings.extend(expander.error);

@@ -25,13 +25,13 @@ impl Expander<'_, '_> {
     }
 
     /// A path, or the generated name of an unnamed colour, may equal a name in the text; the later
-    /// one in the table is renamed.
-    pub(super) fn make_names_unique(&mut self) {
+    /// one in the table is renamed. `has_unnamed`: the file has colours without a name.
+    pub(super) fn make_names_unique(&mut self, has_unnamed: bool) {
         let is_flat = self.scopes.len() == 1;
         let Scene { names, vertices, faces, colors, surfaces, .. } = &mut self.scene;
         // The names in a flat file are unique already, but not the generated ones: of unnamed
         // colours, and of vertices of round faces.
-        if !is_flat || self.scopes[0].colors.spans.contains(&None) {
+        if !is_flat || has_unnamed {
             rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
             rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
         }
