@@ -24,6 +24,7 @@ const FILMS: [&str; 9] = [
     "-frames 4 -cv '0 0 0 .. 0 .9 0' -xc -sp -ex -2..-4 -sz 60 40 -aa 2 street.ug",
     "-frames 5 -cv '0 0 0 .. 0 .9 0' -ex follow -sp -sz 60 40 street.ug",
     "-frames 4 -vel 0 0 0..-.6 -in -vec -cap 'β = {beta}' -sz 80 60 dice.ug",
+    "-frames 4 -cv '0 0 0 .. 0 .9 0' --ahead -va 60 -crease 20 -hl dash -sz 80 60 street.ug",
     "-warp -frames 4 -cv '0 0 0 .. 0 .9 0' -sp -ex auto -pz -va 100..80 -sz 60 40 sky.png",
     "-warp -pan -frames 4 -cv '0 0 0 .. 0 .9 0' -sz 60 30 sky.png",
     "-rays -frames 4 -loop -ti -3..3 -vel .9 0 0 -in -sz 60 40 -aa 2 shadow.ug",
