@@ -130,6 +130,13 @@ impl Layout {
         Some([part(0)?, part(1)?])
     }
 
+    /// The part of the scene under legend and caption: its upper left and lower right corner.
+    fn covered(&self) -> Option<[Point; 2]> {
+        let Panel { window: Window { corner, size }, is_over, .. } = self.panel;
+        let low = [0, 1].map(|axis| f64::from(corner[axis] - self.scene.corner[axis]));
+        is_over.then(|| [low, [0, 1].map(|axis| low[axis] + f64::from(size[axis]))])
+    }
+
     /// The options for the picture of the scene alone. `options`: of the whole picture.
     pub fn of_scene(&self, options: &PictureOptions) -> PictureOptions {
         PictureOptions { size: self.scene.size, ..options.clone() }
@@ -202,7 +209,8 @@ impl Layout {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
                 if has_labels {
-                    let note = labels::draw(&seen, style, &mut all.over).map_err(Error::from)?;
+                    let note =
+                        labels::draw(&seen, style, self.covered(), &mut all.over).map_err(Error::from)?;
                     all.notes.extend(note);
                 }
             } else if has_labels {

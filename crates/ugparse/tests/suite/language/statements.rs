@@ -258,12 +258,12 @@ fn lax_passes_on_unknown_statements() {
     );
     // A carriage return without a line feed ends the line of a directive, so a comment after it is
     // on a line of its own.
-    let directive = crate::language::flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
+    let directive = flat("# pragma\r{ of two\nlines }\nv a 0 0 0;");
     assert!(directive.contains("# pragma\n") && !directive.contains("# pragma {"), "{directive}");
-    assert_eq!(crate::language::flat(&directive), directive);
+    assert_eq!(flat(&directive), directive);
     // More of them than the limit of errors: later statements are not lost.
     let many: String = (0..100).map(|idx| format!("x{idx};\n")).collect::<String>() + "v last 0 0 0;";
-    assert!(crate::language::flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
+    assert!(flat(&many).ends_with("x99;\nv last 0 0 0;\n"));
     let refused = ugparse::parse(
         &ugparse::Source::new("test.ug", "thing 1 2"),
         &ugparse::Options { lax: true, ..Default::default() },
