@@ -14,7 +14,8 @@ pub struct Annotations {
     pub size: [u32; 2],
     /// The part of it with the scene.
     pub scene: Window,
-    /// Background of the strips around the scene, as light developed for a display; `None` if transparent.
+    /// Background of the strips around the scene, as light developed for a display; `None` if
+    /// transparent.
     pub background: Option<[f32; 3]>,
     /// Drawn over the scene, from its upper left corner.
     pub over: Drawing,

@@ -1,10 +1,11 @@
-//! Annotations of a picture: a title, a caption, a legend, a coordinate grid, the outlines of undistorted
-//! bodies, and quantities of what is seen as false colours and lines.
+//! Annotations of a picture: a title, a caption, a legend, labels, a coordinate grid, the outlines
+//! of undistorted bodies, and quantities of what is seen as false colours and lines.
 //!
-//! The title is on a strip above the picture of the scene; caption and legend are on strips below it,
-//! in a column beside it or over one of its corners. The file keeps the requested size: the scene is
-//! drawn in the remaining part, exactly as a picture of that size. Grid and outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]),
-//! drawn after the light of the scene has been developed.
+//! The title is on a strip above the picture of the scene; caption and legend are on strips below
+//! it, in a column beside it or over one of its corners. The file keeps the requested size: the
+//! scene is drawn in the remaining part, exactly as a picture of that size. Grid, outlines and
+//! labels are drawn over it. All annotations consist of text and lines ([`ugimage::label`]), drawn
+//! after the light of the scene has been developed.
 
 mod color_bar;
 mod composite;
@@ -123,7 +124,8 @@ impl Layout {
         Ok(Self { size, scene, title, panel })
     }
 
-    /// The column and row in the part with the scene of a pixel of the whole picture, if it is there.
+    /// The column and row in the part with the scene of a pixel of the whole picture, if it is in
+    /// that part.
     pub fn pixel_of_scene(&self, pixel: [u32; 2]) -> Option<[u32; 2]> {
         let Window { corner, size } = self.scene;
         let part = |axis: usize| pixel[axis].checked_sub(corner[axis]).filter(|&at| at < size[axis]);
@@ -260,7 +262,7 @@ impl Layout {
 }
 
 impl Panel {
-    /// Lays out its parts, at the upper left corner of a picture of this size. It is empty if it has none.
+    /// Lays out its parts, at the upper left corner of a picture of this size. It may have none.
     fn new(annotations: &AnnotationOptions, style: &Style, [width, _]: [u32; 2]) -> Result<Self, Error> {
         let mut width = width;
         if annotations.place != Place::Below {
@@ -281,8 +283,8 @@ impl Panel {
         Ok(Self { window, is_over: false, scale_rows, legend_rows, caption })
     }
 
-    /// Moves it to its place at the part of the picture with the scene; `None` if there is no room. `gap`: from
-    /// the edges of the scene that it covers.
+    /// Moves it to its place at the part of the picture with the scene; `None` if there is no room.
+    /// `gap`: from the edges of the scene that it covers.
     fn at(mut self, place: Place, scene: Window, gap: u32) -> Option<Self> {
         let ([left, top], [width, height]) = (scene.corner, scene.size);
         let [columns, rows] = self.window.size;
@@ -341,8 +343,8 @@ impl Paragraph {
         (text + 2.0 * PADDING * style.size).ceil() as u32
     }
 
-    /// Draws it on a strip of this width that begins at row `top`. A single line is centred, several
-    /// are left-aligned unless all are `centered`.
+    /// Draws it on a strip of this width that begins at row `top`. A single line is centred,
+    /// several are left-aligned unless all are `centered`.
     fn draw(&self, width: u32, top: u32, centered: bool, style: &Style, drawing: &mut Drawing) {
         let margin = style.margin();
         let top = f64::from(top) + PADDING * style.size;
