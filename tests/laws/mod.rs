@@ -9,6 +9,7 @@ mod directions;
 mod edges;
 mod exact;
 mod fall_off;
+mod labels;
 mod lights;
 mod linear_light;
 mod moving_camera;

@@ -213,8 +213,8 @@ pub struct AnnotationArgs {
 
     /// Caption below the picture, wrapped as needed; line breaks are kept
     ///
-    /// -sz is the size of the whole picture, so title, caption and legend leave fewer rows for the scene;
-    /// -lp beside leaves all of them.
+    /// -sz is the size of the whole picture, so title, caption and legend leave fewer rows for the
+    /// scene; with -lp beside only the title takes rows.
     #[arg(long, value_name = "TEXT", visible_alias = "caption", help_heading = ANNOTATIONS)]
     cap: Option<String>,
 
@@ -226,7 +226,7 @@ pub struct AnnotationArgs {
     #[arg(long, visible_alias = "legend", help_heading = ANNOTATIONS)]
     lg: bool,
 
-    /// Place of caption, legend and scale: below, beside the picture, or over its corner top-left ...
+    /// Place of caption, legend and scale: below, beside, or over a corner, as top-left
     ///
     /// Beside it they leave fewer columns for the scene; in a corner (top-left, top-right,
     /// bottom-left, bottom-right) they leave all of it, and cover a part.

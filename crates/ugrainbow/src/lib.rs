@@ -113,6 +113,6 @@ pub use render::{PROVENANCE, light, render, render_with, run, run_with};
 pub use uglight::{ColorShift, HueShift, Interpolation, SpectralShift};
 pub use ugpicture::{
     AnnotationOptions, Background, Channel, Exposure, Filter, MAX_PIXELS, MAX_SIDE, Note, Output,
-    PictureFile, PictureOptions, Rendering, TextForm, Tone, VectorFigure, metadata,
+    PictureFile, PictureOptions, Place, Rendering, TextForm, Tone, VectorFigure, metadata,
 };
 pub use ugscene::{CameraError, CameraOptions, HueScale, Provenance};

@@ -74,14 +74,14 @@ pub enum Element<S> {
     },
     /// A line of text.
     Text(Text),
-    /// Begins a window, whose upper left corner is the origin of the following elements and whose
+    /// Begins a pane, whose upper left corner is the origin of the following elements and whose
     /// edges clip them; `None` ends it.
-    Window(Option<Window>),
+    Pane(Option<Pane>),
 }
 
 /// A rectangle of pixels in a larger picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Window {
+pub struct Pane {
     /// Column and row of the upper left corner.
     pub corner: [u32; 2],
     /// Width and height.
@@ -201,8 +201,8 @@ enum PaintOp<'a> {
     Text(&'a Text),
     /// All consecutive triangles.
     Mesh(Mesh),
-    /// See [`Element::Window`].
-    Window(Option<Window>),
+    /// See [`Element::Pane`].
+    Pane(Option<Pane>),
 }
 
 /// The lines of text of a figure.
@@ -228,7 +228,7 @@ fn paint_ops(figure: &Figure<GouraudTriangle>) -> impl Iterator<Item = PaintOp<'
                 PaintOp::Line { ends: *ends, width: *width, color: *color }
             }
             Element::Text(text) => PaintOp::Text(text),
-            Element::Window(window) => PaintOp::Window(*window),
+            Element::Pane(window) => PaintOp::Pane(*window),
             Element::Smooth(triangle) => {
                 let mut mesh = Mesh::new();
                 mesh.push(triangle);

@@ -5,8 +5,8 @@ use pdf_writer::{Content, Filter, Name, Pdf, Ref, Str};
 
 use super::pdf_font::{FONT_NAME, PdfFont};
 use super::{
-    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, SLANT, Text, Window,
-    paint_ops, texts,
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Pane, Point, Rgb, SEAM_WIDTH, SLANT, Text, paint_ops,
+    texts,
 };
 use crate::Metadata;
 use crate::pdf::{FIRST, deflate, document};
@@ -83,17 +83,17 @@ impl Page<'_> {
                     self.meshes.push(mesh);
                 }
                 PaintOp::Text(text) => self.show(text),
-                PaintOp::Window(window) => self.window(window),
+                PaintOp::Pane(window) => self.window(window),
             }
         }
     }
 
     /// Begins or ends a window. Saving and restoring the graphics state also affects colour and
     /// line width, so they are set again.
-    fn window(&mut self, window: Option<Window>) {
+    fn window(&mut self, window: Option<Pane>) {
         (self.color, self.width) = (None, None);
         match window {
-            Some(Window { corner, size }) => {
+            Some(Pane { corner, size }) => {
                 self.content.save_state();
                 if corner != [0, 0] {
                     let [left, top] = corner.map(|side| side as f32);

@@ -2,8 +2,7 @@
 
 use super::postscript_font::{definition, show};
 use super::{
-    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Point, Rgb, SEAM_WIDTH, Window, number, paint_ops,
-    texts,
+    Figure, GouraudTriangle, MESH_BITS, Mesh, PaintOp, Pane, Point, Rgb, SEAM_WIDTH, number, paint_ops, texts,
 };
 use crate::Metadata;
 use crate::pdf::deflate;
@@ -75,7 +74,7 @@ fn drawing(figure: &Figure<GouraudTriangle>) -> Vec<u8> {
                 page.set_color(text.color);
                 page.add(&show(text));
             }
-            PaintOp::Window(window) => page.window(window),
+            PaintOp::Pane(window) => page.window(window),
         }
     }
     page.add("grestore\n");
@@ -112,10 +111,10 @@ impl Page {
 
     /// Begins or ends a window. Saving and restoring the graphics state also affects colour and
     /// line width, so they are set again.
-    fn window(&mut self, window: Option<Window>) {
+    fn window(&mut self, window: Option<Pane>) {
         (self.color, self.width) = (None, None);
         match window {
-            Some(Window { corner: [left, top], size: [width, height] }) => {
+            Some(Pane { corner: [left, top], size: [width, height] }) => {
                 let moved = match (left, top) {
                     (0, 0) => String::new(),
                     _ => format!("{left} {top} translate "),

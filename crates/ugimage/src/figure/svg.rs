@@ -3,7 +3,7 @@
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 
-use super::{Element, Figure, Gradient, Point, Rgb, SEAM_WIDTH, Text, Window, number, seams, texts};
+use super::{Element, Figure, Gradient, Pane, Point, Rgb, SEAM_WIDTH, Text, number, seams, texts};
 use crate::svg::{document, escaped};
 use crate::{Metadata, typeface};
 
@@ -46,7 +46,7 @@ pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
                 out += &format!("<path stroke=\"{}\" stroke-width=\"{width}\" d=\"{path}\"/>\n", hex(*color));
             }
             Element::Text(text) => out += &text_element(text),
-            Element::Window(Some(Window { corner: [left, top], size: [width, height] })) => {
+            Element::Pane(Some(Pane { corner: [left, top], size: [width, height] })) => {
                 out += &format!("<clipPath id=\"c\"><path d=\"M0 0H{width}V{height}H0z\"/></clipPath>");
                 let moved = match (left, top) {
                     (0, 0) => String::new(),
@@ -54,7 +54,7 @@ pub fn svg(figure: &Figure<Gradient>, metadata: &Metadata) -> Vec<u8> {
                 };
                 out += &format!("<g clip-path=\"url(#c)\"{moved}>\n");
             }
-            Element::Window(None) => out += "</g>\n",
+            Element::Pane(None) => out += "</g>\n",
         }
     }
     out += "</g>\n";

@@ -61,8 +61,8 @@ impl SizedFont {
         self.scale * f64::from(self.font.h_advance_unscaled(glyph.0) + kern)
     }
 
-    /// The outlines of a glyph whose origin, on the baseline, is at `origin`. `slant`: tangent of the
-    /// angle by which it leans to the right.
+    /// The outlines of a glyph whose origin, on the baseline, is at `origin`. `slant`: tangent of
+    /// the angle by which it leans to the right.
     pub fn contours(&self, glyph: Glyph, origin: Point, slant: f64) -> Vec<Vec<Point>> {
         let mut contours: Vec<Vec<Point>> = Vec::new();
         let Some(outline) = self.font.outline(glyph.0) else { return contours };

@@ -118,7 +118,8 @@ fn first_at_position(scene: &Scene) -> Vec<u32> {
 pub(crate) fn bodies(scene: &Scene) -> Vec<(BodyId, usize, usize)> {
     let mut bodies: Vec<_> = scene.bodies.ids().map(|body| (body, 0, 0)).collect();
     scene.faces.iter().for_each(|face| bodies[face.body.index()].1 += 1);
-    scene.wires.iter().for_each(|wire| bodies[wire.body.index()].2 += 1);
+    let lines = scene.wires.iter().filter(|wire| wire.text.is_none());
+    lines.for_each(|wire| bodies[wire.body.index()].2 += 1);
     bodies.retain(|&(_, faces, wires)| faces + wires > 0);
     bodies
 }

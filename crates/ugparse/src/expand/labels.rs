@@ -4,7 +4,8 @@ use rustc_hash::FxHashMap;
 use ugscene::{Scene, VertexId};
 
 /// Makes each label part of the body of the first face, or else wire, that uses its vertex, and
-/// removes the default colour of wires from it. A label at a vertex that nothing uses keeps its body.
+/// removes the default colour of wires from it. A label at a vertex that nothing uses keeps its
+/// body.
 pub(super) fn follow_vertices(scene: &mut Scene) {
     let Scene { wires, faces, contours, .. } = scene;
     let vertex = |wire: &ugscene::Wire| -> Option<VertexId> {

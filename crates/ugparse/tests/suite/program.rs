@@ -382,12 +382,12 @@ fn count_counts_and_measures() {
         c red 1 0; surf s 1 0 0; def tile; v a 0 0 0; v b 1 0 0; v c 1 1 0; v d 0 1 0; f flat (a b c d) red s; end;
         a (tile) 3 -tx 2 <.5 0 0>; i (tile -tz 1);
         v p 0 0 5; v q 3 0 5.5; v r 3 4 5; v s 0 4 5.5;
-        f bent (p q r s) <0 .25 0>; w (p r);
+        f bent (p q r s) <0 .25 0>; w (p r); label \"p\" p;
         l 1; cam -ep 0 0 9; (an escape)";
     let counts = report("count -format json", text);
-    let written = json!({ "colours": 1, "surfaces": 1, "vertices": 8, "faces": 2, "wires": 1, "lights": 1, "cameras": 1,
+    let written = json!({ "colours": 1, "surfaces": 1, "vertices": 8, "faces": 2, "wires": 1, "labels": 1, "lights": 1, "cameras": 1,
         "escapes": 1, "unknown": 0, "definitions": 1, "instances": 1, "arrays": 1 });
-    let placed = json!({ "colours": 1, "surfaces": 1, "vertices": 20, "faces": 5, "wires": 1, "lights": 1, "cameras": 1,
+    let placed = json!({ "colours": 1, "surfaces": 1, "vertices": 20, "faces": 5, "wires": 1, "labels": 1, "lights": 1, "cameras": 1,
         "escapes": 1, "unknown": 0 });
     assert_eq!((&counts["written"], &counts["placed"]), (&written, &placed));
     assert_eq!((&counts["corners"], &counts["faces_with_holes"]), (&json!(20), &json!(0)));

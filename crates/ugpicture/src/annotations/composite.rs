@@ -1,6 +1,6 @@
 //! Annotations drawn over pixels, or added to a vector figure.
 
-use ugimage::figure::{Element, Figure, Window};
+use ugimage::figure::{Element, Figure, Pane};
 use ugimage::label::{Drawing, TextForm};
 use ugimage::{Frame, LinearFrame, Quantizer};
 
@@ -13,8 +13,9 @@ pub struct Annotations {
     /// Pixels of the whole picture.
     pub size: [u32; 2],
     /// The part of it with the scene.
-    pub scene: Window,
-    /// Background of the strips around the scene, as light developed for a display; `None` if transparent.
+    pub scene: Pane,
+    /// Background of the strips around the scene, as light developed for a display; `None` if
+    /// transparent.
     pub background: Option<[f32; 3]>,
     /// Drawn over the scene, from its upper left corner.
     pub over: Drawing,
@@ -93,8 +94,8 @@ impl Annotations {
         figure.elements.extend(self.over.elements(self.text));
         if self.has_strips() {
             // Faces and lines may extend beyond the picture of the scene.
-            figure.elements.insert(0, Element::Window(Some(self.scene)));
-            figure.elements.push(Element::Window(None));
+            figure.elements.insert(0, Element::Pane(Some(self.scene)));
+            figure.elements.push(Element::Pane(None));
         }
         figure.elements.extend(self.strips.elements(self.text));
         figure

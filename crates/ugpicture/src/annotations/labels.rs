@@ -27,15 +27,17 @@ const WIDTH: f64 = 0.4;
 const GAP: f64 = 0.25;
 
 /// A box by its upper left and lower right corner.
-type Box = [Point; 2];
+pub type Rectangle = [Point; 2];
 
-/// Draws the labels of vertices in the picture. Returns a note if some are outside.
+/// Draws the labels of vertices in the picture. Returns a note if some are outside. `covered`: the
+/// part of the picture that other annotations cover.
 ///
 /// # Errors
 /// The font lacks a character.
 pub fn draw<E: From<Error>>(
     seen: &SeenScene<'_, E>,
     style: &Style,
+    covered: Option<Rectangle>,
     drawing: &mut Drawing,
 ) -> Result<Option<Note>, MissingCharacter> {
     let place = |position| {
@@ -46,8 +48,9 @@ pub fn draw<E: From<Error>>(
     let labels: Vec<_> =
         scene.labels().map(|(at, text)| (place(scene.vertices[at.index()].position), text)).collect();
     // Text covers neither the tip of an arrow nor other text.
-    let mut taken: Vec<Box> = labels.iter().filter_map(|label| Some([label.0?; 2])).collect();
+    let mut taken: Vec<Rectangle> = labels.iter().filter_map(|label| Some([label.0?; 2])).collect();
     let n_outside = labels.len() - taken.len();
+    taken.extend(covered);
     let bounds =
         scene.vertices.iter().filter_map(|vertex| place(vertex.position)).map(|at| [at; 2]).reduce(union);
     let [low, high] = bounds.unwrap_or_default();
@@ -71,9 +74,9 @@ fn free_place(
     tip: Point,
     half: [f64; 2],
     middle: Point,
-    taken: &[Box],
+    taken: &[Rectangle],
     (picture, size): ([f64; 2], f64),
-) -> Box {
+) -> Rectangle {
     let [x, y] = [tip[0] - middle[0], tip[1] - middle[1]];
     let length = libm::hypot(x, y);
     let [x, y] = if length > 1.0 { [x / length, y / length] } else { [0.0, -1.0] };
@@ -82,7 +85,7 @@ fn free_place(
         let middle = [0, 1].map(|axis| tip[axis] + toward[axis] * (half[axis] + length * size));
         [[0, 1].map(|axis| middle[axis] - half[axis]), [0, 1].map(|axis| middle[axis] + half[axis])]
     };
-    let is_free = |place: &Box| {
+    let is_free = |place: &Rectangle| {
         let is_inside = (0..2).all(|axis| place[0][axis] >= 0.0 && place[1][axis] <= picture[axis]);
         is_inside && taken.iter().all(|other| is_apart(place, other))
     };
@@ -95,7 +98,7 @@ fn free_place(
 }
 
 /// Draws an arrow from a box to a point, and text in the box.
-fn push(tip: Point, [low, high]: Box, lines: &[Line], style: &Style, drawing: &mut Drawing) {
+fn push(tip: Point, [low, high]: Rectangle, lines: &[Line], style: &Style, drawing: &mut Drawing) {
     let Style { size, ink, background, hairline, .. } = *style;
     let start = [0, 1].map(|axis| tip[axis].clamp(low[axis], high[axis]));
     drawing.lines(vec![[start, tip]], 3.0 * hairline, background);
@@ -108,11 +111,11 @@ fn push(tip: Point, [low, high]: Box, lines: &[Line], style: &Style, drawing: &m
 }
 
 /// The least box around two.
-fn union([low, high]: Box, [other_low, other_high]: Box) -> Box {
+fn union([low, high]: Rectangle, [other_low, other_high]: Rectangle) -> Rectangle {
     [[0, 1].map(|axis| low[axis].min(other_low[axis])), [0, 1].map(|axis| high[axis].max(other_high[axis]))]
 }
 
 /// True if two boxes do not overlap.
-pub fn is_apart([low, high]: &Box, [other_low, other_high]: &Box) -> bool {
+pub fn is_apart([low, high]: &Rectangle, [other_low, other_high]: &Rectangle) -> bool {
     (0..2).any(|axis| high[axis] < other_low[axis] || low[axis] > other_high[axis])
 }

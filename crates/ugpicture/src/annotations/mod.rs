@@ -1,10 +1,11 @@
-//! Annotations of a picture: a title, a caption, a legend, a coordinate grid, the outlines of undistorted
-//! bodies, and quantities of what is seen as false colours and lines.
+//! Annotations of a picture: a title, a caption, a legend, labels, a coordinate grid, the outlines
+//! of undistorted bodies, and quantities of what is seen as false colours and lines.
 //!
-//! The title is on a strip above the picture of the scene; caption and legend are on strips below it,
-//! in a column beside it or over one of its corners. The file keeps the requested size: the scene is
-//! drawn in the remaining part, exactly as a picture of that size. Grid and outlines are drawn over it. All annotations consist of text and lines ([`ugimage::label`]),
-//! drawn after the light of the scene has been developed.
+//! The title is on a strip above the picture of the scene; caption and legend are on strips below
+//! it, in a column beside it or over one of its corners. The file keeps the requested size: the
+//! scene is drawn in the remaining part, exactly as a picture of that size. Grid, outlines and
+//! labels are drawn over it. All annotations consist of text and lines ([`ugimage::label`]), drawn
+//! after the light of the scene has been developed.
 
 mod color_bar;
 mod composite;
@@ -20,7 +21,7 @@ mod style;
 
 use rayon::prelude::*;
 use ugimage::Frame;
-use ugimage::figure::{Point, Window};
+use ugimage::figure::{Pane, Point};
 use ugimage::label::{DESCENT, Drawing, Line, SPACING, wrapped};
 use ugscene::{CameraOptions, Scene, View};
 
@@ -77,7 +78,7 @@ pub struct Layout {
     /// Pixels of the whole picture.
     size: [u32; 2],
     /// The part with the scene.
-    scene: Window,
+    scene: Pane,
     title: Paragraph,
     panel: Panel,
 }
@@ -85,7 +86,7 @@ pub struct Layout {
 /// The scale of false colours, the legend and the caption, one below the other.
 struct Panel {
     /// Its part of the picture.
-    window: Window,
+    window: Pane,
     /// True if it covers the scene.
     is_over: bool,
     /// Rows of the scale.
@@ -118,16 +119,24 @@ impl Layout {
         // Less than a third of the height is not enough for the scene.
         let rows = height.checked_sub(title.rows(&style).saturating_add(below));
         let rows = rows.filter(|&rows| rows > 0 && rows >= height / 3).ok_or(Error::NoRoom)?;
-        let scene = Window { corner: [0, height - below - rows], size: [width - beside, rows] };
+        let scene = Pane { corner: [0, height - below - rows], size: [width - beside, rows] };
         let panel = panel.at(place, scene, (0.5 * style.size).round() as u32).ok_or(Error::NoRoom)?;
         Ok(Self { size, scene, title, panel })
     }
 
-    /// The column and row in the part with the scene of a pixel of the whole picture, if it is there.
+    /// The column and row in the part with the scene of a pixel of the whole picture, if it is in
+    /// that part.
     pub fn pixel_of_scene(&self, pixel: [u32; 2]) -> Option<[u32; 2]> {
-        let Window { corner, size } = self.scene;
+        let Pane { corner, size } = self.scene;
         let part = |axis: usize| pixel[axis].checked_sub(corner[axis]).filter(|&at| at < size[axis]);
         Some([part(0)?, part(1)?])
+    }
+
+    /// The part of the scene under legend and caption: its upper left and lower right corner.
+    fn covered(&self) -> Option<[Point; 2]> {
+        let Panel { window: Pane { corner, size }, is_over, .. } = self.panel;
+        let low = [0, 1].map(|axis| f64::from(corner[axis] - self.scene.corner[axis]));
+        is_over.then(|| [low, [0, 1].map(|axis| low[axis] + f64::from(size[axis]))])
     }
 
     /// The options for the picture of the scene alone. `options`: of the whole picture.
@@ -201,7 +210,8 @@ impl Layout {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
                 if has_labels {
-                    let note = labels::draw(&seen, style, &mut all.over).map_err(Error::from)?;
+                    let note =
+                        labels::draw(&seen, style, self.covered(), &mut all.over).map_err(Error::from)?;
                     all.notes.extend(note);
                 }
             } else if has_labels {
@@ -236,7 +246,7 @@ impl Layout {
         if let Some(scale) = scale {
             color_bar::draw(scale, style, [panel_width, 0.0], &mut panel).map_err(Error::from)?;
         }
-        let Panel { window: Window { corner, size }, scale_rows, legend_rows, ref caption, is_over } =
+        let Panel { window: Pane { corner, size }, scale_rows, legend_rows, ref caption, is_over } =
             self.panel;
         caption.draw(size[0], scale_rows + legend_rows, false, style, &mut panel);
         let [corner, size] = [corner, size].map(|place| place.map(f64::from));
@@ -251,7 +261,7 @@ impl Layout {
 }
 
 impl Panel {
-    /// Lays out its parts, at the upper left corner of a picture of this size. It is empty if it has none.
+    /// Lays out its parts, at the upper left corner of a picture of this size. It may have none.
     fn new(annotations: &AnnotationOptions, style: &Style, [width, _]: [u32; 2]) -> Result<Self, Error> {
         let mut width = width;
         if annotations.place != Place::Below {
@@ -268,13 +278,13 @@ impl Panel {
             width = if longest > 0.0 { (longest + 2.0 * style.margin()).ceil() as u32 } else { 0 };
         }
         let rows = scale_rows.saturating_add(legend_rows).saturating_add(caption.rows(style));
-        let window = Window { corner: [0; 2], size: [width, rows] };
+        let window = Pane { corner: [0; 2], size: [width, rows] };
         Ok(Self { window, is_over: false, scale_rows, legend_rows, caption })
     }
 
-    /// Moves it to its place at the part of the picture with the scene; `None` if there is no room. `gap`: from
-    /// the edges of the scene that it covers.
-    fn at(mut self, place: Place, scene: Window, gap: u32) -> Option<Self> {
+    /// Moves it to its place at the part of the picture with the scene; `None` if there is no room.
+    /// `gap`: from the edges of the scene that it covers.
+    fn at(mut self, place: Place, scene: Pane, gap: u32) -> Option<Self> {
         let ([left, top], [width, height]) = (scene.corner, scene.size);
         let [columns, rows] = self.window.size;
         if place == Place::Below || rows == 0 {
@@ -332,8 +342,8 @@ impl Paragraph {
         (text + 2.0 * PADDING * style.size).ceil() as u32
     }
 
-    /// Draws it on a strip of this width that begins at row `top`. A single line is centred, several
-    /// are left-aligned unless all are `centered`.
+    /// Draws it on a strip of this width that begins at row `top`. A single line is centred,
+    /// several are left-aligned unless all are `centered`.
     fn draw(&self, width: u32, top: u32, centered: bool, style: &Style, drawing: &mut Drawing) {
         let margin = style.margin();
         let top = f64::from(top) + PADDING * style.size;

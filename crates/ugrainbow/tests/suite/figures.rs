@@ -3,10 +3,11 @@
 
 use ugimage::Format;
 use ugphysics::Hsv;
+use ugpicture::Canvas;
 use ugpipe::Words;
 use ugrainbow::{
     AnnotationOptions, Background, ColorShift, Config, Error, MAX_PIXELS, Note, Output, PictureOptions,
-    render, run,
+    Place, render, run,
 };
 
 use crate::common::{draw, scene, with};
@@ -63,6 +64,70 @@ fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
             assert!((120..235).contains(&rows), "{rows}");
         }
     }
+}
+
+/// With a title, and with text beside the scene or over a corner, the scene is that of a picture of
+/// the part that is left, to the byte, but where text covers a corner.
+#[test]
+fn the_scene_is_that_of_the_part_that_is_left() {
+    const SIZE: [u32; 2] = [480, 300];
+    for (name, place) in Place::NAMES {
+        let annotations = AnnotationOptions { place, title: "A box: β = 0.5".into(), ..strips() };
+        let config = with(&Config::default(), |picture| {
+            (picture.size, picture.samples, picture.annotations) = (SIZE, 1, annotations);
+        });
+        let figure = draw(SHIP, &config);
+        assert_eq!([figure.width(), figure.height()], SIZE, "the size of the file stays");
+        let canvas = Canvas::new(&config.picture).unwrap();
+        let size @ [width, height] = canvas.options().size;
+        let alone = with(&config, |picture| {
+            (picture.size, picture.annotations) = (size, AnnotationOptions::default());
+        });
+        let alone = draw(SHIP, &alone);
+        let (mut changed, mut n_seen, mut title) = (Vec::new(), 0, Vec::new());
+        for pixel @ [x, y] in (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| [x, y])) {
+            match canvas.pixel_of_scene(pixel) {
+                Ok([column, row]) => {
+                    n_seen += 1;
+                    if figure.pixel(x, y) != alone.pixel(column, row) {
+                        changed.push([column, row]);
+                    }
+                }
+                Err(_) if y < 30 => title.push(figure.pixel(x, y)),
+                Err(_) => {}
+            }
+        }
+        assert_eq!(n_seen, width * height, "{name}");
+        assert!(title.iter().any(|pixel| pixel[0] > 200) && title.contains(&[0, 0, 0, 255]), "{name}");
+        let is_over = !matches!(place, Place::Below | Place::Beside);
+        assert_eq!(width < SIZE[0], place == Place::Beside, "{name}");
+        assert_eq!(height < 250, place == Place::Below, "{name}: {height}");
+        assert_eq!(!changed.is_empty(), is_over, "{name}");
+        let [right, low] = [name.ends_with("right"), name.starts_with("bottom")];
+        assert!(
+            changed.iter().all(|[x, y]| (*x >= width / 2) == right && (*y >= height / 3) >= low),
+            "{name}"
+        );
+    }
+}
+
+/// Only a body that the whole picture would show is told to be cut by strips.
+#[test]
+fn a_body_that_strips_cut_is_told() {
+    let told = |size, place| {
+        let annotations = AnnotationOptions { place, ..strips() };
+        let config = with(&Config::default(), |picture| {
+            (picture.size, picture.samples, picture.annotations) = (size, 1, annotations);
+        });
+        let text = SHIP.replace("-vc 0 0 .5", "-vc 0 0 .5 -va 24");
+        render(&scene(&text), &config).unwrap().notes.contains(&Note::CutByText)
+    };
+    assert!(!told([400, 400], Place::Below));
+    assert!(told([400, 230], Place::Below));
+    assert!(!told([400, 230], Place::Beside));
+    assert!(!told([400, 230], Place::TopLeft));
+    // The whole picture would cut it, too.
+    assert!(!told([400, 150], Place::Below));
 }
 
 /// Twice the size of text takes twice the rows.

@@ -75,7 +75,7 @@ fn labels() {
         assert_eq!(out.lines().find(|line| line.starts_with("label")), Some(expected), "{label}");
     };
     row("label \"the head\" a;", "label \"the head\" a;");
-    row("label head\"γ = 2; ( a )\"a { why } ;", "label head \"γ = 2; ( a )\" a;{ why }");
+    row("label head\"γ = 2; ( a )\"a { why } ;", "label head \"γ = 2; ( a )\" a;");
     row("label label \"x\" a <0 .5 0>;", "label label \"x\" a <0 0.5 0>;");
     // A label is part of the body of the first face, else wire, that uses its vertex.
     row("label \"x\" a; w (a b) <0 .1 0>; f (c b a) <0 .2 0>; f (a b c);", "label \"x\" a <0 0.2 0>;");
@@ -100,8 +100,9 @@ fn labels() {
 fn labels_of_instances() {
     let text = "def d; v p 1 0 0; v q 0 1 0; v r 0 0 1; f (p q r) <.5 0 0>; label n \"end\" p; end;
                 i one (d -tx 2); a (d) 2 -tx 3; label \"path\" one:q;";
-    let labels = ["label one:n \"end\" one:p <0.5 0 0>;", "label #0:n \"end\" #0:p <0.5 0 0>;"];
-    let more = ["label #1:n \"end\" #1:p <0.5 0 0>;", "label \"path\" one:q <0.5 0 0>;"];
+    let labels = ["label one:n \"end\" one:p <0.5 0 0 -at 2 0 0>;", "label d#0:n \"end\" d#0:p <0.5 0 0>;"];
+    let more =
+        ["label d#1:n \"end\" d#1:p <0.5 0 0 -at 3 0 0>;", "label \"path\" one:q <0.5 0 0 -at 2 0 0>;"];
     let out = flat(text);
     let found: Vec<&str> = out.lines().filter(|line| line.starts_with("label")).collect();
     assert_eq!(found, [&labels[..], &more[..]].concat());
