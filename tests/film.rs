@@ -17,7 +17,7 @@ fn files(shell: &Shell, folder: &str) -> BTreeMap<String, Vec<u8>> {
 }
 
 /// Films of every renderer, with options that change.
-const FILMS: [&str; 9] = [
+const FILMS: [&str; 10] = [
     "-frames 5 -vel '0 0 0 .. .9 0 0' -in -sz 80 60 dice.ug",
     "-frames 5 -ti -2..2 -vel 0 .8 0 -in -sp -ex auto -ease smooth -sz 80 60 dice.ug",
     "-frames 4 -ti -2..6 -vel 0 .8 0 -follow -va 20 -sz 80 60 dice.ug",
