@@ -8,7 +8,7 @@ use ugtests::documents::{Page, prepare, resized, shortened, transcripts, with_op
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
-const PAGES: [(&str, usize); 9] = [
+const PAGES: [(&str, usize); 10] = [
     ("README.md", 18),
     ("docs/start.md", 9),
     ("docs/teaching.md", 12),
@@ -18,6 +18,7 @@ const PAGES: [(&str, usize); 9] = [
     ("docs/film.md", 8),
     ("docs/batch.md", 3),
     ("docs/geometry.md", 1),
+    ("docs/figures.md", 10),
 ];
 
 #[test]

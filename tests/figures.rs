@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use ugimage::Format;
 
 use ugrainbow::{Output, TextForm};
-use ugtests::picture::{Picture, assert_same, decode, read};
+use ugtests::picture::{Picture, assert_same, decode, read, svg_text};
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::{scenes, tools};
 
@@ -287,9 +287,7 @@ fn text_in_figures_can_be_searched() {
     assert!([CAPTION, "γ = 1.021", "700 nm", "x = −8"].iter().all(|text| found.contains(text)), "{found}");
     assert_eq!(words(&draw(Format::Pdf, TextForm::Outlines)).trim(), "");
     let svg = String::from_utf8(draw(Format::Svg, TextForm::Text)).unwrap();
-    // Slanted symbols are elements of their own.
-    let runs = svg.split("<text ").skip(1).filter_map(|run| run.split_once('>')?.1.split_once("</text>"));
-    let text: String = runs.map(|(run, _)| run).collect();
+    let text = svg_text(&svg);
     assert!(text.contains("AVE: β = 0.2, γ &lt; 1.021 &amp; D → λ"), "{svg}");
 }
 

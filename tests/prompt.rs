@@ -146,7 +146,7 @@ fn mistakes_are_answered() {
     check("ugrainbow -ch D ship.ug", "write -dt exr");
     check("ugrainbow -ex 1 -dt exr ship.ug", "leave out -ex and -tc");
     check("ugrainbow -tc filmic -dt hdr ship.ug", "leave out -ex and -tc");
-    check("ugrainbow -lg -dt pfm ship.ug", "leave out -cap, -lg, -dl, -gr, -map and -iso");
+    check("ugrainbow -lg -dt pfm ship.ug", "leave out -title, -cap, -lg, -dl, -gr, -map and -iso");
     check("ugrainbow -tb -dt pfm ship.ug", "leave out -tb");
     check("ugrainbow -vec -dt pdf -fl triangle ship.ug", "leave out -fl");
     check("ugrainbow -lc 1 ship.ug", "add -wf or -ed, or leave it out");
@@ -245,7 +245,7 @@ fn nothing_is_black_in_silence() {
     );
     // The exposure of a film is kept beside its frames; the number shows that it is read.
     check(
-        "ugfilm -qt -only 1 -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug; sed -i 's/ .*/ 9.125/' .k_1.png.exposure; \
+        "ugfilm -qt -only 1 -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug; sed -i 's/ 1 .*/ 1 9.125/' .k_1.png.exposure; \
          ugfilm -frames 2 -cv 0 .1..0.5 0 -sz 40 30 -fo k_%d.png ship.ug",
         "ugfilm: note: one exposure for all frames: -ex 9.125",
     );

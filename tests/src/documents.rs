@@ -186,6 +186,8 @@ pub fn resized(command: &str, default: [u32; 2], scale: f64) -> String {
                 let rest = words.next().map(|rest| format!(" {rest}")).unwrap_or_default();
                 return format!("{before}{name}{options}-sz {} {}{rest}", scaled(width), scaled(height));
             }
+            // Lengths stay.
+            return stage.to_owned();
         }
         let [width, height] = default.map(scaled);
         format!("{before}{name}-sz {width} {height} {after}")

@@ -116,3 +116,10 @@ fn panels(expected: &Picture, actual: &Picture) -> Picture {
     }
     all
 }
+
+/// The text of an SVG file, in its order. Slanted symbols are elements of their own.
+#[must_use]
+pub fn svg_text(svg: &str) -> String {
+    let runs = svg.split("<text ").skip(1).filter_map(|run| run.split_once('>')?.1.split_once("</text>"));
+    runs.map(|(run, _)| run).collect()
+}

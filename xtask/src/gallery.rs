@@ -10,11 +10,12 @@ use ugtests::scenes;
 use crate::programs;
 
 /// The pages, each with the default size of its pictures in pixels.
-const PAGES: [(&str, [u32; 2]); 4] = [
+const PAGES: [(&str, [u32; 2]); 5] = [
     ("docs/gallery.md", [640, 480]),
     ("docs/start.md", [1280, 960]),
     ("docs/motion.md", [640, 480]),
     ("docs/teaching.md", [640, 480]),
+    ("docs/figures.md", [640, 480]),
 ];
 
 /// Folder of the small pictures, beside the large ones.
@@ -38,13 +39,16 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
     let is_wanted = |path: &str| args.only.as_ref().is_none_or(|only| path.contains(only));
     for (path, size) in PAGES.into_iter().filter(|(path, _)| is_wanted(path)) {
         let page = Page::read(path);
-        for (scale, part) in [(1.0, ""), (0.5, SMALL)] {
+        let has_small = page.text.contains(&format!("/{SMALL}/"));
+        for (scale, part) in [(1.0, ""), (0.5, SMALL)].into_iter().take(1 + usize::from(has_small)) {
             let folder = tempfile::tempdir()?;
             prepare(folder.path(), &programs);
             for command in &page.commands {
                 writeln!(out, "{path}: {}", command.lines().next().unwrap_or_default())?;
                 out.flush()?;
-                let command = with_options(&resized(command, size, scale), "-pz");
+                let command = resized(command, size, scale);
+                // Films are packed as they are.
+                let command = if command.contains(".gif") { command } else { with_options(&command, "-pz") };
                 page.run(&command, folder.path(), &programs).map_err(io::Error::other)?;
             }
             store(&page, folder.path(), part)?;
@@ -57,7 +61,10 @@ pub fn write(out: &mut impl Write, args: &Args) -> io::Result<()> {
 /// subfolder `part`.
 fn store(page: &Page, folder: &Path, part: &str) -> io::Result<()> {
     let links = page.text.split("](").skip(1).filter_map(|rest| rest.split(')').next());
-    let pictures = links.map(Path::new).filter(|link| link.extension().is_some_and(|ending| ending == "png"));
+    let is_picture = |link: &&Path| {
+        ["png", "gif"].iter().any(|kind| link.extension().is_some_and(|ending| ending == *kind))
+    };
+    let pictures = links.map(Path::new).filter(is_picture);
     for link in pictures {
         let (Some(place), Some(name)) = (link.parent(), link.file_name()) else { continue };
         if (place.file_name().is_some_and(|last| last == SMALL)) != (part == SMALL) {
