@@ -41,6 +41,8 @@ class Lorentz(TypedDict, total=False):
     """The same as keep_in_view."""
     in_: bool | None
     """The same as keep_in_view."""
+    ahead: bool | None
+    """True. View ahead of a moving camera: the picture shows at every speed what it shows at rest"""
     error: float | str | None
     """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
     se: float | str | None
@@ -265,6 +267,16 @@ class Render(TypedDict, total=False):
     """True. Draw edges of faces as black lines, over the faces"""
     ed: bool | None
     """The same as edges."""
+    silhouette: bool | None
+    """True. Silhouette: of edges only those where a body turns away from the eye, and those of a single face"""
+    sil: bool | None
+    """The same as silhouette."""
+    crease: float | str | None
+    """ANGLE. Of edges only the silhouette and creases of at least ANGLE degrees, 0 to 180"""
+    hidden_lines: float | str | None
+    """STYLE. Lines that are hidden by faces: dash, thin [default: not drawn]"""
+    hl: float | str | None
+    """The same as hidden_lines."""
     line_color: Vector | float | str | None
     """L H S. Colour of the edges, as for background= [default: colours of the faces with wireframe=True, black with edges=True]"""
     lc: Vector | float | str | None
@@ -297,6 +309,8 @@ class Render(TypedDict, total=False):
     """SKY. Sky behind the scene: day, dusk, stars, or a file"""
     sky_turn: Vector | None
     """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
+    title: Text | None
+    """TEXT. Title above the picture, wrapped as needed"""
     caption: Text | None
     """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
     cap: Text | None
@@ -305,6 +319,10 @@ class Render(TypedDict, total=False):
     """True. Legend below the picture: spectrum, velocities, Doppler factors"""
     lg: bool | None
     """The same as legend."""
+    legend_place: float | str | None
+    """PLACE. Place of caption, legend and scale: below, beside, or over a corner, as top-left"""
+    lp: float | str | None
+    """The same as legend_place."""
     undistorted: bool | None
     """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
     dl: bool | None
@@ -351,6 +369,8 @@ class Photon(TypedDict, total=False):
     """The same as keep_in_view."""
     in_: bool | None
     """The same as keep_in_view."""
+    ahead: bool | None
+    """True. View ahead of a moving camera: the picture shows at every speed what it shows at rest"""
     brightness: Text | None
     """LAW. Brightness law: report (D), photon (D^3), bolometric (D^4), none [default: report]"""
     br: Text | None
@@ -491,6 +511,8 @@ class Photon(TypedDict, total=False):
     """True. Orthographic projection"""
     og: bool | None
     """The same as orthographic."""
+    title: Text | None
+    """TEXT. Title above the picture, wrapped as needed"""
     caption: Text | None
     """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
     cap: Text | None
@@ -499,6 +521,10 @@ class Photon(TypedDict, total=False):
     """True. Legend below the picture: spectrum, velocities, Doppler factors"""
     lg: bool | None
     """The same as legend."""
+    legend_place: float | str | None
+    """PLACE. Place of caption, legend and scale: below, beside, or over a corner, as top-left"""
+    lp: float | str | None
+    """The same as legend_place."""
     undistorted: bool | None
     """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
     dl: bool | None
@@ -651,6 +677,8 @@ class Warp(Reading, total=False):
     """N. N x N samples per pixel, 1 to 16 [default: 1]"""
     aa: float | str | None
     """The same as samples."""
+    title: Text | None
+    """TEXT. Title above the picture, wrapped as needed"""
     caption: Text | None
     """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
     cap: Text | None
@@ -659,6 +687,10 @@ class Warp(Reading, total=False):
     """True. Legend below the picture: spectrum, velocities, Doppler factors"""
     lg: bool | None
     """The same as legend."""
+    legend_place: float | str | None
+    """PLACE. Place of caption, legend and scale: below, beside, or over a corner, as top-left"""
+    lp: float | str | None
+    """The same as legend_place."""
     undistorted: bool | None
     """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
     dl: bool | None
@@ -739,6 +771,8 @@ class Film(Reading, total=False):
     """The same as keep_in_view."""
     in_: bool | None
     """The same as keep_in_view."""
+    ahead: bool | None
+    """True. View ahead of a moving camera: the picture shows at every speed what it shows at rest"""
     error: float | str | None
     """ERR. Largest error of edges, in milliradians seen from the eye [default: 0.1]"""
     se: float | str | None
@@ -870,7 +904,7 @@ class Film(Reading, total=False):
     tb: bool | None
     """The same as transparent."""
     exposure: float | str | None
-    """E|auto. Exposure in stops, or auto"""
+    """E|WORD. Exposure in stops, or auto, hold, follow"""
     ex: float | str | None
     """The same as exposure."""
     tone_curve: Text | None
@@ -897,6 +931,16 @@ class Film(Reading, total=False):
     """True. Draw edges of faces as black lines, over the faces"""
     ed: bool | None
     """The same as edges."""
+    silhouette: bool | None
+    """True. Silhouette: of edges only those where a body turns away from the eye, and those of a single face"""
+    sil: bool | None
+    """The same as silhouette."""
+    crease: float | str | None
+    """ANGLE. Of edges only the silhouette and creases of at least ANGLE degrees, 0 to 180"""
+    hidden_lines: float | str | None
+    """STYLE. Lines that are hidden by faces: dash, thin [default: not drawn]"""
+    hl: float | str | None
+    """The same as hidden_lines."""
     line_color: Vector | float | str | None
     """L H S. Colour of the edges, as for background= [default: colours of the faces with wireframe=True, black with edges=True]"""
     lc: Vector | float | str | None
@@ -917,6 +961,8 @@ class Film(Reading, total=False):
     """SKY. Sky behind the scene: day, dusk, stars, or a file"""
     sky_turn: Vector | float | str | None
     """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
+    title: Text | None
+    """TEXT. Title above the picture, wrapped as needed"""
     caption: Text | None
     """TEXT. Caption below the picture, wrapped as needed; line breaks are kept"""
     cap: Text | None
@@ -925,6 +971,10 @@ class Film(Reading, total=False):
     """True. Legend below the picture: spectrum, velocities, Doppler factors"""
     lg: bool | None
     """The same as legend."""
+    legend_place: float | str | None
+    """PLACE. Place of caption, legend and scale: below, beside, or over a corner, as top-left"""
+    lp: float | str | None
+    """The same as legend_place."""
     undistorted: bool | None
     """True. Outline of moving bodies as they would look at rest, centred where each body is seen"""
     dl: bool | None
