@@ -21,7 +21,7 @@ fn places(beta: DVec3) -> Vec<[f64; 2]> {
     let eye = DVec3::new(0.0, -9.0, 3.0);
     let forward = (DVec3::new(0.0, 0.0, 0.5) - eye).normalize();
     let right = forward.cross(DVec3::Z).normalize();
-    let scale = 120.0 / 20f64.to_radians().tan();
+    let scale = 120.0 / libm::tan(20f64.to_radians());
     let place = |name: &str| {
         let at = find(name).position - eye;
         let depth = at.dot(forward);

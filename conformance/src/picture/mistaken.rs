@@ -65,7 +65,7 @@ fn common_part(one: &[u8], other: &[u8]) -> Option<f64> {
     let drawn = |png: &[u8]| {
         let pixels = image::load_from_memory(png).ok()?.into_luma8();
         let half = pixels.iter().max()? / 2;
-        Some(pixels.into_iter().map(|level| *level > half).collect::<Vec<bool>>())
+        Some(pixels.iter().map(|level| *level > half).collect::<Vec<bool>>())
     };
     let (one, other) = (drawn(one)?, drawn(other)?);
     let count = |is_counted: fn(bool, bool) -> bool| {

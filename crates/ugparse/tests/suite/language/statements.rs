@@ -71,7 +71,7 @@ fn wires() {
 #[test]
 fn labels() {
     let row = |label: &str, expected: &str| {
-        let out = flat(&format!("{TRIANGLE}{label}"));
+        let out = flat(format!("{TRIANGLE}{label}"));
         assert_eq!(out.lines().find(|line| line.starts_with("label")), Some(expected), "{label}");
     };
     row("label \"the head\" a;", "label \"the head\" a;");
@@ -92,7 +92,7 @@ fn labels() {
         "label \"x;",
         &long,
     ] {
-        let found = errors(&format!("{TRIANGLE}{label}"));
+        let found = errors(format!("{TRIANGLE}{label}"));
         assert!(found[0].starts_with(text), "{label}: {found:?}");
     }
     row(&long.replacen('γ', "", 1), &long.replacen('γ', "", 1));
