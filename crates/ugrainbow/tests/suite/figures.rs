@@ -320,7 +320,7 @@ fn what_cannot_be_is_refused() {
     check(annotated(AnnotationOptions { caption: "光速".into(), ..AnnotationOptions::default() }), "the font has no `光` (U+5149)");
     check(with(&annotated(strips()), |picture| picture.output = Output::Color(Format::Exr)), "leave out -title, -cap");
     check(with(&annotated(strips()), |picture| picture.size = [100, 30]), "give a larger -sz");
-    let narrow = "too narrow for a caption, legend or scale: give a wider -sz";
+    let narrow = "too narrow for a title, caption, legend or scale: give a wider -sz";
     check(with(&annotated(strips()), |picture| picture.size = [30, 30]), narrow);
     check(
         {
