@@ -330,7 +330,7 @@ fn what_cannot_be_is_refused() {
         narrow,
     );
     check(with(&annotated(strips()), |picture| picture.size = [0, 30]), &MAX_PIXELS.to_string());
-    check(annotated(AnnotationOptions { caption: "x\n".repeat(50) + "x", ..AnnotationOptions::default() }), "a shorter -cap");
+    check(annotated(AnnotationOptions { caption: "x\n".repeat(50) + "x", ..AnnotationOptions::default() }), "a shorter -title and -cap");
 }
 
 #[test]
