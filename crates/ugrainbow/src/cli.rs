@@ -114,7 +114,7 @@ pub struct Args {
     ///
     /// Like -wf; both have 0.6 of the width of visible lines.
     #[arg(long, value_name = "STYLE", visible_alias = "hidden-lines", conflicts_with = "ed",
-          value_parser = one_of("ways", [("dash", HiddenLines::Dashed), ("thin", HiddenLines::Thin)]),
+          value_parser = one_of("styles", [("dash", HiddenLines::Dashed), ("thin", HiddenLines::Thin)]),
           help_heading = LINES)]
     hl: Option<HiddenLines>,
 
