@@ -53,7 +53,7 @@ fn arrows_end_at_their_vertices_in_the_pipe_and_in_ray_traced_pictures() {
                 assert!(has_tip, "{beta}: no arrow ends at {x} {y}");
             }
         }
-        // Both draw labels at the same pixels: where pictures differ from those without.
+        // Labels are where a picture differs from one without them: at the same pixels by both programs.
         let [pipe, rays] = differs.map(|differs| {
             let all = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)));
             all.filter(|&(x, y)| differs(x, y)).collect::<Vec<_>>()

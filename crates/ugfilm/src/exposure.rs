@@ -9,10 +9,10 @@ const REACH: f64 = 12.0;
 /// Frames of a film for one of that reach, so that short films follow as well.
 const PER_REACH: f64 = 8.0;
 
-/// Smooths exposures that were metered in single frames, so that a film does not flicker: each is the
-/// mean of those around it, with weights that fall off linearly over an eighth of the film, 12 frames
-/// at most. They depend on the metered exposures alone, and are rounded to hundredths of a stop.
-/// `is_loop`: the first frame follows the last one. Frames in which nothing is lit have none.
+/// Smooths exposures that were metered in single frames, so that a film does not flicker: each is
+/// the mean of those around it, with weights that fall off linearly over an eighth of the film, 12
+/// frames at most. They depend on the metered exposures alone, and are rounded to hundredths of a
+/// stop. `is_loop`: the first frame follows the last one. Frames in which nothing is lit have none.
 pub fn smoothed(metered: &[Metered], n_frames: u32, is_loop: bool) -> Vec<(u32, f64)> {
     let n_rows = metered.len() as i64;
     let per_row = f64::from(n_frames) / metered.len().max(1) as f64;

@@ -210,8 +210,8 @@ impl Film<'_> {
             && is_made_of_light(&first.picture, self.subject))
     }
 
-    /// The automatic exposure of all lit pixels of the film, or one that follows the light of single
-    /// frames.
+    /// The automatic exposure of all lit pixels of the film, or one that follows the light of
+    /// single frames.
     ///
     /// # Errors
     /// A frame cannot be drawn.

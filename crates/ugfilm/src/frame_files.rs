@@ -16,8 +16,8 @@ fn exposure_of(names: &FrameNames) -> PathBuf {
     first.with_file_name(format!(".{name}.exposure"))
 }
 
-/// The exposure of a film, frames and stops, from a file beside its first frame if that has the same
-/// `key`: a hash of all that the exposure depends on.
+/// The exposure of a film, frames and stops, from a file beside its first frame if that has the
+/// same `key`: a hash of all that the exposure depends on.
 pub fn kept_exposure(names: &FrameNames, key: &str) -> Option<Vec<(u32, f64)>> {
     /// More than a key and its numbers need.
     const MAX_BYTES: u64 = 1 << 16;

@@ -1,12 +1,12 @@
-//! PostScript documents of one page and Encapsulated PostScript: a colour image over white, with two
-//! filters, or a drawing.
+//! PostScript documents of one page and Encapsulated PostScript: a colour image over white, with
+//! two filters, or a drawing.
 
 use ugphysics::srgb_decode;
 
 use crate::{Frame, Metadata, Quantizer};
 
-/// The frame as a PostScript document of one page, or as an EPS file to be placed in a document; one
-/// pixel per point, or as many as its metadata state.
+/// The frame as a PostScript document of one page, or as an EPS file to be placed in a document;
+/// one pixel per point, or as many as its metadata state.
 pub fn encode(frame: &Frame, metadata: &Metadata, is_encapsulated: bool) -> Vec<u8> {
     let points = metadata.points([frame.width(), frame.height()]);
     wrap(points, 2, metadata, &color_image(frame, points), is_encapsulated)
@@ -77,8 +77,8 @@ fn comment_line(text: &str) -> String {
     text.chars().map(printed).take(MAX_COMMENT).collect()
 }
 
-/// PostScript level 2 code that draws the frame with its lower left corner at the origin, `across` x
-/// `up` points large.
+/// PostScript level 2 code that draws the frame with its lower left corner at the origin, `across`
+/// x `up` points large.
 ///
 /// The filters are stored in variables so that both can be flushed after the last pixel. The
 /// interpreter then continues directly after the data.

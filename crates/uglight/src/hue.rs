@@ -107,10 +107,10 @@ impl HueShift {
         if self.law.acts_on_light() { HueColor::sum_of_light(&parts) } else { HueColor::sum(&parts) }
     }
 
-    /// Linear light of a surface with the colour of a display under several lamps, if its motion does
-    /// not shift it; else `None`. It reflects light that is not shifted by its red, green and blue
-    /// (`linear`), other light as the hue `base`. So `None` also if no light is of the first kind, or
-    /// if they cannot be added, because the law does not act on light.
+    /// Linear light of a surface with the colour of a display under several lamps, if its motion
+    /// does not shift it; else `None`. It reflects light that is not shifted by its red, green and
+    /// blue (`linear`), other light as the hue `base`. So `None` also if no light is of the first
+    /// kind, or if they cannot be added, because the law does not act on light.
     pub fn display_lit(
         self,
         (linear, base): (DVec3, HueColor),
@@ -137,8 +137,8 @@ impl HueShift {
         if self.law.acts_on_light() { linear * level } else { lit_display(linear, level) }
     }
 
-    /// True if the Doppler factor changes colours. One that is a product along a path, through glass
-    /// in motion for example, is 1 but for rounding.
+    /// True if the Doppler factor changes colours. One that is a product along a path, through
+    /// glass in motion for example, is 1 but for rounding.
     pub(crate) fn shifts(self, doppler: f64) -> bool {
         const ROUNDING: f64 = 1e-12;
         (doppler - 1.0).abs() > ROUNDING && self != Self::NONE
@@ -186,8 +186,8 @@ impl HueColor {
         Hsv { hue: self.hue, saturation: self.saturation, value: self.value }
     }
 
-    /// True if a renderer fades it as a hue, because it stands for a wavelength near the ends of the
-    /// visible range.  Eq. (P17)
+    /// True if a renderer fades it as a hue, because it stands for a wavelength near the ends of
+    /// the visible range.  Eq. (P17)
     pub fn is_faded(&self) -> bool {
         self.saturation > 0.0 && attenuation(self.wavelength_nm) < 1.0
     }

@@ -27,8 +27,9 @@
 //! of other faces on it is subdivided there. Bodies at rest are not
 //! subdivided, except for the light of near lamps if that is requested.
 //!
-//! Spheres, cylinders, tubes and discs are cut into polygons first, within the same error bound. The
-//! vertices have the normals of the exact shape. With [`Pieces::PerEdge`]`(1)` they stay whole, for rays.
+//! Spheres, cylinders, tubes and discs are cut into polygons first, within the same error bound.
+//! The vertices have the normals of the exact shape. With [`Pieces::PerEdge`]`(1)` they stay whole,
+//! for rays.
 //!
 //! Pieces keep orientation, colour, light level, body and name of their face, and replace it in
 //! place. Vertices of the scene keep their names and rows; new ones are named `s#1`, `s#2`, … and

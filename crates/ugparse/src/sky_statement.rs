@@ -37,7 +37,8 @@ pub(crate) fn take(
     Some(StatedSky { file, turn: statement.turn })
 }
 
-/// The sky that a scene states, without the rest of it, and where; `None` if that has syntax errors.
+/// The sky that a scene states, without the rest of it, and where; `None` if that has syntax
+/// errors.
 pub fn stated_sky(source: &Source, options: &Options) -> Option<(StatedSky, Span)> {
     memchr::memmem::find(&source.text, b"sky")?;
     crate::check_length(source, options).ok()?;

@@ -124,7 +124,8 @@ pub(crate) struct FaceStatement {
     pub shading: Option<ShadingStatement>,
     pub motion: Option<MotionReference>,
     pub shape: FaceShape,
-    /// Centre, axis and radius of a round face that is given by numbers; such a face has no contours.
+    /// Centre, axis and radius of a round face that is given by numbers; such a face has no
+    /// contours.
     pub round: Option<RoundShape>,
     /// The text of a label, which is a wire with one vertex.
     pub text: Option<Span>,

@@ -398,10 +398,10 @@ const MIRRORED: f64 = -1.0;
 /// The same for light that it transmits.
 const REFRACTED: f64 = 1.0;
 
-/// The light in a medium at a surface that is, mirrored or refracted, a given light.  Eq. (P23), (P37)
+/// The light in a medium that a surface mirrors or refracts into `wave`.  Eq. (P23), (P37)
 ///
-/// With an interpolated normal it may come from the other side of the face. Then the normal of its
-/// plane decides.
+/// By an interpolated normal it may come from the wrong side of the face. Then the normal of the
+/// face's plane is used.
 fn bent(
     medium: Medium,
     wave: WaveVector,

@@ -96,17 +96,18 @@ pub struct Args {
     #[arg(long, visible_alias = "edges", help_heading = LINES)]
     ed: bool,
 
-    /// Silhouette: of edges only those where a body turns away from the eye, and those of a single face
+    /// Silhouette: of edges only those where a body turns away from the eye, and those of a single
+    /// face
     ///
-    /// Like -wf, or with -ed over the faces. Which side of a face is seen is decided in its rest frame,
-    /// so pieces made by uglorentz add no lines.
+    /// Like -wf, or with -ed over the faces. Which side of a face is seen is decided in its rest
+    /// frame, so pieces made by uglorentz add no lines.
     #[arg(long, visible_alias = "silhouette", conflicts_with = "crease", help_heading = LINES)]
     sil: bool,
 
     /// Of edges only the silhouette and creases of at least ANGLE degrees, 0 to 180
     ///
-    /// Like -wf, or with -ed over the faces. An angle of 20 leaves out the edges of polygons in place
-    /// of curved surfaces. Edges between different colours are drawn.
+    /// Like -wf, or with -ed over the faces. An angle of 20 leaves out the edges of polygons in
+    /// place of curved surfaces. Edges between different colours are drawn.
     #[arg(long, value_name = "ANGLE", value_parser = number(crease), help_heading = LINES)]
     crease: Option<f64>,
 

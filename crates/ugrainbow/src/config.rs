@@ -118,7 +118,7 @@ pub struct Wireframe {
     pub color: Option<Hsv>,
     /// Which edges.
     pub edges: EdgeKind,
-    /// What is drawn of hidden lines, if faces are not drawn.
+    /// How hidden lines are drawn in a drawing without faces.
     pub hidden: HiddenLines,
 }
 

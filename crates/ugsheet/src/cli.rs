@@ -18,9 +18,9 @@ use crate::{Config, Error, Labels, Motion, Picture, Sheet, history, join};
 
 /// Arranges several pictures or films on one sheet, with labels
 ///
-/// Reads PNG files and arranges them in a grid, without resampling them unless -sz gives the width of
-/// the sheet. By default the labels are the speeds and times recorded in the history of the pictures,
-/// if these differ; otherwise the file names.
+/// Reads PNG files and arranges them in a grid, without resampling them unless -sz gives the width
+/// of the sheet. By default the labels are the speeds and times recorded in the history of the
+/// pictures, if these differ; otherwise the file names.
 ///
 /// Films are joined to one film, frame by frame: GIF, animated PNG, names of numbered files as
 /// frame_%04d.png, or folders of these. A film that ends before the others holds its last frame; a
@@ -58,9 +58,9 @@ pub struct Args {
 
     /// Width and height of the sheet in pixels, or in mm, cm, in, pt
     ///
-    /// All pictures are scaled by one factor. A length has as many pixels to the inch as the pictures
-    /// state, otherwise 300, which the sheet states; its labels have 8 pt by default. Without -sz the
-    /// sheet states the resolution of its pictures.
+    /// All pictures are scaled by one factor. A length has as many pixels to the inch as the
+    /// pictures state, otherwise 300, which the sheet states; its labels have 8 pt by default.
+    /// Without -sz the sheet states the resolution of its pictures.
     #[arg(long, num_args = 1..=2, value_names = ["W", "H"], action = ArgAction::Set,
           value_parser = Side::parse, visible_alias = "size")]
     sz: Option<Vec<Side>>,
@@ -74,7 +74,8 @@ pub struct Args {
           value_parser = whole(0..=10_000))]
     gap: Option<Vec<u32>>,
 
-    /// Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default: white]
+    /// Background colour: lightness, hue in degrees, saturation; a name, or #rrggbb [default:
+    /// white]
     #[arg(long, num_args = 1..=3, value_names = ["L", "H", "S"], action = ArgAction::Set,
           visible_alias = "background")]
     bg: Option<Vec<String>>,

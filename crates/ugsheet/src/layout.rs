@@ -66,8 +66,8 @@ impl Layout {
         Ok(layout.centred(sides))
     }
 
-    /// The sheet with its pictures as large as this size allows. They keep their pixels if these are
-    /// nearly as many.
+    /// The sheet with its pictures as large as this size allows. They keep their pixels if these
+    /// are nearly as many.
     fn fitted(
         config: &Config,
         pictures: &[Picture],
@@ -171,7 +171,8 @@ impl Layout {
     }
 }
 
-/// The largest number up to `high` that fits, to 1 part in 2 to the power `n_steps`; 0 if none does.
+/// The largest number up to `high` that fits, to 1 part in 2 to the power `n_steps`; 0 if none
+/// does.
 fn largest(n_steps: u32, high: f64, fits: impl Fn(f64) -> bool) -> f64 {
     let (mut low, mut high) = (0.0, high);
     for _ in 0..n_steps {

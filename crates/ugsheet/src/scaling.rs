@@ -6,7 +6,8 @@ use ugimage::{Frame, Quantizer};
 use ugphysics::srgb_decode;
 
 /// A picture in another size: the mean of linear light, with weights that fall off linearly to zero
-/// at the middles of the neighbouring pixels, of the picture or of the result, whichever are larger.
+/// at the middles of the neighbouring pixels, of the picture or of the result, whichever are
+/// larger.
 pub fn scaled(frame: &Frame, [width, height]: [u32; 2], quantizer: &Quantizer) -> Frame {
     let light: Vec<f32> = (0..=255_u8).map(|level| srgb_decode(f64::from(level) / 255.0) as f32).collect();
     let premultiplied = |x, y| {
@@ -16,7 +17,8 @@ pub fn scaled(frame: &Frame, [width, height]: [u32; 2], quantizer: &Quantizer) -
         Rgba([red, green, blue, part])
     };
     let whole = ImageBuffer::from_fn(frame.width(), frame.height(), premultiplied);
-    // This filter needs neither roots nor transcendental functions, so its bytes are the same everywhere.
+    // This filter needs neither roots nor transcendental functions, so its bytes are the same
+    // everywhere.
     let scaled = resize(&whole, width, height, FilterType::Triangle);
     let pixel = |&Rgba([red, green, blue, part]): &Rgba<f32>| {
         let [red, green, blue] =

@@ -98,8 +98,8 @@ pub fn open(
     Ok(Opened { panorama: Some(panorama), highlights, notes, ..Opened::default() })
 }
 
-/// Reads spectral radiances from an EXR file whose channels are named by wavelengths. Each band holds
-/// three of the channels. Empty for other files, and for fewer than four such channels.
+/// Reads spectral radiances from an EXR file whose channels are named by wavelengths. Each band
+/// holds three of the channels. Empty for other files, and for fewer than four such channels.
 ///
 /// # Errors
 /// As [`open`].

@@ -74,8 +74,8 @@ pub enum Element<S> {
     },
     /// A line of text.
     Text(Text),
-    /// Begins a pane, whose upper left corner is the origin of the following elements and whose
-    /// edges clip them; `None` ends it.
+    /// The following elements are clipped to this rectangle, and their origin is its upper left
+    /// corner. `None`: no longer.
     Pane(Option<Pane>),
 }
 

@@ -183,8 +183,8 @@ impl WorldLine {
         passages.iter().map(of_passage).fold(0.0, f64::max)
     }
 
-    /// The stretch of a ray of light that arrives at the event of a passage, and the own times of the
-    /// passage.
+    /// The stretch of a ray of light that arrives at the event of a passage, and the own times of
+    /// the passage.
     ///
     /// `None` for an inertial motion.
     pub fn stretch<'a>(

@@ -18,8 +18,8 @@
 //! # Bounds
 //!
 //! Axes of A at own times that differ by T have a relative rapidity of a T or less, so components
-//! of vectors in one of them are no longer than g = exp(a T) times the vector in the other. With the
-//! bounds P of 1 + a·ξ, v of |dξ/dτ|, b of |d²ξ/dτ²|, and ω of the sum of all spins:
+//! of vectors in one of them are no longer than g = exp(a T) times the vector in the other. With
+//! the bounds P of 1 + a·ξ, v of |dξ/dτ|, b of |d²ξ/dτ²|, and ω of the sum of all spins:
 //!
 //! ```text
 //! |∂X/∂r| ≤ g,   |∂X/∂τ| ≤ g (P + v), in space ≤ g v + (g − 1) P,
@@ -94,8 +94,8 @@ impl WorldLine {
     /// `levels`: how often a triangle is divided into four for closer bounds, at most, where it
     /// deviates by more than a quarter of its edges.
     ///
-    /// `None` for an inertial motion, and without a useful bound: if a triangle is so large that its
-    /// parts are seen at very different velocities, or close to the observer.
+    /// `None` for an inertial motion, and without a useful bound: if a triangle is so large that
+    /// its parts are seen at very different velocities, or close to the observer.
     pub fn seen_triangle(
         &self,
         tube: &WorldTube,
@@ -129,9 +129,9 @@ struct Sight<'a> {
 }
 
 impl Sight<'_> {
-    /// See [`WorldLine::seen_triangle`]. The deviation of a divided triangle is at most the greatest
-    /// of its parts, from their corners, plus the distance of these corners from the middles of the
-    /// edges as seen.
+    /// See [`WorldLine::seen_triangle`]. The deviation of a divided triangle is at most the
+    /// greatest of its parts, from their corners, plus the distance of these corners from the
+    /// middles of the edges as seen.
     fn triangle(&self, corners: &[SeenPoint; 3], levels: u32) -> Option<SeenTriangle> {
         let whole = self.whole(corners);
         if levels == 0 || whole.as_ref().is_some_and(|whole| whole.is_flat(corners)) {

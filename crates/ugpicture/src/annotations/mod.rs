@@ -166,8 +166,8 @@ impl Layout {
         Ok(Some((map::picture(&scale, &values, options), scale)))
     }
 
-    /// All annotations, and notes about them. `options`: of the picture of the scene; `scale`: of its
-    /// false colours.
+    /// All annotations, and notes about them. `options`: of the picture of the scene; `scale`: of
+    /// its false colours.
     ///
     /// # Errors
     /// Errors of [`Subject::Surfaces`]'s functions; [`Error::NoSurfaces`].

@@ -173,7 +173,7 @@ fn around_axis(from: DVec3, step: DVec3) -> Option<[f64; 2]> {
     roots(from, step)
 }
 
-/// The ray parameter at the intersection with the plane z = 0.
+/// The parameter at which a ray meets the plane z = 0. `z`, `step`: of its origin and its step.
 fn at_plane(z: f64, step: f64) -> f64 {
     if z.abs() <= ON_SURFACE { 0.0 } else { -z / step }
 }

@@ -145,8 +145,8 @@ impl CommonArgs {
     }
 }
 
-/// For programs with commands: allows options before the command as well as after it, except the one
-/// that names the file: `#[command(mut_args(ugpipe::globally))]`.
+/// For programs with commands: allows options before the command as well as after it, except the
+/// one that names the file: `#[command(mut_args(ugpipe::globally))]`.
 pub fn globally(arg: clap::Arg) -> clap::Arg {
     if arg.is_positional() || arg.get_id() == "fi" { arg } else { arg.global(true) }
 }

@@ -228,10 +228,10 @@ fn join_times(arg: &Arg, words: &mut VecDeque<OsString>) {
 /// Copies the values of `arg` unchanged, except that numbers joined by commas or, as in `80x60`, by
 /// `x` are separated, and numbers over time are joined.
 ///
-/// The required values come first, up to the next option. Optional values are numbers or lengths in all
-/// our programs, which distinguishes them from file names. A negative number is the value of an option
-/// with one value even if the option takes only positive ones, and is attached to it by `=`: clap
-/// would take it for an option.
+/// The required values come first, up to the next option. Optional values are numbers or lengths in
+/// all our programs, which distinguishes them from file names. A negative number is the value of an
+/// option with one value even if the option takes only positive ones, and is attached to it by `=`:
+/// clap would take it for an option.
 fn copy_values(command: &Command, arg: &Arg, words: &mut VecDeque<OsString>, out: &mut Vec<OsString>) {
     let Some(range) = arg.get_num_args().filter(|_| arg.get_action().takes_values()) else { return };
     join_times(arg, words);

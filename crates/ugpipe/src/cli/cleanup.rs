@@ -210,8 +210,8 @@ fn handle_signals() {
                 end(signal);
             }
         };
-        // Signals are handled only where there is a thread: otherwise they would be lost. Without it a
-        // signal ends the program as before, and may leave a file.
+        // Signals are handled only where there is a thread: otherwise they would be lost. Without
+        // it a signal ends the program as before, and may leave a file.
         if thread::Builder::new().name("signals".to_owned()).spawn(work).is_ok() {
             let _ = receiver.recv();
         }

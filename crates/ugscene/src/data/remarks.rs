@@ -21,9 +21,9 @@ pub struct Remarks {
 }
 
 impl Remarks {
-    /// Moves comments of faces that were cut: one above a face goes to the first piece, one behind it
-    /// to the last. `first_pieces`: of each face before the cut, its first row; then the number of
-    /// rows.
+    /// Moves comments of faces that were cut: one above a face goes to the first piece, one behind
+    /// it to the last. `first_pieces`: of each face before the cut, its first row; then the number
+    /// of rows.
     pub fn follow_pieces(&mut self, first_pieces: &[u32]) {
         for comment in &mut self.comments {
             if let Item::Face(row) = &mut comment.at {

@@ -325,8 +325,8 @@ pub enum Beam {
         /// inside.
         degrees: [f64; 2],
     },
-    /// A parallelogram centred at the position, with these two edge vectors u and v. It emits on the
-    /// side of u × v, which is not 0, with the same radiance in all directions (Lambertian).
+    /// A parallelogram centred at the position, with these two edge vectors u and v. It emits on
+    /// the side of u × v, which is not 0, with the same radiance in all directions (Lambertian).
     Area([DVec3; 2]),
 }
 

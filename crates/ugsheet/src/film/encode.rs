@@ -64,8 +64,8 @@ impl FilmKind {
 }
 
 /// Writes a film to the output of a program, of which nothing is written before its first frame is
-/// drawn. `draw` passes the frames on in order. `captions`: of the pictures on a page; `is_opaque`: no
-/// frame is transparent.
+/// drawn. `draw` passes the frames on in order. `captions`: of the pictures on a page; `is_opaque`:
+/// no frame is transparent.
 ///
 /// # Errors
 /// A frame cannot be drawn, or the film cannot be written.
@@ -200,7 +200,7 @@ fn y_cb_cr(frame: &Frame, planes: &mut Vec<u8>) {
         if last.0 != [red, green, blue] {
             let [r, g, b] = [red, green, blue].map(|part| f64::from(part) / 255.0);
             let y = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-            // None is negative, so truncation rounds to the nearest.
+            // With ½ added, truncation rounds positive numbers to the nearest.
             let levels =
                 [16.5 + 219.0 * y, 128.5 + 224.0 * (b - y) / 1.8556, 128.5 + 224.0 * (r - y) / 1.5748];
             last = ([red, green, blue], levels.map(|level| level as u8));

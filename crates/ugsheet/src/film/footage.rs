@@ -227,7 +227,8 @@ fn file_name(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// The files of a film in the order of their numbers: those of a pattern, or the PNG files of a folder.
+/// The files of a film in the order of their numbers: those of a pattern, or the PNG files of a
+/// folder.
 fn frame_paths(path: &Path, names: Option<&FrameNames>) -> io::Result<Vec<PathBuf>> {
     let first = names.map(|names| names.path(1));
     let folder = first.as_deref().map_or(Some(path), Path::parent);
