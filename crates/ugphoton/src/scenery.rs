@@ -37,7 +37,7 @@ pub struct Scenery<'a> {
     /// The camera of a frame; its picture coordinates are samples.
     pub view: View,
     /// Its lens and film.
-    film: Film,
+    pub film: Film,
     /// The faces, by rest frame.
     pub world: World,
     /// The transparent solids, one of which the eye may be in.

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use uglight::{ColorFilter, Illumination, IncidentLamp, Irradiance, Lamp, LampPlace, SurfaceColor};
 use ugphysics::{Event, WaveVector, srgb_encode};
-use ugscene::Beam;
 
 use crate::immersion::Crossing;
 use crate::media::{Media, Solid};
@@ -138,7 +137,7 @@ impl<'a> Shader<'a> {
         };
         let lamp_shift = scenery.appearance.surface.frames().lamp_shift(element.body);
         let place = |row: usize, lamp: &Lamp| match (lamp.place, lamp.shifted(lamp.place, lamp_shift)) {
-            _ if matches!(lamp.beam, Beam::Area(_)) => Some(lamp.place_on(square_point(sample, row as u64))),
+            _ if has_shadows && lamp.is_area() => Some(lamp.place_on(square_point(sample, row as u64))),
             (LampPlace::At(place), LampPlace::At(shifted)) if lamp.radius > 0.0 => {
                 let toward = ugphysics::unit_or_zero(shifted - seen_from(scenery, point, row));
                 Some(LampPlace::At(place + lamp.radius * disk_point(toward, sample, row as u64)))

@@ -152,6 +152,16 @@ impl Film {
         Some(Sight { eye, direction })
     }
 
+    /// Steps across and down of this length from a sample, back where a step ahead would end in
+    /// another frame.
+    pub fn steps_in_frame(&self, sample: [u32; 2], length: u32) -> [f64; 2] {
+        [0, 1].map(|axis| {
+            let ahead = f64::from(length);
+            let ends_in_frame = f64::from(sample[axis]) % self.size[axis] + ahead < self.size[axis];
+            if ends_in_frame || self.frames == [1, 1] { ahead } else { -ahead }
+        })
+    }
+
     /// The direction from the left to the right eye: perpendicular to the view; in a panorama, to
     /// the horizontal direction seen in a column.
     fn across(&self, x: f64) -> DVec3 {

@@ -90,8 +90,8 @@ pub fn check_light(one: &Drawn, other: &Drawn, light: Vec<[f32; 3]>) -> Result<u
     }
 }
 
-/// The pipe cuts edges where rounding decides, and interpolates between the corners of pieces, so
-/// its light differs more, in proportion to that of the brightest pixel.
+/// The pipe cuts edges and round faces where rounding decides, and interpolates between the corners
+/// of pieces, so its light differs more, in proportion to that of the brightest pixel.
 ///
 /// # Errors
 /// More pixels differ.
@@ -101,7 +101,7 @@ pub fn check_pipe_light(mut pairs: Vec<([f32; 3], [f32; 3])>, drawn: [&Drawn; 2]
     for channel in pairs.iter_mut().flat_map(|(one, other)| one.iter_mut().chain(other)) {
         *channel += PIPE_ABSOLUTE * most;
     }
-    check_within(&pairs, drawn, PIPE_RELATIVE, pairs.len() / 40)?;
+    check_within(&pairs, drawn, PIPE_RELATIVE, pairs.len() / 20)?;
     Ok(n_lit)
 }
 

@@ -16,8 +16,8 @@ pub fn last(random: &mut Random) -> Outcome {
     let (world, renderer) = random_world(random);
     let row = random.below(world.bodies.len());
     let host = &world.bodies[row];
-    if host.paint[3] > 0.0 || host.vertex_paints.iter().any(|paint| paint[3] > 0.0) {
-        // It is seen through its host.
+    if host.round.is_some() || host.paint[3] > 0.0 || host.vertex_paints.iter().any(|paint| paint[3] > 0.0) {
+        // It is seen through its host, or its host is not flat.
         return Ok(0);
     }
     let decal = decal(random, host);
@@ -32,6 +32,9 @@ pub fn last(random: &mut Random) -> Outcome {
 pub fn first(random: &mut Random) -> Outcome {
     let (mut world, renderer) = random_world(random);
     let row = random.below(world.bodies.len());
+    if world.bodies[row].round.is_some() {
+        return Ok(0);
+    }
     let mut decal = decal(random, &world.bodies[row]);
     // Where another body is within the distance, a pixel may differ.
     let middle = decal.vertices.iter().sum::<DVec3>() / decal.vertices.len() as f64;
@@ -71,5 +74,16 @@ fn decal(random: &mut Random, of: &Body) -> Body {
     let vertices: Vec<DVec3> = face.iter().map(corner).collect();
     let faces = vec![(0..vertices.len()).collect()];
     let paint = [0.987, 0.123, 0.456, 0.0];
-    Body { vertices, faces, paint, vertex_paints: Vec::new(), surface: Surface::Level(1.0), ..of.clone() }
+    let surface = Surface::Level(1.0);
+    let coordinates = Vec::new();
+    Body {
+        vertices,
+        faces,
+        paint,
+        coordinates,
+        measured: None,
+        vertex_paints: Vec::new(),
+        surface,
+        ..of.clone()
+    }
 }

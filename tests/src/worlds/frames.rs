@@ -6,10 +6,10 @@ use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{check_reversed, check_same, is_same};
-use super::generate::{Lamps, Recipe, Surfaces, change, rotation, world};
+use super::generate::{Lamps, Recipe, Surfaces, change, rotation, textured, under_sky, world};
 use super::picture::{Drawn, LIGHT_ERROR, Picture, Renderer, SPECTRA, UNSHIFTED, by_law};
 use super::spacetime::aberrated;
-use super::world::{Lamp, LampPlace, World};
+use super::world::{LampPlace, World};
 use ugphoton::{Channel, ColorShift};
 
 const SHIFTS: [ColorShift; 4] =
@@ -47,13 +47,15 @@ pub(super) fn check_both(random: &mut Random, one: &World, other: &World) -> Out
 /// A boost, a turn, and a shift in space and time.
 pub fn boosts(random: &mut Random) -> Outcome {
     let recipe = Recipe { fastest: 0.9, lamps: Lamps::Stated, surfaces: Surfaces::Glass };
-    let mut world = world(random, recipe);
+    let world = world(random, recipe);
+    let mut world = textured(random, world);
     let mut renderers = RENDERERS.to_vec();
     if random.one_in(4) {
         // In exact mode all lamps rest with what they light, so only ambient light is the same.
         renderers = vec![Renderer::Exact];
-        let ambient = |lamp: &mut Lamp| (lamp.place, lamp.velocity) = (LampPlace::Ambient, None);
-        world.lamps.iter_mut().for_each(ambient);
+        for lamp in &mut world.lamps {
+            (lamp.place, lamp.beam, lamp.velocity) = (LampPlace::Ambient, None, None);
+        }
     } else {
         renderers.retain(|renderer| *renderer != Renderer::Exact);
     }
@@ -66,6 +68,7 @@ pub fn boosts(random: &mut Random) -> Outcome {
 pub fn turns(random: &mut Random) -> Outcome {
     let recipe = Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfaces::Glass };
     let world = world(random, recipe);
+    let world = under_sky(random, world);
     let unit = *random.pick(&[1.0, 1.0, 1e-6, 1e6]);
     let moved = world.placed(rotation(random), unit, unit * random.in_cube(9.0));
     let [one, other] = both(random, &world, &moved, &RENDERERS, LIGHT_ERROR)?;

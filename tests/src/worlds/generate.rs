@@ -1,10 +1,13 @@
 //! Random worlds: what they consist of follows from a seed and a recipe.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 use ugtesting::Random;
 
 use super::spacetime::{Change, Event, aberrated, boost, rest_place};
-use super::world::{Body, Camera, Lamp, LampPlace, Surface, World};
+use super::world::{Beam, Body, Camera, Lamp, LampPlace, Surface, World};
+
+/// Surfaces with measured spectra.
+pub const MEASURED: [&str; 3] = ["foliage", "metal", "red_paint"];
 
 /// Limits of a random world.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +53,13 @@ pub fn world(random: &mut Random, recipe: Recipe) -> World {
         bodies.iter_mut().for_each(|body| set_velocity(body, &camera, common));
     }
     let lamps = (0..1 + random.below(3)).map(|_| lamp(random, &camera, &bodies, recipe)).collect();
-    World { bodies, lamps, camera, anchor: DVec3::ZERO }
+    World { bodies, lamps, camera, anchor: DVec3::ZERO, sky: None }
+}
+
+/// The same world, in one of four cases under a sky, which rests in the scene, and with textures.
+pub fn under_sky(random: &mut Random, world: World) -> World {
+    let sky = random.one_in(4).then(|| rotation(random));
+    textured(random, World { sky, ..world })
 }
 
 /// A camera at a random event, in half of all cases in motion.
@@ -118,7 +127,22 @@ pub fn body(random: &mut Random, camera: &Camera, recipe: Recipe) -> Body {
     let mut body = shape(random);
     let (turn, size) = (rotation(random), random.between(0.6, 2.0));
     body.vertices.iter_mut().for_each(|place| *place = at + size * (turn * *place));
-    Body { paint: paint(random), surface: surface(random, recipe.surfaces), velocity, ..body }
+    let (paint, surface) = (paint(random), surface(random, recipe.surfaces));
+    let is_matt = matches!(surface, Surface::Matt) && paint[3] == 0.0;
+    let measured = (is_matt && random.one_in(4)).then(|| *random.pick(&MEASURED));
+    Body { paint, measured, surface, velocity, ..body }
+}
+
+/// The same world, in which some bodies are covered with a picture.
+pub fn textured(random: &mut Random, mut world: World) -> World {
+    for body in world.bodies.iter_mut().filter(|body| body.round.is_none() && body.measured.is_none()) {
+        if random.one_in(3) && body.paint[3] == 0.0 {
+            let across = [random.direction(), random.direction()];
+            let coordinates = |place: &DVec3| DVec2::from(across.map(|axis| axis.dot(*place)));
+            body.coordinates = body.vertices.iter().map(coordinates).collect();
+        }
+    }
+    world
 }
 
 /// A large square behind everything.
@@ -180,7 +204,19 @@ pub fn lamp(random: &mut Random, camera: &Camera, bodies: &[Body], recipe: Recip
         LampPlace::Ambient if random.one_in(2) && recipe.lamps == Lamps::Stated => None,
         _ => velocity,
     };
-    Lamp { intensity: random.between(0.3, 1.5), place, paint, velocity, motion: None }
+    let beam = match (random.below(6), place) {
+        (0, LampPlace::At(_)) => Some(Beam::Spot {
+            axis: random.direction() + camera.forward,
+            angle: random.between(30.0, 120.0),
+            edge: random.between(5.0, 30.0),
+        }),
+        (1, LampPlace::At(_)) => Some(Beam::Area {
+            edges: [random.in_ball(0.5), random.in_ball(0.5)],
+            reference: random.between(3.0, 9.0),
+        }),
+        _ => None,
+    };
+    Lamp { intensity: random.between(0.3, 1.5), place, beam, paint, velocity, motion: None }
 }
 
 /// The direction, in the frame of a lamp that moves with `beta`, in which a lamp is afar that is
@@ -191,19 +227,37 @@ pub fn afar(toward: DVec3, beta: DVec3) -> DVec3 {
 
 /// A body of radius 1 around the origin, without colour.
 pub fn shape(random: &mut Random) -> Body {
-    match random.below(5) {
+    match random.below(8) {
         0 => square(),
         1 => pyramid(),
         2 => sphere(6 + random.below(5)),
+        3 => round(random),
         _ => cube(),
     }
+}
+
+/// A sphere, a cylinder or a disc, exactly round: ends of radii and points of rims.
+fn round(random: &mut Random) -> Body {
+    let rim = |z: f64| [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y].map(|side| side + z * DVec3::Z);
+    let (word, vertices, faces) = match random.below(3) {
+        0 => {
+            let ends = DMat3::IDENTITY.to_cols_array_2d().map(DVec3::from);
+            ("sphere", [ends, ends.map(|end| -end)].concat(), vec![vec![0, 1, 2], vec![3, 4, 5]])
+        }
+        1 => ("cylinder", [rim(-1.0), rim(1.0)].concat(), vec![vec![0, 1, 2, 3], vec![4, 5, 6, 7]]),
+        _ => ("disc", rim(0.0).to_vec(), vec![vec![0, 1, 2, 3]]),
+    };
+    Body { round: Some(word), ..plain(vertices, faces) }
 }
 
 fn plain(vertices: Vec<DVec3>, faces: Vec<Vec<usize>>) -> Body {
     Body {
         vertices,
         faces,
+        round: None,
         paint: [1.0, 1.0, 1.0, 0.0],
+        coordinates: Vec::new(),
+        measured: None,
         vertex_paints: Vec::new(),
         surface: Surface::Matt,
         velocity: None,

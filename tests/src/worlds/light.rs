@@ -7,7 +7,7 @@ use super::Outcome;
 use super::compare::{check_light, check_within};
 use super::generate::{Lamps, Recipe, Surfaces, lamp, world};
 use super::picture::{Drawn, Picture, Renderer, SPECTRA, by_law};
-use super::world::{Lamp, Surface, World};
+use super::world::{Beam, Lamp, Surface, World};
 use ugphoton::ColorShift;
 
 fn dark_world(random: &mut Random, lamps: Lamps) -> (World, Recipe) {
@@ -34,7 +34,13 @@ fn check_sum(random: &mut Random, shift: ColorShift) -> Outcome {
     let factor = random.between(0.1, 20.0);
     let scaled: Vec<Lamp> =
         others.iter().map(|lamp| Lamp { intensity: factor * lamp.intensity, ..lamp.clone() }).collect();
-    let drawn = |lamps: Vec<Lamp>| Picture::new(&World { lamps, ..world.clone() }, shift).by(renderer).draw();
+    // With shadows, another point of an area lights each sample.
+    let areas = world.lamps.iter().chain(&others).any(|lamp| matches!(lamp.beam, Some(Beam::Area { .. })));
+    let drawn = |lamps: Vec<Lamp>| {
+        let mut picture = Picture::new(&World { lamps, ..world.clone() }, shift).by(renderer);
+        picture.rays.shadows = !areas;
+        picture.draw()
+    };
     let (one, other) = (drawn(world.lamps.clone())?, drawn(others)?);
     let both = drawn(world.lamps.iter().cloned().chain(scaled).collect())?;
     let sum = one.light().into_iter().zip(other.light());
@@ -58,7 +64,7 @@ pub fn powers_of_doppler(random: &mut Random) -> Outcome {
     let (mut world, _) = dark_world(random, Lamps::Unstated);
     for body in &mut world.bodies {
         let grey = random.between(0.1, 0.9);
-        body.paint = [grey, grey, grey, 0.0];
+        (body.paint, body.measured) = ([grey, grey, grey, 0.0], None);
         body.surface = Surface::Level(1.0);
     }
     let (law, power) = *random.pick(&[(Brightness::Photon, 3.0), (Brightness::Bolometric, 4.0)]);

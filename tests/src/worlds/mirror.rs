@@ -11,7 +11,7 @@ use super::compare::{check, n_lit, reversed};
 use super::generate::{self, Recipe, Surfaces, afar, camera, change};
 use super::picture::{Picture, SPECTRA, UNSHIFTED, by_law};
 use super::spacetime::{aberrated, boost};
-use super::world::{Body, Camera, Lamp, LampPlace, Surface, World};
+use super::world::{Beam, Body, Camera, Lamp, LampPlace, Surface, World};
 use crate::world_lines::{self, Statement};
 
 /// The plane of the mirror, in the frame in which it rests: x·normal = −height.
@@ -95,8 +95,8 @@ fn check_mirror(random: &mut Random, recipe: Recipe, accelerates: bool) -> Outco
     if bodies.is_empty() {
         return Ok(0);
     }
-    let mut world = World { bodies, lamps, camera: behind, anchor: DVec3::ZERO };
-    let id = world.bodies.iter().map(|body| body.faces.len() as u32).sum::<u32>() + 1;
+    let mut world = World { bodies, lamps, camera: behind, anchor: DVec3::ZERO, sky: None };
+    let id = world.bodies.iter().map(Body::n_faces).sum::<u32>() + 1;
     let mut mirrored = World { camera, ..world.clone() };
     mirrored.bodies.push(plane.body());
     // Lamps that rest with what they light are the same in one frame only.
@@ -201,7 +201,7 @@ fn lamp_before(
         LampPlace::At(place) => velocities.iter().all(|&velocity| {
             let event = boost(velocity) * place.extend(0.0);
             let last = event.truncate() + velocity * (behind.event.w - event.w);
-            plane.distance(last) > 0.1
+            plane.distance(last) > 0.1 + lamp.beam.map_or(0.0, Beam::reach)
         }),
     };
     is_before.then_some(lamp)

@@ -1,5 +1,7 @@
 //! Pictures of worlds: by rays, by the exact mode of the pipe, and by the whole pipe.
 
+use std::sync::{Arc, LazyLock};
+
 use ugimage::{Format, LinearFrame, Samples};
 use uglight::ColorShift;
 use uglorentz::Pieces;
@@ -8,13 +10,20 @@ use ugphoton::{Channel, Lens, Output, PictureOptions, RayOptions, Shutter};
 use ugphysics::Brightness;
 use ugscene::{Anchor, ColorValue, MotionOptions, Scene, Tint, VertexId};
 
-use super::world::World;
+use super::generate::MEASURED;
+use super::world::{Beam, Lamp, World};
 
 /// Pixels across and down.
 pub const SIZE: [u32; 2] = [24, 18];
 
 /// Error of the light between the vertices of the pipe, part of the brightest.
 pub const LIGHT_ERROR: f64 = 0.005;
+
+/// A picture of eight by eight pixels, as PFM.
+static TEXTURE: LazyLock<Arc<[u8]>> = LazyLock::new(|| {
+    let light = (0..8 * 8 * 3).flat_map(|at: u32| ((10 + at * 37 % 90) as f32 / 100.0).to_le_bytes());
+    b"PF\n8 8\n-1.0\n".iter().copied().chain(light).collect()
+});
 
 /// Colours as they are at rest.
 pub const UNSHIFTED: ColorShift = ColorShift::NONE;
@@ -69,8 +78,13 @@ pub struct Picture {
 
 impl Picture {
     /// By rays with all their light, and one sample a pixel.
+    /// Of a lamp with an area that casts shadows another point lights each sample, so pictures with
+    /// one have no shadows.
     pub fn new(world: &World, shift: ColorShift) -> Self {
-        Self { motion: world.motion(), ..Self::of_scene(world.text(), shift) }
+        let mut picture = Self { motion: world.motion(), ..Self::of_scene(world.text(), shift) };
+        let has_area = |lamp: &Lamp| matches!(lamp.beam, Some(Beam::Area { .. }));
+        picture.rays.shadows = !world.lamps.iter().any(has_area);
+        picture
     }
 
     /// The picture of a scene, as [`Self::new`].
@@ -126,8 +140,20 @@ impl Picture {
 
     fn scene(&self) -> Result<Scene, String> {
         let options = Options { keeps_rounds: true, ..Options::default() };
-        let parsed = ugparse::read(&Source::new("world.ug", self.text.as_str()), &options, None);
-        parsed.map(|parsed| parsed.scene).map_err(words)
+        let parsed = ugparse::read(&Source::new("world.ug", self.scene_text()), &options, None);
+        let mut scene = parsed.map(|parsed| parsed.scene).map_err(words)?;
+        scene.textures.iter_mut().for_each(|texture| texture.image.bytes = TEXTURE.clone());
+        Ok(scene)
+    }
+
+    /// Measured surfaces are spectra: where colours are hues, they are grey.
+    fn scene_text(&self) -> String {
+        let hue = |text: String, name: &&str| text.replace(name, ".5 .5 .5");
+        if self.shift.is_spectral() {
+            self.text.clone()
+        } else {
+            MEASURED.iter().fold(self.text.replace("c_refl", "c_rgb"), hue)
+        }
     }
 
     fn options(&self) -> PictureOptions {
@@ -245,7 +271,8 @@ impl Picture {
         let config = ugdoppler::Config {
             shift: self.shift,
             light: true,
-            keep: true,
+            // Textures are drawn without it.
+            keep: seen.textures.is_empty(),
             tolerance: 0.0,
             ..ugdoppler::Config::default()
         };
@@ -283,7 +310,7 @@ impl Picture {
                 )
             }
         };
-        format!("{{ {command} }}\n{}", self.text)
+        format!("{{ {command} }}\n{}", self.scene_text())
     }
 
     fn of_rays(&self) -> String {

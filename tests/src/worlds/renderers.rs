@@ -7,7 +7,7 @@ use ugtesting::Random;
 
 use super::Outcome;
 use super::compare::{are_around, check_pipe_light, check_within, is_within};
-use super::generate::{Lamps, Recipe, Surfaces, paint, world};
+use super::generate::{Lamps, Recipe, Surfaces, paint, textured, world};
 use super::picture::{Picture, Renderer, SPECTRA, UNSHIFTED, by_law};
 use super::world::World;
 
@@ -49,6 +49,7 @@ pub fn colored_pipe(random: &mut Random) -> Outcome {
 fn check_exact(random: &mut Random, change: fn(&mut Random, World) -> World) -> Outcome {
     let recipe = Recipe { fastest: 0.9, lamps: Lamps::Unstated, surfaces: Surfaces::Matt };
     let world = world(random, recipe);
+    let world = textured(random, world);
     let world = change(random, world);
     let shift = *random.pick(&[SPECTRA, UNSHIFTED, by_law(Brightness::Report)]);
     let rays = Picture::new(&world, shift).like_pipe();
@@ -59,7 +60,11 @@ fn check_exact(random: &mut Random, change: fn(&mut Random, World) -> World) -> 
 
 fn random_world(random: &mut Random, change: fn(&mut Random, World) -> World) -> World {
     let recipe = Recipe { fastest: 0.8, lamps: Lamps::All, surfaces: Surfaces::Matt };
-    let world = world(random, recipe);
+    let mut world = world(random, recipe);
+    // The pipe leaves out textures where lamps move.
+    if world.lamps.iter().all(|lamp| lamp.velocity.is_none()) {
+        world = textured(random, world);
+    }
     change(random, world)
 }
 
@@ -99,8 +104,9 @@ fn white_lamps(_: &mut Random, mut world: World) -> World {
 
 /// Some bodies get colours at their vertices, and some vertices leave the planes of their faces.
 fn painted(random: &mut Random, mut world: World) -> World {
-    for body in &mut world.bodies {
+    for body in world.bodies.iter_mut().filter(|body| body.round.is_none()) {
         let own = body.paint;
+        body.measured = None;
         match random.below(4) {
             0 => {
                 body.vertex_paints =

@@ -179,6 +179,9 @@ pub fn hollow(random: &mut Random) -> Outcome {
     let surface = clear(random.between(1.05, 1.6), 0.0);
     let velocity = (camera.velocity != DVec3::ZERO).then_some(camera.velocity);
     let glass = Body { surface, ..solid(random, camera.event, random.clone().between(0.3, 1.0), velocity) };
+    if glass.round.is_some() {
+        return Ok(0);
+    }
     world.bodies.push(glass);
     let mut hollowed = world.clone();
     let row = hollowed.bodies.len() - 1;

@@ -47,7 +47,7 @@ fn name_bodies(random: &mut Random, world: &mut World) {
 /// Bodies that are too small to be seen, or wholly transparent, of other velocities or with motions
 /// of their own.
 pub fn unseen_bodies(random: &mut Random) -> Outcome {
-    let mut world = world(random, RECIPE);
+    let mut world = under_sky(random);
     name_bodies(random, &mut world);
     let picture = picture(random, &world);
     let mut more = world.clone();
@@ -75,11 +75,15 @@ pub fn unseen_bodies(random: &mut Random) -> Outcome {
     check_same(&picture.draw()?, &Picture { text: more.text(), ..picture }.draw()?)
 }
 
-const RECIPE: Recipe = Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfaces::Glass };
+fn under_sky(random: &mut Random) -> World {
+    let recipe = Recipe { fastest: 0.9, lamps: Lamps::All, surfaces: Surfaces::Glass };
+    let world = world(random, recipe);
+    generate::under_sky(random, world)
+}
 
 /// Unused colours, surfaces, vertices and definitions, comments, and another order of statements.
 pub fn unused_statements(random: &mut Random) -> Outcome {
-    let mut world = world(random, RECIPE);
+    let mut world = under_sky(random);
     name_bodies(random, &mut world);
     let picture = picture(random, &world);
     let mut statements = world.statements();
@@ -103,7 +107,7 @@ pub fn unused_statements(random: &mut Random) -> Outcome {
 
 /// Bodies as instances of mirrored, turned and scaled definitions.
 pub fn instances(random: &mut Random) -> Outcome {
-    let world = world(random, RECIPE);
+    let world = under_sky(random);
     let picture = picture(random, &world);
     let mut text: String = World { bodies: Vec::new(), ..world.clone() }.text();
     for (row, body) in world.bodies.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3, EulerRot};
 use ugscene::{Anchor, MotionOptions};
 
 use super::spacetime::{Change, Event, boost, rest_place};
@@ -19,6 +19,8 @@ pub struct World {
     pub camera: Camera,
     /// Where the text has the common origin, in scene coordinates (`-an`).
     pub anchor: DVec3,
+    /// The turn of the day's sky, if there is one.
+    pub sky: Option<DMat3>,
 }
 
 /// A body of one colour and one surface.
@@ -28,8 +30,14 @@ pub struct Body {
     pub vertices: Vec<DVec3>,
     /// Rows of `vertices`, counterclockwise seen from outside.
     pub faces: Vec<Vec<usize>>,
+    /// One round face of this statement, whose groups of vertices are `faces`.
+    pub round: Option<&'static str>,
     /// Display-encoded red, green and blue, and translucency.
     pub paint: [f64; 4],
+    /// Texture coordinates; none or one for each vertex.
+    pub coordinates: Vec<DVec2>,
+    /// A measured surface of this name instead of `paint`.
+    pub measured: Option<&'static str>,
     /// Colours of vertices, in the same form; none or one for each.
     pub vertex_paints: Vec<[f64; 4]>,
     /// Its surface, or its own light.
@@ -58,6 +66,8 @@ pub struct Lamp {
     pub intensity: f64,
     /// Where it is, in its rest frame.
     pub place: LampPlace,
+    /// Where a lamp at a point shines; everywhere if `None`.
+    pub beam: Option<Beam>,
     /// Display-encoded red, green and blue; white if `None`.
     pub paint: Option<[f64; 3]>,
     /// `None`: it rests with whatever it lights.
@@ -75,6 +85,48 @@ pub enum LampPlace {
     Afar(DVec3),
     /// At a point.
     At(DVec3),
+}
+
+/// The beam of a lamp, in its rest frame.
+#[derive(Clone, Copy, Debug)]
+pub enum Beam {
+    /// A cone about an axis.
+    Spot {
+        /// Of any length.
+        axis: DVec3,
+        /// Half the angle of the cone, degrees.
+        angle: f64,
+        /// The soft part of it, degrees.
+        edge: f64,
+    },
+    /// A parallelogram.
+    Area {
+        /// Its sides.
+        edges: [DVec3; 2],
+        /// The distance at which its light is the intensity.
+        reference: f64,
+    },
+}
+
+impl Beam {
+    fn placed(self, turn: DMat3, unit: f64) -> Self {
+        match self {
+            Self::Spot { axis, angle, edge } => Self::Spot { axis: turn * axis, angle, edge },
+            Self::Area { edges, reference } => {
+                let [u, v] = edges.map(|edge| unit * (turn * edge));
+                let edges = if turn.determinant() < 0.0 { [v, u] } else { [u, v] };
+                Self::Area { edges, reference: unit * reference }
+            }
+        }
+    }
+
+    /// How far it reaches around the place of the lamp.
+    pub fn reach(self) -> f64 {
+        match self {
+            Self::Spot { .. } => 0.0,
+            Self::Area { edges: [u, v], .. } => u.length() + v.length(),
+        }
+    }
 }
 
 /// A camera that takes a picture at an event.
@@ -127,6 +179,7 @@ impl World {
     /// time has to stay.
     #[must_use]
     pub fn changed(&self, change: &Change) -> Self {
+        assert_eq!(self.sky, None, "a sky rests in the scene");
         let mut world = self.clone();
         for body in &mut world.bodies {
             if let Some(motion) = &mut body.motion {
@@ -140,12 +193,15 @@ impl World {
         }
         for lamp in &mut world.lamps {
             if let (Some(motion), LampPlace::At(place)) = (&mut lamp.motion, &mut lamp.place) {
-                *place = boosted(motion, change) * *place;
+                let turn = boosted(motion, change);
+                *place = turn * *place;
+                lamp.beam = lamp.beam.map(|beam| beam.placed(turn, 1.0));
                 continue;
             }
             let Some(velocity) = &mut lamp.velocity else { continue };
             let (moved, rest) = change.of_frame(*velocity);
             *velocity = moved;
+            lamp.beam = lamp.beam.map(|beam| beam.placed(rest.turn, 1.0));
             lamp.place = match lamp.place {
                 LampPlace::Ambient => LampPlace::Ambient,
                 LampPlace::Afar(toward) => LampPlace::Afar(rest.turn * toward),
@@ -179,6 +235,7 @@ impl World {
         for lamp in &mut world.lamps {
             lamp.velocity = lamp.velocity.map(|velocity| turn * velocity);
             lamp.motion = lamp.motion.as_ref().map(|motion| motion.placed(turn, unit));
+            lamp.beam = lamp.beam.map(|beam| beam.placed(turn, unit));
             match &mut lamp.place {
                 LampPlace::Ambient => {}
                 LampPlace::Afar(toward) => *toward = turn * *toward,
@@ -191,6 +248,7 @@ impl World {
             *vector = turn * *vector;
         }
         world.anchor = anchor;
+        world.sky = world.sky.map(|sky| turn * sky);
         world
     }
 
@@ -219,11 +277,20 @@ impl World {
         }
         all.extend(self.lamps.iter().enumerate().map(|(row, lamp)| lamp.statements(row, self.anchor)));
         all.push(self.camera.statement(self.anchor));
+        all.extend(self.sky.map(|turn| {
+            let (z, y, x) = turn.to_euler(EulerRot::ZYX);
+            format!("sky day -ra {} {} {};\n", x.to_degrees(), y.to_degrees(), z.to_degrees())
+        }));
         all
     }
 }
 
 impl Body {
+    /// How many faces its scene has.
+    pub fn n_faces(&self) -> u32 {
+        if self.round.is_some() { 1 } else { self.faces.len() as u32 }
+    }
+
     /// True if something that goes straight from one event to another meets a face.
     pub fn is_crossed(&self, way: [Event; 2]) -> bool {
         let [from, to] = way.map(|event| rest_place(event, self.velocity.unwrap_or_default()));
@@ -240,14 +307,22 @@ impl Body {
     }
 
     fn write(&self, row: usize, anchor: DVec3, all: &mut Vec<String>) {
-        all.push(paint(&format!("c{row}"), &self.paint));
+        all.push(match self.measured {
+            Some(name) => format!("c_refl c{row} {name};\n"),
+            None => paint(&format!("c{row}"), &self.paint),
+        });
+        if !self.coordinates.is_empty() {
+            all.push(format!("c_tex c{row} texture.png -wrap mirror;\n"));
+        }
         for (corner, place) in self.vertices.iter().enumerate() {
             let own = self.vertex_paints.get(corner).map(|own| {
                 all.push(paint(&format!("c{row}_{corner}"), own));
                 format!(" c{row}_{corner}")
             });
             let [x, y, z] = (*place + anchor).to_array();
-            all.push(format!("v b{row}_{corner} {x} {y} {z}{};\n", own.unwrap_or_default()));
+            let at = self.coordinates.get(corner).map(|at| format!(" ({} {})", at.x, at.y));
+            let [own, at] = [own, at].map(Option::unwrap_or_default);
+            all.push(format!("v b{row}_{corner} {x} {y} {z}{own}{at};\n"));
         }
         let surface = match self.surface {
             Surface::Matt => String::new(),
@@ -262,10 +337,17 @@ impl Body {
             Some(_) => format!(" <b{row}>"),
             None => velocity(self.velocity),
         };
-        for face in &self.faces {
+        let corners = |face: &Vec<usize>| {
             let corners: Vec<String> = face.iter().map(|corner| format!("b{row}_{corner}")).collect();
-            all.push(format!("f ({}) c{row}{surface}{moving};\n", corners.join(" ")));
-        }
+            format!("({})", corners.join(" "))
+        };
+        let contours: Vec<String> = self.faces.iter().map(corners).collect();
+        let whole = contours.join(" ");
+        let (word, faces) = match self.round {
+            Some(word) => (word, std::slice::from_ref(&whole)),
+            None => ("f", &contours[..]),
+        };
+        all.extend(faces.iter().map(|face| format!("{word} {face} c{row}{surface}{moving};\n")));
     }
 
     /// Its scene as an instance, with the transformation `words`, of a definition with other
@@ -294,8 +376,20 @@ impl Lamp {
                 text += &format!(" {x} {y} {z} 0");
             }
         }
+        if let Some(Beam::Area { reference, .. }) = self.beam {
+            let _ = write!(text, " {reference}");
+        }
         if self.paint.is_some() {
             let _ = write!(text, " l{row}");
+        }
+        match self.beam {
+            Some(Beam::Spot { axis: DVec3 { x, y, z }, angle, edge }) => {
+                let _ = write!(text, " -spot {x} {y} {z} {angle} {edge}");
+            }
+            Some(Beam::Area { edges: [u, v], .. }) => {
+                let _ = write!(text, " -area {} {} {} {} {} {}", u.x, u.y, u.z, v.x, v.y, v.z);
+            }
+            None => {}
         }
         text + &self.motion.as_ref().map_or_else(|| velocity(self.velocity), |_| format!(" <l{row}>")) + ";\n"
     }
