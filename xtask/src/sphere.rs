@@ -75,7 +75,8 @@ fn write_face(out: &mut impl Write, cell: &[u32], color: Option<&str>) -> io::Re
     }
 }
 
-fn write_view(out: &mut impl Write) -> io::Result<()> {
+/// Lights and a camera.
+pub fn write_view(out: &mut impl Write) -> io::Result<()> {
     writeln!(
         out,
         "l 0.3 ;
