@@ -50,5 +50,5 @@ pub fn formats() -> Vec<&'static str> {
 /// The names of the channels that a picture may have besides light.
 #[pyfunction]
 pub fn channels() -> Vec<&'static str> {
-    Channel::ALL.map(Channel::name).to_vec()
+    Channel::NAMES.map(|(name, _)| name).to_vec()
 }

@@ -3,6 +3,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use glam::DVec3;
+
 /// A division of the sphere into bands from pole to pole and sectors of longitude.
 pub struct Globe {
     pub bands: u32,
@@ -14,6 +16,15 @@ pub struct Globe {
 pub struct Direction {
     pub theta: f64,
     pub phi: f64,
+}
+
+impl Direction {
+    /// The unit vector in this direction.
+    pub fn unit(self) -> DVec3 {
+        let (sin_theta, cos_theta) = libm::sincos(self.theta);
+        let (sin_phi, cos_phi) = libm::sincos(self.phi);
+        DVec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta)
+    }
 }
 
 impl Globe {

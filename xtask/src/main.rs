@@ -9,7 +9,6 @@
 //! cargo xtask scaling
 //! cargo xtask gallery
 //! cargo xtask plots figures
-//! cargo xtask directions > scenes/directions.ug
 //! cargo xtask page --test
 //! cargo xtask hostile 50000
 //! cargo xtask worlds --from 1000000 --count 10000
@@ -23,7 +22,6 @@
 //!
 //! Scenes go to standard output and are the same bytes on every run and platform.
 
-mod directions;
 mod gallery;
 mod globe;
 mod hostile;
@@ -39,7 +37,6 @@ mod scaling;
 mod scripts;
 mod short;
 mod site;
-mod sphere;
 mod teapot;
 mod worlds;
 
@@ -65,23 +62,6 @@ enum Task {
         /// Squares along each side of each of the 32 patches; a square has two triangles
         #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
         squares: u32,
-    },
-    /// Write a sphere of radius 1
-    Sphere {
-        /// Bands from pole to pole; there are twice as many sectors
-        #[arg(long, value_name = "N", default_value_t = 24, value_parser = clap::value_parser!(u32).range(2..=2048))]
-        bands: u32,
-        /// Make the northern half red and the southern half green, with shared vertices on the
-        /// equator
-        #[arg(long)]
-        halves: bool,
-    },
-    /// Write a textured sphere, and beside it the same as an observer in motion towards its pole
-    /// sees it from its middle
-    Directions {
-        /// Speed of the observer
-        #[arg(long, value_name = "BETA", default_value_t = 0.9)]
-        beta: f64,
     },
     /// Write a bumpy sphere of about N triangles with vertex colours, for benchmarks
     Mesh {
@@ -186,9 +166,6 @@ fn run(task: &Task) -> Outcome<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match task {
         Task::Teapot { squares } => teapot::write(&mut out, *squares)?,
-        Task::Sphere { bands, halves: false } => sphere::write(&mut out, *bands)?,
-        Task::Sphere { bands, halves: true } => sphere::write_halves(&mut out, *bands)?,
-        Task::Directions { beta } => directions::write(&mut out, *beta)?,
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
         Task::Bench { words } => scripts::bench(words)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,

@@ -2,7 +2,6 @@
 
 use crate::globe::{Direction, Globe};
 use crate::short::{Short, ShortPoint};
-use crate::sphere;
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 use std::io::{self, Write};
@@ -12,19 +11,8 @@ use std::io::{self, Write};
 const HUES: u32 = 36;
 const SATURATIONS: u32 = 8;
 
-/// Default lights and camera.
-const TAIL: &str = "l 0.3 ;
-l sun 0.7 -1 -2 1.5 ;
-cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;
-";
-
 /// Writes a mesh of about `triangles` triangles; if `each`, every vertex has its own colour.
 pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()> {
-    write_with(out, triangles, each, TAIL)
-}
-
-/// Like [`write()`], with other lights and another camera.
-pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) -> io::Result<()> {
     let globe = globe(triangles);
     let bands = globe.bands;
     writeln!(
@@ -53,7 +41,12 @@ pub fn write_with(out: &mut impl Write, triangles: u32, each: bool, tail: &str) 
     for [a, b, c] in corners(&globe) {
         writeln!(out, "f (v{a} v{b} v{c}) ;")?;
     }
-    out.write_all(tail.as_bytes())
+    writeln!(
+        out,
+        "l 0.3 ;
+l sun 0.7 -1 -2 1.5 ;
+cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;"
+    )
 }
 
 /// The positions and triangles of the same mesh.
@@ -74,7 +67,7 @@ fn corners(globe: &Globe) -> impl Iterator<Item = [u32; 3]> {
 }
 
 fn position(direction: Direction) -> DVec3 {
-    radius(direction) * sphere::unit_vector(direction)
+    radius(direction) * direction.unit()
 }
 
 fn write_palette(out: &mut impl Write) -> io::Result<()> {

@@ -11,7 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde_json::{Map, Value};
 use ugtests::scenes::{self, root, target_dir};
 
-use crate::programs;
+use crate::programs::{self, run};
 
 const TARGET: &str = "wasm32-unknown-unknown";
 
@@ -161,10 +161,4 @@ fn test(folder: &Path, page: &Path) -> io::Result<()> {
     let script = folder.join("test.mjs");
     fs::copy(root().join("web/test.mjs"), &script)?;
     run(Command::new("node").arg(script).arg(page).arg(programs::released()).arg(root().join("scenes")))
-}
-
-fn run(command: &mut Command) -> io::Result<()> {
-    let status = command.status()?;
-    let name = command.get_program().to_string_lossy().into_owned();
-    if status.success() { Ok(()) } else { Err(io::Error::other(format!("{name}: {status}"))) }
 }

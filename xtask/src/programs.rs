@@ -1,5 +1,6 @@
 //! The programs, built as people build them.
 
+use std::io;
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -22,4 +23,10 @@ fn built(profile: &str) -> PathBuf {
     let status = cargo.status().expect("cargo runs");
     assert!(status.success(), "cargo build --profile {profile}: {status}");
     scenes::target_dir().join(if profile == "dev" { "debug" } else { profile })
+}
+
+/// Runs a command to its end, and fails if it does.
+pub fn run(command: &mut Command) -> io::Result<()> {
+    let status = command.status()?;
+    if status.success() { Ok(()) } else { Err(io::Error::other(format!("{command:?}: {status}"))) }
 }

@@ -39,6 +39,5 @@ pub fn package(is_checked: bool) -> io::Result<()> {
 }
 
 fn run(name: &str, arguments: &[&OsStr]) -> io::Result<()> {
-    let status = Command::new(scenes::root().join(name)).args(arguments).status()?;
-    if status.success() { Ok(()) } else { Err(io::Error::other(format!("{name}: {status}"))) }
+    programs::run(Command::new(scenes::root().join(name)).args(arguments))
 }

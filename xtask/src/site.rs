@@ -9,6 +9,7 @@ use pulldown_cmark::{Event, Parser, Tag};
 use ugtests::scenes;
 
 use crate::install;
+use crate::programs::run;
 
 /// Version of mdBook that is installed below the target folder if there is none.
 const MDBOOK: &str = "mdbook@0.5.4";
@@ -72,11 +73,6 @@ pub fn write(out: &mut impl Write) -> io::Result<()> {
 /// The name, or the text with links, of a page whose folder opens with it.
 fn index(text: &str) -> String {
     text.replace("README.md", "index.md")
-}
-
-fn run(command: &mut Command) -> io::Result<()> {
-    let status = command.status()?;
-    if status.success() { Ok(()) } else { Err(io::Error::other(format!("{command:?}: {status}"))) }
 }
 
 /// The pages in the order in which the front page links to them, each with its heading.

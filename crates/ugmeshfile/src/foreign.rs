@@ -27,28 +27,26 @@ pub enum Foreign {
 impl Foreign {
     /// What to do with such a file in the place of a mesh.
     pub fn remedy(self) -> &'static str {
+        self.words()[1]
+    }
+
+    /// What it is, and the remedy.
+    fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Utf16 => "save it as UTF-8 or ASCII",
-            Self::Compressed => "decompress it first",
-            Self::GitLfs => "fetch the file itself with `git lfs pull`",
-            Self::WebPage => "download the file itself",
-            Self::Picture | Self::Table => "name a mesh",
-            Self::Model => remedies::EXPORT_MESH,
+            Self::Utf16 => ["UTF-16 text", "save it as UTF-8 or ASCII"],
+            Self::Compressed => ["compressed data", "decompress it first"],
+            Self::GitLfs => ["a Git LFS pointer", "fetch the file itself with `git lfs pull`"],
+            Self::WebPage => ["a web page", "download the file itself"],
+            Self::Picture => ["a picture", "name a mesh"],
+            Self::Model => ["a model in a format that is not read", remedies::EXPORT_MESH],
+            Self::Table => ["a table", "name a mesh"],
         }
     }
 }
 
 impl fmt::Display for Foreign {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Utf16 => "UTF-16 text",
-            Self::Compressed => "compressed data",
-            Self::GitLfs => "a Git LFS pointer",
-            Self::WebPage => "a web page",
-            Self::Picture => "a picture",
-            Self::Model => "a model in a format that is not read",
-            Self::Table => "a table",
-        })
+        f.write_str(self.words()[0])
     }
 }
 

@@ -15,8 +15,7 @@ use crate::diagnostics::Diagnostics;
 use crate::event_table;
 use crate::grammar::KEYWORDS;
 use crate::options::{Limit, Options};
-use crate::parallel_reader::read_document;
-use crate::reader::RequestStatement;
+use crate::reader::{self, RequestStatement};
 use crate::refuse_errors;
 use crate::request::{Request, RequestError, RequestKind, relative_to, without_dots};
 use crate::source::{Images, LineMark, Source};
@@ -122,7 +121,7 @@ struct Text {
 impl Text {
     fn new(source: Source, options: &Options) -> Result<Self, Diagnostics> {
         let mut findings = Vec::new();
-        let document = read_document(&source.text, options, &mut findings);
+        let document = reader::read(&source.text, options, &mut findings);
         let (statements, marks) = (document.requests, document.line_marks);
         refuse_errors(&source, &mut findings)?;
         Ok(Self { source, statements, marks, n_replaced: 0, n_done: 0 })

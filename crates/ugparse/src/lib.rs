@@ -57,7 +57,6 @@ mod number_text;
 mod numbered;
 mod options;
 mod origin;
-mod parallel_reader;
 #[cfg(feature = "cli")]
 pub mod pipe;
 #[cfg(feature = "triangles")]
@@ -133,7 +132,7 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let text = &source.text[..];
     check_length(source, options)?;
     let mut findings = Vec::new();
-    let mut document = parallel_reader::read_document(text, options, &mut findings);
+    let mut document = reader::read(text, options, &mut findings);
     stage_statement::take(text, &mut document, &mut findings);
     let sky = sky_statement::take(text, &mut document, &mut findings);
     // A scene without the files of its pictures is complete.

@@ -28,39 +28,19 @@ impl<'t, T> Named<'t, T> {
     pub fn push(&mut self, text: &'t [u8], name: Option<Span>, row: T, span: Span) -> Option<Span> {
         let before = name.and_then(|name| {
             let number = self.names.enter(name.of(text));
-            self.define(number, self.spans.len() as u32)
+            if number >= self.rows.len() {
+                self.rows.resize(number + 1, None);
+            }
+            self.rows[number].replace(self.spans.len() as u32)
         });
         self.table.push(row, span);
         self.spans.push(name);
         before.map(|row| self.spans[row as usize].unwrap_or_default())
     }
 
-    /// Defines a name; returns its previous definition.
-    fn define(&mut self, name: usize, row: u32) -> Option<u32> {
-        if name >= self.rows.len() {
-            self.rows.resize(name + 1, None);
-        }
-        self.rows[name].replace(row)
-    }
-
     /// The row with this name, if it is defined in this scope.
     pub fn row(&self, name: &[u8]) -> Option<usize> {
         self.rows.get(self.names.get(name)?).copied().flatten().map(|row| row as usize)
-    }
-
-    /// Appends the names of the next part of the text, but not its table. Returns the number of
-    /// each of them in this table; `None` if one is defined twice.
-    pub fn append_names(&mut self, part: &mut Self) -> Option<Vec<usize>> {
-        let numbers: Vec<usize> = part.names.list.iter().map(|name| self.names.enter(name)).collect();
-        let first_row = self.spans.len() as u32;
-        for (row, &number) in part.rows.iter().zip(&numbers) {
-            let Some(row) = row else { continue };
-            if self.define(number, first_row + row).is_some() {
-                return None;
-            }
-        }
-        self.spans.append(&mut part.spans);
-        Some(numbers)
     }
 }
 

@@ -148,44 +148,4 @@ impl<'t> NumberedNames<'t> {
             row
         })
     }
-
-    /// Adds all names of `other`; returns their numbers in this table, indexed by their numbers in
-    /// `other`.
-    pub fn enter_all(&mut self, other: &NumberedNames<'t>) -> Vec<u32> {
-        let mut numbers = vec![u32::MAX; other.len()];
-        for stem in &other.stems {
-            let row = self.stem(stem.text);
-            for (idx, &entry) in stem.entries.iter().enumerate().filter(|(_, entry)| **entry != 0) {
-                numbers[entry as usize - 1] = self.enter_numbered(row, idx);
-            }
-        }
-        for (&name, &number) in &other.others {
-            numbers[number as usize] = self.enter(Name::new(name));
-        }
-        for number in numbers.iter_mut().filter(|number| **number == u32::MAX) {
-            *number = self.enter_unnamed();
-        }
-        numbers
-    }
-
-    /// The number of the name that consists of the stem in row `row` and `idx`.
-    fn enter_numbered(&mut self, row: usize, idx: usize) -> u32 {
-        let stem = &mut self.stems[row];
-        if let Some(&entry @ 1..) = stem.entries.get(idx) {
-            return entry - 1;
-        }
-        if !self.others.is_empty() {
-            let name = [stem.text, idx.to_string().as_bytes()].concat();
-            if let Some(&known) = self.others.get(&name[..]) {
-                return known;
-            }
-        }
-        // The table of `other` contains it, so this one stays in proportion, too.
-        if idx >= stem.entries.len() {
-            stem.entries.resize((idx + 1).max(2 * stem.entries.len()), 0);
-        }
-        self.len += 1;
-        stem.entries[idx] = self.len;
-        self.len - 1
-    }
 }

@@ -59,27 +59,10 @@ pub(crate) struct RequestStatement {
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
 /// are too many.
 pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
-    let mut reader = Reader::new(text, 0, options, findings);
-    reader.run(0);
+    let mut reader = Reader::new(text, options, findings);
+    reader.run();
     reader.check_all_closed();
     reader.document
-}
-
-/// Parses the statements of `text` from `start` on. Returns `None` if there is an error or a
-/// definition.
-///
-/// `text` must end where the part ends.
-pub(crate) fn read_part<'t>(
-    text: &'t [u8],
-    start: usize,
-    options: &Options,
-) -> Option<(Document<'t>, Vec<Diagnostic>)> {
-    let mut findings = Vec::new();
-    let mut reader = Reader { is_part: true, ..Reader::new(text, start, options, &mut findings) };
-    reader.run(start);
-    let is_plain = reader.error_count == 0 && reader.document.scopes.len() == 1;
-    let document = reader.document;
-    is_plain.then_some((document, findings))
 }
 
 /// The line marks of the C preprocessor in a text.
@@ -99,8 +82,6 @@ struct Reader<'t, 'f> {
     /// The open scopes, from the file inwards.
     open: Vec<usize>,
     options: Options,
-    /// Read only up to the first error or definition.
-    is_part: bool,
     /// A statement has ended on the current line.
     line_has_statement: bool,
     /// The vertex references of the current statement.
@@ -110,14 +91,13 @@ struct Reader<'t, 'f> {
 }
 
 impl<'t, 'f> Reader<'t, 'f> {
-    fn new(text: &'t [u8], start: usize, options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
-        let file = Scope::for_text(text.len() - start);
+    fn new(text: &'t [u8], options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
+        let file = Scope::for_text(text.len());
         Self {
             grammar: Grammar { text },
             document: Document { scopes: vec![file], ..Document::default() },
             open: vec![0],
             options: *options,
-            is_part: false,
             line_has_statement: false,
             references: References::default(),
             findings,
@@ -125,9 +105,9 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    fn run(&mut self, start: usize) {
-        let mut input: Input<'t> = &self.grammar.text[start..];
-        while self.continues() {
+    fn run(&mut self) {
+        let mut input: Input<'t> = self.grammar.text;
+        while self.error_count < MAX_ERRORS {
             match self.between(input) {
                 Ok([]) => break,
                 Ok(rest) => input = self.statement(rest),
@@ -136,14 +116,6 @@ impl<'t, 'f> Reader<'t, 'f> {
                     break;
                 }
             }
-        }
-    }
-
-    fn continues(&self) -> bool {
-        if self.is_part {
-            self.error_count == 0 && self.open.len() == 1
-        } else {
-            self.error_count < MAX_ERRORS
         }
     }
 

@@ -29,10 +29,6 @@ impl<T> Rows<T> {
         self.rows.len()
     }
 
-    pub fn into_parts(self) -> (Vec<T>, Vec<Span>) {
-        (self.rows, self.spans)
-    }
-
     /// Removes the given rows, which must be sorted.
     pub fn remove(&mut self, rows: &[usize]) {
         if rows.is_empty() {

@@ -56,8 +56,6 @@ pub(crate) struct Scope<'t> {
     pub contours: Contours,
     /// Corners that name vertices of instances: `car:a`, `floor#3:b`.
     pub paths: Vec<PathCorner>,
-    /// The corners are already rows of vertices.
-    pub is_linked: bool,
     pub faces: Rows<Face>,
     pub shadings: Vec<Shading>,
     pub wires: Rows<Wire>,
@@ -137,7 +135,7 @@ impl<'t> Scope<'t> {
         Self { name, parent, ..Self::default() }
     }
 
-    /// The scope of the file, or of a part of it, with capacity for as many rows as a text of this
+    /// The scope of the file, with capacity for as many rows as a text of this
     /// size usually has. Reserved memory that is not used costs nothing, but growing a table copies
     /// it.
     pub fn for_text(bytes: usize) -> Self {
@@ -316,11 +314,9 @@ impl<'t> Scope<'t> {
     }
 
     fn add_mix(&mut self, text: &'t [u8], span: Span, mix: &MixStatement) {
-        let mut color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
-        let row = Mix {
-            color: color(mix.color),
-            parts: mix.parts.iter().map(|&(name, share)| (color(name), share)).collect(),
-        };
+        let color = self.color_id(text, mix.color);
+        let parts = mix.parts.iter().map(|&(name, share)| (self.color_id(text, name), share)).collect();
+        let row = Mix { color, parts };
         self.mixes.push(row, span);
     }
 
@@ -331,7 +327,7 @@ impl<'t> Scope<'t> {
         span: Span,
         TextureStatement { color, file, texture }: TextureStatement,
     ) {
-        let color = ColorId::from_index(self.colors.names.enter(color.of(text)));
+        let color = self.color_id(text, color);
         let image = TextureImage { file: Some(lossy(text, file.name)), ..texture.image };
         self.textures.push(Texture { color, image, ..texture }, span);
     }
@@ -343,10 +339,9 @@ impl<'t> Scope<'t> {
         let row = Color { name: NameId::from_index(0), value, translucency: 0.0 };
         let before = self.colors.push(text, Some(table.color), row, span);
         self.note_duplicate("colour", Some(table.color), before);
-        let mut color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
         let row = ColorTable {
-            color: color(table.color),
-            rows: table.rows.iter().map(|&(time, name)| (time, color(name))).collect(),
+            color: self.color_id(text, table.color),
+            rows: table.rows.iter().map(|&(time, name)| (time, self.color_id(text, name))).collect(),
             is_stepped: table.is_stepped,
             period: table.period,
             shift: table.shift,
@@ -435,7 +430,11 @@ impl<'t> Scope<'t> {
     }
 
     fn color(&mut self, text: &'t [u8], name: Option<Span>) -> Option<ColorId> {
-        name.map(|name| ColorId::from_index(self.colors.names.enter(name.of(text))))
+        name.map(|name| self.color_id(text, name))
+    }
+
+    fn color_id(&mut self, text: &'t [u8], name: Span) -> ColorId {
+        ColorId::from_index(self.colors.names.enter(name.of(text)))
     }
 
     /// Can this name be the path of a vertex of an instance?
@@ -452,24 +451,21 @@ impl<'t> Scope<'t> {
     /// Removes the faces of these rows, which must be sorted.
     pub fn remove_faces(&mut self, rows: &[usize]) {
         self.faces.remove(rows);
-        let before = |first: usize| first - rows.partition_point(|&row| row < first);
-        self.defaults.iter_mut().for_each(|default| default.first_face = before(default.first_face));
-        self.calls.rows.iter_mut().for_each(|call| call.before.faces = before(call.before.faces));
+        self.defaults.iter_mut().for_each(|default| renumber(&mut default.first_face, rows));
+        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.faces, rows));
     }
 
     /// Removes the wires of these rows, which must be sorted.
     pub fn remove_wires(&mut self, rows: &[usize]) {
         self.wires.remove(rows);
-        let before = |first: usize| first - rows.partition_point(|&row| row < first);
-        self.defaults.iter_mut().for_each(|default| default.first_wire = before(default.first_wire));
-        self.calls.rows.iter_mut().for_each(|call| call.before.wires = before(call.before.wires));
+        self.defaults.iter_mut().for_each(|default| renumber(&mut default.first_wire, rows));
+        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.wires, rows));
     }
 
     /// Removes the escapes of these rows, in order.
     pub fn remove_escapes(&mut self, rows: &[usize]) {
         self.escapes.remove(rows);
-        let before = |first: usize| first - rows.partition_point(|&row| row < first);
-        self.calls.rows.iter_mut().for_each(|call| call.before.escapes = before(call.before.escapes));
+        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.escapes, rows));
     }
 
     /// The whole statement of a vertex, from the span of its name.
@@ -503,6 +499,11 @@ impl<'t> Scope<'t> {
         spans.dedup();
         spans
     }
+}
+
+/// Subtracts the number of removed rows before row `first`.
+fn renumber(first: &mut usize, removed: &[usize]) {
+    *first -= removed.partition_point(|row| row < first);
 }
 
 /// The colour with the rows of its samples, if it has any, increased by an offset.
@@ -602,18 +603,6 @@ impl<'t> BodyTable<'t> {
                 Some(id)
             }
         }
-    }
-
-    /// Adds the bodies of another table where they are new, and returns the rows of all of them in
-    /// this one.
-    pub fn enter_all(&mut self, other: &Self) -> Vec<BodyId> {
-        let names = other.name_of_each();
-        let enter = |body: BodyId| match (names[body.index()], other.bodies.motion(body).inertial_frame()) {
-            (Some((name, span)), _) => self.enter_name(name, span),
-            (None, Some(&frame)) if body != other.bodies.unstated() => self.moving_with(frame),
-            _ => self.bodies.unstated(),
-        };
-        other.bodies.ids().map(enter).collect()
     }
 }
 

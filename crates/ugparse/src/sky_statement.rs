@@ -5,8 +5,7 @@ use ugscene::StatedSky;
 use crate::Options;
 use crate::diagnostic::Diagnostic;
 use crate::number_text::push_number;
-use crate::parallel_reader::read_document;
-use crate::reader::Document;
+use crate::reader::{Document, read};
 use crate::source::{Source, Span};
 
 /// The sky of a document. One in a definition, and a second one, are errors.
@@ -43,7 +42,7 @@ pub fn stated_sky(source: &Source, options: &Options) -> Option<(StatedSky, Span
     memchr::memmem::find(&source.text, b"sky")?;
     crate::check_length(source, options).ok()?;
     let mut findings = Vec::new();
-    let mut document = read_document(&source.text, options, &mut findings);
+    let mut document = read(&source.text, options, &mut findings);
     let sky = take(&source.text, &mut document, &mut findings)?;
     Some((sky, document.scopes.first()?.skies.rows.first()?.file))
 }

@@ -117,7 +117,7 @@ pub(crate) struct VertexStatement {
 }
 
 /// A face, or a wire (which has no shading); its contours are in [`References`].
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct FaceStatement {
     pub name: Option<Span>,
     pub color: Option<Span>,

@@ -6,7 +6,7 @@
 use crate::diagnostics::Diagnostics;
 use crate::grammar::KEYWORDS;
 use crate::number_text::push_number;
-use crate::parallel_reader::read_document;
+use crate::reader;
 use crate::source::Source;
 use crate::token::{
     Input, comment, escape, found, integer, is_blank, line_end, number, skip_statement, word,
@@ -44,7 +44,7 @@ const INDENT: &str = "  ";
 pub fn tidy(source: &Source, options: &Options) -> Result<Vec<u8>, Diagnostics> {
     check_length(source, options)?;
     let mut findings = Vec::new();
-    let mut document = read_document(&source.text, options, &mut findings);
+    let mut document = reader::read(&source.text, options, &mut findings);
     stage_statement::take(&source.text, &mut document, &mut findings);
     refuse_errors(source, &mut findings)?;
     let mut layout = Layout { out: Vec::with_capacity(source.text.len()), ..Layout::default() };

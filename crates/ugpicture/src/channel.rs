@@ -39,42 +39,22 @@ pub enum Channel {
 }
 
 impl Channel {
-    /// All channels.
-    pub const ALL: [Self; 9] = [
-        Self::Doppler,
-        Self::Time,
-        Self::Distance,
-        Self::Depth,
-        Self::Id,
-        Self::Velocity,
-        Self::Direction,
-        Self::Position,
-        Self::Ray,
+    /// All channels with their names, in the order of the variants.
+    pub const NAMES: [(&'static str, Self); 9] = [
+        ("D", Self::Doppler),
+        ("time", Self::Time),
+        ("distance", Self::Distance),
+        ("Z", Self::Depth),
+        ("id", Self::Id),
+        ("velocity", Self::Velocity),
+        ("direction", Self::Direction),
+        ("position", Self::Position),
+        ("ray", Self::Ray),
     ];
 
     /// Its name.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Doppler => "D",
-            Self::Time => "time",
-            Self::Distance => "distance",
-            Self::Depth => "Z",
-            Self::Id => "id",
-            Self::Velocity => "velocity",
-            Self::Direction => "direction",
-            Self::Position => "position",
-            Self::Ray => "ray",
-        }
-    }
-
-    /// The channel called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|channel| channel.name() == name)
-    }
-
-    /// All names, separated by commas, for messages.
-    pub fn list() -> String {
-        Self::ALL.map(Self::name).join(", ")
+        Self::NAMES[self as usize].0
     }
 }
 
@@ -97,9 +77,7 @@ pub fn channel_planes(
         ["X", "Y", "Z"].into_iter().enumerate().map(axis).collect()
     };
     match channel {
-        Channel::Doppler => {
-            vec![plane(name, of(&Emission::doppler, 0.0))]
-        }
+        Channel::Doppler => vec![plane(name, of(&Emission::doppler, 0.0))],
         Channel::Time => vec![plane(name, of(&|emission| emission.time, f32::NEG_INFINITY))],
         Channel::Distance => vec![plane(name, of(&|emission| length(emission.place), f32::INFINITY))],
         Channel::Depth => vec![plane(name, of(&|emission| emission.depth, f32::INFINITY))],

@@ -293,11 +293,16 @@ enum QuantityWord {
 }
 
 fn quantity_word(word: &str) -> Result<QuantityWord, String> {
-    if let Some(quantity) = Quantity::from_name(word) {
-        return Ok(QuantityWord::Quantity(quantity));
+    match Quantity::NAMES.into_iter().find(|(name, _)| *name == word) {
+        Some((_, quantity)) => Ok(QuantityWord::Quantity(quantity)),
+        None => finite(word)
+            .map(QuantityWord::Number)
+            .map_err(|_| format!("neither a number nor one of {}", quantity_names())),
     }
-    let names = Quantity::ALL.map(Quantity::name).join(", ");
-    finite(word).map(QuantityWord::Number).map_err(|_| format!("neither a number nor one of {names}"))
+}
+
+fn quantity_names() -> String {
+    Quantity::NAMES.map(|(name, _)| name).join(", ")
 }
 
 /// The quantity and the numbers of -map or -iso.
@@ -307,7 +312,7 @@ fn quantity_numbers(option: &str, words: &[QuantityWord]) -> Result<(Quantity, V
         QuantityWord::Quantity(_) => None,
     };
     let quantity_first = || {
-        let names = Quantity::ALL.map(Quantity::name).join(", ");
+        let names = quantity_names();
         Failure::usage(format!("{option} has one quantity first, then numbers: one of {names}"))
     };
     let [QuantityWord::Quantity(quantity), numbers @ ..] = words else { return Err(quantity_first()) };
@@ -517,21 +522,17 @@ pub fn color(name: &str, words: &[String]) -> Result<Hsv, Failure> {
     spelled_color(words, finite).map_err(|error| Failure::Usage(format!("{name}: {error}")))
 }
 
+/// Beyond the exponents of single precision, in which light is kept.
+const MOST_STOPS: f64 = 300.0;
+
 /// Stops, or `auto`.
 fn exposure(word: &str) -> Result<Exposure, String> {
     if word == "auto" {
         return Ok(Exposure::Auto);
     }
-    finite(word).map_err(|error| format!("{error}, nor is it `auto`")).and_then(stops)
-}
-
-fn stops(stops: f64) -> Result<Exposure, String> {
-    /// Beyond the exponents of single precision, in which light is kept.
-    const MOST: f64 = 300.0;
-    if stops.abs() <= MOST {
-        Ok(Exposure::Stops(stops))
-    } else {
-        Err(format!("an exposure is between -{MOST} and {MOST} stops"))
+    match finite(word).map_err(|error| format!("{error}, nor is it `auto`"))? {
+        stops if stops.abs() <= MOST_STOPS => Ok(Exposure::Stops(stops)),
+        _ => Err(format!("an exposure is between -{MOST_STOPS} and {MOST_STOPS} stops")),
     }
 }
 
@@ -539,8 +540,10 @@ fn stops(stops: f64) -> Result<Exposure, String> {
 fn channels(list: &str) -> Result<Channels, String> {
     let mut channels = Vec::new();
     for name in list.split(',') {
-        let channel = Channel::from_name(name)
-            .ok_or_else(|| format!("`{name}` is none of the channels {}", Channel::list()))?;
+        let Some((_, channel)) = Channel::NAMES.into_iter().find(|(known, _)| *known == name) else {
+            let names = Channel::NAMES.map(|(name, _)| name).join(", ");
+            return Err(format!("`{name}` is none of the channels {names}"));
+        };
         if !channels.contains(&channel) {
             channels.push(channel);
         }

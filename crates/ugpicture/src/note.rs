@@ -1,15 +1,19 @@
 //! Notes on a picture, above all why it is empty.
 
-use std::fmt;
-
-/// A note on a picture.
-#[derive(Clone, Debug, PartialEq)]
+/// A note on a picture. It is no error: `thiserror` writes its text beside each variant.
+#[derive(Clone, Debug, thiserror::Error, PartialEq)]
 pub enum Note {
     /// About its scene.
+    #[error("{0}")]
     Scene(ugscene::Note),
     /// About the file of its panorama, or of its stars.
+    #[error("{0}")]
     Source(String),
     /// The scene has no lights.
+    #[error(
+        "no lights in the scene: drawn with ambient light {ambient} and a light of {from_eye} from the eye{}",
+        if *.has_shadows { ", without shadows" } else { "" }
+    )]
     NoLights {
         /// The ambient light in place of them.
         ambient: f64,
@@ -19,51 +23,77 @@ pub enum Note {
         has_shadows: bool,
     },
     /// Lights of the scene move.
+    #[error("velocities of lights are left out: each light rests with the faces it lights")]
     MovingLights {
         /// The picture is drawn by rays.
         is_exact: bool,
     },
     /// A colour is a picture, and only its plain colour is drawn.
+    #[error("textures are not drawn: faces of colour `{color}` have its plain colour")]
     PlainTextures {
         /// Its name.
         color: String,
     },
     /// Vertices are to be repeated, but have colours as seen.
+    #[error("vertices with colours as seen are not repeated")]
     NotRepeated,
     /// So many labels are at vertices outside the picture.
+    #[error("{}", labels_outside(*.0))]
     LabelsOutside(usize),
     /// Only a pinhole camera shows labels.
+    #[error("labels are left out: only pictures of a single pinhole camera have them")]
     NoLabels,
     /// A body that a picture of the whole size shows is cut.
+    #[error("title, caption or legend take rows from the picture, which cut off a part of a body")]
     CutByText,
     /// Rays do not meet wires.
+    #[error("wires are left out: rays do not meet lines")]
     NoWires,
     /// Round faces of bodies on world lines are drawn as polygons.
+    #[error("round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius")]
     CutRounds,
     /// The up direction is zero or parallel to the view.
+    #[error("the up direction is zero or parallel to the view, so another axis is up")]
     UpReplaced,
     /// Everything is behind the eye or outside the clipping distances.
+    #[error("nothing is drawn: everything is behind the eye or outside the clipping distances")]
     NothingInFront,
     /// Everything is outside the picture.
+    #[error("nothing is drawn: everything is outside the picture, where fast bodies often are")]
     NothingInPicture,
     /// No ray meets a face.
+    #[error("nothing is drawn: everything is outside the picture, where fast bodies often are")]
     NothingMet,
     /// The panorama is outside the picture.
+    #[error("the picture shows no part of the panorama")]
     NoPanorama,
     /// The list has no stars.
+    #[error("the list has no stars")]
     NoStars,
     /// Everything is culled, or smaller than a sample.
+    #[error("nothing is drawn: everything is seen from behind, or smaller than a sample")]
     BackFacing,
     /// Everything is seen edge-on, or smaller than a sample.
+    #[error("nothing is drawn: everything is seen edge-on or smaller than a sample")]
     EdgeOn,
     /// Black lines on a black background.
+    #[error("the lines are black on black")]
     BlackLines,
     /// No light falls on the scene, or its colours are black.
+    #[error(
+        "all that is in the picture is black: its colours are, or {}",
+        if *.has_lights {
+            "the light of its lamps does not reach it at this time, or falls between the vertices"
+        } else {
+            "no light falls on it; try `l 1;` in the scene"
+        }
+    )]
     NoLight {
         /// True if the scene has lights.
         has_lights: bool,
     },
     /// Wavelengths are shifted out of the visible range.
+    #[error("{} {}: its wavelengths are outside 380-780 nm", part(*.percent), if *.is_black && *.percent == 100 { "black" } else { "black or grey" })]
     OutOfRange {
         /// How much of what is in the picture, rounded down.
         percent: u64,
@@ -71,24 +101,49 @@ pub enum Note {
         is_black: bool,
     },
     /// No light falls on what rays meet, or its wavelengths are shifted out of the visible range.
+    #[error(
+        "all that is in the picture is black: no light falls on it, or its wavelengths are outside 380-780 nm"
+    )]
     BlackFaces,
     /// The wavelengths of a panorama are shifted out of the visible range.
+    #[error("all that is in the picture is black: its wavelengths are outside 380-780 nm")]
     BlackPanorama,
     /// The light of a panorama is a sum of black bodies, some of a negative amount, and is negative
     /// in this part of what is in the picture.
+    #[error(
+        "the three temperatures of the basis add up to negative light, drawn as black, in {percent:.1} percent \
+         of what is in the picture"
+    )]
     NegativeLight {
         /// In percent.
         percent: f64,
     },
     /// Light passes into a transparent solid around an edge of this face.
+    #[error(
+        "the transparent solid of {0} is open, so everything behind the face is drawn as if it were inside: \
+         close it with faces on all sides, or take a translucent colour for a thin pane"
+    )]
     OpenSolid(String),
     /// Light leaves a transparent solid that it did not enter, at this face.
+    #[error(
+        "light leaves a transparent solid that it did not enter, at {0}: its outlines run clockwise seen from \
+         outside, or the solid has gaps; it is drawn as if it were not refracted there"
+    )]
     ReversedSolid(String),
     /// Light of lamps may cross a refracting solid.
+    #[error(
+        "light of lamps goes straight through transparent solids: it is absorbed there, but not refracted, \
+         and slowed only if lamp and surface rest in the same solid"
+    )]
     StraightThroughGlass,
     /// The lamp of this name is in a closed opaque body.
+    #[error("the light of lamp `{0}` does not leave the closed body that it is in")]
     EnclosedLamp(String),
     /// Samples end at the greatest depth.
+    #[error(
+        "{percent:.1} percent of the samples end after {depth} reflections and refractions, and what is behind \
+         is black"
+    )]
     TooDeep {
         /// How many of them.
         percent: f64,
@@ -96,19 +151,25 @@ pub enum Note {
         depth: u32,
     },
     /// Paths with too many branches.
+    #[error("some paths branch at too many mirrors and solids, and are cut short")]
     CutShort,
     /// The percentage of samples that were traced.
+    #[error("traced {0:.0} percent of the samples")]
     Adaptive(f64),
     /// Automatic exposure, in stops.
+    #[error("exposure is {0} stops")]
     Exposure(f64),
     /// Hardly any pixel is bright enough to be visible.
+    #[error("hardly anything is bright enough to be seen")]
     NearlyBlack {
         /// An exposure was given.
         is_exposed: bool,
     },
     /// Many pixels are white, where details may be lost.
+    #[error("more than a tenth of what is in the picture is white")]
     Overexposed,
     /// Brightness up to this was clipped.
+    #[error("max intensity is {}, clip to 1.0", decimal(*.most))]
     ClippedIntensity {
         /// The largest one.
         most: f32,
@@ -116,6 +177,7 @@ pub enum Note {
         has_light: bool,
     },
     /// The depths between which light fades.
+    #[error("depth cueing is from {near} to {far}")]
     DepthCue {
         /// Where it begins.
         near: f64,
@@ -125,6 +187,7 @@ pub enum Note {
         least: f64,
     },
     /// The grid of the ground.
+    #[error("{}the plane z = {level}", grid(.step.as_deref()))]
     Grid {
         /// The distance between its lines; `None` if none is in the picture.
         step: Option<String>,
@@ -132,6 +195,7 @@ pub enum Note {
         level: String,
     },
     /// Nothing moves that could have an undistorted outline.
+    #[error("nothing moves, so there is no undistorted outline beside the picture")]
     NoOutline,
 }
 
@@ -168,122 +232,24 @@ impl Note {
     }
 }
 
-impl fmt::Display for Note {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let text = match self {
-            Self::Scene(note) => return note.fmt(f),
-            Self::Source(text) => text,
-            Self::NoLights { ambient, from_eye, has_shadows } => {
-                write!(
-                    f,
-                    "no lights in the scene: drawn with ambient light {ambient} and a light of {from_eye} from the eye"
-                )?;
-                if *has_shadows { ", without shadows" } else { "" }
-            }
-            Self::MovingLights { .. } => {
-                "velocities of lights are left out: each light rests with the faces it lights"
-            }
-            Self::PlainTextures { color } => {
-                return write!(f, "textures are not drawn: faces of colour `{color}` have its plain colour");
-            }
-            Self::NotRepeated => "vertices with colours as seen are not repeated",
-            Self::CutRounds => {
-                "round faces of bodies that accelerate or turn are drawn as polygons, to 1/4000 of their radius"
-            }
-            Self::LabelsOutside(1) => "a label is at a vertex outside the picture",
-            Self::LabelsOutside(n) => return write!(f, "{n} labels are at vertices outside the picture"),
-            Self::NoLabels => "labels are left out: only pictures of a single pinhole camera have them",
-            Self::CutByText => {
-                "title, caption or legend take rows from the picture, which cut off a part of a body"
-            }
-            Self::NoWires => "wires are left out: rays do not meet lines",
-            Self::UpReplaced => "the up direction is zero or parallel to the view, so another axis is up",
-            Self::NothingInFront => {
-                "nothing is drawn: everything is behind the eye or outside the clipping distances"
-            }
-            Self::NothingInPicture | Self::NothingMet => {
-                "nothing is drawn: everything is outside the picture, where fast bodies often are"
-            }
-            Self::NoPanorama => "the picture shows no part of the panorama",
-            Self::NoStars => "the list has no stars",
-            Self::BackFacing => "nothing is drawn: everything is seen from behind, or smaller than a sample",
-            Self::EdgeOn => "nothing is drawn: everything is seen edge-on or smaller than a sample",
-            Self::BlackLines => "the lines are black on black",
-            Self::NoLight { has_lights: false } => {
-                "all that is in the picture is black: its colours are, or no light falls on it; try `l 1;` in the scene"
-            }
-            Self::NoLight { has_lights: true } => {
-                "all that is in the picture is black: its colours are, or the light of its lamps does not reach it at this time, or falls between the vertices"
-            }
-            Self::OutOfRange { percent, is_black } => {
-                match percent {
-                    100 if *is_black => write!(f, "all that is in the picture is black"),
-                    100 => write!(f, "all that is in the picture is black or grey"),
-                    _ => write!(f, "{percent} percent of what is in the picture is black or grey"),
-                }?;
-                ": its wavelengths are outside 380-780 nm"
-            }
-            Self::BlackFaces => {
-                "all that is in the picture is black: no light falls on it, or its wavelengths are outside \
-                 380-780 nm"
-            }
-            Self::BlackPanorama => {
-                "all that is in the picture is black: its wavelengths are outside 380-780 nm"
-            }
-            Self::NegativeLight { percent } => {
-                return write!(
-                    f,
-                    "the three temperatures of the basis add up to negative light, drawn as black, in {percent:.1} \
-                     percent of what is in the picture"
-                );
-            }
-            Self::OpenSolid(face) => {
-                return write!(
-                    f,
-                    "the transparent solid of {face} is open, so everything behind the face is drawn as if it \
-                     were inside: close it with faces on all sides, or take a translucent colour for a thin pane"
-                );
-            }
-            Self::ReversedSolid(face) => {
-                return write!(
-                    f,
-                    "light leaves a transparent solid that it did not enter, at {face}: its outlines run \
-                     clockwise seen from outside, or the solid has gaps; it is drawn as if it were not \
-                     refracted there"
-                );
-            }
-            Self::StraightThroughGlass => {
-                "light of lamps goes straight through transparent solids: it is absorbed there, but not \
-                 refracted, and slowed only if lamp and surface rest in the same solid"
-            }
-            Self::EnclosedLamp(name) => {
-                return write!(f, "the light of lamp `{name}` does not leave the closed body that it is in");
-            }
-            Self::TooDeep { percent, depth } => {
-                return write!(
-                    f,
-                    "{percent:.1} percent of the samples end after {depth} reflections and refractions, and what is \
-                     behind is black"
-                );
-            }
-            Self::CutShort => "some paths branch at too many mirrors and solids, and are cut short",
-            Self::Adaptive(percent) => return write!(f, "traced {percent:.0} percent of the samples"),
-            Self::Exposure(stops) => return write!(f, "exposure is {stops} stops"),
-            Self::NearlyBlack { .. } => "hardly anything is bright enough to be seen",
-            Self::Overexposed => "more than a tenth of what is in the picture is white",
-            Self::ClippedIntensity { most, .. } => {
-                return write!(f, "max intensity is {}, clip to 1.0", decimal(*most));
-            }
-            Self::DepthCue { near, far, .. } => return write!(f, "depth cueing is from {near} to {far}"),
-            Self::Grid { step: Some(step), level } => {
-                return write!(f, "the lines of the grid are {step} apart, in the plane z = {level}");
-            }
-            Self::Grid { step: None, level } => {
-                return write!(f, "no line of the grid is in the picture; it lies in the plane z = {level}");
-            }
-            Self::NoOutline => "nothing moves, so there is no undistorted outline beside the picture",
-        };
-        f.write_str(text)
+fn labels_outside(n: usize) -> String {
+    match n {
+        1 => "a label is at a vertex outside the picture".to_owned(),
+        n => format!("{n} labels are at vertices outside the picture"),
+    }
+}
+
+fn part(percent: u64) -> String {
+    match percent {
+        100 => "all that is in the picture is".to_owned(),
+        _ => format!("{percent} percent of what is in the picture is"),
+    }
+}
+
+fn grid(step: Option<&str>) -> String {
+    match step {
+        Some(step) => format!("the lines of the grid are {step} apart, in "),
+        None => "no line of the grid is in the picture; it lies in ".to_owned(),
     }
 }
 

@@ -166,38 +166,21 @@ impl PictureOptions {
     /// Refuses options that the format does not support.
     fn check_output(&self) -> Result<(), Error> {
         let format = self.output.format();
-        if let Output::Vector(format) = self.output {
-            self.check_vectors(format)?;
-        }
-        if self.small && !matches!(self.output, Output::Color(Format::Png | Format::Png16)) {
-            return Err(Error::NotPng);
-        }
-        if !self.channels.is_empty() && format != Format::Exr {
-            return Err(Error::NotExr);
-        }
-        if format.is_linear() && (self.exposure.is_some() || self.tone != Tone::Clip) {
-            return Err(Error::NotDeveloped);
-        }
-        if self.background == Background::Transparent && !format.has_alpha() {
-            return Err(Error::NotTransparent);
-        }
-        Ok(())
-    }
-
-    fn check_vectors(&self, format: Format) -> Result<(), Error> {
-        if self.annotations.map.is_some() {
-            return Err(Error::MapVectors);
-        }
-        if !format.has_vectors() {
-            return Err(Error::NoVectors);
-        }
-        if self.filter != Filter::Box {
-            return Err(Error::NoSamples);
-        }
-        if self.size.iter().any(|&side| side > MAX_VECTOR_SIDE) {
-            return Err(Error::VectorSize);
-        }
-        Ok(())
+        let is_vector = matches!(self.output, Output::Vector(_));
+        let is_png = matches!(self.output, Output::Color(Format::Png | Format::Png16));
+        let is_developed = self.exposure.is_some() || self.tone != Tone::Clip;
+        let is_transparent = self.background == Background::Transparent;
+        let refused = [
+            (is_vector && self.annotations.map.is_some(), Error::MapVectors),
+            (is_vector && !format.has_vectors(), Error::NoVectors),
+            (is_vector && self.filter != Filter::Box, Error::NoSamples),
+            (is_vector && self.size.iter().any(|&side| side > MAX_VECTOR_SIDE), Error::VectorSize),
+            (self.small && !is_png, Error::NotPng),
+            (!self.channels.is_empty() && format != Format::Exr, Error::NotExr),
+            (format.is_linear() && is_developed, Error::NotDeveloped),
+            (is_transparent && !format.has_alpha(), Error::NotTransparent),
+        ];
+        refused.into_iter().find(|row| row.0).map_or(Ok(()), |(_, error)| Err(error))
     }
 }
 

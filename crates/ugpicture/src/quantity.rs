@@ -21,24 +21,14 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// All quantities.
-    pub const ALL: [Self; 5] = [Self::Doppler, Self::Time, Self::Distance, Self::Speed, Self::Depth];
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Doppler => "D",
-            Self::Time => "time",
-            Self::Distance => "distance",
-            Self::Speed => "speed",
-            Self::Depth => "z",
-        }
-    }
-
-    /// The quantity called `name`.
-    pub fn from_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|quantity| quantity.name() == name)
-    }
+    /// All quantities with their names.
+    pub const NAMES: [(&'static str, Self); 5] = [
+        ("D", Self::Doppler),
+        ("time", Self::Time),
+        ("distance", Self::Distance),
+        ("speed", Self::Speed),
+        ("z", Self::Depth),
+    ];
 
     /// The words beside its scale.
     pub(crate) fn label(self) -> &'static str {

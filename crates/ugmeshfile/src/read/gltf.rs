@@ -324,14 +324,14 @@ impl Reader<'_, '_> {
         let Some(material) = material else {
             return Surface { factor: [1.0; 4], is_blended: false, texture: None };
         };
+        let metallic = &material["pbrMetallicRoughness"];
         let glossy = &material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
         let (factor, texture) = if glossy.is_null() {
-            let surface = &material["pbrMetallicRoughness"];
-            (&surface["baseColorFactor"], &surface["baseColorTexture"])
+            (&metallic["baseColorFactor"], &metallic["baseColorTexture"])
         } else {
             (&glossy["diffuseFactor"], &glossy["diffuseTexture"])
         };
-        self.ignored.extend(ignored_textures(material, &surface_of(material)["metallicRoughnessTexture"]));
+        self.ignored.extend(ignored_textures(material, &metallic["metallicRoughnessTexture"]));
         let mut factor: [f64; 4] = numbers(factor).unwrap_or([1.0; 4]);
         let is_blended = material["alphaMode"] == "BLEND";
         let loaded = whole(&texture["index"]).and_then(|index| Some((index, self.texture(index)?)));
@@ -524,10 +524,6 @@ impl SurfaceTexture {
             None => [u as f32, v as f32],
         }
     }
-}
-
-fn surface_of(material: &Value) -> &Value {
-    &material["pbrMetallicRoughness"]
 }
 
 /// The kinds of textures of a material that scenes do not have.

@@ -9,8 +9,7 @@ use ugscene::Scene;
 
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
 use crate::diagnostics::Location;
-use crate::parallel_reader::read_document;
-use crate::reader::line_marks;
+use crate::reader::{line_marks, read};
 use crate::scope::Scope;
 use crate::statement::Repeat;
 use crate::{Options, Parsed, Source, stage_statement};
@@ -168,7 +167,7 @@ fn point(p: DVec3) -> String {
 
 /// Numbers of statements by kind. The text is parsed again, because expansion consumes its tables.
 fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
-    let mut document = read_document(&source.text, options, &mut Vec::new());
+    let mut document = read(&source.text, options, &mut Vec::new());
     stage_statement::take(&source.text, &mut document, &mut Vec::new());
     let written = |count: fn(&Scope<'_>) -> usize| document.scopes.iter().map(count).sum();
     let row =

@@ -4,45 +4,17 @@ use std::path::PathBuf;
 
 use ugpipe::{Context, Failure, one_of};
 
+macro_rules! files {
+    ($($name:literal)*) => { [$(($name, include_str!(concat!("../../scenes/", $name)))),*] };
+}
+
 /// Names of files and texts.
-const FILES: [(&str, &str); 37] = [
-    ("house.ug", include_str!("../../scenes/house.ug")),
-    ("houses.ug", include_str!("../../scenes/houses.ug")),
-    ("ship.ug", include_str!("../../scenes/ship.ug")),
-    ("street.ug", include_str!("../../scenes/street.ug")),
-    ("teapot.ug", include_str!("../../scenes/teapot.ug")),
-    ("cubes.ug", include_str!("../../scenes/cubes.ug")),
-    ("sphere.ug", include_str!("../../scenes/sphere.ug")),
-    ("directions.ug", include_str!("../../scenes/directions.ug")),
-    ("lattice.ug", include_str!("../../scenes/lattice.ug")),
-    ("grid.ug", include_str!("../../scenes/grid.ug")),
-    ("tunnel.ug", include_str!("../../scenes/tunnel.ug")),
-    ("die.ug", include_str!("../../scenes/die.ug")),
-    ("poles.ug", include_str!("../../scenes/poles.ug")),
-    ("lamps.ug", include_str!("../../scenes/lamps.ug")),
-    ("clocks.ug", include_str!("../../scenes/clocks.ug")),
-    ("wheels.ug", include_str!("../../scenes/wheels.ug")),
-    ("twins.ug", include_str!("../../scenes/twins.ug")),
-    ("orbit.ug", include_str!("../../scenes/orbit.ug")),
-    ("ticks.ug", include_str!("../../scenes/ticks.ug")),
-    ("lanterns.ug", include_str!("../../scenes/lanterns.ug")),
-    ("carousel.ug", include_str!("../../scenes/carousel.ug")),
-    ("departure.ug", include_str!("../../scenes/departure.ug")),
-    ("spinning.ug", include_str!("../../scenes/spinning.ug")),
-    ("disc.ug", include_str!("../../scenes/disc.ug")),
-    ("slalom.ug", include_str!("../../scenes/slalom.ug")),
-    ("dice.ug", include_str!("../../scenes/dice.ug")),
-    ("traffic.ug", include_str!("../../scenes/traffic.ug")),
-    ("lamp.ug", include_str!("../../scenes/lamp.ug")),
-    ("glass.ug", include_str!("../../scenes/glass.ug")),
-    ("mirrors.ug", include_str!("../../scenes/mirrors.ug")),
-    ("shadow.ug", include_str!("../../scenes/shadow.ug")),
-    ("room.ug", include_str!("../../scenes/room.ug")),
-    ("water.ug", include_str!("../../scenes/water.ug")),
-    ("rainbow.ug", include_str!("../../scenes/rainbow.ug")),
-    ("halves.ug", include_str!("../../scenes/halves.ug")),
-    ("globe.obj", include_str!("../../scenes/globe.obj")),
-    ("stars.csv", include_str!("../../scenes/stars.csv")),
+const FILES: [(&str, &str); 37] = files![
+    "house.ug" "houses.ug" "ship.ug" "street.ug" "teapot.ug" "cubes.ug" "sphere.ug" "directions.ug"
+    "lattice.ug" "grid.ug" "tunnel.ug" "die.ug" "poles.ug" "lamps.ug" "clocks.ug" "wheels.ug"
+    "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
+    "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
+    "room.ug" "water.ug" "rainbow.ug" "halves.ug" "globe.obj" "stars.csv"
 ];
 
 /// Arguments of `ugparse example`.

@@ -37,7 +37,7 @@ impl Expander<'_, '_> {
     pub(super) fn link_paths(&mut self, file: &mut Scope<'_>) {
         for path in std::mem::take(&mut file.paths) {
             let Some(vertex) = self.find_path("", path.name) else { continue };
-            file.contours.parts_mut().0[path.corner] = vertex;
+            file.contours.all_corners_mut()[path.corner] = vertex;
             self.has_linked_paths = true;
         }
         if !self.has_linked_paths || !self.undefined.is_empty() {

@@ -163,7 +163,8 @@ impl<'t> Grammar<'t> {
         let (input, color) = self.optional_name(input)?;
         let (input, shading) = self.shading(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Face(FaceStatement { name, color, shading, motion, shape, round, text: None })))
+        let face = FaceStatement { name, color, shading, motion, shape, round, ..FaceStatement::default() };
+        Ok((input, Statement::Face(face)))
     }
 
     /// `number` or `surface`
@@ -181,8 +182,8 @@ impl<'t> Grammar<'t> {
         let (input, ()) = self.contours(input, references)?;
         let (input, color) = self.optional_name(input)?;
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let (shading, shape, round) = (None, FaceShape::Polygon, None);
-        Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round, text: None })))
+        let wire = FaceStatement { name, color, motion, ..FaceStatement::default() };
+        Ok((input, Statement::Wire(wire)))
     }
 
     /// `label [ID] "text" vertex [< x y z >]`, our extension.
@@ -197,8 +198,8 @@ impl<'t> Grammar<'t> {
         let start = self.position(at) + 1;
         let text = Some(Span { start, end: start + text.len() as u32 });
         let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let (color, shading, shape, round) = (None, None, FaceShape::Polygon, None);
-        Ok((input, Statement::Wire(FaceStatement { name, color, shading, motion, shape, round, text })))
+        let wire = FaceStatement { name, motion, text, ..FaceStatement::default() };
+        Ok((input, Statement::Wire(wire)))
     }
 
     /// One or more `( vertex … )`.

@@ -26,94 +26,77 @@ pub(super) fn transforms(mut input: Input<'_>) -> Parsed<'_, Transform> {
 
 /// Parses one transformation; `at` is its dash, `input` begins after its name.
 fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a, Transform> {
-    let axis = |letter: u8| match letter {
-        b'x' => DVec3::X,
-        b'y' => DVec3::Y,
-        _ => DVec3::Z,
+    const UNKNOWN: Reason = Reason::Expected(
+        "a transformation (`-s`, `-t`, `-r` or `-m` with `x`, `y`, `z`, `a` or `v`, or `-M3`, `-M4`)",
+    );
+    const NOT_AFFINE: Reason = Reason::Impossible(
+        17,
+        "this matrix is not affine",
+        "its last column must be 0 0 0 1; a translation is in the last row",
+    );
+    let &[kind, on] = name else { return fail(at, UNKNOWN) };
+    let axis = match on {
+        b'x' => Some(DVec3::X),
+        b'y' => Some(DVec3::Y),
+        b'z' => Some(DVec3::Z),
+        _ => None,
     };
     let along_vector = |make: fn(DVec3, f64) -> Option<Transform>| {
         let (rest, [x, y, z, amount]) = numbers(input)?;
-        non_zero(make(DVec3::new(x, y, z), amount), at, rest)
+        Ok((rest, make(DVec3::new(x, y, z), amount)))
     };
-    match *name {
-        [b's', letter @ (b'x' | b'y' | b'z')] => {
+    let (rest, map) = match (kind, on, axis) {
+        (b's', _, Some(axis)) => {
             let (rest, factor) = require(number(input))?;
-            Ok((
+            (
                 rest,
-                Transform::scale(DVec3::select(
-                    axis(letter).cmpeq(DVec3::ONE),
+                Some(Transform::scale(DVec3::select(
+                    axis.cmpeq(DVec3::ONE),
                     DVec3::splat(factor),
                     DVec3::ONE,
-                )),
-            ))
+                ))),
+            )
         }
-        [b's', b'a'] => {
+        (b's', b'a', _) => {
             let (rest, factor) = require(number(input))?;
-            Ok((rest, Transform::scale(DVec3::splat(factor))))
+            (rest, Some(Transform::scale(DVec3::splat(factor))))
         }
-        [b's', b'v'] => along_vector(Transform::scale_along),
-        [b't', letter @ (b'x' | b'y' | b'z')] => {
+        (b's', b'v', _) => along_vector(Transform::scale_along)?,
+        (b't', _, Some(axis)) => {
             let (rest, amount) = require(number(input))?;
-            Ok((rest, Transform::translate(axis(letter) * amount)))
+            (rest, Some(Transform::translate(axis * amount)))
         }
-        [b't', b'a'] => {
+        (b't', b'a', _) => {
             let (rest, offset) = require(point(input))?;
-            Ok((rest, Transform::translate(offset)))
+            (rest, Some(Transform::translate(offset)))
         }
-        [b't', b'v'] => along_vector(Transform::translate_along),
-        [b'r', letter @ (b'x' | b'y' | b'z')] => {
+        (b't', b'v', _) => along_vector(Transform::translate_along)?,
+        (b'r', _, Some(axis)) => {
             let (rest, degrees) = require(number(input))?;
-            non_zero(Transform::rotate(axis(letter), degrees), at, rest)
+            (rest, Transform::rotate(axis, degrees))
         }
-        [b'r', b'a'] => {
+        (b'r', b'a', _) => {
             let (rest, degrees) = numbers::<3>(input)?;
-            let turns = [DVec3::X, DVec3::Y, DVec3::Z]
-                .into_iter()
-                .zip(degrees)
-                .try_fold(Transform::IDENTITY, |sum, (axis, angle)| {
-                    Some(sum.then(&Transform::rotate(axis, angle)?))
-                });
-            non_zero(turns, at, rest)
+            let mut turns = DVec3::AXES.into_iter().zip(degrees);
+            let then = |sum: Transform, (axis, angle)| Some(sum.then(&Transform::rotate(axis, angle)?));
+            (rest, turns.try_fold(Transform::IDENTITY, then))
         }
-        [b'r', b'v'] => along_vector(Transform::rotate),
-        [b'm', letter @ (b'x' | b'y' | b'z')] => {
-            Ok((input, Transform::mirror(DVec3::ONE - axis(letter) * 2.0)))
-        }
-        [b'm', b'a'] => Ok((input, Transform::mirror(DVec3::NEG_ONE))),
-        [b'm', b'v'] => {
+        (b'r', b'v', _) => along_vector(Transform::rotate)?,
+        (b'm', _, Some(axis)) => (input, Some(Transform::mirror(DVec3::ONE - axis * 2.0))),
+        (b'm', b'a', _) => (input, Some(Transform::mirror(DVec3::NEG_ONE))),
+        (b'm', b'v', _) => {
             let (rest, vector) = require(point(input))?;
-            non_zero(Transform::mirror_across(vector), at, rest)
+            (rest, Transform::mirror_across(vector))
         }
-        [b'M', b'3'] => {
+        (b'M', b'3', _) => {
             let (rest, m) = numbers::<9>(input)?;
-            Ok((rest, Transform::rows3(&m)))
+            (rest, Some(Transform::rows3(&m)))
         }
-        [b'M', b'4'] => {
+        (b'M', b'4', _) => {
             let (rest, m) = numbers::<16>(input)?;
-            match Transform::rows4(&m) {
-                Some(map) => Ok((rest, map)),
-                None => fail(
-                    at,
-                    Reason::Impossible(
-                        17,
-                        "this matrix is not affine",
-                        "its last column must be 0 0 0 1; a translation is in the last row",
-                    ),
-                ),
-            }
+            return Transform::rows4(&m).map_or_else(|| fail(at, NOT_AFFINE), |map| Ok((rest, map)));
         }
-        _ => fail(
-            at,
-            Reason::Expected(
-                "a transformation (`-s`, `-t`, `-r` or `-m` with `x`, `y`, `z`, `a` or `v`, or `-M3`, `-M4`)",
-            ),
-        ),
-    }
-}
-
-fn non_zero<'a>(map: Option<Transform>, at: Input<'a>, rest: Input<'a>) -> Parsed<'a, Transform> {
-    match map {
-        Some(map) => Ok((rest, map)),
-        None => fail(at, zero_vector(4)),
-    }
+        _ => return fail(at, UNKNOWN),
+    };
+    map.map_or_else(|| fail(at, zero_vector(4)), |map| Ok((rest, map)))
 }

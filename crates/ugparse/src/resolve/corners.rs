@@ -16,9 +16,9 @@ pub(super) fn link_corners(scope: &mut Scope<'_>) -> bool {
     let names = std::mem::take(&mut scope.vertex_names);
     let mut rows = std::mem::take(&mut scope.vertex_rows);
     rows.resize(names.len(), NO_ROW);
-    let (corners, _) = scope.contours.parts_mut();
+    let corners = scope.contours.all_corners_mut();
     let in_order = rows.iter().enumerate().all(|(number, &row)| number == row as usize);
-    if !scope.is_linked && !in_order {
+    if !in_order {
         let corners = corners.par_iter_mut().with_min_len(LEAST_ROWS);
         corners.for_each(|corner| *corner = VertexId(rows[corner.index()]));
     }

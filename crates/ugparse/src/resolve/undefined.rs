@@ -47,45 +47,42 @@ impl UndefinedNames<'_, '_, '_> {
     }
 
     fn check_color(&mut self, name: Option<Span>) {
-        let Some(name) = name else { return };
-        if self.is_seen(name, |scope| &scope.colors) {
-            return;
-        }
-        let remedy = if self.is_seen(name, |scope| &scope.surfaces) {
-            "there is a surface of that name; on a face it follows the colour, so add one"
-        } else {
-            "define it with a `c` or `c_rgb` statement"
-        };
-        self.undefined("colour", name, remedy, |scope| &scope.colors);
+        let remedies = [
+            "define it with a `c` or `c_rgb` statement",
+            "there is a surface of that name; on a face it follows the colour, so add one",
+        ];
+        name.into_iter()
+            .for_each(|name| self.check("colour", name, remedies, |scope| &scope.colors, |s| &s.surfaces));
     }
 
     fn check_surface(&mut self, name: Span) {
-        if self.is_seen(name, |scope| &scope.surfaces) {
-            return;
-        }
-        let remedy = if self.is_seen(name, |scope| &scope.colors) {
-            "there is a colour of that name; a face has one colour, followed by a surface"
-        } else {
-            "define it with a `surf` statement"
-        };
-        self.undefined("surface", name, remedy, |scope| &scope.surfaces);
+        let remedies = [
+            "define it with a `surf` statement",
+            "there is a colour of that name; a face has one colour, followed by a surface",
+        ];
+        self.check("surface", name, remedies, |scope| &scope.surfaces, |scope| &scope.colors);
     }
 
-    /// Is something of this kind and name visible in the scope?
-    fn is_seen<T>(&self, name: Span, kind: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, T>) -> bool {
-        let mut around = enclosing(self.scopes, self.row);
-        around.any(|scope| kind(&self.scopes[scope]).row(name.of(self.text)).is_some())
-    }
-
-    fn undefined<T>(
+    /// Reports a name that is not visible in the scope. `remedies`: if nothing has this name, and if
+    /// something of the other kind has it.
+    fn check<T, O>(
         &mut self,
         kind: &str,
         name: Span,
-        remedy: &str,
+        remedies: [&str; 2],
         of_kind: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, T>,
+        of_other: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, O>,
     ) {
-        let spans = enclosing(self.scopes, self.row).flat_map(|scope| &of_kind(&self.scopes[scope]).spans);
+        let (scopes, own) = (self.scopes, name.of(self.text));
+        let mut around = enclosing(scopes, self.row);
+        if around.any(|scope| of_kind(&scopes[scope]).row(own).is_some()) {
+            return;
+        }
+        let mut around = enclosing(scopes, self.row);
+        let is_other = around.any(|scope| of_other(&scopes[scope]).row(own).is_some());
+        let spans = enclosing(scopes, self.row).flat_map(|scope| &of_kind(&scopes[scope]).spans);
         let names = spans.flatten().map(|span| span.of(self.text));
+        let remedy = remedies[usize::from(is_other)];
         let found = undefined_like(self.text, kind, name, remedy, names, self.findings.len());
         self.findings.push(found);
     }

@@ -45,7 +45,7 @@ fn parts_are_those_of_the_whole_picture() {
         (config.lens, config.stereo, config.adaptive) = (lens, stereo, adaptive);
         config.picture.samples = if adaptive.is_some() { 4 } else { 2 };
         (config.picture.output, config.picture.channels) =
-            (Output::Color(Format::Exr), Channel::ALL.to_vec());
+            (Output::Color(Format::Exr), Channel::NAMES.map(|(_, channel)| channel).to_vec());
         let planes =
             |frame: &LinearFrame| ["D", "time", "Z", "id", "velocity.X"].map(|name| channel(frame, name));
         let whole = light(scene(ROOM), &config).unwrap();
@@ -161,7 +161,7 @@ fn channels_hold_with_every_lens() {
         let mut config = picture(size);
         (config.lens, config.stereo, config.picture.samples) = (lens, stereo, 1);
         (config.picture.output, config.picture.channels) =
-            (Output::Color(Format::Exr), Channel::ALL.to_vec());
+            (Output::Color(Format::Exr), Channel::NAMES.map(|(_, channel)| channel).to_vec());
         config.rays.shutter = film.map_or(Shutter::Pinhole, |distance| Shutter::Film { distance });
         let frame = light(scene(&text), &config).unwrap();
         let [d, time, distance, depth, id, velocity] =

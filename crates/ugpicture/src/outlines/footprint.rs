@@ -86,7 +86,7 @@ impl Rect {
 /// therefore encloses the arcs within `rect` and those corners of `rect` at which the face is seen.
 pub fn footprint(frame: &PictureRays, outline: &Outline, rect: Rect) -> Option<Rect> {
     let mut search = Search { rect: rect.grown(), found: Rect::EMPTY };
-    for edge in outline.edges() {
+    for edge in &outline.edges {
         let [a, b] = edge.ends.map(DVec3::normalize_or_zero);
         match frame.arc(a, b) {
             Some(arc) => search.add(arc, MOST_HALVINGS),

@@ -329,7 +329,7 @@ fn build(
         && let Some(first) = Outline::new(&frame.contours(faces.scene, faces.rest, first))
     {
         // The same bits for all faces in one plane: ties in depth go to the first of them.
-        outline.set_plane(first.plane());
+        outline.plane = first.plane;
     }
     let rect = footprint(frame, &outline, Rect::new([0, size[0]], [0, size[1]]))?;
     // The footprint lies within the picture.
@@ -340,6 +340,6 @@ fn build(
     // The text of a scene is below 4 GiB, so row numbers fit.
     let item = row as u32;
     let (sides, depth) =
-        (outline.edges().iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane()));
+        (outline.edges.iter().map(|edge| frame.side(edge.normal)).collect(), frame.form(outline.plane));
     Some(OutlinedFace { item, frame: at, columns, rows, outline, sides, depth })
 }

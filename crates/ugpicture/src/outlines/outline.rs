@@ -14,9 +14,11 @@ const EDGE_ON: f64 = 1e-12;
 /// The outline of a face at rest, holes included.
 #[derive(Clone, Debug)]
 pub struct Outline {
-    edges: Box<[Edge]>,
-    /// The plane of the face: its points p fulfil p·plane = 1.
-    plane: DVec3,
+    /// The edges of all contours.
+    pub edges: Box<[Edge]>,
+    /// The plane of the face: its points p fulfil p·plane = 1. The dot product with a ray is its
+    /// depth key.
+    pub plane: DVec3,
 }
 
 /// An edge. The order of its ends depends only on their positions.
@@ -57,21 +59,6 @@ impl Outline {
             contour.iter().zip(next).map(|(&a, &b)| Edge::new(a, b))
         });
         plane.is_finite().then(|| Self { edges: edges.collect(), plane })
-    }
-
-    /// The edges of all contours.
-    pub fn edges(&self) -> &[Edge] {
-        &self.edges
-    }
-
-    /// The vector whose dot product with a ray is the depth key.
-    pub fn plane(&self) -> DVec3 {
-        self.plane
-    }
-
-    /// Replaces the plane by one that differs from it by rounding.
-    pub fn set_plane(&mut self, plane: DVec3) {
-        self.plane = plane;
     }
 
     /// The inverse of the ray parameter at the plane; 0 or less if the plane is not ahead. `ray`: a

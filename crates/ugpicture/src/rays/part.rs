@@ -190,15 +190,12 @@ impl Part {
     /// True if a straight way at rest crosses a face for which `blocks` holds.
     pub fn crosses(&self, from: DVec3, to: DVec3, blocks: impl Fn(u32) -> bool) -> bool {
         let ray = ugbvh::Ray { origin: from, direction: to - from };
-        let visit = |hit: ugbvh::Hit| match blocks(self.triangles[hit.triangle as usize].face) {
+        let visit = |row: usize| match blocks(self.triangles[row].face) {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         };
-        let on_round = |_, row: u32| match blocks(self.triangles[self.first_round() + row as usize].face) {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        };
-        self.bvh.visit(&ray, 0.0..1.0, visit).is_break()
+        let on_round = |_, row: u32| visit(self.first_round() + row as usize);
+        self.bvh.visit(&ray, 0.0..1.0, |hit| visit(hit.triangle as usize)).is_break()
             || self.rounds.visit(&ray, 0.0..1.0, on_round).is_break()
     }
 

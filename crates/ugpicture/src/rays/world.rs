@@ -127,8 +127,7 @@ impl World {
             if !self.may_be_hit(part, origin, step) {
                 return;
             }
-            // At the same place the part with the lowest row is hit, in whatever order they come.
-            let end = best.map_or(range.end, |best| if row < best.part { best.s.next_up() } else { best.s });
+            let end = end_before(*best, row, range.end);
             let found = part.closest(faces, row, origin, step, range.start..end.min(range.end));
             *best = found.or(*best);
         };
@@ -354,12 +353,7 @@ impl World {
         part.bvh.closest_packet(DVec3::ZERO, directions, range.clone(), hits);
         for ((&idx, hit), &step) in rows.iter().zip(&*hits).zip(&*directions) {
             let (Some(hit), best) = (*hit, &mut first[idx]) else { continue };
-            // At the same place the part with the lowest row is hit, in whatever order they come.
-            let end = match best {
-                Some(best) if row < best.part => best.s.next_up(),
-                Some(best) => best.s,
-                None => range.end,
-            };
+            let end = end_before(*best, row, range.end);
             if best.is_some() && hit.t >= end {
                 continue;
             }
@@ -375,11 +369,7 @@ impl World {
         }
         for (&idx, &direction) in rows.iter().zip(&*directions) {
             let best = &mut first[idx];
-            let end = match best {
-                Some(best) if row < best.part => best.s.next_up(),
-                Some(best) => best.s,
-                None => range.end,
-            };
+            let end = end_before(*best, row, range.end);
             let ray = ugbvh::Ray { origin: DVec3::ZERO, direction };
             let found = part.closest_round(row, &ray, range.start..end);
             *best = found.or(*best);
@@ -448,4 +438,11 @@ impl World {
         (self.n_inertial..self.parts.len())
             .try_for_each(|row| self.parts[row].visit_on_line(faces, row, ray, range.clone(), visit_any))
     }
+}
+
+/// The end of the parameters of hits on the part in row `row` that replace `best`; `end` if there is
+/// none. Ties go to the part with the lowest row, in whatever order they come.
+#[inline]
+fn end_before(best: Option<Intersection>, row: usize, end: f64) -> f64 {
+    best.map_or(end, |best| if row < best.part { best.s.next_up() } else { best.s })
 }

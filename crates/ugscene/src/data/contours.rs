@@ -35,19 +35,14 @@ impl Contours {
         self.corners.truncate(self.ends.last().map_or(0, |&end| end as usize));
     }
 
-    /// Corners and ends of all contours.
-    pub fn parts_mut(&mut self) -> (&mut Vec<VertexId>, &mut Vec<u32>) {
-        (&mut self.corners, &mut self.ends)
+    /// Corners of all contours.
+    pub fn all_corners_mut(&mut self) -> &mut Vec<VertexId> {
+        &mut self.corners
     }
 
     /// Empty, with room for so many corners and contours.
     pub fn with_capacity(corners: usize, contours: usize) -> Self {
         Self { corners: Vec::with_capacity(corners), ends: Vec::with_capacity(contours) }
-    }
-
-    /// Builds contours from all corners and the end of each contour.
-    pub fn from_parts(corners: Vec<VertexId>, ends: Vec<u32>) -> Self {
-        Self { corners, ends }
     }
 
     /// Total number of corners.
@@ -67,9 +62,7 @@ impl Contours {
 
     /// The vertices of contour `row`.
     pub fn get(&self, row: u32) -> &[VertexId] {
-        let row = row as usize;
-        let start = if row == 0 { 0 } else { self.ends[row - 1] as usize };
-        &self.corners[start..self.ends[row] as usize]
+        self.corners(row..row + 1)
     }
 
     /// The contours of a face or wire, in order.
@@ -90,20 +83,13 @@ impl Contours {
     /// All corners of a face or wire, contour after contour.
     #[inline]
     pub fn corners(&self, rows: Range<u32>) -> &[VertexId] {
-        if rows.is_empty() {
-            return &[];
-        }
-        let start = if rows.start == 0 { 0 } else { self.ends[rows.start as usize - 1] as usize };
-        &self.corners[start..self.ends[rows.end as usize - 1] as usize]
+        &self.corners[self.first_corner(rows.start)..self.first_corner(rows.end)]
     }
 
     /// All corners of a face or wire, mutable.
     pub fn corners_mut(&mut self, rows: Range<u32>) -> &mut [VertexId] {
-        if rows.is_empty() {
-            return &mut [];
-        }
-        let start = if rows.start == 0 { 0 } else { self.ends[rows.start as usize - 1] as usize };
-        &mut self.corners[start..self.ends[rows.end as usize - 1] as usize]
+        let places = self.first_corner(rows.start)..self.first_corner(rows.end);
+        &mut self.corners[places]
     }
 
     /// Number of contours.

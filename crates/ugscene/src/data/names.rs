@@ -34,17 +34,6 @@ impl Names {
         self.ends.len()
     }
 
-    /// Appends another table; the ids of its names continue after those of this one.
-    pub fn append(&mut self, other: Self) {
-        if self.ends.is_empty() {
-            *self = other;
-            return;
-        }
-        let offset = u32::try_from(self.text.len()).expect("names together are below 4 GiB");
-        self.text.push_str(&other.text);
-        self.ends.extend(other.ends.iter().map(|end| end + offset));
-    }
-
     /// Bytes of all names together.
     pub fn len_bytes(&self) -> usize {
         self.text.len()

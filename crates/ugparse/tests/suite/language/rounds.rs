@@ -63,18 +63,3 @@ fn shapes_are_where_the_numbers_and_instances_put_them() {
     let text = "def d; disc plate 0 0 0 1 0 0 1; end; i (d -sy 0);";
     assert_eq!(warnings(text, false), ["disc has no area where it is placed"]);
 }
-
-/// Vertices without a name of their own in texts that are read in parts.
-#[test]
-fn large_texts_are_read_alike_on_any_number_of_threads() {
-    let statement =
-        |row: usize| format!("sphere b{row} {row} 0 0 .5; v v{row} 0 0 {row}; disc {row} 1 1 0 0 1 1;\n");
-    let text: String = (0..30_000).map(statement).collect();
-    assert!(text.len() > 4 << 19);
-    let read = |n_threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
-        pool.install(|| ugparse::write(&parse(&text)))
-    };
-    let alone = read(1);
-    assert!(alone == read(3) && alone == read(4));
-}
