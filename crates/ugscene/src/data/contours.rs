@@ -66,6 +66,7 @@ impl Contours {
     }
 
     /// The vertices of contour `row`.
+    #[inline]
     pub fn get(&self, row: u32) -> &[VertexId] {
         let row = row as usize;
         let start = if row == 0 { 0 } else { self.ends[row - 1] as usize };
