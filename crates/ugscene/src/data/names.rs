@@ -1,5 +1,6 @@
 //! The names of a scene, in one buffer, and generation of unique names.
 
+use std::collections::hash_map::Entry;
 use std::fmt::Write;
 use std::ops::Range;
 
@@ -113,12 +114,16 @@ impl UniqueNames {
 
     /// Adds a [fresh](Self::fresh) name to a table.
     pub fn add(&mut self, name: String, table: &mut Names) -> NameId {
-        if self.has(&name) {
-            return table.add(&self.fresh(&name));
-        }
-        let id = table.add(&name);
-        self.taken.insert(name, 1);
-        id
+        let is_numbered = self.is_numbered(&name);
+        let taken = match self.taken.entry(name) {
+            Entry::Vacant(place) if !is_numbered => {
+                let id = table.add(place.key());
+                place.insert(1);
+                return id;
+            }
+            place => place.key().clone(),
+        };
+        table.add(&self.fresh(&taken))
     }
 
     /// Adds a [fresh](Self::fresh) name to the table that has the original, which is used.
@@ -134,11 +139,14 @@ impl UniqueNames {
     }
 
     fn has(&self, name: &str) -> bool {
-        self.taken.contains_key(name) || self.are_numbered && self.is_numbered(name)
+        self.taken.contains_key(name) || self.is_numbered(name)
     }
 
     /// True if the name was made from another by appending a number.
     fn is_numbered(&self, name: &str) -> bool {
+        if !self.are_numbered {
+            return false;
+        }
         let Some((original, number)) = name.rsplit_once('_') else { return false };
         let is_canonical = matches!(number.as_bytes().first(), Some(b'1'..=b'9'));
         let number = if is_canonical { number.parse().unwrap_or(0) } else { 0 };
