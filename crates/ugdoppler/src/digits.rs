@@ -10,7 +10,8 @@ pub(crate) fn name_as_seen(name: &str, doppler: f64, step: Option<f64>) -> Strin
     seen.push('#');
     let Some(step) = step else { return seen + &format!("{doppler}").replace('.', "_") };
     // The number of digits at which a unit in the last place is below a step.
-    let places = (-libm::log10(step)).ceil().clamp(0.0, 20.0) as usize;
+    let few = POWERS.iter().position(|&power| f64::from(power) * step >= 1.0);
+    let places = few.unwrap_or_else(|| (-libm::log10(step)).ceil().clamp(0.0, 20.0) as usize);
     if !push_few_digits(&mut seen, doppler, places) {
         seen += &format!("{doppler:.places$}").replace('.', "_");
     }
@@ -19,9 +20,6 @@ pub(crate) fn name_as_seen(name: &str, doppler: f64, step: Option<f64>) -> Strin
 
 /// Powers of ten, which are exact.
 const POWERS: [u32; 9] = [1, 10, 100, 1000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
-
-/// As many as the last of [`POWERS`] has, and one more.
-const ZEROS: &str = "000000000";
 
 /// Appends a number rounded to some decimal places, several times as fast as by `format`; returns
 /// false if it has too many digits or is close to a tie.
@@ -33,13 +31,21 @@ fn push_few_digits(text: &mut String, number: f64, places: usize) -> bool {
     // the nearest.
     let is_sure = (0.0..1e9).contains(&scaled) && (scaled - nearest).abs() < 0.499_999;
     if is_sure {
-        let digits = (nearest as u32).to_string();
-        // At least one digit before the point.
-        text.push_str(&ZEROS[..(places + 1).saturating_sub(digits.len())]);
-        text.push_str(&digits);
-        if places > 0 {
-            text.insert(text.len() - places, '_');
+        // From the last one: up to 10 digits, at least one of them before the point.
+        let (mut digits, mut first, mut rest) = ([0; 11], 11, nearest as u32);
+        for place in 0.. {
+            if place > places && rest == 0 {
+                break;
+            }
+            if place == places && places > 0 {
+                first -= 1;
+                digits[first] = b'_';
+            }
+            first -= 1;
+            digits[first] = b'0' + (rest % 10) as u8;
+            rest /= 10;
         }
+        text.extend(digits[first..].iter().map(|&digit| char::from(digit)));
     }
     is_sure
 }

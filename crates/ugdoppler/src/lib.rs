@@ -189,7 +189,8 @@ fn color(
     ugscene::repeat_vertices(&mut scene, config.repeat);
     let mixing_note = ugscene::Note::mixed_colors(&scene);
     // Only for lamps, and for the angles at which colours of faces meet.
-    let needs_rest = config.light || scene.vertices.iter().any(|vertex| vertex.color.is_none());
+    let may_meet = || !config.repeat && scene.vertices.iter().any(|vertex| vertex.color.is_none());
+    let needs_rest = config.light || may_meet();
     let seen = SeenVertices::new(&scene, eye, frames, needs_rest);
     let factors = doppler_factors(&scene, eye, frames, &seen);
     let vertices = (seen, factors);

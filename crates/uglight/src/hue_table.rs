@@ -41,17 +41,12 @@ impl HueTable {
     /// Like [`wavelength_to_hue`], up to rounding.
     #[inline]
     pub fn hue(&self, wavelength_nm: f64) -> f64 {
-        let ([a, b, c, d], t) = self.cubic(wavelength_nm.clamp(VIOLET_END_NM, RED_END_NM));
-        a + t * (b + t * (c + t * d))
-    }
-
-    /// The cubic's coefficients at a wavelength, and its argument.
-    #[inline]
-    fn cubic(&self, wavelength_nm: f64) -> ([f64; 4], f64) {
+        let wavelength_nm = wavelength_nm.clamp(VIOLET_END_NM, RED_END_NM);
         let inner = CONTROL_POINTS[1..INTERVALS].iter();
         let interval: usize = inner.map(|point| usize::from(wavelength_nm < point.wavelength_nm)).sum();
         let [red, a, b, c, d] = self.cubics[interval];
-        ([a, b, c, d], wavelength_nm - red)
+        let t = wavelength_nm - red;
+        a + t * (b + t * (c + t * d))
     }
 
     /// Like [`hue_to_wavelength`], within 10⁻⁹ nm.
@@ -70,7 +65,8 @@ impl HueTable {
         let [[a, slope_a], [b, slope_b]] = [self.points[cell], self.points[cell + 1]];
         let rest = 1.0 - s;
         let near = a + s * s * (3.0 - 2.0 * s) * (b - a) + s * rest * STEP * (rest * slope_a - s * slope_b);
-        let ([a, b, c, d], t) = self.cubic(near);
+        let [red, a, b, c, d] = self.cubics[cell / CELLS];
+        let t = near - red;
         near - (a + t * (b + t * (c + t * d)) - hue_deg) / (b + t * (2.0 * c + t * 3.0 * d))
     }
 }

@@ -14,6 +14,12 @@ const N_PASSES: usize = 6;
 /// that no distance is enough.
 const FARTHEST: f64 = 64.0;
 
+/// Points that one thread looks at together.
+const N_TOGETHER: usize = 1024;
+
+/// [`Frame::extents`] of no point.
+const NOTHING: [f64; 4] = [f64::NEG_INFINITY; 4];
+
 /// The seen point, in any unit, relative to any origin.
 pub(crate) struct Subject<'s> {
     /// Points and their bodies.
@@ -93,19 +99,30 @@ impl Frame {
         let mut place = Place { offset: [0.0; 2], distance: 2.0 * self.nearest };
         for _ in 0..if moves { N_PASSES } else { 1 } {
             let eye = self.point(place);
+            // `None` at rest.
             let seen = |(middle, motions): &(DVec3, Vec<RelativeMotion>)| -> Vec<Option<SeenBody>> {
                 let one = |motion: &RelativeMotion| SeenBody::new(motion, *middle, eye, axes);
-                motions.iter().map(|motion| (!motion.is_at_rest()).then(|| one(motion))).collect()
+                let all = motions.iter().map(|motion| (!motion.is_at_rest()).then(|| one(motion)));
+                if motions.is_empty() { vec![None] } else { all.collect() }
             };
             let bodies: Vec<_> = subject.bodies.iter().map(seen).collect();
-            let extents = |&(point, body): &(DVec3, BodyId)| {
-                let at_rest = || self.extents(axes.map(|axis| axis.dot(point)));
-                let of = |body: &Option<SeenBody>| {
-                    body.as_ref().map_or_else(at_rest, |body| self.extents(body.seen(point)))
-                };
-                bodies[body.index()].iter().map(of).reduce(greater).unwrap_or_else(at_rest)
+            let of_chunk = |chunk: &[(DVec3, BodyId)]| {
+                let mut most = NOTHING;
+                for points in chunk.chunk_by(|a, b| a.1 == b.1) {
+                    for body in &bodies[points[0].1.index()] {
+                        for &(point, _) in points {
+                            let along = match body {
+                                Some(body) => body.seen(point),
+                                None => axes.map(|axis| axis.dot(point)),
+                            };
+                            most = greater(most, self.extents(along));
+                        }
+                    }
+                }
+                most
             };
-            let most = subject.points.par_iter().map(extents).reduce(|| [f64::NEG_INFINITY; 4], greater);
+            let chunks = subject.points.par_chunks(N_TOGETHER);
+            let most = chunks.map(of_chunk).reduce(|| NOTHING, greater);
             place = self.place(most);
         }
         place

@@ -115,9 +115,8 @@ impl Ellipse {
         let level = (x * x + y * y).sqrt();
         let [sin, cos] = if level > 0.0 { [x / level, y / level] } else { [0.0, 1.0] };
         let axes = [DVec3::new(cos, -sin, 0.0), DVec3::new(-z * sin, -z * cos, level)];
-        let [across, down] = ray.slopes;
-        let east = [across.dot(axes[0]), down.dot(axes[0])];
-        let north = [across.dot(axes[1]), down.dot(axes[1])];
+        let east = ray.slopes.map(|slope| slope.x * cos - slope.y * sin);
+        let north = ray.slopes.map(|slope| slope.dot(axes[1]));
         Self { axes, plane: PlaneEllipse::new(east, north, spread) }
     }
 

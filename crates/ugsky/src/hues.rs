@@ -3,7 +3,7 @@
 use std::sync::LazyLock;
 
 use fearless_simd::prelude::*;
-use fearless_simd::{Simd, f32x16};
+use fearless_simd::{Simd, f32x16, i32x16};
 use ugphysics::{Brightness, RED_END_NM, VIOLET_END_NM, hue_to_wavelength, wavelength_to_hue};
 
 use crate::sample::Seen;
@@ -157,13 +157,14 @@ impl Table {
         let place = (x - f32x16::splat(simd, self.first)) * f32x16::splat(simd, self.per_unit);
         // NaN, the hue of greys, becomes a number too.
         let place = place.max(f32x16::splat(simd, 0.0)).min(f32x16::splat(simd, CELLS as f32));
-        let places: [f32; N] = place.into();
-        let (mut low, mut high, mut cells) = ([0.0; N], [0.0; N], [0.0; N]);
+        let cell = place.min(f32x16::splat(simd, (CELLS - 1) as f32)).floor();
+        let cells: [i32; N] = cell.to_int::<i32x16<S>>().into();
+        let (mut low, mut high) = ([0.0; N], [0.0; N]);
         for k in 0..N {
-            let cell = (places[k] as usize).min(CELLS - 1);
-            (low[k], high[k], cells[k]) = (self.points[cell], self.points[cell + 1], cell as f32);
+            let cell = (cells[k] as usize).min(CELLS - 1);
+            (low[k], high[k]) = (self.points[cell], self.points[cell + 1]);
         }
-        interpolated(simd, &low, &high, place - f32x16::from_slice(simd, &cells))
+        interpolated(simd, &low, &high, place - cell)
     }
 }
 

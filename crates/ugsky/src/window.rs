@@ -56,7 +56,7 @@ impl Window {
             return None;
         }
         let (row, n_rows) = (first as u32, (last - first) as u32 + 1);
-        let [top, bottom] = [first, last].map(|idx| &grid.rows[idx as usize]);
+        let [top, bottom] = [row, row + n_rows - 1].map(|idx| &grid.rows[idx as usize]);
         if top.ladder != bottom.ladder {
             return None;
         }
@@ -88,7 +88,7 @@ impl Window {
 /// True if indices are below `n` and not more than `most`.
 #[inline(always)]
 fn is_window(first: f64, last: f64, n: usize, most: usize) -> bool {
-    first >= 0.0 && last < n as f64 && last >= first && last - first < most as f64
+    first >= 0.0 && last < f64::from(n as u32) && last >= first && last - first < most as f64
 }
 
 /// The weights of a window by chunk and row: of the kernel, and of its positive part times s and
@@ -178,11 +178,12 @@ fn weigh<S: Simd>(
     let (a_x, a_y) = (f32x8::splat(simd, footprints.a[0][idx]), f32x8::splat(simd, footprints.a[1][idx]));
     let (b_x, b_y) = (f32x8::splat(simd, footprints.b[0][idx]), f32x8::splat(simd, footprints.b[1][idx]));
     let row = window.row as usize;
-    let rows = row..row + window.n_rows as usize;
-    let (root, root_cos_square) = (&grid.lines.root[rows.clone()], &grid.lines.root_cos_square[rows]);
+    let n_rows = (window.n_rows as usize).min(ROWS);
     // For each row, what its texels have in common.
-    let tan = f32x16::from_slice(simd, &grid.lines.tan[row..row + ROWS]);
-    let cos_square = f32x16::from_slice(simd, &grid.lines.cos_square[row..row + ROWS]);
+    let of_rows = |list: &[f32]| f32x16::from_slice(simd, &list[row..row + ROWS]);
+    let root: [f32; ROWS] = of_rows(&grid.lines.root).into();
+    let root_cos_square: [f32; ROWS] = of_rows(&grid.lines.root_cos_square).into();
+    let (tan, cos_square) = (of_rows(&grid.lines.tan), of_rows(&grid.lines.cos_square));
     let row_s: [f32; ROWS] = (f32x16::splat(simd, footprints.a[2][idx]) * tan).into();
     let row_t: [f32; ROWS] = (f32x16::splat(simd, footprints.b[2][idx]) * tan).into();
     let row_c: [f32; ROWS] = (f32x16::splat(simd, footprints.c[idx]) * cos_square).into();
@@ -195,21 +196,21 @@ fn weigh<S: Simd>(
         // The dot products of a and b with the horizontal directions of the columns.
         let level_a = a_x * sin + a_y * cos;
         let level_b = b_x * sin + b_y * cos;
-        let rows = root.iter().zip(root_cos_square).zip(row_s.iter().zip(&row_t)).zip(&row_c);
-        for ((((&root, &root_cos_square), (&row_s, &row_t)), &row_c), stored) in rows.zip(weights) {
-            let s = level_a + f32x8::splat(simd, row_s);
-            let t = level_b + f32x8::splat(simd, row_t);
+        for row in 0..n_rows {
+            let s = level_a + f32x8::splat(simd, row_s[row]);
+            let t = level_b + f32x8::splat(simd, row_t[row]);
             let square = s * s + t * t;
-            let rest = f32x8::splat(simd, root) - f32x8::splat(simd, root_cos_square) * square;
+            let rest = f32x8::splat(simd, root[row]) - f32x8::splat(simd, root_cos_square[row]) * square;
             let rest = rest.max(zero);
             let positive = rest * rest;
-            let weight = positive * (one - f32x8::splat(simd, row_c) * square);
+            let weight = positive * (one - f32x8::splat(simd, row_c[row]) * square);
             let (by_s, by_t) = (positive * s, positive * t);
             moments[0] += weight * s;
             moments[1] += weight * t;
             moments[2] += by_s * s;
             moments[3] += by_s * t;
             moments[4] += by_t * t;
+            let stored = &mut weights[row];
             weight.store_slice(&mut stored[0]);
             by_s.store_slice(&mut stored[1]);
             by_t.store_slice(&mut stored[2]);
@@ -255,11 +256,11 @@ fn sum_channels<S: Simd, const N: usize>(
 ) -> [f32x8<S>; N] {
     let (across, along) = (f32x8::splat(simd, factors[0]), f32x8::splat(simd, factors[1]));
     let mut sums = [f32x8::splat(simd, 0.0); N];
-    let (row, n_rows) = (window.row as usize, window.n_rows as usize);
+    let (row, n_rows) = (window.row as usize, (window.n_rows as usize).min(ROWS));
     let n_chunks = (window.n_columns as usize).div_ceil(CHUNK);
     for (chunk, weights) in weights.iter().enumerate().take(n_chunks) {
         let at = (held.column + CHUNK * chunk).min(WIDTH - CHUNK);
-        for (idx, [weight, by_s, by_t]) in weights.iter().enumerate().take(n_rows) {
+        for (idx, [weight, by_s, by_t]) in weights[..n_rows].iter().enumerate() {
             let weight = f32x8::from_slice(simd, weight);
             let by_s = f32x8::from_slice(simd, by_s);
             let by_t = f32x8::from_slice(simd, by_t);

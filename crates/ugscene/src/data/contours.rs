@@ -61,6 +61,7 @@ impl Contours {
     }
 
     /// The vertices of contour `row`.
+    #[inline]
     pub fn get(&self, row: u32) -> &[VertexId] {
         self.corners(row..row + 1)
     }
