@@ -94,11 +94,14 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     // Programs write these before all vertices, so they are in the first part, whose names keep
     // their numbers.
     let mut tables = parts.iter_mut().map(|part| {
-        let Scope { mixes, color_tables, textures, .. } = part;
-        (std::mem::take(mixes), std::mem::take(color_tables), std::mem::take(textures))
+        let Scope { mixes, color_tables, textures, emissions, .. } = part;
+        let rows = (std::mem::take(mixes), std::mem::take(color_tables), std::mem::take(textures));
+        (rows, std::mem::take(emissions))
     });
     let head = tables.next()?;
-    if tables.any(|(mixes, tables, textures)| mixes.len() + tables.len() + textures.len() > 0) {
+    if tables.any(|((mixes, tables, textures), emissions)| {
+        mixes.len() + tables.len() + textures.len() + emissions.len() > 0
+    }) {
         return None;
     }
     let mut file = Scope::default();
@@ -111,7 +114,7 @@ fn join<'t>(mut parts: Vec<Scope<'t>>) -> Option<Scope<'t>> {
     }
 
     file.is_linked = true;
-    (file.mixes, file.color_tables, file.textures) = head;
+    ((file.mixes, file.color_tables, file.textures), file.emissions) = head;
     file.contours = join_contours(&mut parts, &file.vertex_rows, &vertex_rows);
     file.vertices = join_tables(
         &mut parts,
