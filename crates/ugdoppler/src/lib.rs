@@ -229,6 +229,7 @@ fn color(
         irradiance::replace_lights(&mut scene);
     }
     scene.mixes.clear();
+    scene.emissions.clear();
     scene.color_tables.clear();
     scene.stage = stage;
     Ok((scene, notes))

@@ -3,13 +3,13 @@
 use glam::DVec3;
 use ugphysics::spectrum::Spectrum;
 use ugphysics::{Hsv, wavelength_to_hue};
-use ugscene::Scene;
+use ugscene::{ColorId, Scene};
 
 use crate::color::{shown_light, texel_hsv};
 use crate::hue_table::HueTable;
 use crate::spectra::{Spectra, SpectralRows};
 use crate::{
-    ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Palette,
+    ColorForm, ColorShift, HueColor, HueShift, Interpolation, Irradiance, Lamp, Lamps, Mixing, Palette,
     SpectralFilter, SurfaceAttributes, Swatch,
 };
 
@@ -140,6 +140,22 @@ impl Appearance {
         let form = if self.keeps_light() || !is_moving { ColorForm::Display(light) } else { ColorForm::Hue };
         let swatch = Swatch { form, translucency, ..self.palette.swatch(texel_hsv(light)) };
         SurfaceColor::even(swatch, 0)
+    }
+
+    /// The colour at rest that a surface emits; the light of its texel if it is a picture.
+    pub fn emitted(&self, color: ColorId, texel: Option<DVec3>, is_moving: bool) -> SurfaceColor {
+        if let Some(light) = texel {
+            return self.texel(light, 0.0, is_moving);
+        }
+        let (keeps_light, own) = (self.keeps_light() || !is_moving, self.palette.get(color));
+        let swatch = if keeps_light { own } else { self.palette.drawn_as(Mixing::Hue, own) };
+        SurfaceColor::even(swatch, self.surface.row_of(Some(color)))
+    }
+
+    /// Linear light of a colour as seen under a level of light, as a renderer draws it.
+    pub fn drawn_light(&self, seen: &Swatch, level: DVec3) -> DVec3 {
+        let hue = || self.hue_shift.brightened(self.hue_color(seen), level.x).light();
+        seen.form.lit(level).unwrap_or_else(hue)
     }
 
     /// True if colours are spectra, under lamps whose spectra differ from daylight.

@@ -190,7 +190,9 @@ pub(crate) fn show(scene: &mut Scene, mut times: Vec<f64>) {
             }
         }
     }
-    let lights: FxHashSet<ColorId> = scene.lights.iter().filter_map(|light| light.color).collect();
+    let emitted = scene.emissions.iter().map(|emission| emission[1]);
+    let lights: FxHashSet<ColorId> =
+        scene.lights.iter().filter_map(|light| light.color).chain(emitted).collect();
     scene.color_tables.retain(|table| lights.contains(&table.color));
 }
 

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use uglight::hsv;
+use uglight::{RestColor, hsv};
 use ugphysics::{srgb_decode, srgb_encode};
 use ugscene::{ColorId, ColorValue, Contours, NameId, Scene, Texture, VertexId};
 
@@ -48,6 +48,9 @@ impl PolygonMesh {
             notes.push("the format has no textures: their faces have a plain colour".to_string());
             scene.textures.clear();
         }
+        if !has_textures && !scene.emissions.is_empty() {
+            notes.push("the format has no emitted light: it is left out".to_string());
+        }
         leave_out_wires(&mut scene);
         separate_colors(&mut scene);
         let mut colors = vertex_colors(&scene, &mut notes);
@@ -69,9 +72,13 @@ impl PolygonMesh {
             let face = &self.scene.faces[self.faces[polygon as usize] as usize];
             let row = *rows.entry((face.name.map(text), face.color)).or_insert_with_key(|&(name, color)| {
                 let texture = color.and_then(|color| self.scene.texture_of(color)).cloned();
+                let emitted = color.and_then(|color| self.scene.emitted_by(color)).map(|color| {
+                    let light = RestColor::new(&self.scene, Some(color)).linear();
+                    (light.to_array(), self.scene.texture_of(color).cloned())
+                });
                 let color = color.map(|color| text(self.scene.colors[color.index()].name));
                 let [name, color] = [name, color].map(|name| name.map(str::to_string));
-                groups.push(Group { name, color, texture, polygons: Vec::new() });
+                groups.push(Group { name, color, texture, emitted, polygons: Vec::new() });
                 groups.len() - 1
             });
             groups[row].polygons.push(polygon);
@@ -81,7 +88,7 @@ impl PolygonMesh {
         }
         let count = groups.len();
         self.notes.push(format!("names of faces and colours are left out: {count} are more than {MAX}"));
-        vec![Group { name: None, color: None, texture: None, polygons: all.collect() }]
+        vec![Group { name: None, color: None, texture: None, emitted: None, polygons: all.collect() }]
     }
 
     /// True if any vertex is transparent.
@@ -117,6 +124,8 @@ pub(crate) struct Group {
     pub color: Option<String>,
     /// The picture that their colour is.
     pub texture: Option<Texture>,
+    /// The linear light that they emit, and its picture.
+    pub emitted: Option<([f64; 3], Option<Texture>)>,
     /// Rows in the polygons of the mesh.
     pub polygons: Vec<u32>,
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
+use ugphysics::{linear_srgb_to_xyz, srgb_encode};
 use ugpipe::printable;
 use ugscene::{
     Color, ColorId, ColorValue, Face, NameId, Scene, Texture, UniqueNames, Vertex, VertexId, unit_normal,
@@ -37,8 +38,8 @@ pub(crate) struct Builder {
     /// Prefix of names, including its `_`.
     prefix: String,
     /// The colours so far, by their material, the bits of their clipped components, and their
-    /// texture.
-    colors: FxHashMap<(String, [u64; 4], String), ColorId>,
+    /// texture and what they emit.
+    colors: FxHashMap<(String, [u64; 4], String, Option<ColorId>), ColorId>,
     color_names: UniqueNames,
     /// The name of the following faces.
     face_name: Option<NameId>,
@@ -122,19 +123,25 @@ impl Builder {
 
     /// The id of a colour without a name; equal colours share one.
     pub fn color(&mut self, rgba: Rgba) -> ColorId {
-        self.material(rgba, "", None)
+        self.material(rgba, "", None, None)
     }
 
     /// The id of the colour of a material, which gets its name; materials of the same name share
-    /// one if their colours and textures are equal. The colour of a texture is not set.
-    pub fn material(&mut self, Rgba(rgba): Rgba, name: &str, texture: Option<Texture>) -> ColorId {
+    /// one if their colours, textures and `emitted` are equal. The colour of a texture is not set.
+    pub fn material(
+        &mut self,
+        Rgba(rgba): Rgba,
+        name: &str,
+        texture: Option<Texture>,
+        emitted: Option<ColorId>,
+    ) -> ColorId {
         let clipped = rgba.map(|part| if part.is_nan() { 0.0 } else { part.clamp(0.0, 1.0) + 0.0 });
         let name = scene_name(name);
         let texture_key =
             texture.as_ref().map_or(String::new(), |Texture { image, wrap, factor, alpha, .. }| {
                 format!("{:?} {wrap:?} {factor:?} {alpha:?}", image.bytes.as_ptr())
             });
-        let key = (name, clipped.map(f64::to_bits), texture_key);
+        let key = (name, clipped.map(f64::to_bits), texture_key, emitted);
         if let Some(&known) = self.colors.get(&key) {
             return known;
         }
@@ -148,12 +155,41 @@ impl Builder {
         let id = ColorId::from_index(row);
         self.colors.insert(key, id);
         self.scene.textures.extend(texture.map(|texture| Texture { color: id, ..texture }));
+        self.scene.emissions.extend(emitted.map(|emitted| [id, emitted]));
         id
     }
 
-    /// True if a colour is a picture.
+    /// The colour that a material of this name emits, linear and possibly above 1; `None` if that
+    /// is black. `texture`: factors of 0 or more, and the mean of the picture.
+    pub fn emitted(
+        &mut self,
+        factor: [f64; 3],
+        name: &str,
+        picture: Option<(Texture, [f64; 3])>,
+    ) -> Option<ColorId> {
+        let factor = factor.map(|part| if part.is_finite() { part.max(0.0) } else { 0.0 });
+        let mean = picture.as_ref().map_or([1.0; 3], |picture| picture.1);
+        let light: [f64; 3] = std::array::from_fn(|at| factor[at] * mean[at]);
+        let most = light.into_iter().fold(0.0, f64::max);
+        if most <= 0.0 {
+            return None;
+        }
+        let [red, green, blue] = factor.map(|part| part as f32);
+        let texture = picture.map(|(texture, _)| Texture { factor: [red, green, blue, 1.0], ..texture });
+        let scale = most.max(1.0);
+        let name = if scale > 1.0 { format!("{name}_light_{most}") } else { format!("{name}_light") };
+        let [red, green, blue] = light.map(|part| srgb_encode(part / scale));
+        let id = self.material(Rgba([red, green, blue, 1.0]), &name, texture, None);
+        if scale > 1.0 {
+            self.scene.colors[id.index()].value = ColorValue::Xyz(linear_srgb_to_xyz(light));
+        }
+        Some(id)
+    }
+
+    /// True if a colour, or what it emits, is a picture.
     pub fn has_texture(&self, color: ColorId) -> bool {
-        self.scene.texture_of(color).is_some()
+        let emitted = self.scene.emitted_by(color);
+        [Some(color), emitted].into_iter().flatten().any(|color| self.scene.texture_of(color).is_some())
     }
 
     /// The name of the following faces: that of their object or group. Nothing remains of a name

@@ -71,6 +71,7 @@ pub(crate) struct Scope<'t> {
     pub mixes: Rows<Mix>,
     pub color_tables: Rows<ColorTable>,
     pub textures: Rows<Texture>,
+    pub emissions: Rows<[ColorId; 2]>,
     pub surfaces: Named<'t, SurfaceProperties>,
     /// Unnamed colours, with the first rows to which they apply.
     pub defaults: Vec<DefaultColor>,
@@ -162,6 +163,10 @@ impl<'t> Scope<'t> {
             Statement::Mix(mix) => self.add_mix(text, span, &mix),
             Statement::Table(table) => self.add_color_table(text, span, &table),
             Statement::Texture(texture) => self.add_texture(text, span, texture),
+            Statement::Emission(names) => {
+                let color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
+                self.emissions.push(names.map(color), span);
+            }
             Statement::Surface(surface) => self.add_surface(text, span, &surface),
             Statement::Light(light) => self.add_light(text, span, &light),
             Statement::Camera(camera) => self.add_camera(text, span, camera),
@@ -488,6 +493,7 @@ impl<'t> Scope<'t> {
             &self.colors.table.spans,
             &self.mixes.spans,
             &self.textures.spans,
+            &self.emissions.spans,
             &self.surfaces.table.spans,
             &self.calls.spans,
             &self.escapes.spans,

@@ -39,6 +39,8 @@ pub(crate) enum Statement {
     Mix(MixStatement),
     Table(TableStatement),
     Texture(TextureStatement),
+    /// A colour, and the one that it emits.
+    Emission([Span; 2]),
     Surface(SurfaceStatement),
     Light(LightStatement),
     Camera(CameraStatement),

@@ -103,6 +103,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
         b"c_tex" => {
             "c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend] ;"
         }
+        b"c_emit" => "c_emit ID color ;",
         b"surf" => "surf ID kd ks kt [n [exponent [absorption]]] ;",
         b"l" => "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",

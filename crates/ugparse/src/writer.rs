@@ -84,6 +84,11 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.textures, Item::Texture, Writer::texture)?;
+        self.rows(&scene.emissions, Item::Emission, |w, &[color, emitted]| {
+            w.begin("c_emit", scene.colors[color.index()].name);
+            w.name(scene.colors[emitted.index()].name);
+            w.text(";");
+        })?;
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
         self.motions();
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {

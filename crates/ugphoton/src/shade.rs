@@ -48,9 +48,22 @@ impl<'a> Shader<'a> {
     }
 
     /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
-    /// the eye. `medium`: the solid that light is in before it; `sample`: a number for each sample
+    /// the eye, and of the light that it emits. `medium`: the solid that light is in before it; `sample`: a number for each sample
     /// of the picture.
     pub fn light(
+        &mut self,
+        point: &SurfacePoint,
+        medium: Option<Solid>,
+        filters: &[ColorFilter],
+        sample: u64,
+    ) -> DVec3 {
+        let reflected = self.reflected(point, medium, filters, sample);
+        let Some(color) = &point.emitted else { return reflected };
+        let level = Illumination::Level(1.0);
+        reflected + self.scenery.appearance.light(color, point.doppler(), level, filters)
+    }
+
+    fn reflected(
         &mut self,
         point: &SurfacePoint,
         medium: Option<Solid>,

@@ -39,6 +39,8 @@ pub struct SurfacePoint {
     pub wave: WaveVector,
     /// Colour at rest.
     pub color: SurfaceColor,
+    /// The colour that it emits besides, if it emits any. Boxed as `element` is.
+    pub emitted: Option<Box<SurfaceColor>>,
 }
 
 /// A surface element of a body on a world line.
@@ -84,11 +86,12 @@ impl SurfacePoint {
         };
         let is_moving = !part.frame.velocity().is_zero();
         let own_time = || delay - ugphysics::length(place);
+        let plane = SurfaceElementPlane { frame: &part.frame, normal: plane_normal, event, places };
+        let steps = |neighbours| plane.steps(neighbours, |step| step);
+        let emitted = emitted(scenery, found, (is_moving, own_time), neighbours, steps);
         let color = if scenery.textures.is_empty() {
             color(scenery, found, is_moving, own_time)
         } else {
-            let plane = SurfaceElementPlane { frame: &part.frame, normal: plane_normal, event, places };
-            let steps = |neighbours| plane.steps(neighbours, |step| step);
             textured(scenery, found, is_moving, neighbours, steps)
                 .unwrap_or_else(|| color(scenery, found, is_moving, own_time))
         };
@@ -105,6 +108,7 @@ impl SurfacePoint {
             is_outside,
             wave,
             color,
+            emitted,
         }
     }
 
@@ -151,6 +155,7 @@ impl SurfacePoint {
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
             color: textured.unwrap_or_else(|| color(scenery, found, true, || own_time)),
+            emitted: emitted(scenery, found, (true, || own_time), neighbours, steps),
         }
     }
 
@@ -286,6 +291,27 @@ fn textured(
     let texel =
         scenery.textures.texel(&scenery.scene, color, (found.triangle.corners, found.weights()), steps)?;
     Some(scenery.appearance.texel(texel.light, texel.translucency, is_moving))
+}
+
+/// The colour at rest that a face emits where a ray meets it; see [`textured`] and [`color`].
+#[inline]
+fn emitted(
+    scenery: &Scenery<'_>,
+    found: &Intersection,
+    (is_moving, own_time): (bool, impl Fn() -> f64),
+    neighbours: Option<&Neighbours>,
+    steps: impl FnOnce([PastRay; 2]) -> [[f64; 2]; 2],
+) -> Option<Box<SurfaceColor>> {
+    let Scenery { scene, appearance, textures, .. } = scenery;
+    if scene.emissions.is_empty() {
+        return None;
+    }
+    let color = scene.faces[found.triangle.face as usize].color;
+    let steps = || neighbours.and_then(|near| near.rays(scenery)).map_or([[0.0; 2]; 2], steps);
+    let at = Some((found.triangle.corners, found.weights()));
+    let (color, texel) = textures.emitted(scene, color, at, steps)?;
+    let now = appearance.color_at_time(scene, color, own_time(), is_moving);
+    Some(Box::new(now.unwrap_or_else(|| appearance.emitted(color, texel.map(|it| it.light), is_moving))))
 }
 
 /// The colour at rest where a ray meets a face. `own_time`: of the body there.

@@ -96,8 +96,10 @@ impl<'a> Setup<'a> {
             None => Textures::default(),
         };
         let layout = match Layout::new(&scene, &appearance, &lighting) {
-            // Texels are hues or light.
-            Layout::Hues if !textures.is_empty() => Layout::Mixed { has_levels: false },
+            // Texels are hues or light, and emitted light is added to light.
+            Layout::Hues if !textures.is_empty() || config.exact.is_some() && !scene.emissions.is_empty() => {
+                Layout::Mixed { has_levels: false }
+            }
             layout => layout,
         };
         let shader = Shader::new(palette.interpolation, !keeps_highlights, law.acts_on_light(), layout);

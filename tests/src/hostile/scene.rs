@@ -48,7 +48,7 @@ const MILD: [&str; 20] = [
 ];
 
 /// Statements that may be invalid.
-const WILD: [&str; 24] = [
+const WILD: [&str; 25] = [
     "f (* * * * * *)(* * *) ^ ~ ;",
     "f (@ * *) ;",
     "sphere @ (* * *)(* * *) red0 mirror ~ ; disc (* * * *) ^ ; cylinder (* * * *)(* * * *) ^ ~ ;",
@@ -61,6 +61,7 @@ const WILD: [&str; 24] = [
     "i (@ -M3 % % % -rv % #) ;",
     "c red0 # # # # # ;",
     "c_mix red0 red0 # ;",
+    "c_emit red0 red1 ;",
     "cam @ -ep % -vc % -ud % -va # # -og ~ ;",
     "l # % # # ~ ;",
     "surf @ # # # # # ;",

@@ -73,14 +73,14 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         let colors = distinct(groups.iter().map(|group| &group.color));
         let mut meshes = vec![Vec::new(); names.len()];
         let mut is_transparent = vec![false; colors.len()];
-        let mut textures = vec![None; colors.len()];
+        let mut textures = vec![(None, None); colors.len()];
         for group in &groups {
             let row = |list: &[&Option<String>], name| list.iter().position(|&other| other == name);
             let (Some(at), Some(material)) = (row(&names, &group.name), row(&colors, &group.color)) else {
                 continue;
             };
             is_transparent[material] |= group.polygons.iter().any(|&polygon| mesh.is_transparent_at(polygon));
-            textures[material] = group.texture.clone();
+            textures[material] = (group.texture.clone(), group.emitted.clone());
             let indices = indices(mesh, &group.polygons, &mut buffer);
             meshes[at].push(
                 json!({ "attributes": attributes, "indices": indices, "material": material, "mode": 4 }),
@@ -96,8 +96,11 @@ fn document(mesh: &mut PolygonMesh, uri: Option<&str>) -> (Value, Vec<u8>) {
         document["meshes"] = meshes.map(|(list, name)| named(json!({ "primitives": list }), name)).collect();
         let mut pictures = Pictures::default();
         let materials = is_transparent.into_iter().zip(&textures).zip(&colors);
-        let materials = materials.map(|((is_clear, texture), name)| {
+        let materials = materials.map(|((is_clear, (texture, emitted)), name)| {
             let mut material = material(is_clear);
+            if let Some((light, texture)) = emitted {
+                pictures.add_emitted((*light, texture.as_ref()), &mut material, &mut buffer, &mut mesh.notes);
+            }
             if let Some(texture) = texture {
                 pictures.add(texture, &mut material, &mut buffer, &mut mesh.notes);
             }
@@ -185,11 +188,13 @@ struct Pictures {
     textures: Vec<Value>,
     /// The bytes of the images.
     known: Vec<Arc<[u8]>>,
+    /// A material emits more than a factor of 1.
+    has_strength: bool,
 }
 
 impl Pictures {
-    /// Adds a texture and describes it in its material.
-    fn add(&mut self, texture: &Texture, material: &mut Value, buffer: &mut Buffer, notes: &mut Vec<String>) {
+    /// Adds a texture; its row, unless glTF has no such pictures.
+    fn row(&mut self, texture: &Texture, buffer: &mut Buffer, notes: &mut Vec<String>) -> Option<usize> {
         let bytes = &texture.image.bytes;
         let kind = match bytes[..] {
             [0x89, b'P', b'N', b'G', ..] => "image/png",
@@ -197,7 +202,7 @@ impl Pictures {
             _ => {
                 let file = texture.image.file.as_deref().unwrap_or("of a mesh");
                 notes.push(format!("picture `{file}` is left out: glTF has only PNG and JPEG"));
-                return;
+                return None;
             }
         };
         let source = self.known.iter().position(|known| known == bytes).unwrap_or_else(|| {
@@ -211,7 +216,37 @@ impl Pictures {
             Wrap::Mirror => 33648,
         });
         let sampler = row(&mut self.samplers, json!({ "wrapS": s, "wrapT": t }));
-        let number = row(&mut self.textures, json!({ "source": source, "sampler": sampler }));
+        Some(row(&mut self.textures, json!({ "source": source, "sampler": sampler })))
+    }
+
+    /// Describes the light that a material emits, and adds its picture.
+    fn add_emitted(
+        &mut self,
+        (light, texture): ([f64; 3], Option<&Texture>),
+        material: &mut Value,
+        buffer: &mut Buffer,
+        notes: &mut Vec<String>,
+    ) {
+        let picture = texture.and_then(|texture| Some((texture, self.row(texture, buffer, notes)?)));
+        let factor = match picture {
+            Some((texture, number)) => {
+                material["emissiveTexture"] = json!({ "index": number });
+                [0, 1, 2].map(|at| f64::from(texture.factor[at]))
+            }
+            None => light,
+        };
+        let strength = factor.into_iter().fold(1.0, f64::max);
+        material["emissiveFactor"] = json!(factor.map(|part| (part / strength) as f32));
+        if strength > 1.0 {
+            material["extensions"] =
+                json!({ "KHR_materials_emissive_strength": { "emissiveStrength": strength } });
+            self.has_strength = true;
+        }
+    }
+
+    /// Adds a texture and describes it in its material.
+    fn add(&mut self, texture: &Texture, material: &mut Value, buffer: &mut Buffer, notes: &mut Vec<String>) {
+        let Some(number) = self.row(texture, buffer, notes) else { return };
         let surface = &mut material["pbrMetallicRoughness"];
         surface["baseColorTexture"] = json!({ "index": number });
         if texture.factor != [1.0; 4] {
@@ -230,6 +265,9 @@ impl Pictures {
     }
 
     fn write(self, document: &mut Value) {
+        if self.has_strength {
+            document["extensionsUsed"] = json!(["KHR_materials_emissive_strength"]);
+        }
         if !self.images.is_empty() {
             document["images"] = self.images.into();
             document["samplers"] = self.samplers.into();

@@ -119,6 +119,78 @@ fn tints_survive_a_round_trip() {
     }
 }
 
+/// Emitted light, its factor above 1 and its picture, in glTF and back, and from OBJ.
+#[test]
+fn emitted_light_survives_a_round_trip() {
+    let crate_text = String::from_utf8(CRATE.to_vec()).unwrap();
+    let with = |material: &str| crate_text.replacen("\"doubleSided\": true,", material, 1);
+    let strong = "\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":4}},";
+    let light = |scene: &Scene| {
+        let emitted = scene.emitted_by(scene.faces[0].color.unwrap())?;
+        let texture = scene.texture_of(emitted).map(|it| (it.factor, it.image.bytes.len()));
+        Some((texture, uglight::RestColor::new(scene, Some(emitted)).linear()))
+    };
+    for (emissive, n_bytes, factor) in [
+        (
+            format!("{strong}\"emissiveFactor\":[1,0.5,0.25],\"emissiveTexture\":{{\"index\":0}},"),
+            180,
+            [4.0, 2.0, 1.0],
+        ),
+        (format!("{strong}\"emissiveFactor\":[1,0.5,0.25],"), 0, [4.0, 2.0, 1.0]),
+        (
+            "\"emissiveFactor\":[0.5,0.5,0.25],\"emissiveTexture\":{\"index\":0},".into(),
+            180,
+            [0.5, 0.5, 0.25],
+        ),
+        ("\"emissiveFactor\":[0.5,0.5,0.25],".into(), 0, [0.5, 0.5, 0.25]),
+    ] {
+        let mesh = with(&emissive);
+        assert_ne!(mesh, crate_text);
+        let (text, pictures) = to_text("crate.gltf", mesh.as_bytes());
+        assert!(text.contains("c_emit wood wood_light"), "{text}");
+        for scene in [read(mesh.as_bytes()), read(&to_mesh(Target::Glb, &text, &pictures))] {
+            let (texture, plain) = light(&scene).unwrap();
+            if n_bytes > 0 {
+                let [red, green, blue] = factor;
+                assert_eq!(texture, Some(([red, green, blue, 1.0], n_bytes)));
+            } else {
+                assert!(plain.distance(factor.map(f64::from).into()) < 1e-6, "{plain}");
+                assert_eq!(texture, None);
+            }
+        }
+    }
+    // Without a factor, a texture emits nothing; with other coordinates it lends its mean.
+    assert!(light(&read(with("\"emissiveTexture\":{\"index\":0},").as_bytes())).is_none());
+    let other = with("\"emissiveFactor\":[1,1,1],\"emissiveTexture\":{\"index\":0,\"texCoord\":1},");
+    let converted = ugmesh::run(&Config::default(), &MeshFile::new("a.gltf", other.as_str())).unwrap();
+    let warnings = converted.warnings.join("\n");
+    assert!(warnings.contains("emissive (with coordinates of their own)"), "{warnings}");
+    let (texture, plain) = light(&read(other.as_bytes())).unwrap();
+    assert!(texture.is_none() && plain.min_element() > 0.01, "{plain}");
+    // OBJ, with and without a colour beside the picture.
+    let obj = b"mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl m\nf 1/1 2/2 3/3\n";
+    for (material, expected) in [
+        ("map_Ke a.png", Some([1.0, 1.0, 1.0, 1.0])),
+        ("Ke 0 0 0\nmap_Ke a.png", Some([1.0, 1.0, 1.0, 1.0])),
+        ("Ke 3 3 0\nmap_Ke a.png", Some([3.0, 3.0, 0.0, 1.0])),
+        ("Ke 3 3 0", None),
+    ] {
+        let files = |name: &str, _: u64| match name {
+            "a.mtl" => Ok(format!("newmtl m\nKd .5 1 1\n{material}\n").into_bytes()),
+            "a.png" => Ok(pixel()),
+            _ => Err(io::ErrorKind::NotFound.into()),
+        };
+        let scene =
+            ugmeshfile::read(MeshFormat::Obj, obj, &files, "").map_err(|problem| problem.what).unwrap();
+        let (texture, plain) = light(&scene.scene).unwrap();
+        assert_eq!(texture.map(|it| it.0), expected, "{material}");
+        assert_eq!(scene.scene.vertices[1].uv.is_some(), expected.is_some());
+        assert!(expected.is_some() || plain.distance([3.0, 3.0, 0.0].into()) < 1e-6, "{plain}");
+    }
+    let plain = ugmeshfile::read(MeshFormat::Obj, obj, &|_, _| Ok(b"newmtl m\nKe 0 0 0".to_vec()), "");
+    assert!(plain.map_err(|problem| problem.what).unwrap().scene.emissions.is_empty());
+}
+
 /// Formats without textures, and a scene whose pictures have no place.
 #[test]
 fn what_is_lost_is_said() {

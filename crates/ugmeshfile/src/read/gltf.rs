@@ -265,7 +265,9 @@ impl Reader<'_, '_> {
         };
         let surface = self.surface(material);
         let colors = self.colors(&attributes["COLOR_0"], &surface)?;
-        let uvs = match &surface.texture {
+        let emission = surface.emission.as_ref();
+        let mapped = surface.texture.as_ref().or_else(|| emission?.1.as_ref());
+        let uvs = match mapped {
             Some(texture) => {
                 let name = format!("TEXCOORD_{}", texture.set);
                 self.rows(&attributes[&name], 2, &name)?
@@ -288,7 +290,7 @@ impl Reader<'_, '_> {
             let color = colors.as_ref().and_then(|colors| colors.get(row)).copied();
             vertices[row] = self.builder.vertex(position, normal, color)?;
             let uv = uvs.as_ref().and_then(|uvs| uvs.get(2 * row..2 * row + 2));
-            if let (Some(texture), Some(&[u, v])) = (&surface.texture, uv) {
+            if let (Some(texture), Some(&[u, v])) = (mapped, uv) {
                 self.builder.set_uv(vertices[row], Some(texture.placed([u, v])));
             }
         }
@@ -303,10 +305,14 @@ impl Reader<'_, '_> {
             drawn
         });
         let color = match (&colors, material) {
-            (Some(_), _) if texture.is_none() => None,
+            (Some(_), _) if texture.is_none() && emission.is_none() => None,
             (_, Some(material)) => {
                 let name = material["name"].as_str().unwrap_or_default();
-                Some(self.builder.material(surface.display_color([1.0; 4]), name, texture))
+                let emitted = emission.and_then(|(factor, texture)| {
+                    let picture = texture.as_ref().map(|it| (it.texture.clone(), it.mean));
+                    self.builder.emitted(*factor, name, picture)
+                });
+                Some(self.builder.material(surface.display_color([1.0; 4]), name, texture, emitted))
             }
             _ => None,
         };
@@ -322,7 +328,7 @@ impl Reader<'_, '_> {
     /// The colour of a material, times the mean of its texture; white without one.
     fn surface(&mut self, material: Option<&Value>) -> Surface {
         let Some(material) = material else {
-            return Surface { factor: [1.0; 4], is_blended: false, texture: None };
+            return Surface { factor: [1.0; 4], is_blended: false, texture: None, emission: None };
         };
         let metallic = &material["pbrMetallicRoughness"];
         let glossy = &material["extensions"]["KHR_materials_pbrSpecularGlossiness"];
@@ -351,7 +357,34 @@ impl Reader<'_, '_> {
             let drawn = Texture { wrap, factor: factor_of_texels, alpha, ..Texture::new(none, image) };
             SurfaceTexture::new(drawn, mean, texture)
         });
-        Surface { factor, is_blended, texture }
+        let emission = self.emission(material, texture.as_ref());
+        Surface { factor, is_blended, texture, emission }
+    }
+
+    /// The light that a material emits: its factor, and a picture. One with other coordinates than
+    /// the base colour's has to lend its mean light.
+    fn emission(
+        &mut self,
+        material: &Value,
+        base: Option<&SurfaceTexture>,
+    ) -> Option<([f64; 3], Option<SurfaceTexture>)> {
+        let factor: [f64; 3] = numbers(&material["emissiveFactor"])?;
+        let strong = &material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"];
+        let factor = factor.map(|part| part * strong.as_f64().unwrap_or(1.0));
+        if factor == [0.0; 3] {
+            return None;
+        }
+        let info = &material["emissiveTexture"];
+        let loaded = whole(&info["index"]).and_then(|index| Some((index, self.texture(index)?)));
+        let Some((index, LoadedTexture { mean, image })) = loaded else { return Some((factor, None)) };
+        let none = ColorId::from_index(0);
+        let drawn = Texture { wrap: self.wrap(index), ..Texture::new(none, image) };
+        let texture = SurfaceTexture::new(drawn, mean, info);
+        if base.is_some_and(|base| (base.set, base.transform) != (texture.set, texture.transform)) {
+            self.ignored.insert("emissive (with coordinates of their own)");
+            return Some(([0, 1, 2].map(|at| factor[at] * mean[at]), None));
+        }
+        Some((factor, Some(texture)))
     }
 
     /// What is beyond the edges of a texture.
@@ -490,6 +523,8 @@ struct Surface {
     factor: [f64; 4],
     is_blended: bool,
     texture: Option<SurfaceTexture>,
+    /// See [`Reader::emission`].
+    emission: Option<([f64; 3], Option<SurfaceTexture>)>,
 }
 
 /// The texture of a material.
@@ -529,7 +564,6 @@ impl SurfaceTexture {
 /// The kinds of textures of a material that scenes do not have.
 fn ignored_textures(material: &Value, roughness: &Value) -> impl Iterator<Item = &'static str> + use<> {
     let kinds = [
-        ("emissive", &material["emissiveTexture"]),
         ("metallic-roughness", roughness),
         ("normal", &material["normalTexture"]),
         ("occlusion", &material["occlusionTexture"]),

@@ -8,15 +8,17 @@ use super::text::any_number;
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 
-/// Diffuse colours and their textures by name.
+/// Diffuse and emitted colours, and their textures, by name.
 #[derive(Debug, Default)]
 pub(super) struct Materials {
     pub colors: BTreeMap<String, Rgba>,
     pub textures: BTreeMap<String, String>,
+    /// Emitted colours, and their pictures.
+    pub emissions: BTreeMap<String, ([f64; 3], Option<String>)>,
 }
 
 impl Materials {
-    /// Adds the materials of a file. Only diffuse colours and opacity are read. Malformed
+    /// Adds the materials of a file. Only diffuse and emitted colours and opacity are read. Malformed
     /// statements are ignored, since a mesh is usable without its materials.
     pub fn add(&mut self, bytes: &[u8], builder: &mut Builder) {
         let text = decode(bytes);
@@ -32,6 +34,7 @@ impl Materials {
                     current = Some(color);
                     name = rest;
                     self.textures.remove(name);
+                    self.emissions.remove(name);
                 }
                 ("Kd", Some(color)) => {
                     if let Some(red) = numbers.next() {
@@ -47,6 +50,14 @@ impl Materials {
                 ("Tr", Some(color)) => numbers.take(1).for_each(|clear| color.0[3] = 1.0 - clear),
                 ("map_Kd", Some(_)) => {
                     self.textures.insert(name.to_owned(), file_of_map(rest));
+                }
+                ("Ke", Some(_)) => {
+                    let red = numbers.next().unwrap_or(0.0);
+                    let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
+                    self.emissions.entry(name.to_owned()).or_default().0 = [red, green, blue];
+                }
+                ("map_Ke", Some(_)) => {
+                    self.emissions.entry(name.to_owned()).or_default().1 = Some(file_of_map(rest));
                 }
                 _ => {}
             }

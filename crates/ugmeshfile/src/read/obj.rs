@@ -256,14 +256,10 @@ impl<'a> Reader<'a> {
             self.unknown_materials.insert(name.to_string());
         }
         let file = self.materials.textures.get(name).cloned();
+        let emitted = self.emitted(name);
         self.color = known.map(|mut color| {
             let loaded = file.and_then(|file| {
-                let load = || {
-                    let read = read_named(self.input, &file, MAX_TEXTURE_BYTES);
-                    read.map(|(bytes, name)| (bytes, TextureOrigin::File(name)))
-                        .map_err(|error| error.to_string())
-                };
-                let loaded = self.textures.load(&file, load);
+                let loaded = self.texture(&file);
                 // Exporters write so where the texture alone has the colour.
                 if color.0[..3] == [0.0; 3] {
                     self.builder.warn(format!(
@@ -284,8 +280,28 @@ impl<'a> Reader<'a> {
                 Texture { factor, alpha: mode, ..Texture::new(ColorId::from_index(0), image.clone()) }
             });
             let tinted = loaded.map_or(color, |LoadedTexture { mean, .. }| tinted(color, mean));
-            self.builder.material(tinted, name, texture)
+            self.builder.material(tinted, name, texture, emitted)
         });
+    }
+
+    /// The colour that a material emits, whose factor is display-encoded up to 1.
+    fn emitted(&mut self, name: &str) -> Option<ColorId> {
+        let (factor, file) = self.materials.emissions.get(name)?.clone();
+        let picture = file.and_then(|file| self.texture(&file));
+        let picture = picture.map(|it| (Texture::new(ColorId::from_index(0), it.image), it.mean));
+        // Exporters write black where the texture alone has the colour.
+        let is_bare = picture.is_some() && factor == [0.0; 3];
+        let factor = if is_bare { [1.0; 3] } else { factor };
+        let scale = factor.into_iter().fold(1.0, f64::max);
+        self.builder.emitted(factor.map(|part| scale * srgb_decode(part / scale)), name, picture)
+    }
+
+    fn texture(&mut self, file: &str) -> Option<LoadedTexture> {
+        let load = || {
+            let read = read_named(self.input, file, MAX_TEXTURE_BYTES);
+            read.map(|(bytes, name)| (bytes, TextureOrigin::File(name))).map_err(|error| error.to_string())
+        };
+        self.textures.load(file, load)
     }
 
     /// Builds the faces, after all vertices have been read.

@@ -33,7 +33,7 @@ use crate::token::{
 };
 
 /// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w label f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex surf l cam \
+pub(crate) const KEYWORDS: &str = "v w label f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex c_emit surf l cam \
                                    motion sky def end i a include execute";
 
 /// A parser of one text; the text's length gives the position of any rest of it.
@@ -88,6 +88,7 @@ impl<'t> Grammar<'t> {
             b"c_mix" => self.mix(input),
             b"c_time" => self.table(input),
             b"c_tex" => self.texture(input),
+            b"c_emit" => self.emission(input),
             b"surf" => self.surface(input),
             b"l" => self.light(input),
             b"cam" => self.camera(input),

@@ -1,4 +1,4 @@
-//! Colours that change with own time, and colours that are pictures.
+//! Colours that change with own time, that are pictures, and that emit light.
 
 use nom::Parser;
 use nom::combinator::opt;
@@ -85,6 +85,13 @@ impl Grammar<'_> {
             }
         }
         Ok((input, Statement::Texture(TextureStatement { color, file, texture })))
+    }
+
+    /// `c_emit ID color`
+    pub(super) fn emission<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+        let (input, color) = wanted(self.name(input), NAME)?;
+        let (input, emitted) = wanted(self.name(input), NAME)?;
+        Ok((input, Statement::Emission([color, emitted])))
     }
 }
 

@@ -23,7 +23,8 @@ use calls::link_calls;
 use corners::{link_corners, path_corners};
 use degenerate::{remove_degenerate_faces, remove_short_wires};
 use named::{
-    apply_default_colors, gather_mixes, gather_named, gather_textures, name_surfaces, paint, visible,
+    apply_default_colors, gather_emissions, gather_mixes, gather_named, gather_textures, name_surfaces,
+    paint, visible,
 };
 use sizes::Sizes;
 use undefined::{UndefinedNames, show};
@@ -82,6 +83,7 @@ pub(crate) fn resolve(
         if has_colors {
             findings.extend(gather_mixes(scope, &colors, scene));
             findings.extend(gather_textures(scope, &colors, images, scene));
+            findings.extend(gather_emissions(scope, &colors, scene));
             tables::gather(scope, &colors, scene);
         }
         let has_surfaces = name_surfaces(scope, &surfaces);
@@ -96,6 +98,7 @@ pub(crate) fn resolve(
     }
     scene.mixes.sort_by_key(|mix| mix.color);
     scene.textures.sort_by_key(|texture| texture.color);
+    scene.emissions.sort();
     tables::check(text, (scopes, &firsts.colors), scene, findings);
     apply_default_colors(&mut scopes[0]);
     let calls = (0..scopes.len()).map(|row| link_calls(text, scopes, row, findings)).collect();

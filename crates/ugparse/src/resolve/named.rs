@@ -135,6 +135,20 @@ pub(super) fn gather_textures(
     stated_twice(&colors, &scope.textures.spans, "has two pictures", scene)
 }
 
+/// Moves the emissions of a scope to the scene. Returns an error if it has two of one colour.
+pub(super) fn gather_emissions(
+    scope: &Scope<'_>,
+    colors: &[Option<usize>],
+    scene: &mut Scene,
+) -> Option<Diagnostic> {
+    let row = |name: &ColorId| colors[name.index()].map(ColorId::from_index);
+    let resolved = |[color, emitted]: &[ColorId; 2]| Some([row(color)?, row(emitted)?]);
+    let rows: Vec<[ColorId; 2]> = scope.emissions.rows.iter().filter_map(resolved).collect();
+    let colors: Vec<ColorId> = rows.iter().map(|row| row[0]).collect();
+    scene.emissions.extend(rows);
+    stated_twice(&colors, &scope.emissions.spans, "emits two colours", scene)
+}
+
 /// The error of the first colour that is stated twice, in rows of a scope.
 fn stated_twice(colors: &[ColorId], spans: &[Span], what: &str, scene: &Scene) -> Option<Diagnostic> {
     let mut order: Vec<usize> = (0..colors.len()).collect();

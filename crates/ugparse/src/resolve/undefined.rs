@@ -30,6 +30,9 @@ impl UndefinedNames<'_, '_, '_> {
                     mix.parts.iter().for_each(|&(part, _)| self.check_color(Some(part)));
                 }
                 Some(Statement::Texture(texture)) => self.check_color(Some(texture.color)),
+                Some(Statement::Emission(names)) => {
+                    names.into_iter().for_each(|name| self.check_color(Some(name)));
+                }
                 Some(Statement::Table(table)) => {
                     table.rows.iter().for_each(|&(_, color)| self.check_color(Some(color)));
                 }

@@ -69,7 +69,8 @@ impl Textures {
         // The bytes are missing if the files of the scene were not read.
         let is_drawn = |texture: &&Texture| {
             let mut faces = scene.faces.iter();
-            !texture.image.bytes.is_empty() && faces.any(|face| face.color == Some(texture.color))
+            let has = |color| color == texture.color || scene.emitted_by(color) == Some(texture.color);
+            !texture.image.bytes.is_empty() && faces.any(|face| face.color.is_some_and(has))
         };
         let drawn: Vec<&Texture> = scene.textures.iter().filter(is_drawn).collect();
         // Each picture is decoded once. Texels are kept with alpha only where it counts.
@@ -141,7 +142,24 @@ impl Textures {
         steps: impl FnOnce() -> [[f64; 2]; 2],
     ) -> Option<Texel> {
         let map = self.of(color)?;
-        map.texel(self, scene, corners, weights, steps)
+        map.texel(Some(&self.tints), scene, corners, weights, steps)
+    }
+
+    /// The colour that a face of this colour emits, and its texel where it is a picture, which
+    /// colours of vertices do not tint. `at`, `steps`: see [`Textures::texel`].
+    pub fn emitted(
+        &self,
+        scene: &Scene,
+        color: Option<ColorId>,
+        at: Option<([VertexId; 3], [f64; 3])>,
+        steps: impl FnOnce() -> [[f64; 2]; 2],
+    ) -> Option<(ColorId, Option<Texel>)> {
+        let emitted = scene.emitted_by(color?)?;
+        let map = self.of(Some(emitted)).zip(at);
+        Some((
+            emitted,
+            map.and_then(|(map, (corners, weights))| map.texel(None, scene, corners, weights, steps)),
+        ))
     }
 }
 
@@ -149,7 +167,7 @@ impl TextureMap {
     #[inline(never)] // Keeps the code of untextured points small.
     fn texel(
         &self,
-        textures: &Textures,
+        tints: Option<&[DVec3]>,
         scene: &Scene,
         corners: [VertexId; 3],
         [_, second, third]: [f64; 3],
@@ -165,7 +183,7 @@ impl TextureMap {
         let [red, green, blue, opacity] = self.levels.sample(uv, steps, wrap);
         let [f_red, f_green, f_blue, f_alpha] = factor.map(f64::from);
         let mut light = DVec3::new(red * f_red, green * f_green, blue * f_blue);
-        let tint = |at: usize| vertices[at].color.map(|color| textures.tints[color.index()]);
+        let tint = |at: usize| vertices[at].color.zip(tints).map(|(color, tints)| tints[color.index()]);
         if let (Some(a), Some(b), Some(c)) = (tint(0), tint(1), tint(2)) {
             light *= a + second * (b - a) + third * (c - a);
         }

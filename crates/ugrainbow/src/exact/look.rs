@@ -1,7 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{ColorForm, FaceColors, Mixing, SpectralRows, SurfaceColor, Swatch};
+use uglight::{ColorForm, FaceColors, Illumination, Mixing, SpectralRows, SurfaceColor, Swatch};
 use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{ColorId, Face, VertexId};
 
@@ -32,6 +32,8 @@ pub struct Look {
     row: u32,
     /// The colour of the face, if it is a picture.
     texture: Option<ColorId>,
+    /// The colour of the face, if it emits light.
+    emits: Option<ColorId>,
     /// Samples in a row of a pixel, for which a texel is found once.
     pub n_together: u32,
     /// Triangles between the corners, if colours or normals differ between these, or for a picture.
@@ -112,6 +114,8 @@ impl Look {
             let keeps_light = appearance.keeps_light() || !is_moving;
             colors.mixing = if keeps_light { Mixing::Display } else { Mixing::Hue };
         }
+        let emits = face.color.filter(|&color| painter.scene.emitted_by(color).is_some());
+        let is_picture = texture.is_some() || emits.is_some();
         let normal = painter.seen_normal(face);
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corner = |&vertex: &VertexId| {
@@ -138,7 +142,7 @@ impl Look {
             .then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
         let triangles = match frame {
-            Some(frame) if has_colors || has_normals || texture.is_some() => {
+            Some(frame) if has_colors || has_normals || is_picture => {
                 triangles(painter, frame, face, &corners)
             }
             _ => Box::default(),
@@ -153,7 +157,8 @@ impl Look {
             has_colors,
             has_tints: texture.is_some() || corners.iter().any(|corner| corner.0.tint != first.0.tint),
             texture,
-            n_together: if texture.is_some() { painter.grid.samples } else { 1 },
+            emits,
+            n_together: if is_picture { painter.grid.samples } else { 1 },
             has_normals,
             color: first.0,
             wavelength_nm: appearance.wavelength_nm(first.0.tint),
@@ -191,7 +196,7 @@ impl Look {
             };
             texel.map(|texel| texel.rows).or_else(|| mixed.map(of_corners))
         };
-        self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
+        let seen = self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
             let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
             let normal = match spot {
                 Some((triangle, weights)) if self.has_normals => {
@@ -200,7 +205,33 @@ impl Look {
                 _ => self.normal,
             };
             [if self.needs_place { place() } else { DVec3::ZERO }, normal, frame.lamp_shift]
-        })
+        });
+        if self.emits.is_none() {
+            return seen;
+        }
+        let steps = || spot.map_or([[0.0; 2]; 2], |spot| steps(frame, (ray.rest, n_samples), spot.0));
+        let at = spot.map(|(triangle, weights)| (triangle.corners, weights));
+        self.with_emitted(painter, seen, (ray.stretch, !frame.velocity.is_zero()), at, steps)
+    }
+
+    /// A colour as seen with its level of light, and the light that the face emits.
+    #[inline(never)] // Keeps the code of other faces small.
+    pub fn with_emitted(
+        &self,
+        painter: &Painter<'_>,
+        (seen, level): (Swatch, DVec3),
+        (stretch, is_moving): (f64, bool),
+        at: Option<([VertexId; 3], [f64; 3])>,
+        steps: impl FnOnce() -> [[f64; 2]; 2],
+    ) -> (Swatch, DVec3) {
+        let Painter { scene, appearance, textures, .. } = painter;
+        let Some((color, texel)) = textures.emitted(scene, self.emits, at, steps) else {
+            return (seen, level);
+        };
+        let color = appearance.emitted(color, texel.map(|texel| texel.light), is_moving);
+        let emitted = appearance.light(&color, 1.0 / stretch, Illumination::Level(1.0), &[]);
+        let form = ColorForm::Light(appearance.drawn_light(&seen, level) + emitted);
+        (Swatch { form, ..seen }, DVec3::ONE)
     }
 
     /// The colour of a texture where a ray meets the face.
@@ -213,13 +244,7 @@ impl Look {
         spot: Option<(&Triangle, [f64; 3])>,
     ) -> Option<SurfaceColor> {
         let (triangle, weights) = spot?;
-        let [_, second, third] = triangle.weights(ray);
-        let steps = || {
-            frame.neighbours(ray, f64::from(n_samples)).map(|ray| {
-                let [_, b, c] = triangle.weights(ray);
-                [b - second, c - third]
-            })
-        };
+        let steps = || steps(frame, (ray, n_samples), triangle);
         let texel =
             painter.textures.texel(painter.scene, self.texture, (triangle.corners, weights), steps)?;
         let is_moving = !frame.velocity.is_zero();
@@ -290,6 +315,15 @@ impl Look {
         let sum: f64 = weights.iter().sum();
         (triangle, weights.map(|weight| weight / sum))
     }
+}
+
+/// The changes of the weights of corners from a ray in the middle of samples to the next ones.
+fn steps(frame: &PictureRays, (ray, n_samples): (DVec3, u32), triangle: &Triangle) -> [[f64; 2]; 2] {
+    let [_, second, third] = triangle.weights(ray);
+    frame.neighbours(ray, f64::from(n_samples)).map(|ray| {
+        let [_, b, c] = triangle.weights(ray);
+        [b - second, c - third]
+    })
 }
 
 /// The triangles of a face. `corners`: colour, row and normal of each corner.

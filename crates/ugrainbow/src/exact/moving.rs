@@ -127,7 +127,7 @@ impl<'a> MovingFaces<'a> {
             None => appearance.color_at(&look.colors, corners, weights),
         };
         let color = (Some(color.swatch), || Some(color.rows));
-        look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
+        let seen = look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
             let step = frame.rest_from_camera(ray.step).x;
             let seen = if element.normal(outside).dot(step) <= 0.0 { outside } else { -outside };
             let own = corners.map(|corner| shading_normal(scene.vertices[corner.index()].normal, seen));
@@ -135,7 +135,8 @@ impl<'a> MovingFaces<'a> {
             // It is lit as it stands in the scene if it only turned.
             let (place, turn) = line.standing(place, own_time);
             [place, turn * normal, DVec3::ZERO]
-        })
+        });
+        look.with_emitted(&self.painter, seen, (stretch, true), Some((corners, weights)), steps)
     }
 
     /// The same on a round face of an inertial body.
@@ -147,10 +148,12 @@ impl<'a> MovingFaces<'a> {
             return (Swatch::WHITE, DVec3::ZERO);
         };
         let stretch = frame.wave_to_rest(ray.wave).frequency;
-        self.looks[&face].shaded::<SPECTRAL>(&self.painter, (None, || None), stretch, || {
+        let look = &self.looks[&face];
+        let seen = look.shaded::<SPECTRAL>(&self.painter, (None, || None), stretch, || {
             let seen = if outside.dot(at.1) <= 0.0 { outside } else { -outside };
             let body = self.painter.scene.faces[face as usize].body;
             [place, seen, self.painter.appearance.surface.frames().lamp_shift(body)]
-        })
+        });
+        look.with_emitted(&self.painter, seen, (stretch, stretch != 1.0), None, || [[0.0; 2]; 2])
     }
 }

@@ -60,6 +60,8 @@ pub enum Item {
     Mix(u32),
     /// Row of [`Scene::textures`].
     Texture(u32),
+    /// Row of [`Scene::emissions`].
+    Emission(u32),
     /// Row of [`Scene::surfaces`].
     Surface(u32),
     /// Row of [`Scene::bodies`], of a body whose motion has a statement.

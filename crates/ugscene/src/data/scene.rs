@@ -49,6 +49,9 @@ pub struct Scene {
     pub color_tables: Vec<ColorTable>,
     /// `c_tex`, by the row of the colour: see [`Scene::texture_of`].
     pub textures: Vec<Texture>,
+    /// `c_emit`, by the row of the first: a colour, and the one that its faces emit besides what
+    /// they reflect.
+    pub emissions: Vec<[ColorId; 2]>,
     /// `surf`.
     pub surfaces: Vec<SurfaceProperties>,
     /// The bodies and their motions.
@@ -467,12 +470,20 @@ impl Scene {
         Some(&self.textures[row])
     }
 
-    /// The name of the first colour of a face that is a picture, which was read.
+    /// The colour that faces of this colour emit.
+    pub fn emitted_by(&self, color: ColorId) -> Option<ColorId> {
+        let row = self.emissions.binary_search_by_key(&color, |emission| emission[0]).ok()?;
+        Some(self.emissions[row][1])
+    }
+
+    /// The name of the first colour of a face that is a picture, which was read, or emits light.
     pub fn drawn_texture_name(&self) -> Option<&str> {
-        let faces = if self.textures.is_empty() { &[][..] } else { &self.faces };
-        let mut textures = faces.iter().filter_map(|face| self.texture_of(face.color?));
-        let texture = textures.find(|texture| !texture.image.bytes.is_empty())?;
-        Some(self.names.get(self.colors[texture.color.index()].name))
+        let is_empty = self.textures.is_empty() && self.emissions.is_empty();
+        let faces = if is_empty { &[][..] } else { &self.faces };
+        let is_read = |color| self.texture_of(color).is_some_and(|texture| !texture.image.bytes.is_empty());
+        let is_drawn = |&color: &ColorId| is_read(color) || self.emitted_by(color).is_some();
+        let color = faces.iter().filter_map(|face| face.color).find(is_drawn)?;
+        Some(self.names.get(self.colors[color.index()].name))
     }
 
     /// True if the colour of a face or wire changes with own time.

@@ -38,6 +38,7 @@ fn statements_are_read_and_written() {
             "c w 1; c_tex w { of the wall } a.glb -blend -wrap mirror repeat -image 2 -factor 0 0 0 .1;",
             "c w 1;\nc_tex w \"a.glb\" -image 2 -wrap mirror repeat -factor 0 0 0 0.1 -blend;\n{ of the wall }\n",
         ),
+        ("c b 1; c_emit b a ; c a 2;", "c b 1;\nc a 2;\nc_emit b a;\n"),
         ("v a 0 0 0 (.1 -1e-9);", "v a 0 0 0 (0.1 -1e-9);\n"),
         ("c r 1; v a 0 0 0 r 0 0 1 (16777216 3);", "c r 1;\nv a 0 0 0 r 0 0 1 (16777216 3);\n"),
     ] {
@@ -99,6 +100,10 @@ fn errors_have_a_place_and_a_remedy() {
     for (text, message) in [
         ("c_tex w a.png;", "colour `w` is not defined"),
         ("c w 1; c_tex w a.png; c_tex w b.png;", "colour `w` has two pictures"),
+        ("c w 1; c_emit w v;", "colour `v` is not defined"),
+        ("c w 1; c_emit v w;", "colour `v` is not defined"),
+        ("c w 1; c_emit w w; c_emit w w;", "colour `w` emits two colours"),
+        ("c w 1; c_emit w;", "expected a name that begins with a letter, `:`, `_` or `#`, found `;`"),
         ("c w 1; c_tex w;", "expected the file of a picture, found `;`"),
         ("c w 1; c_tex w a.png -wrap round;", "expected `repeat`, `clamp` or `mirror`, found `round`"),
         ("c w 1; c_tex w a.png -factor 1 -1 1;", "the number `-1` is out of range"),

@@ -69,6 +69,56 @@ fn factors_multiply_light() {
     assert!(light("half").distance(texel * tint) < 1e-6, "{}", light("half"));
 }
 
+/// What a face emits is added to what it reflects, each shifted as its own colour; a texture of it
+/// is not tinted by the colours of vertices, and has the coordinates of the face.
+#[test]
+fn emitted_light_is_added() {
+    let hues = Config {
+        shift: ColorShift::Hues(HueShift { doppler: true, law: Brightness::Photon }),
+        ..Config::default()
+    };
+    let head = format!(
+        "{HEAD}c_rgb tint .5 .5 .5; c_rgb wall .4 .3 .2; c_rgb lit .4 .3 .2; c_rgb glow .1 .2 .3;
+         c_rgb picture 0 0 0; c_tex picture checks_2_1 -factor 3 2 1; c_rgb warm .3 .2 .1;
+         c_emit lit glow; c_emit warm picture; c_rgb same 1 1 1; c_tex same checks_2_1 -factor 3 2 1;"
+    );
+    for beta in [DVec3::ZERO, DVec3::Y * 0.4, DVec3::new(-0.5, 0.3, 0.0)] {
+        let velocity = &format!("<{} {} {}>", beta.x, beta.y, beta.z);
+        let toward = seen_position(DVec3::new(0.5, 3.0, 0.5), Velocity::from_beta(beta).unwrap());
+        for base in [&hues, &by_shape(), &by_spectra()] {
+            let at = |color: &str, tint: &str| {
+                let square = square(color, velocity).replace(" (", &format!(" {tint} ("));
+                let text = head.clone() + &square.replace(&format!("f {tint} ("), "f (");
+                seen_with(&text, toward, base.clone())
+            };
+            for (sum, parts, tint) in [
+                ("lit", ["wall", "glow"], ""),
+                ("warm", ["warm_alone", "same"], ""),
+                ("warm", ["warm_alone", "same"], "tint"),
+            ] {
+                let plain = |color: &str, tint| match color {
+                    "warm_alone" => {
+                        let alone = head.replace("c_emit warm picture;", "");
+                        let square = square("warm", velocity).replace(" (", &format!(" {tint} ("));
+                        let text = alone + &square.replace(&format!("f {tint} ("), "f (");
+                        seen_with(&text, toward, base.clone())
+                    }
+                    color => at(color, tint),
+                };
+                let (found, expected) = (at(sum, tint), plain(parts[0], tint) + plain(parts[1], ""));
+                let error = (found - expected).abs().max_element() / expected.max_element();
+                assert!(error < 1e-5, "{sum} {tint} {velocity}: {found} {expected}");
+            }
+            let dark = toward * DVec3::new(-1.0, 1.0, 1.0);
+            if beta == DVec3::ZERO {
+                let text = head.clone() + &square("warm", "");
+                let light = seen_with(&text, dark, by_shape());
+                assert!(light.distance(DVec3::new(0.3, 0.2, 0.1).map(srgb_decode)) < 1e-6, "{light}");
+            }
+        }
+    }
+}
+
 /// Where a mask cuts, the light behind is seen, and shadows have its shape.
 #[test]
 fn alpha_masks_and_blends() {
