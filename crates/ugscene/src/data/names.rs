@@ -172,7 +172,7 @@ mod tests {
         let [a, b] = ["a", "a_3"].map(|name| table.add(name));
         let used = table.clone();
         let mut names: UniqueNames = [a, b].into_iter().map(|id| used.get(id)).collect();
-        let mut check = |id: NameId, table: &Names, expected: &str| assert_eq!(table.get(id), expected);
+        let check = |id: NameId, table: &Names, expected: &str| assert_eq!(table.get(id), expected);
         let first = names.add_copy(a, &mut table);
         check(first, &table, "a_2");
         check(names.add_copy(a, &mut table), &table, "a_4");
