@@ -1,7 +1,6 @@
-//! Maintenance tasks: generate scenes, run benchmarks, draw figures, install.
+//! Maintenance tasks: generate meshes, run benchmarks, draw figures, install.
 //!
 //! ```text
-//! cargo xtask teapot > scenes/teapot.ug
 //! cargo xtask mesh 1000000 > /tmp/mesh.ug
 //! cargo xtask bench
 //! cargo xtask bench photon --against ../before/target/release
@@ -20,7 +19,7 @@
 //! cargo xtask uninstall --prefix ~/.local
 //! ```
 //!
-//! Scenes go to standard output and are the same bytes on every run and platform.
+//! Meshes go to standard output and are the same bytes on every run and platform.
 
 mod gallery;
 mod globe;
@@ -37,7 +36,6 @@ mod scaling;
 mod scripts;
 mod short;
 mod site;
-mod teapot;
 mod worlds;
 
 use clap::{Parser, Subcommand};
@@ -47,7 +45,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-/// Generates scenes, runs benchmarks and measures accuracy
+/// Generates meshes, runs benchmarks and measures accuracy
 #[derive(Parser)]
 #[command(bin_name = "cargo xtask")]
 struct Args {
@@ -57,12 +55,6 @@ struct Args {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Write the Utah teapot
-    Teapot {
-        /// Squares along each side of each of the 32 patches; a square has two triangles
-        #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=256))]
-        squares: u32,
-    },
     /// Write a bumpy sphere of about N triangles with vertex colours, for benchmarks
     Mesh {
         /// Triangles, roughly
@@ -165,7 +157,6 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
 fn run(task: &Task) -> Outcome<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match task {
-        Task::Teapot { squares } => teapot::write(&mut out, *squares)?,
         Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
         Task::Bench { words } => scripts::bench(words)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
