@@ -194,9 +194,9 @@ fn color(
     let seen = SeenVertices::new(&scene, eye, frames, needs_rest);
     let factors = doppler_factors(&scene, eye, frames, &seen);
     let vertices = (seen, factors);
+    let shares = ugscene::vertex_mixes(&scene, &vertices.0.rest);
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
-        let shares = ugscene::vertex_mixes(&scene, &vertices.0.rest).into_iter();
-        let mut shares = shares.map(|shares| shares.of_spectra(&scene)).collect();
+        let mut shares = shares.into_iter().map(|shares| shares.of_spectra(&scene)).collect();
         let (light, factors) =
             light_vertices(&mut scene, config, (eye, frames), vertices, &mut shares, progress)?;
         let lit = light.map_or_else(Vec::new, |light| lit_spectra(&scene, shift, &shares, &factors, &light));
@@ -206,7 +206,7 @@ fn color(
         xyz_statements::write(&mut scene, config, shift, &vertices)
     } else {
         let shift = config.shift.of_hues();
-        let mut colors = uglight::vertex_colors(&scene, &vertices.0.rest);
+        let mut colors = uglight::vertex_colors(&scene, &shares);
         let (light, factors) =
             light_vertices(&mut scene, config, (eye, frames), vertices, &mut colors, progress)?;
         let used = vertices::used(&scene);

@@ -143,7 +143,7 @@ fn row(color: ColorId) -> u32 {
 /// white.
 fn mixed_rows(scene: &Scene, rest: &[DVec3], palette: &Palette, swatches: &mut Vec<Swatch>) -> Vec<u32> {
     let white = swatches.len() as u32 - 1;
-    let colors = vertex_colors(scene, rest).into_iter();
+    let colors = vertex_colors(scene, &vertex_mixes(scene, rest)).into_iter();
     let rows = colors.map(|color| match color {
         VertexColor::Named(color) => row(color),
         VertexColor::White => white,

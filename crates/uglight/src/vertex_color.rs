@@ -1,7 +1,7 @@
 //! The colour of a vertex: its own, or the mean of those of its faces (Nguyen 1988, 4.1).
 
 use glam::DVec3;
-use ugscene::{ColorId, ColorMix, Scene, vertex_mixes};
+use ugscene::{ColorId, ColorMix, Scene};
 
 use crate::color::encoded_hsv;
 use crate::{Mixing, RestColor};
@@ -38,12 +38,9 @@ impl VertexColor {
     }
 }
 
-/// The colour of every vertex: its own, else from its faces, else from its wires.
-///
-/// `positions`: one for each vertex, in the rest frame of its body, where
-/// angles do not depend on the speed.
-pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
-    let shares = vertex_mixes(scene, positions);
+/// The colour of every vertex: its own, else from its faces, else from its wires. `shares`: those of
+/// [`ugscene::vertex_mixes`].
+pub fn vertex_colors(scene: &Scene, shares: &[ColorMix]) -> Vec<VertexColor> {
     // Decoding is slow, and in most scenes no vertex has several colours.
     let linear: Vec<DVec3> = if shares.iter().any(|share| matches!(share, ColorMix::Mixed(_))) {
         let ids = (0..scene.colors.len()).map(ColorId::from_index);
@@ -52,10 +49,10 @@ pub fn vertex_colors(scene: &Scene, positions: &[DVec3]) -> Vec<VertexColor> {
         Vec::new()
     };
     shares
-        .into_iter()
+        .iter()
         .map(|share| match share {
-            ColorMix::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
-            ColorMix::Mixed(parts) => mean(scene, &linear, &parts),
+            &ColorMix::One(color) => color.map_or(VertexColor::White, VertexColor::Named),
+            ColorMix::Mixed(parts) => mean(scene, &linear, parts),
         })
         .collect()
 }
@@ -75,13 +72,15 @@ fn mean(scene: &Scene, linear: &[DVec3], parts: &[(Option<ColorId>, f64)]) -> Ve
 
 #[cfg(test)]
 mod tests {
+    use ugscene::vertex_mixes;
+
     use super::*;
 
     fn check(text: &str, expected: &[&str]) {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let shown: Vec<String> = vertex_colors(&scene, &positions)
+        let shown: Vec<String> = vertex_colors(&scene, &vertex_mixes(&scene, &positions))
             .into_iter()
             .map(|color| match color {
                 VertexColor::Named(id) => scene.names.get(scene.colors[id.index()].name).to_string(),
@@ -127,7 +126,7 @@ mod tests {
         let source = ugparse::Source::new("t.ug", text);
         let scene = ugparse::parse(&source, &ugparse::Options::default()).unwrap().scene;
         let positions: Vec<DVec3> = scene.vertices.iter().map(|v| v.position).collect();
-        let color = vertex_colors(&scene, &positions)[0];
+        let color = vertex_colors(&scene, &vertex_mixes(&scene, &positions))[0];
         assert_eq!(color.mixing(&scene), Mixing::Light);
         let xyz = ugphysics::linear_srgb_to_xyz(color.at_rest(&scene).linear().to_array());
         // Both corners have 90 degrees.

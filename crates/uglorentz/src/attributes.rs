@@ -86,9 +86,9 @@ pub(crate) fn shades(scene: &Scene, points: &[Point]) -> Option<Vec<(Shade, Colo
         VertexColor::White => Shade::of(scene, None),
         VertexColor::Mixed(rest) => Shade { color: None, is_mixture: true, rest },
     };
-    let shades = uglight::vertex_colors(scene, &rest).into_iter().map(shade);
-    let shares = vertex_mixes(scene, &rest).into_iter().map(|shares| shares.of_spectra(scene));
-    Some(shades.zip(shares).collect())
+    let shares = vertex_mixes(scene, &rest);
+    let shades = uglight::vertex_colors(scene, &shares).into_iter().map(shade);
+    Some(shades.zip(shares.into_iter().map(|shares| shares.of_spectra(scene))).collect())
 }
 
 /// The look of a vertex at rest.

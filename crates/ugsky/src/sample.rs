@@ -97,20 +97,25 @@ impl Sampler<'_> {
 
     /// Like [`Sampler::light`], of several footprints; black without a ray.
     pub fn see(&mut self, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
-        dispatch!(self.simd, simd => self.see_on(simd, rays, spread))
+        dispatch!(self.simd, simd => self.see_on(simd, |idx| rays[idx], spread))
     }
 
     #[inline(always)]
-    pub(crate) fn see_on<S: Simd>(&mut self, simd: S, rays: &[Option<SkyRay>; Seen::N], spread: f64) -> Seen {
+    pub(crate) fn see_on<S: Simd>(
+        &mut self,
+        simd: S,
+        ray: impl Fn(usize) -> Option<SkyRay>,
+        spread: f64,
+    ) -> Seen {
         let sky = self.panorama;
         let mut seen = Seen { doppler: [1.0; Seen::N], is_found: [true; Seen::N], ..Seen::default() };
         let mut footprints = Footprints::default();
         // Beside poles and edges.
         let mut others = [None; Seen::N];
-        for (idx, ray) in rays.iter().enumerate() {
-            let Some(ray) = ray else { continue };
+        for (idx, other) in others.iter_mut().enumerate() {
+            let Some(ray) = ray(idx) else { continue };
             seen.doppler[idx] = ray.doppler as f32;
-            let ellipse = Ellipse::new(ray, spread);
+            let ellipse = Ellipse::new(&ray, spread);
             if !ellipse.is_small() {
                 seen.is_found[idx] = false;
                 continue;
@@ -118,13 +123,13 @@ impl Sampler<'_> {
             let level = sky.level_of(ellipse.small_square());
             let kernel = ellipse.kernel(sky.grids[level].texel, sky.grids[0].texel);
             if !footprints.set(idx, sky, level, &kernel, ray.direction) {
-                others[idx] = Some((level, kernel));
+                *other = Some((level, kernel, ray.direction));
             }
         }
         seen.light = window::lights(simd, sky, &footprints, &mut self.buffers);
-        for (idx, (other, ray)) in others.iter().zip(rays).enumerate() {
-            if let (Some((level, kernel)), Some(ray)) = (other, ray) {
-                let light = self.light_anywhere(*level, kernel, ray.direction);
+        for (idx, other) in others.iter().enumerate() {
+            if let Some((level, kernel, direction)) = other {
+                let light = self.light_anywhere(*level, kernel, *direction);
                 (0..4).for_each(|channel| seen.light[channel][idx] = light[channel]);
             }
         }

@@ -36,6 +36,33 @@ pub struct SkyView {
     pub flat: Option<FlatFilm>,
 }
 
+impl SkyView {
+    /// The ray of a square of the film, `side` samples wide; `None` where the lens shows nothing.
+    #[inline(always)]
+    fn ray(&self, seen: impl Fn([f64; 2]) -> Option<DVec3>, [x, y]: [f64; 2], side: f64) -> Option<SkyRay> {
+        if let Some(FlatFilm { corner, across, down }) = self.flat {
+            let direction = corner + x * across + y * down;
+            let inverse = 1.0 / direction.length();
+            let unit = direction * inverse;
+            let slope = |step: DVec3| (step - unit.dot(step) * unit) * (inverse * side);
+            return Some(self.observer.ray(unit, [across, down].map(slope)));
+        }
+        let direction = seen([x, y])?;
+        let step = HALF_STEP * side;
+        let slope = |[right, below]: [f64; 2]| {
+            let ends = [-1.0, 1.0].map(|sign| seen([x + sign * right * step, y + sign * below * step]));
+            let difference = match ends {
+                [Some(before), Some(after)] => (after - before) / (2.0 * HALF_STEP),
+                [Some(before), None] => (direction - before) / HALF_STEP,
+                [None, Some(after)] => (after - direction) / HALF_STEP,
+                [None, None] => DVec3::ZERO,
+            };
+            difference - direction.dot(difference) * direction
+        };
+        Some(self.observer.ray(direction, [slope([1.0, 0.0]), slope([0.0, 1.0])]))
+    }
+}
+
 /// The light of a sky in the samples of a picture, on one thread.
 pub struct SkyLight<'a, 's, F> {
     /// The observer and the picture.
@@ -61,11 +88,9 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
         for (first, seen) in found.iter_mut().enumerate() {
             let place = |idx: usize| [left + (first * Seen::N + idx) as f64, y];
             let n = Seen::N.min(n - first * Seen::N);
-            let mut rays = [None; Seen::N];
-            for (idx, ray) in rays[..n].iter_mut().enumerate() {
-                *ray = self.ray(place(idx), 1.0);
-            }
-            *seen = self.sampler.see_on(simd, &rays, self.view.spread);
+            let (view, film) = (self.view, &self.film);
+            let ray = |idx| if idx < n { view.ray(film, place(idx), 1.0) } else { None };
+            *seen = self.sampler.see_on(simd, ray, view.spread);
             self.shade.see_on(simd, &mut seen.light, &seen.doppler);
             for idx in (0..n).filter(|idx| !seen.is_found[*idx]) {
                 let light = self.divided(place(idx), 1.0, 0);
@@ -76,7 +101,7 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
 
     /// The light of a square of the film, `side` samples wide, as seen.
     fn part(&mut self, place: [f64; 2], side: f64, depth: u32) -> [f32; 4] {
-        let Some(ray) = self.ray(place, side) else { return [0.0; 4] };
+        let Some(ray) = self.view.ray(&self.film, place, side) else { return [0.0; 4] };
         match self.sampler.light(&ray, self.view.spread) {
             Some(light) => {
                 let mut seen = light.map(|part| [part; Seen::N]);
@@ -99,31 +124,5 @@ impl<F: Fn([f64; 2]) -> Option<DVec3>> SkyLight<'_, '_, F> {
             (0..4).for_each(|channel| sum[channel] += 0.25 * light[channel]);
         }
         sum
-    }
-
-    /// The ray of a square of the film, `side` samples wide; `None` where the lens shows nothing.
-    #[inline(always)]
-    fn ray(&self, [x, y]: [f64; 2], side: f64) -> Option<SkyRay> {
-        let (seen, observer) = (&self.film, &self.view.observer);
-        if let Some(FlatFilm { corner, across, down }) = self.view.flat {
-            let direction = corner + x * across + y * down;
-            let inverse = 1.0 / direction.length();
-            let unit = direction * inverse;
-            let slope = |step: DVec3| (step - unit.dot(step) * unit) * (inverse * side);
-            return Some(observer.ray(unit, [across, down].map(slope)));
-        }
-        let direction = seen([x, y])?;
-        let step = HALF_STEP * side;
-        let slope = |[right, below]: [f64; 2]| {
-            let ends = [-1.0, 1.0].map(|sign| seen([x + sign * right * step, y + sign * below * step]));
-            let difference = match ends {
-                [Some(before), Some(after)] => (after - before) / (2.0 * HALF_STEP),
-                [Some(before), None] => (direction - before) / HALF_STEP,
-                [None, Some(after)] => (after - direction) / HALF_STEP,
-                [None, None] => DVec3::ZERO,
-            };
-            difference - direction.dot(difference) * direction
-        };
-        Some(observer.ray(direction, [slope([1.0, 0.0]), slope([0.0, 1.0])]))
     }
 }

@@ -44,9 +44,7 @@ impl Expander<'_, '_> {
 fn rename_duplicates<'n>(names: &mut Names, ids: impl Iterator<Item = &'n mut NameId>) {
     let mut taken = UniqueNames::default();
     for id in ids {
-        let name = names.get(*id).to_string();
-        let unique = taken.fresh(&name);
-        if unique != name {
+        if let Some(unique) = taken.fresh(names.get(*id)) {
             *id = names.add(&unique);
         }
     }

@@ -81,12 +81,17 @@ pub struct UniqueNames {
 }
 
 impl UniqueNames {
-    /// Returns `name`, or the first unused of `name_2`, `name_3`, …, and marks it as used.
-    pub fn fresh(&mut self, name: &str) -> String {
-        if !self.has(name) {
-            self.taken.insert(name.to_owned(), 1);
-            return name.to_owned();
+    /// Marks `name` as used. If it was, marks and returns the first unused of `name_2`, `name_3`, ….
+    pub fn fresh(&mut self, name: &str) -> Option<String> {
+        if self.taken.contains_key(name) || self.is_numbered(name) {
+            return Some(self.numbered(name));
         }
+        self.taken.insert(name.to_owned(), 1);
+        None
+    }
+
+    /// The first unused copy of a used name.
+    fn numbered(&mut self, name: &str) -> String {
         loop {
             let number = self.next_number(name);
             let fresh = format!("{name}_{number}");
@@ -112,7 +117,7 @@ impl UniqueNames {
             }
             place => place.key().clone(),
         };
-        table.add(&self.fresh(&taken))
+        table.add(&self.numbered(&taken))
     }
 
     /// Adds a [fresh](Self::fresh) name to the table that has the original, which is used.
@@ -125,10 +130,6 @@ impl UniqueNames {
             }
             table.remove_last();
         }
-    }
-
-    fn has(&self, name: &str) -> bool {
-        self.taken.contains_key(name) || self.is_numbered(name)
     }
 
     /// True if the name was made from another by appending a number.
@@ -183,7 +184,7 @@ mod tests {
         check(names.add("a_2_3".to_owned(), &mut table), &table, "a_2_3_2");
         check(names.add("a_4".to_owned(), &mut table), &table, "a_4_2");
         assert_eq!(
-            ["a_5", "a_5", "a_04", "a_1", "a"].map(|name| names.fresh(name)),
+            ["a_5", "a_5", "a_04", "a_1", "a"].map(|name| names.fresh(name).unwrap_or(name.to_owned())),
             ["a_5", "a_5_2", "a_04", "a_1", "a_6"]
         );
     }
