@@ -32,8 +32,12 @@ pub enum Note {
     NotRepeated,
     /// So many labels are at vertices outside the picture.
     LabelsOutside(usize),
+    /// So many labels are at vertices in the picture that faces hide.
+    LabelsHidden(usize),
     /// Only a pinhole camera shows labels.
     NoLabels,
+    /// A caption or title has a number by its name, which is known in films.
+    UnknownNumber,
     /// A body that a picture of the whole size shows is cut.
     CutByText,
     /// Rays do not meet wires.
@@ -192,7 +196,14 @@ impl fmt::Display for Note {
             }
             Self::LabelsOutside(1) => "a label is at a vertex outside the picture",
             Self::LabelsOutside(n) => return write!(f, "{n} labels are at vertices outside the picture"),
+            Self::LabelsHidden(1) => "a label is left out, because faces hide its vertex",
+            Self::LabelsHidden(n) => {
+                return write!(f, "{n} labels are left out, because faces hide their vertices");
+            }
             Self::NoLabels => "labels are left out: only pictures of a single pinhole camera have them",
+            Self::UnknownNumber => {
+                "only captions and titles of films have numbers in place of {beta}, {t} ..."
+            }
             Self::CutByText => {
                 "title, caption or legend take rows from the picture, which cut off a part of a body"
             }
