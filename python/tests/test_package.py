@@ -114,9 +114,20 @@ def test_plots():
     # Diverging about 1.
     assert image.norm.vmin * image.norm.vmax == pytest.approx(1)
     assert image.norm(1.0) == pytest.approx(0.5)
+    # Its scale has numbers, not powers of ten.
+    bar = axes.figure.axes[1]
+    axes.figure.canvas.draw()
+    low, high = bar.get_ylim()
+    shown = [text.get_text() for text in bar.get_yticklabels() if low <= text.get_position()[1] <= high]
+    assert "1" in shown and len(shown) > 2 and not any("10" in text for text in shown), shown
     ug.plot.channel(picture, "distance")
     with pytest.raises(ValueError, match="velocity"):
         ug.plot.channel(picture, "velocity")
+
+
+def test_remedies_are_python():
+    with pytest.raises(ug.Error, match=r"write `velocity=\(X, Y, Z\)`"):
+        ug.Scene.parse("v a 0 0 0;").lorentz(velocity=0.5)
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)

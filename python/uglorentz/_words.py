@@ -206,7 +206,9 @@ def in_python(text: str) -> str:
         # Statements of a scene are quoted; options are, too, and begin with a dash.
         parts = text.split("`")
         parts = [in_python(part) if row % 2 == 0 or part[:1] == "-" else part for row, part in enumerate(parts)]
-        return "`".join(parts)
+        # The names of values, as in `-vel X Y Z`.
+        named = re.compile(r"^(\w+=) (\w+(?: \w+)+)$")
+        return "`".join(named.sub(lambda of: f"{of[1]}({of[2].replace(' ', ', ')})", part) for part in parts)
     text = re.sub(r"(?<![\w-])-fo\b", "output", text)
     value = r"(?: (?:-?\d*\.?\d+(?:e-?\d+)?)(?![\w.]*\w))*"
     value = rf"{value}(?: (?P<word>auto|off|light|shape|filmic|center|exr|png|svg|strip|cross|[a-z]+=N)\b)?"

@@ -26,6 +26,7 @@ def channel(picture: Picture, name: str, ax: Any = None, **options: Any) -> Any:
     import matplotlib.pyplot as plt
     import numpy as np
     from matplotlib.colors import LogNorm
+    from matplotlib.ticker import Locator, LogLocator, MaxNLocator
 
     if name not in _LABELS:
         raise ValueError(f"a channel of one number per pixel is expected, {', '.join(_LABELS)}, not {name!r}")
@@ -33,11 +34,14 @@ def channel(picture: Picture, name: str, ax: Any = None, **options: Any) -> Any:
     values = np.ma.masked_where(found["id"] == 0, found[name])
     if ax is None:
         ax = plt.figure().gca()
+    ticks: Locator | None = None
     if name == "D":
         most = float(np.ma.max(np.ma.abs(np.ma.log(values)))) if values.count() else 1.0
         most = max(most, 1e-6)
         options = {"norm": LogNorm(np.exp(-most), np.exp(most)), "cmap": "coolwarm_r", **options}
+        ticks = LogLocator(subs=(1.0, 1.5, 2.0, 3.0, 5.0, 7.0)) if most > 0.5 else MaxNLocator(5)
     image = ax.imshow(values, **options)
-    ax.figure.colorbar(image, ax=ax, label=_LABELS[name])
+    bar = ax.figure.colorbar(image, ax=ax, label=_LABELS[name], ticks=ticks, format="%g" if ticks else None)
+    bar.minorticks_off()
     ax.set_axis_off()
     return ax

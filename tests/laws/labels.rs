@@ -1,4 +1,4 @@
-//! Arrows of labels end where their vertices are seen, in every program.
+//! Arrows of labels end where their vertices are seen, in every program, and are left out where faces hide these.
 
 use glam::DVec3;
 use ugphoton::MotionOptions;
@@ -70,7 +70,50 @@ fn labels_outside_the_picture_are_told() {
     let mut config = ugphoton::Config::default();
     (config.picture.size, config.picture.samples) = ([80, 60], 1);
     config.picture.annotations.place = Place::Beside;
-    config.picture.annotations.title = "A box".into();
+    config.picture.annotations.title = "A box at {beta}".into();
     let notes = ugphoton::render(scenes::parse(text.as_bytes()), &config).unwrap().notes;
     assert!(notes.contains(&ugphoton::Note::LabelsOutside(1)), "{notes:?}");
+    assert!(notes.contains(&ugphoton::Note::UnknownNumber), "{notes:?}");
+}
+
+/// The corners of a box on the side away from the eye have no labels, unless hidden lines are drawn.
+#[test]
+fn labels_of_hidden_vertices_are_left_out() {
+    for beta in [0.0, 0.9] {
+        let pipe = Pipe::new(DVec3::new(beta, 0.0, 0.0), SIZE).in_place();
+        // Which corners are hidden, by the outward normals of the sides as seen: all that meet there.
+        let seen = scenes::parse(&pipe.run(BOX.as_bytes()).seen);
+        let eye = DVec3::new(0.0, -9.0, 3.0);
+        let mut is_seen = std::collections::BTreeMap::new();
+        for face in &seen.faces {
+            let corners: Vec<_> = seen.face_contours(face).next().unwrap().to_vec();
+            let at = |idx: usize| seen.vertices[corners[idx].index()].position;
+            let is_front = (at(1) - at(0)).cross(at(2) - at(0)).dot(eye - at(0)) > 0.0;
+            for corner in &corners {
+                let name = seen.names.get(seen.vertices[corner.index()].name).to_owned();
+                *is_seen.entry(name).or_insert(false) |= is_front;
+            }
+        }
+        let hidden: Vec<_> = "abcdefgh".chars().filter(|name| !is_seen[&name.to_string()]).collect();
+        assert!((1..4).contains(&hidden.len()), "{beta}: {hidden:?}");
+        for name in "abcdefgh".chars() {
+            let text = format!("{BOX} label \"here\" {name};");
+            let told = |note: &ugrainbow::Note| *note == ugrainbow::Note::LabelsHidden(1);
+            let mut config = ugphoton::Config::default();
+            config.motion.velocity = Some(DVec3::new(beta, 0.0, 0.0));
+            config.motion.in_place = true;
+            (config.picture.size, config.picture.samples) = (SIZE, 1);
+            let rays = ugphoton::render(scenes::parse(text.as_bytes()), &config).unwrap();
+            assert_eq!(rays.notes.iter().any(told), hidden.contains(&name), "{beta} {name}");
+            let seen = scenes::parse(&pipe.run(text.as_bytes()).seen);
+            let mut config = ugrainbow::Config::default();
+            (config.picture.size, config.picture.samples) = (SIZE, 1);
+            let notes = ugrainbow::render(&seen, &config).unwrap().notes;
+            assert_eq!(notes.iter().any(told), hidden.contains(&name), "{beta} {name}");
+            let hidden = ugrainbow::HiddenLines::Dashed;
+            config.wireframe = Some(ugrainbow::Wireframe { hidden, ..Default::default() });
+            let notes = ugrainbow::render(&seen, &config).unwrap().notes;
+            assert!(!notes.iter().any(told), "{beta} {name}");
+        }
+    }
 }

@@ -1,7 +1,11 @@
 //! Motion blur: the mean light of a frame while a shutter is open.
 
+use std::sync::Arc;
+
 use ugimage::{LinearFrame, Metadata};
-use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, Output, PictureOptions, Rendering};
+use ugpicture::{
+    Annotated, AnnotationOptions, Canvas, Drawn, DrawnContent, Output, PictureOptions, Rendering,
+};
 use ugpipe::sha256;
 
 use crate::error::Error;
@@ -50,11 +54,12 @@ impl Shot {
     /// Checks that the frame can have what its options ask for.
     ///
     /// # Errors
-    /// It is the mean of moments, which has no annotations but a caption, no channels and no
-    /// vectors.
-    pub fn check(&self, subject: FilmSubject<'_>) -> Result<(), Error> {
-        let is_light = self.moments.is_empty() || is_made_of_light(&self.frame.picture, subject);
-        if is_light { Ok(()) } else { Err(Error::Mean) }
+    /// It is the mean of moments, which has no false colours, channels and vectors.
+    pub fn check(&self) -> Result<(), Error> {
+        let PictureOptions { annotations, channels, output, .. } = &self.frame.picture;
+        let is_light =
+            annotations.map.is_none() && channels.is_empty() && !matches!(output, Output::Vector(_));
+        if self.moments.is_empty() || is_light { Ok(()) } else { Err(Error::Mean) }
     }
 
     /// Draws the frame. `light`: what [`Pipe::light`] returns for it, if that is known.
@@ -71,9 +76,18 @@ impl Shot {
         if self.moments.is_empty() && light.is_none() {
             return self.frame.draw(subject);
         }
-        self.check(subject)?;
+        self.check()?;
         let metadata = self.metadata(subject);
         let canvas = Canvas::new(&self.frame.picture)?;
+        if !is_made_of_light(&self.frame.picture, subject) {
+            // The scene of the frame's own moment is drawn for its annotations.
+            let mut frame = self.frame.clone();
+            frame.picture.light = Some(Arc::new(self.mean(canvas.options().size, subject)?));
+            let (mut picture, notes) = frame.draw(subject)?;
+            let Metadata { camera, per_inch, .. } = std::mem::take(&mut picture.metadata);
+            picture.metadata = Metadata { camera, per_inch, ..metadata };
+            return Ok((picture, notes));
+        }
         let (frame, mut notes) = match light {
             Some(light) => light,
             None => (self.mean(canvas.options().size, subject)?, Vec::new()),
@@ -105,7 +119,8 @@ impl Shot {
 /// True if a picture with these options can be made of its light, without the scene.
 pub fn is_made_of_light(picture: &PictureOptions, subject: FilmSubject<'_>) -> bool {
     let PictureOptions { annotations, channels, output, .. } = picture;
-    let needs_scene = annotations.legend || annotations.outline || annotations.grid;
+    let AnnotationOptions { legend, outline, grid, map, iso, .. } = annotations;
+    let needs_scene = *legend || *outline || *grid || map.is_some() || iso.is_some();
     let has_labels = matches!(subject, FilmSubject::Scene(scene) if scene.labels().next().is_some());
     !needs_scene && !has_labels && channels.is_empty() && !matches!(output, Output::Vector(_))
 }

@@ -13,8 +13,8 @@ pub enum Error {
     /// The mean of several moments cannot be drawn.
     #[error(transparent)]
     Picture(#[from] ugpicture::Error),
-    /// The mean of several moments has no legend, grid, outlines, labels, channels and areas.
-    #[error("the mean of several moments has no legend, grid, outlines, labels, channels or areas")]
+    /// The mean of several moments has no false colours, channels and areas.
+    #[error("the mean of several moments has no false colours, channels or areas")]
     Mean,
     /// The programs do not lead from the subject to a picture.
     #[error("a scene and a panorama are drawn by different programs")]
@@ -31,8 +31,7 @@ impl ugpipe::Words for Error {
             Self::Program(error) => error.words(),
             Self::Picture(error) => error.words(),
             Self::Mean => {
-                "-blur gives the mean of several moments: leave out -lg, -gr, -dl, -ch, vector formats and `label` statements"
-                    .to_owned()
+                "-blur gives the mean of several moments: leave out -map, -ch and vector formats".to_owned()
             }
             Self::Subject | Self::NoPixels => self.to_string(),
         }

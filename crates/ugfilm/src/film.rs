@@ -164,7 +164,7 @@ impl Film<'_> {
         let checked = frames.iter().step_by(step).chain(frames.last());
         checked
             .into_iter()
-            .try_for_each(|&frame| about(frame, self.shot(frame)?.check(self.subject).map_err(Failure::of)))
+            .try_for_each(|&frame| about(frame, self.shot(frame)?.check().map_err(Failure::of)))
     }
 
     /// At most `most` frames spread evenly over the film, among them the first and the last.

@@ -101,7 +101,8 @@ impl Pipe {
             item = made;
         }
         let FilmItem::Picture(mut picture) = item else { return Err(Error::Subject) };
-        picture.metadata = Metadata { camera: picture.metadata.camera, ..self.metadata(subject) };
+        let Metadata { camera, per_inch, .. } = std::mem::take(&mut picture.metadata);
+        picture.metadata = Metadata { camera, per_inch, ..self.metadata(subject) };
         Ok((picture, notes))
     }
 

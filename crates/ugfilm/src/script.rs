@@ -26,7 +26,14 @@ const VELOCITIES: [&str; 2] = ["vel", "cv"];
 const TEXTS: [&str; 2] = ["cap", "title"];
 
 /// Options for what is done to the light of a picture.
-pub const DONE_TO_LIGHT: &[&str] = &["cap", "title", "ex", "tc"];
+pub const DONE_TO_LIGHT: &[&str] = &["cap", "title", "lg", "lp", "gr", "dl", "iso", "ex", "tc"];
+
+/// A number of four digits, or of all if it rounds to 1, as fast speeds do; other words as they are.
+fn readable(word: String) -> String {
+    let Ok(number) = word.parse() else { return word };
+    let is_fast = (0.99995..1.0).contains(&f64::abs(number));
+    if is_fast { word } else { significant(number, 4) }
+}
 
 /// The subject of every frame.
 pub struct Script {
@@ -310,14 +317,16 @@ impl Script {
         format!(", developed with {}", options.join(" "))
     }
 
-    /// The options that change over the film, with their values in a frame.
+    /// The options that change over the film, with their values in a frame, rounded to be read.
     ///
     /// # Errors
     /// See [`Script::commands`].
     pub fn changing(&self, frame: f64) -> Result<String, Failure> {
         let moving = self.options.iter().filter(|setting| setting.timeline.is_moving());
         let words = moving.map(|setting| {
-            Ok(format!("{} {}", spelling(&setting.name), self.values(setting, frame)?.join(" ")))
+            let values = self.values(setting, frame)?;
+            let values: Vec<String> = values.into_iter().map(readable).collect();
+            Ok(format!("{} {}", spelling(&setting.name), values.join(" ")))
         });
         Ok(words.collect::<Result<Vec<_>, Failure>>()?.join(" "))
     }

@@ -43,7 +43,8 @@ impl Timeline {
     /// # Errors
     /// The error in the values.
     pub fn new(words: Vec<String>, quantity: Quantity) -> Result<Self, String> {
-        let values = |word: &String| word.split("..").map(finite).collect::<Result<Vec<f64>, _>>();
+        let values =
+            |word: &String| word.split("..").map(|part| finite(part.trim())).collect::<Result<Vec<f64>, _>>();
         // `0...1` is from 0 to 1 for some, and from 0 to .1 for others.
         if let Some(word) = words.iter().find(|word| word.contains("...") && values(word).is_ok()) {
             let (before, after) = word.split_once("...").unwrap_or((word, ""));
@@ -220,6 +221,7 @@ mod tests {
         check(&["center"], 0.5, "center");
         check(&["../a..b"], 0.5, "../a..b");
         check(&["1"], 0.5, "1");
+        check(&["0 .. 8", "1"], 0.5, "4 1");
     }
 
     #[test]

@@ -238,6 +238,7 @@ impl PreparedScene {
             items: &items,
             scene: Some(&scenery.scene),
             wires: if is_single { Some(&wires) } else { None },
+            shows_hidden: false,
         };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let is_uncut = scenery.keeps_highlights || config.sky.is_some() && config.shift.is_spectral();

@@ -86,7 +86,11 @@ impl Canvas {
         metadata: Metadata,
         progress: &dyn Progress,
     ) -> Result<Rendering, E> {
-        let Drawn { content, brightest, mut notes, annotated } = drawn;
+        let Drawn { mut content, mut brightest, mut notes, annotated } = drawn;
+        if let Some(light) = &self.options.light {
+            content = DrawnContent::Light { frame: (**light).clone(), is_clipped: false };
+            brightest = 0.0;
+        }
         let camera = match annotated.subject {
             Subject::Surfaces { view, wires: Some(_), .. } => view.matrices().map(Box::new),
             _ => None,

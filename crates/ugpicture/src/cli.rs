@@ -140,6 +140,7 @@ impl PictureArgs {
             small: self.pz,
             annotations,
             text: TextForm::default(),
+            light: None,
         })
     }
 
@@ -261,6 +262,8 @@ pub struct AnnotationArgs {
     iso: Option<Vec<QuantityWord>>,
 
     /// Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of -sz]
+    ///
+    /// The default is at least 9 pixels, and 6 points if -sz has units of length.
     #[arg(long, value_name = "PIXELS", visible_alias = "text-size", value_parser = number(text_size),
           help_heading = ANNOTATIONS)]
     ts: Option<f64>,

@@ -40,9 +40,15 @@ pub enum Note {
     /// So many labels are at vertices outside the picture.
     #[error("{}", labels_outside(*.0))]
     LabelsOutside(usize),
+    /// So many labels are at vertices in the picture that faces hide.
+    #[error("{}", labels_hidden(*.0))]
+    LabelsHidden(usize),
     /// Only a pinhole camera shows labels.
     #[error("labels are left out: only pictures of a single pinhole camera have them")]
     NoLabels,
+    /// A caption or title has a number by its name, which is known in films.
+    #[error("only captions and titles of films have numbers in place of {{beta}}, {{t}} ...")]
+    UnknownNumber,
     /// A body that a picture of the whole size shows is cut.
     #[error("title, caption or legend take rows from the picture, which cut off a part of a body")]
     CutByText,
@@ -236,6 +242,13 @@ fn labels_outside(n: usize) -> String {
     match n {
         1 => "a label is at a vertex outside the picture".to_owned(),
         n => format!("{n} labels are at vertices outside the picture"),
+    }
+}
+
+fn labels_hidden(n: usize) -> String {
+    match n {
+        1 => "a label is left out, because faces hide its vertex".to_owned(),
+        n => format!("{n} labels are left out, because faces hide their vertices"),
     }
 }
 

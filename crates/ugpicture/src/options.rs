@@ -1,6 +1,7 @@
 //! The options of a picture, the same for every renderer.
 
 use std::borrow::Borrow;
+use std::sync::Arc;
 
 use ugimage::label::TextForm;
 use ugimage::{Compression, Development, Filter, Format, LinearFrame, Tone, auto_exposure};
@@ -45,6 +46,9 @@ pub struct PictureOptions {
     pub annotations: AnnotationOptions,
     /// The form of the text of annotations in vector figures.
     pub text: TextForm,
+    /// Light to be developed in place of that of the scene, such as its mean over a while;
+    /// annotations are those of the scene.
+    pub light: Option<Arc<LinearFrame>>,
 }
 
 impl Default for PictureOptions {
@@ -65,6 +69,7 @@ impl Default for PictureOptions {
             small: false,
             annotations: AnnotationOptions::default(),
             text: TextForm::default(),
+            light: None,
         }
     }
 }

@@ -101,7 +101,7 @@ pub struct Args {
     ///
     /// Like -wf, or with -ed over the faces. Which side of a face is seen is decided in its rest
     /// frame, so pieces made by uglorentz add no lines.
-    #[arg(long, visible_alias = "silhouette", conflicts_with = "crease", help_heading = LINES)]
+    #[arg(long, visible_alias = "silhouette", help_heading = LINES)]
     sil: bool,
 
     /// Of edges only the silhouette and creases of at least ANGLE degrees, 0 to 180

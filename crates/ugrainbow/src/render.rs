@@ -7,7 +7,7 @@ use ugpipe::Progress;
 use ugscene::{Provenance, Scene};
 
 use crate::annotate::{find_items, visible_wires};
-use crate::config::Config;
+use crate::config::{Config, HiddenLines};
 use crate::depth_cue::prepare;
 use crate::drawn_scene::DrawnScene;
 use crate::error::Error;
@@ -118,6 +118,7 @@ fn draw(
         items: &items,
         scene: Some(setup.scene()),
         wires: Some(&wires),
+        shows_hidden: config.wireframe.is_some_and(|lines| lines.hidden != HiddenLines::default()),
     };
     let annotated = Annotated { is_shifted, subject };
     let drawn = Drawn { content, brightest: stats.max_intensity, notes, annotated };

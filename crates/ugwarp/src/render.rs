@@ -215,7 +215,8 @@ impl<'s> Prepared<'s> {
             Ok(())
         };
         let view = view(config, config.picture.size)?;
-        let subject = Subject::Surfaces { view: &view, items: &items, scene: None, wires: None };
+        let subject =
+            Subject::Surfaces { view: &view, items: &items, scene: None, wires: None, shows_hidden: false };
         let annotated = Annotated { is_shifted: config.shift.shifts_wavelengths(), subject };
         let (brightest, mut notes) = (statistics.max_light, notes(config, *is_up_replaced, &statistics));
         if sky.panorama.is_none() && sky.bands.is_empty() && sky.stars.is_empty() {

@@ -1,7 +1,8 @@
-//! Labels of a scene: text with an arrow to its vertex, where that is seen. Faces do not hide them.
+//! Labels of a scene: text with an arrow to its vertex, where that is seen.
 
+use glam::DVec3;
 use ugimage::figure::Point;
-use ugimage::label::{Drawing, Line, MissingCharacter, wrapped};
+use ugimage::label::{Drawing, Line, wrapped};
 
 use super::seen::SeenScene;
 use super::style::Style;
@@ -26,38 +27,49 @@ const WIDTH: f64 = 0.4;
 /// Space between text and the edges of its box, in text sizes.
 const GAP: f64 = 0.25;
 
+/// Half the length in pixels of the lines around a vertex that tell whether faces hide it.
+const ARM: f64 = 0.75;
+
 /// A box by its upper left and lower right corner.
 pub type Rectangle = [Point; 2];
 
-/// Draws the labels of vertices in the picture. Returns a note if some are outside. `covered`: the
-/// part of the picture that other annotations cover.
+/// Draws the labels of vertices that are seen in the picture. Returns notes if some are outside, or
+/// hidden. `covered`: the part of the picture that other annotations cover; `shows_hidden`: labels of
+/// hidden vertices are drawn, too.
 ///
 /// # Errors
-/// The font lacks a character.
+/// The font lacks a character; errors of [`SeenScene::visible`].
 pub fn draw<E: From<Error>>(
     seen: &SeenScene<'_, E>,
     style: &Style,
     covered: Option<Rectangle>,
+    shows_hidden: bool,
     drawing: &mut Drawing,
-) -> Result<Option<Note>, MissingCharacter> {
+) -> Result<Vec<Note>, E> {
     let place = |position| {
         let point = position - seen.view.eye;
         is_in_picture(&seen.view, point).then(|| seen.place(point))
     };
     let scene = seen.scene;
-    let labels: Vec<_> =
-        scene.labels().map(|(at, text)| (place(scene.vertices[at.index()].position), text)).collect();
+    let all = scene.labels().map(|(at, text)| (scene.vertices[at.index()].position, text));
+    let mut labels: Vec<_> = all.filter_map(|(at, text)| Some((at, place(at)?, text))).collect();
+    let n_outside = scene.labels().count() - labels.len();
+    let n_inside = labels.len();
+    if !shows_hidden {
+        let arms: Vec<_> = labels.iter().flat_map(|label| arms(seen, label.0 - seen.view.eye)).collect();
+        let visible = seen.visible(scene.clone(), &arms)?;
+        labels.retain(|(_, tip, _)| visible.iter().any(|ends| ends.iter().all(|&end| is_near(end, *tip))));
+    }
+    let n_hidden = n_inside - labels.len();
     // Text covers neither the tip of an arrow nor other text.
-    let mut taken: Vec<Rectangle> = labels.iter().filter_map(|label| Some([label.0?; 2])).collect();
-    let n_outside = labels.len() - taken.len();
+    let mut taken: Vec<Rectangle> = labels.iter().map(|label| [label.1; 2]).collect();
     taken.extend(covered);
     let bounds =
         scene.vertices.iter().filter_map(|vertex| place(vertex.position)).map(|at| [at; 2]).reduce(union);
     let [low, high] = bounds.unwrap_or_default();
     let middle = [0, 1].map(|axis| 0.5 * (low[axis] + high[axis]));
-    for (tip, text) in labels {
-        let Some(tip) = tip else { continue };
-        let lines = wrapped(text, style.size, WIDTH * seen.size[0])?;
+    for (_, tip, text) in labels {
+        let lines = wrapped(text, style.size, WIDTH * seen.size[0]).map_err(Error::from)?;
         let width = lines.iter().map(Line::width).fold(0.0, f64::max);
         let height = style.size * (CAPITAL + SPACING * (lines.len() - 1) as f64);
         let half = [width, height].map(|side| 0.5 * side + GAP * style.size);
@@ -65,7 +77,24 @@ pub fn draw<E: From<Error>>(
         push(tip, at, &lines, style, drawing);
         taken.push(at);
     }
-    Ok((n_outside > 0).then_some(Note::LabelsOutside(n_outside)))
+    let notes = [(n_outside, Note::LabelsOutside(n_outside)), (n_hidden, Note::LabelsHidden(n_hidden))];
+    Ok(notes.into_iter().filter_map(|(n, note)| (n > 0).then_some(note)).collect())
+}
+
+/// Lines across a point, relative to the eye. They are so much nearer that faces that meet in the
+/// point do not hide all of them.
+fn arms<E: From<Error>>(seen: &SeenScene<'_, E>, point: DVec3) -> [[DVec3; 2]; 2] {
+    let view = &seen.view;
+    let place = seen.place(point);
+    let at = |[x, y]: [f64; 2]| view.point([place[0] + x, place[1] + y], view.place(point).z);
+    let toward = if view.is_perspective { -point.normalize() } else { -view.forward };
+    let lift = (at([ARM, 0.0]) - point).length() * toward;
+    [[[-ARM, 0.0], [ARM, 0.0]], [[0.0, -ARM], [0.0, ARM]]].map(|ends| ends.map(|end| at(end) + lift))
+}
+
+/// True if a point of the picture is in reach of the lines around another.
+fn is_near(point: Point, tip: Point) -> bool {
+    (0..2).all(|axis| (point[axis] - tip[axis]).abs() < 2.0 * ARM)
 }
 
 /// A box for text with these half sides: in the picture, and apart from those `taken` if there is

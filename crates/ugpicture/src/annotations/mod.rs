@@ -56,6 +56,8 @@ pub enum Subject<'a, E> {
         scene: Option<&'a Scene>,
         /// Draws grids and outlines, if the lens is a pinhole.
         wires: Option<&'a VisibleWires<'a, E>>,
+        /// True if lines that faces hide are drawn, as labels of hidden vertices then are.
+        shows_hidden: bool,
     },
     /// A picture of which only the pixels are known, which captions suit.
     Pixels,
@@ -108,7 +110,7 @@ impl Layout {
         if annotations.is_any() && options.output.format().is_linear() {
             return Err(Error::NotAnnotated);
         }
-        let style = Style::new(options.size, annotations.text_size, None, options.output);
+        let style = Style::new(options.size, options, None);
         let size @ [width, height] = options.size;
         let title = Paragraph::new(&annotations.title, TITLE * style.size, width, &style)?;
         let place = annotations.place;
@@ -178,7 +180,7 @@ impl Layout {
         scale: Option<&Scale>,
     ) -> Result<Annotations, E> {
         let background = Backdrop::new(options.background, options.samples).light();
-        let style = &Style::new(self.size, options.annotations.text_size, background, options.output);
+        let style = &Style::new(self.size, options, background);
         let mut all = Annotations {
             size: self.size,
             scene: self.scene,
@@ -188,10 +190,14 @@ impl Layout {
             text: options.text,
             notes: Vec::new(),
         };
+        let texts = [&options.annotations.title, &options.annotations.caption];
+        if NUMBERS.iter().any(|name| texts.iter().any(|text| text.contains(name))) {
+            all.notes.push(Note::UnknownNumber);
+        }
         let mut panel = Drawing::default();
         let panel_width = f64::from(self.panel.window.size[0]);
         let AnnotationOptions { legend, outline, grid, ref iso, ref units, .. } = options.annotations;
-        if let Subject::Surfaces { view, items, scene, wires } = annotated.subject {
+        if let Subject::Surfaces { view, items, scene, wires, shows_hidden } = annotated.subject {
             let has_labels = !options.output.format().is_linear()
                 && scene.is_some_and(|scene| scene.labels().next().is_some());
             let is_smaller = self.scene.size != self.size && view.default_camera.is_none();
@@ -210,9 +216,8 @@ impl Layout {
                     all.notes.extend(outline::draw(&seen, style, &mut all.over)?);
                 }
                 if has_labels {
-                    let note =
-                        labels::draw(&seen, style, self.covered(), &mut all.over).map_err(Error::from)?;
-                    all.notes.extend(note);
+                    let covered = self.covered();
+                    all.notes.extend(labels::draw(&seen, style, covered, shows_hidden, &mut all.over)?);
                 }
             } else if has_labels {
                 all.notes.push(Note::NoLabels);
@@ -304,6 +309,9 @@ impl Panel {
         Some(self)
     }
 }
+
+/// Names of numbers in captions, which films fill in.
+const NUMBERS: [&str; 5] = ["{beta}", "{gamma}", "{speed}", "{frame}", "{t}"];
 
 /// Size of a title relative to that of a caption.
 const TITLE: f64 = 1.25;

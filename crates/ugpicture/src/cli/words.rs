@@ -29,8 +29,8 @@ impl Words for Error {
                     "vector graphics (-vec) are at most {MAX_VECTOR_SIDE} points along a side: give a smaller -sz"
                 );
             }
-            Self::TooNarrow => "{}: give a wider -sz, or leave out -title, -cap, -lg and -map",
-            Self::NoRoom => "{}: give a larger -sz, or a shorter -title and -cap",
+            Self::TooNarrow => "{}: give a wider -sz, a smaller -ts, or leave out -title, -cap, -lg and -map",
+            Self::NoRoom => "{}: give a larger -sz, a smaller -ts, or a shorter -title and -cap",
             Self::Pixel { pixel: [x, y], size: [width, height] } => {
                 return format!(
                     "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
@@ -100,6 +100,8 @@ impl Words for Note {
             | Self::NoLights { .. }
             | Self::NoWires
             | Self::LabelsOutside(_)
+            | Self::LabelsHidden(_)
+            | Self::UnknownNumber
             | Self::NoLabels
             | Self::CutRounds
             | Self::NoLight { .. }
