@@ -306,6 +306,55 @@ fn a_uniform_sky_lights_as_theory_says() {
     }
 }
 
+/// The pipe lights a scene by the sky as rays do without shadows: by an option, and by the sky that
+/// the scene states.
+#[test]
+fn the_pipe_lights_a_scene_as_rays_do() {
+    let text = "c_rgb wall .5 .3 .25; v a -9 3 -9; v b 9 3 -9; v c 9 3 9; v d -9 3 9; f (a b c d) wall;
+        v e -9 2 -3; v f 9 2 -3; v g 9 5 -2; v h -9 5 -2; f (e f g h);
+        cam -ep 0 0 0 -vc 0 3 -1 -ud 0 0 1 -va 60;";
+    let sky = SceneSky::from(BuiltIn::Day.open());
+    for shift in [ColorShift::default(), ColorShift::spectra(true, true)] {
+        for beta in [DVec3::ZERO, DVec3::new(0.1, 0.3, 0.0)] {
+            let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
+            let rays = ugphoton::RayOptions { shadows: false, ..Default::default() };
+            let config = ugphoton::Config {
+                rays,
+                shift,
+                sky: sky.clone(),
+                picture: PictureOptions { samples: 8, ..picture(Lens::Pinhole) },
+                motion: motion.clone(),
+                ..Default::default()
+            };
+            let expected = ugphoton::light(parsed(text), &config).unwrap();
+            let stated = format!("{text} sky day;");
+            for (text, sky) in [(text, sky.clone()), (stated.as_str(), SceneSky::default())] {
+                let scene = parsed(text);
+                let mut sky = sky;
+                sky.or_stated(scene.sky.as_ref());
+                let lorentz = uglorentz::Config { camera_velocity: Some(beta), ..Default::default() };
+                let (scene, _) = uglorentz::apply(scene, &lorentz).unwrap();
+                let doppler = ugdoppler::Config { light: true, shift, sky, keep: true, ..Default::default() };
+                let (scene, notes) = ugdoppler::apply(scene, &doppler).unwrap();
+                assert!(!notes.contains(&ugdoppler::Note::NoLights), "{notes:?}");
+                let config = ugrainbow::Config { picture: config.picture.clone(), ..Default::default() };
+                let found = ugrainbow::light(&scene, &config).unwrap();
+                let mean = |frame: &LinearFrame| {
+                    frame
+                        .pixels()
+                        .iter()
+                        .map(|pixel| DVec3::new(pixel[0].into(), pixel[1].into(), pixel[2].into()))
+                        .sum::<DVec3>()
+                };
+                let (found, expected) = (mean(&found), mean(&expected));
+                // Display-encoded light adds up otherwise in sets of points.
+                let bound = if shift.is_spectral() { 0.03 } else { 0.06 };
+                assert!((found / expected - 1.0).abs().max_element() < bound, "{beta}: {found} {expected}");
+            }
+        }
+    }
+}
+
 /// White is the light of a white level surface by day and at dusk, and the sun makes the most of it
 /// by day.
 #[test]

@@ -10,6 +10,8 @@ use ugphysics::Velocity;
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, Progress, ToolArgs, Words, remedies};
 use ugscene::cli::{EyeArgs, RepeatArgs, ShiftArgs};
 use ugscene::{CameraError, Provenance};
+use ugskybox::SceneSky;
+use ugskybox::cli::SkyArgs;
 
 use crate::{Config, DEFAULT_TOLERANCE, Error, Note, PROVENANCE, apply_with};
 
@@ -59,7 +61,8 @@ pub struct Args {
     /// Light the scene by its lights, moving ones included
     ///
     /// The light is computed into the colours. One ambient light replaces the lights, so that a
-    /// renderer does not light the scene again.
+    /// renderer does not light the scene again. A sky (-sky, or that of the scene) lights it as
+    /// in ugphoton, without shadows.
     #[arg(long, visible_alias = "light")]
     li: bool,
 
@@ -75,6 +78,9 @@ pub struct Args {
     /// each sample. Pictures in vectors, -og, -cb and mesh files need colours at vertices.
     #[arg(long)]
     no_textures: bool,
+
+    #[command(flatten)]
+    sky: SkyArgs,
 
     #[command(flatten)]
     look: LookArgs,
@@ -128,6 +134,7 @@ impl Args {
             tolerance: self.ct,
             iris: self.ir,
             light: self.li,
+            sky: if self.li { self.sky.sky() } else { SceneSky::default() },
             keep: self.hd,
             no_textures: self.no_textures,
         })
@@ -157,9 +164,12 @@ pub fn main() -> ExitCode {
 }
 
 fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
-    let config = args.config()?;
+    let mut config = args.config()?;
     let reading = pipe::options(&args.common)?;
     let source = pipe::read(context, &reading)?;
+    if config.light {
+        config.sky.open_with((&source, &reading), &args.common, context)?;
+    }
     let steps = context.steps();
     steps.step("reading", 0);
     let parsed = ugparse::read(&source, &reading, args.eye.name().as_deref()).map_err(pipe::refused)?;
@@ -197,7 +207,7 @@ impl Words for Note {
             Self::AllMove => format!("{self}, so -vel has no effect"),
             Self::NoLights => "no lights in the scene, so -li puts none into its colours".to_owned(),
             Self::PlainTextures { .. } => format!(
-                "{self}; leave out -vel, -gw, -ir, -hd, -li with moving lights, and orthographic cameras"
+                "{self}; leave out -vel, -gw, -ir, -hd, -li with moving lights or a sky, and orthographic cameras"
             ),
             Self::DeferredTextures { .. } => format!("{self}; --no-textures shifts mean colours here"),
             Self::Scaled(_) | Self::Clipped(_) | Self::TooSaturated { .. } => self.to_string(),
@@ -215,6 +225,7 @@ impl Words for Error {
             }
             Self::Camera(error) => error.words(),
             Self::TooManyLights { .. } => format!("-li computes {self}"),
+            Self::Sky(error) => error.words(),
             Self::VertexAtEye { .. } | Self::Stopped(_) => self.to_string(),
         }
     }

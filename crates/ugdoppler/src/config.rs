@@ -4,6 +4,7 @@ use glam::DVec3;
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugscene::HueScale;
+use ugskybox::SceneSky;
 
 /// The options of the filter. [`Config::default`] is what the program does without options.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Config {
     pub iris: bool,
     /// Put the light of the scene's lamps, moving ones included, into the colours (`-li`).
     pub light: bool,
+    /// The sky whose light is put into the colours with [`Config::light`] (`-sky`); opened.
+    pub sky: SceneSky,
     /// Keep values above 1, instead of clipping them (`-hd`).
     pub keep: bool,
     /// Shift the mean colour of textures, which are left to the renderer otherwise
@@ -57,6 +60,7 @@ impl Default for Config {
             tolerance: DEFAULT_TOLERANCE,
             iris: false,
             light: false,
+            sky: SceneSky::default(),
             keep: false,
             no_textures: false,
         }

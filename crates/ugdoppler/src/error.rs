@@ -3,6 +3,7 @@
 use thiserror::Error;
 use ugpipe::Stopped;
 use ugscene::{CameraError, StageError, VertexId};
+use ugskybox::SkyError;
 
 /// Why a scene has no colours as seen.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -34,6 +35,9 @@ pub enum Error {
         /// Its name.
         name: String,
     },
+    /// The sky cannot light the scene.
+    #[error(transparent)]
+    Sky(#[from] SkyError),
     /// The caller stopped the computation.
     #[error(transparent)]
     Stopped(#[from] Stopped),

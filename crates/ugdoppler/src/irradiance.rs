@@ -66,21 +66,33 @@ impl VertexIrradiance {
     /// `normals`: of [`split`]. Vertices stay unlit if the caller stops it.
     pub fn new(
         scene: &Scene,
-        eye: DVec3,
-        frames: &RestFrames,
+        (eye, frames): (DVec3, &RestFrames),
         seen: &SeenVertices,
         normals: &[Option<DVec3>],
-        is_spectral: bool,
+        (is_spectral, sky): (bool, Option<&crate::Sky>),
         progress: &dyn Progress,
     ) -> Self {
         let lamps = Lamps::new(scene, eye, is_spectral).over_time(scene, eye, is_spectral);
+        let n_own = lamps.len();
+        let (lamps, n_lit) = match sky {
+            Some((sky, motion)) => {
+                let n_lit = n_own + sky.stars.len() + sky.points.len();
+                (lamps.and(sky.lights(n_own, *motion, is_spectral)), n_lit)
+            }
+            None => (lamps, n_own),
+        };
         let of_vertex = (seen.rest.par_iter().zip(normals).zip(&seen.bodies).enumerate())
             .map(|(row, ((&point, normal), &body))| {
                 progress.check().ok()?;
                 let own = seen.own_time(row).map(ScatteringTime::Own);
                 let time = own.unwrap_or(ScatteringTime::Delay(0.0));
                 let surface = SurfaceElement { point, time, normal: (*normal)?, body };
-                Some(surface.irradiances(&lamps, frames))
+                let mut light = surface.irradiances(&lamps[..n_own], frames);
+                for part in surface.irradiances(&lamps[n_own..n_lit], frames) {
+                    let lamp = n_own as u32 + part.lamp;
+                    Irradiance { lamp, ..part }.add_to(&mut light, &lamps);
+                }
+                Some(light)
             })
             .collect();
         Self { lamps, of_vertex }

@@ -54,9 +54,10 @@ use uglight::{
 };
 use ugpipe::Progress;
 use ugscene::{
-    Camera, CameraError, CameraOptions, ColorId, ColorMix, ColorStage, DefaultCamera, HueScale, Projection,
-    Provenance, RelativeMotion, RestFrames, Scene, SeenVertices, ShownEffects,
+    Camera, CameraError, CameraOptions, ColorId, ColorMix, ColorStage, DefaultCamera, HueScale, LightMotion,
+    Projection, Provenance, RelativeMotion, RestFrames, Scene, SeenVertices, ShownEffects,
 };
+use ugskybox::SkyLamps;
 
 #[cfg(feature = "cli")]
 pub use cli::{Args, main};
@@ -95,6 +96,11 @@ pub fn apply_with(
     uglight::freeze_colors_at_zero(&mut scene);
     // The light of coloured lamps multiplies spectra, which are not in the output.
     let is_lit = config.light || config.shift.is_spectral() && uglight::has_colored_lamps(&scene);
+    let sky = if config.light { config.sky.lamps([1, SKY_POINTS])? } else { None };
+    let sky = sky.map(|lamps| {
+        let velocity = -ugscene::camera_velocity(&scene);
+        (lamps, LightMotion::Body(scene.bodies.moving_with(velocity)))
+    });
     let config = &Config { light: is_lit, ..config.clone() };
     let frames = RestFrames::with_default(&scene, config.velocity);
     let default_camera = default_camera(&scene, config, &frames);
@@ -115,7 +121,7 @@ pub fn apply_with(
         scene.stage.colors = ColorStage::Deferred(config.shift.seen_colors(HueScale::Degrees, false));
         (scene, Vec::new())
     } else {
-        color(scene, config, eye, &frames, progress)?
+        color(scene, (config, sky.as_ref()), eye, &frames, progress)?
     };
     notes.extend(textures_note);
     if is_taken_as_seen {
@@ -144,7 +150,7 @@ fn textures_note(scene: &Scene, config: &Config) -> Option<Note> {
         || config.iris
         || config.keep
         || !config.velocity.is_zero()
-        || config.light && ugscene::has_moving_lights(scene)
+        || config.light && (ugscene::has_moving_lights(scene) || config.sky.is_some())
         || projection == Some(Projection::Orthographic)
         || ShownEffects::of(scene) != ShownEffects::default();
     Some(if needs_vertices { Note::PlainTextures { color } } else { Note::DeferredTextures { color } })
@@ -164,6 +170,12 @@ fn set_eye(scene: &mut Scene, eye: DVec3) -> Result<(), CameraError> {
     scene.cameras[row].center.map_or(Ok(()), |center| ugscene::view_distance(eye, center).map(drop))
 }
 
+/// A sky as lights, and how they move.
+type Sky = (SkyLamps, LightMotion);
+
+/// The points of a sky that light a vertex.
+const SKY_POINTS: usize = 128;
+
 /// Most lights times lit vertices: about 3 GB.
 const MAX_LIT: usize = 1 << 27;
 
@@ -179,7 +191,7 @@ fn default_camera(scene: &Scene, config: &Config, frames: &RestFrames) -> Option
 
 fn color(
     mut scene: Scene,
-    config: &Config,
+    (config, sky): (&Config, Option<&Sky>),
     eye: DVec3,
     frames: &RestFrames,
     progress: &dyn Progress,
@@ -198,7 +210,7 @@ fn color(
     let mut notes = if let ColorShift::Spectra(shift) = config.shift {
         let mut shares = shares.into_iter().map(|shares| shares.of_spectra(&scene)).collect();
         let (light, factors) =
-            light_vertices(&mut scene, config, (eye, frames), vertices, &mut shares, progress)?;
+            light_vertices(&mut scene, (config, sky), (eye, frames), vertices, &mut shares, progress)?;
         let lit = light.map_or_else(Vec::new, |light| lit_spectra(&scene, shift, &shares, &factors, &light));
         let ln_factors = factors.par_iter().map(|&doppler| libm::log(doppler)).collect();
         let used = vertices::used(&scene);
@@ -208,7 +220,7 @@ fn color(
         let shift = config.shift.of_hues();
         let mut colors = uglight::vertex_colors(&scene, &shares);
         let (light, factors) =
-            light_vertices(&mut scene, config, (eye, frames), vertices, &mut colors, progress)?;
+            light_vertices(&mut scene, (config, sky), (eye, frames), vertices, &mut colors, progress)?;
         let used = vertices::used(&scene);
         let lit = light.map(|light| lit_colors(&scene, shift, &colors, &factors, &light));
         let spectra_note = uglight::spectra_note(&scene);
@@ -223,7 +235,7 @@ fn color(
         statements.finish().into_iter().chain(spectra_note.map(Note::Scene)).collect()
     };
     notes.extend(mixing_note.map(Note::Scene));
-    if config.light && scene.lights.is_empty() {
+    if config.light && scene.lights.is_empty() && sky.is_none() {
         notes.push(Note::NoLights);
     } else if config.light {
         irradiance::replace_lights(&mut scene);
@@ -240,13 +252,13 @@ fn color(
 /// together with their row of `of_vertex`.
 fn light_vertices<T: Clone>(
     scene: &mut Scene,
-    config: &Config,
+    (config, sky): (&Config, Option<&Sky>),
     (eye, frames): (DVec3, &RestFrames),
     (mut seen, mut factors): (SeenVertices, Vec<f64>),
     of_vertex: &mut Vec<T>,
     progress: &dyn Progress,
 ) -> Result<(Option<VertexIrradiance>, Vec<f64>), Error> {
-    if !config.light || scene.lights.is_empty() {
+    if !config.light || scene.lights.is_empty() && sky.is_none() {
         return Ok((None, factors));
     }
     let (originals, normals) = irradiance::split(scene, &seen, (eye, frames));
@@ -255,12 +267,13 @@ fn light_vertices<T: Clone>(
         factors.push(factors[original.index()]);
         of_vertex.push(of_vertex[original.index()].clone());
     }
-    let (n_lights, n_vertices) = (scene.lights.len(), normals.iter().flatten().count());
+    let n_of_sky = sky.map_or(0, |(lamps, _)| lamps.stars.len() + lamps.points.len());
+    let (n_lights, n_vertices) = (scene.lights.len() + n_of_sky, normals.iter().flatten().count());
     if n_lights.saturating_mul(n_vertices) > MAX_LIT {
         return Err(Error::TooManyLights { n_lights, n_vertices });
     }
     let is_spectral = config.shift.is_spectral();
-    let light = VertexIrradiance::new(scene, eye, frames, &seen, &normals, is_spectral, progress);
+    let light = VertexIrradiance::new(scene, (eye, frames), &seen, &normals, (is_spectral, sky), progress);
     progress.check()?;
     Ok((Some(light), factors))
 }

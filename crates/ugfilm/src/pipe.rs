@@ -50,6 +50,11 @@ impl Pipe {
         self.programs.last_mut().and_then(Program::sky)
     }
 
+    /// The sky of each program that has one, which is the same.
+    pub fn skies(&mut self) -> impl Iterator<Item = &mut SceneSky> {
+        self.programs.iter_mut().filter_map(Program::sky)
+    }
+
     /// The record in the file of the frame. Of a scene only the comments are used.
     pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
         let mut remarks = match subject {

@@ -92,11 +92,12 @@ impl Program {
         }
     }
 
-    /// The sky behind a scene, of a program that draws scenes.
+    /// The sky around a scene, of a program that draws or lights scenes.
     pub fn sky(&mut self) -> Option<&mut SceneSky> {
         match self {
             Self::Rainbow(config) => Some(&mut config.sky),
             Self::Photon(config) => Some(&mut config.sky),
+            Self::Doppler(config) if config.light => Some(&mut config.sky),
             Self::Lorentz(_) | Self::Doppler(_) | Self::Warp(_) => None,
         }
     }

@@ -17,7 +17,7 @@ use crate::timeline::{Ease, Quantity, Timeline};
 
 /// Options that more than one program of a pipe must know; all others are given to the first that
 /// has them, which passes them on in the scene.
-const FOR_ALL: [&str; 2] = ["sz", "va"];
+const FOR_ALL: [&str; 4] = ["sz", "va", "sky", "sky-turn"];
 
 /// Options that are velocities.
 const VELOCITIES: [&str; 2] = ["vel", "cv"];
@@ -239,10 +239,12 @@ impl Script {
         let mut commands = self.commands(frame, left_out)?;
         commands.set_format(format);
         let mut pipe = Pipe::new(self.programs(frame)?);
-        if let (Some(sky), SkySource::Opened(source)) = (pipe.sky(), &self.sky.source) {
-            // An option turns it in each frame, a statement once.
-            let turn = if sky.is_some() { sky.turn } else { self.sky.turn };
-            *sky = SceneSky { source: SkySource::Opened(source.clone()), turn, ..*sky };
+        if let SkySource::Opened(source) = &self.sky.source {
+            for sky in pipe.skies() {
+                // An option turns it in each frame, a statement once.
+                let turn = if sky.is_some() { sky.turn } else { self.sky.turn };
+                *sky = SceneSky { source: SkySource::Opened(source.clone()), turn, ..*sky };
+            }
         }
         pipe.lines = commands.0.iter().map(|words| quoted(words).join(" ")).collect();
         pipe.picture.output = match pipe.picture.output {
@@ -273,7 +275,7 @@ impl Script {
         // Frames that are wrong are reported when they are drawn.
         let Ok(programs) = self.programs(1.0) else { return Ok(()) };
         let mut pipe = Pipe::new(programs);
-        if let Some(sky) = pipe.sky() {
+        if let Some(sky) = pipe.skies().last() {
             sky.open_with(source, common, context)?;
             self.sky = sky.clone();
         }

@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, FaceColors, Interpolation, Lamp, LampPlace, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, Interpolation, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
 use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
 use ugscene::{
     BodyId, Face, HueScale, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
 };
-use ugskybox::{SkyAround, SkyLamp, SkyLamps};
+use ugskybox::{SkyAround, SkyLamps};
 
 use crate::config::{Config, RayOptions, Shutter};
 use crate::error::{Error, MOST_LIGHTINGS};
@@ -84,23 +84,6 @@ fn sky_sets(samples: u32) -> [usize; 2] {
 
 /// The number of colours up to which those under the spectra of a sky are tabulated.
 const MOST_TABULATED: usize = 4096;
-
-/// The lights of a sky behind `n_before` others; where colours are spectra, followed by the pure
-/// ones that the light of points is mixed of.
-fn lamps_of_sky(sky: &SkyLamps, n_before: usize, motion: LightMotion, is_spectral: bool) -> Vec<Lamp> {
-    let first_pure = n_before + sky.stars.len() + sky.points.len();
-    let lamp = |lamp: &SkyLamp| {
-        let is_mixture = is_spectral && lamp.kelvin.is_none();
-        // Skies have a few thousand lights at most.
-        let amounts = sky.amounts(lamp).map(|(row, amount)| ((first_pure + row) as u32, amount));
-        let mixture = if is_mixture { amounts.collect() } else { Vec::new() };
-        Lamp::afar(lamp.toward, lamp.linear.into(), &sky.spectrum(lamp), motion, is_spectral)
-            .mixed_of(mixture)
-    };
-    let pure = sky.pure.iter().filter(|_| is_spectral);
-    let pure = pure.map(|spectrum| Lamp::afar(DVec3::Z, DVec3::ONE, spectrum, motion, is_spectral));
-    sky.stars.iter().chain(&sky.points).map(lamp).chain(pure).collect()
-}
 
 /// A body on a world line with a surface that transmits light. A medium in which light has one
 /// speed has to rest in some frame.
@@ -199,7 +182,7 @@ impl<'a> Scenery<'a> {
         }
         let (lamps, appearance) = match (&sky_lamps, sky_motion) {
             (Some(sky), Some(motion)) => {
-                let lamps = lamps.and(lamps_of_sky(sky, n_own_lamps, motion, is_spectral));
+                let lamps = lamps.and(sky.lights(n_own_lamps, motion, is_spectral));
                 let n_lamps =
                     if appearance.palette.swatches.len() <= MOST_TABULATED { lamps.len() } else { 0 };
                 (lamps, appearance.with_tables(n_lamps))

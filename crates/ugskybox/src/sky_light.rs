@@ -3,8 +3,10 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use glam::{DQuat, DVec3};
+use uglight::Lamp;
 use ugphysics::spectrum::Spectrum;
 use ugphysics::{Velocity, luminance};
+use ugscene::LightMotion;
 use ugsky::{N_PURE, Observer, Sampler, Star, StarOptions};
 
 use crate::around::light_around;
@@ -155,6 +157,23 @@ impl SkyLamps {
         };
         let samples = (first..=last).step_by(step as usize).map(f64::from).map(|nm| [nm, value(nm)]);
         Spectrum::reflectance(&samples.collect::<Vec<_>>())
+    }
+
+    /// The lights behind `n_before` others; where colours are spectra, followed by the pure ones
+    /// that the light of points is mixed of.
+    pub fn lights(&self, n_before: usize, motion: LightMotion, is_spectral: bool) -> Vec<Lamp> {
+        let first_pure = n_before + self.stars.len() + self.points.len();
+        let lamp = |lamp: &SkyLamp| {
+            let is_mixture = is_spectral && lamp.kelvin.is_none();
+            // Skies have a few thousand lights at most.
+            let amounts = self.amounts(lamp).map(|(row, amount)| ((first_pure + row) as u32, amount));
+            let mixture = if is_mixture { amounts.collect() } else { Vec::new() };
+            Lamp::afar(lamp.toward, lamp.linear.into(), &self.spectrum(lamp), motion, is_spectral)
+                .mixed_of(mixture)
+        };
+        let pure = self.pure.iter().filter(|_| is_spectral);
+        let pure = pure.map(|spectrum| Lamp::afar(DVec3::Z, DVec3::ONE, spectrum, motion, is_spectral));
+        self.stars.iter().chain(&self.points).map(lamp).chain(pure).collect()
     }
 
     /// The points of a set.
