@@ -92,7 +92,8 @@ pub struct UniqueNames {
 }
 
 impl UniqueNames {
-    /// Marks `name` as used. If it was, marks and returns the first unused of `name_2`, `name_3`, ….
+    /// Marks `name` as used. If it was, marks and returns the first unused of `name_2`, `name_3`
+    /// and so on.
     pub fn fresh(&mut self, name: &str) -> Option<String> {
         if self.taken.contains_key(name) || self.is_numbered(name) {
             return Some(self.numbered(name));
@@ -184,7 +185,7 @@ mod tests {
         let [a, b] = ["a", "a_3"].map(|name| table.add(name));
         let used = table.clone();
         let mut names: UniqueNames = [a, b].into_iter().map(|id| used.get(id)).collect();
-        let mut check = |id: NameId, table: &Names, expected: &str| assert_eq!(table.get(id), expected);
+        let check = |id: NameId, table: &Names, expected: &str| assert_eq!(table.get(id), expected);
         let first = names.add_copy(a, &mut table);
         check(first, &table, "a_2");
         check(names.add_copy(a, &mut table), &table, "a_4");
