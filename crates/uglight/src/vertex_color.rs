@@ -38,7 +38,7 @@ impl VertexColor {
     }
 }
 
-/// The colour of every vertex: its own, else from its faces, else from its wires. `shares`: those of
+/// The colour of every vertex: its own, else from its faces, else from its wires. `shares`: of
 /// [`ugscene::vertex_mixes`].
 pub fn vertex_colors(scene: &Scene, shares: &[ColorMix]) -> Vec<VertexColor> {
     // Decoding is slow, and in most scenes no vertex has several colours.

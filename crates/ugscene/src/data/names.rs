@@ -81,7 +81,8 @@ pub struct UniqueNames {
 }
 
 impl UniqueNames {
-    /// Marks `name` as used. If it was, marks and returns the first unused of `name_2`, `name_3`, ….
+    /// Marks `name` as used. If it was, marks and returns the first unused of `name_2`, `name_3`
+    /// and so on.
     pub fn fresh(&mut self, name: &str) -> Option<String> {
         if self.taken.contains_key(name) || self.is_numbered(name) {
             return Some(self.numbered(name));
