@@ -1,20 +1,20 @@
-//! The scenes of the repository, a mesh and a list of stars, for those who have only the programs.
+//! The scenes of the repository, a mesh, pictures and a list of stars, for those who have only the programs.
 
 use std::path::PathBuf;
 
 use ugpipe::{Context, Failure, one_of};
 
 macro_rules! files {
-    ($($name:literal)*) => { [$(($name, include_str!(concat!("../../scenes/", $name)))),*] };
+    ($($name:literal)*) => { [$(($name, include_bytes!(concat!("../../scenes/", $name)) as &[u8])),*] };
 }
 
-/// Names of files and texts.
-const FILES: [(&str, &str); 37] = files![
+/// Names of files and their bytes.
+const FILES: [(&str, &[u8]); 40] = files![
     "house.ug" "houses.ug" "ship.ug" "street.ug" "teapot.ug" "cubes.ug" "sphere.ug" "directions.ug"
     "lattice.ug" "grid.ug" "tunnel.ug" "die.ug" "poles.ug" "lamps.ug" "clocks.ug" "wheels.ug"
     "twins.ug" "orbit.ug" "ticks.ug" "lanterns.ug" "carousel.ug" "departure.ug" "spinning.ug"
     "disc.ug" "slalom.ug" "dice.ug" "traffic.ug" "lamp.ug" "glass.ug" "mirrors.ug" "shadow.ug"
-    "room.ug" "water.ug" "rainbow.ug" "halves.ug" "globe.obj" "stars.csv"
+    "room.ug" "water.ug" "rainbow.ug" "halves.ug" "town.ug" "facade.png" "paving.png" "globe.obj" "stars.csv"
 ];
 
 /// Arguments of `ugparse example`.
@@ -40,7 +40,7 @@ pub fn write(args: &ExampleArgs, context: &mut Context) -> Result<(), Failure> {
         return write_all(context);
     }
     match args.name {
-        Some(row) => context.write_text(FILES[row].1),
+        Some(row) => context.write(FILES[row].1),
         None => {
             let lines = FILES.map(|(name, text)| format!("{:10} {}\n", short(name), subject(text)));
             context.write_text(&lines.concat())
@@ -56,21 +56,22 @@ fn write_all(context: &mut Context) -> Result<(), Failure> {
         let path = PathBuf::from(name);
         if !path.exists() {
             missing.push((path, text));
-        } else if context.input_file(&path)?.text != text.as_bytes() {
+        } else if context.input_file(&path)?.text != text {
             return Err(Failure::Failed(format!(
                 "`{name}` is there already, with another content; rename it, or use another folder"
             )));
         }
     }
     for (path, text) in &missing {
-        context.write_file(path, text.as_bytes())?;
+        context.write_file(path, text)?;
     }
     context.note(&format!("{} files written to the current folder", missing.len()));
     Ok(())
 }
 
 /// The first sentence of the comment at the head of a file, or its part before a semicolon.
-fn subject(text: &str) -> String {
+fn subject(text: &[u8]) -> String {
+    let Ok(text) = str::from_utf8(text) else { return "a picture on walls of `town`".to_owned() };
     let comment = text.trim_start_matches(['{', '#']);
     let end = [". ", ".\n", ";"].iter().filter_map(|mark| comment.find(mark)).min();
     let sentence = &comment[..end.unwrap_or(0)];
