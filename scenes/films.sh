@@ -61,8 +61,15 @@ half() {
 # Chang, Lai and Chen 1996, figure 10: a teapot flies past at 0.95c, its shape alone.
 film chang-flyby 30 -vel .95 0 0 -ti 3..36 -va 90 --no-doppler --no-flux teapot.ug
 
-# Howard, Dance and Kitchen 1995, figures 4 and 5: towards a grid, from rest to 0.9c and back.
+# Howard, Dance and Kitchen 1995, figures 4 and 5: towards a grid, from rest to 0.9c and back. Then
+# figures 6 to 8: the same towards an infinite plane, away from the grid, and past it.
 film howard-grid 84 -cv '0 0 0 .. 0 .9 0 .. 0 0 0' -ease smooth -loop --no-doppler --no-flux grid.ug
+eval "$(sed -n 's/^    \(infinite_plane() {.*\)/\1/p' ../docs/gallery.md)"
+infinite_plane > "$out/howard-plane.ug"
+howard=(75 -ease smooth -loop --no-doppler --no-flux -bg .8 210 .25)
+film howard-plane "${howard[@]}" -cv '0 0 0 .. 0 .9 0 .. 0 0 0' "$out/howard-plane.ug"
+film howard-behind "${howard[@]}" -cv '0 0 0 .. 0 -.9 0 .. 0 0 0' -ep 0 -14.4 0 grid.ug
+film howard-beside "${howard[@]}" -in -vel '0 0 0 .. -.9 0 0 .. 0 0 0' -ep 0 -8 0 -va 80 grid.ug
 
 # Nguyen 1988, figure 2: the ship from rest to 0.99c.
 film nguyen-ship 75 -vel '0 0 0 .. .99 0 0' -in --no-doppler --no-flux ship.ug
