@@ -155,7 +155,7 @@ fn copy_scenes(folder: &Path) {
         for name in scenes::names() {
             fs::write(folder.join(format!("{name}.ug")), scenes::text(&name)).expect("a copy");
         }
-        for name in ["stars.csv", "globe.obj", "crate.gltf"] {
+        for name in ["stars.csv", "globe.obj", "crate.gltf", "facade.png", "paving.png"] {
             fs::copy(scenes::root().join("scenes").join(name), folder.join(name)).expect("a copy");
         }
     }

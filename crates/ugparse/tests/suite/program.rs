@@ -256,7 +256,8 @@ fn invalid_scenes_give_no_output() {
 fn flatten_writes_the_flat_scene() {
     for path in scenes() {
         let expected = flat(&fs::read(&path).unwrap());
-        let found = UGPARSE.in_folder(repository()).output(&format!("flatten {}", path.display()), "");
+        let (folder, name) = (path.parent().unwrap(), path.file_name().unwrap());
+        let found = UGPARSE.in_folder(folder).output(&format!("flatten {}", name.display()), "");
         assert!(found == expected, "{}", path.display());
     }
 }
