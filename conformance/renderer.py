@@ -123,4 +123,6 @@ def png(picture):
 
 
 if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit("usage: renderer.py CASE > picture.png; `ugconformance table cameras` lists the cases")
     sys.stdout.buffer.write(png(draw(sys.argv[1])))

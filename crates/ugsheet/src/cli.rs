@@ -36,7 +36,7 @@ pub struct Args {
     #[arg(long, value_name = "TEXT", action = ArgAction::Append, conflicts_with = "lb")]
     label: Vec<String>,
 
-    /// FilmKind of labels if --label is not given
+    /// Kind of labels if --label is not given
     #[arg(long, value_name = "KIND", default_value = "auto", visible_alias = "labels", value_enum)]
     lb: LabelKind,
 
