@@ -161,6 +161,10 @@ class Doppler(TypedDict, total=False):
     """X Y Z. Eye point [default: that of the scene's camera]"""
     ep: Vector | None
     """The same as eye."""
+    sky: Text | None
+    """SKY. Sky behind the scene: day, dusk, stars, or a file"""
+    sky_turn: Vector | None
+    """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
 
 class Render(TypedDict, total=False):
     interpolate_hue: bool | None
@@ -865,6 +869,10 @@ class Film(Reading, total=False):
     """The same as keep_intensities."""
     no_textures: bool | None
     """True. Give faces with textures their mean colour"""
+    sky: Text | None
+    """SKY. Sky behind the scene: day, dusk, stars, or a file"""
+    sky_turn: Vector | float | str | None
+    """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
     interpolate_hue: bool | None
     """True. Interpolate hue between corners (default)"""
     ih: bool | None
@@ -957,10 +965,6 @@ class Film(Reading, total=False):
     """True. Exact: a ray for every sample, instead of subdivision"""
     xc: bool | None
     """The same as exact."""
-    sky: Text | None
-    """SKY. Sky behind the scene: day, dusk, stars, or a file"""
-    sky_turn: Vector | float | str | None
-    """X Y Z. Turn the sky by these angles about x, then y, then z, in degrees"""
     title: Text | None
     """TEXT. Title above the picture, wrapped as needed"""
     caption: Text | None
