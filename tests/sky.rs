@@ -294,10 +294,6 @@ fn a_uniform_sky_lights_as_theory_says() {
         for (beta, most) in [(0.5, 1e-3), (-0.9, 5e-3)] {
             let expected = 0.01 * mean_of_beamed_light(normal, beta);
             let found = lit_square(normal, beta, 0.01, law, 16);
-            for aa in [4, 8, 16] {
-                let f = lit_square(normal, beta, 0.01, law, aa);
-                eprintln!("ERR {normal} {beta} {aa}: {:.2e}", f / expected - 1.0);
-            }
             assert!((found / expected - 1.0).abs() < most, "{normal} {beta}: {found} {expected}");
             // With fewer samples it is nearly the same.
             let few = lit_square(normal, beta, 0.01, law, 4);
