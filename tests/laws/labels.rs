@@ -1,4 +1,5 @@
-//! Arrows of labels end where their vertices are seen, in every program, and are left out where faces hide these.
+//! Arrows of labels end where their vertices are seen, in every program, and are left out where
+//! faces hide these.
 
 use glam::DVec3;
 use ugphoton::MotionOptions;
@@ -53,7 +54,8 @@ fn arrows_end_at_their_vertices_in_the_pipe_and_in_ray_traced_pictures() {
                 assert!(has_tip, "{beta}: no arrow ends at {x} {y}");
             }
         }
-        // Labels are where a picture differs from one without them: at the same pixels by both programs.
+        // Labels are where a picture differs from one without them: at the same pixels by both
+        // programs.
         let [pipe, rays] = differs.map(|differs| {
             let all = (0..SIZE[1]).flat_map(|y| (0..SIZE[0]).map(move |x| (x, y)));
             all.filter(|&(x, y)| differs(x, y)).collect::<Vec<_>>()
@@ -76,12 +78,14 @@ fn labels_outside_the_picture_are_told() {
     assert!(notes.contains(&ugphoton::Note::UnknownNumber), "{notes:?}");
 }
 
-/// The corners of a box on the side away from the eye have no labels, unless hidden lines are drawn.
+/// The corners of a box on the side away from the eye have no labels, unless hidden lines are
+/// drawn.
 #[test]
 fn labels_of_hidden_vertices_are_left_out() {
     for beta in [0.0, 0.9] {
         let pipe = Pipe::new(DVec3::new(beta, 0.0, 0.0), SIZE).in_place();
-        // Which corners are hidden, by the outward normals of the sides as seen: all that meet there.
+        // Which corners are hidden, by the outward normals of the sides as seen: all that meet
+        // there.
         let seen = scenes::parse(&pipe.run(BOX.as_bytes()).seen);
         let eye = DVec3::new(0.0, -9.0, 3.0);
         let mut is_seen = std::collections::BTreeMap::new();

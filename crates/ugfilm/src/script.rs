@@ -28,7 +28,8 @@ const TEXTS: [&str; 2] = ["cap", "title"];
 /// Options for what is done to the light of a picture.
 pub const DONE_TO_LIGHT: &[&str] = &["cap", "title", "lg", "lp", "gr", "dl", "iso", "ex", "tc"];
 
-/// A number of four digits, or of all if it rounds to 1, as fast speeds do; other words as they are.
+/// A number of four digits, or of all if it rounds to 1, as fast speeds do; other words as they
+/// are.
 fn readable(word: String) -> String {
     let Ok(number) = word.parse() else { return word };
     let is_fast = (0.99995..1.0).contains(&f64::abs(number));

@@ -48,8 +48,8 @@ impl<'a> Shader<'a> {
     }
 
     /// Linear red, green and blue of the light of lamps that a point scatters and mirrors towards
-    /// the eye, and of the light that it emits. `medium`: the solid that light is in before it; `sample`: a number for each sample
-    /// of the picture.
+    /// the eye, and of the light that it emits. `medium`: the solid that light is in before it;
+    /// `sample`: a number for each sample of the picture.
     pub fn light(
         &mut self,
         point: &SurfacePoint,

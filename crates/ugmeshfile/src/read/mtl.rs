@@ -18,8 +18,8 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    /// Adds the materials of a file. Only diffuse and emitted colours and opacity are read. Malformed
-    /// statements are ignored, since a mesh is usable without its materials.
+    /// Adds the materials of a file. Only diffuse and emitted colours and opacity are read.
+    /// Malformed statements are ignored, since a mesh is usable without its materials.
     pub fn add(&mut self, bytes: &[u8], builder: &mut Builder) {
         let text = decode(bytes);
         let mut current: Option<&mut Rgba> = None;

@@ -1,4 +1,5 @@
-//! The scenes of the repository, a mesh, pictures and a list of stars, for those who have only the programs.
+//! The scenes of the repository, a mesh, pictures and a list of stars, for those who have only the
+//! programs.
 
 use std::path::PathBuf;
 

@@ -66,8 +66,8 @@ impl UndefinedNames<'_, '_, '_> {
         self.check("surface", name, remedies, |scope| &scope.surfaces, |scope| &scope.colors);
     }
 
-    /// Reports a name that is not visible in the scope. `remedies`: if nothing has this name, and if
-    /// something of the other kind has it.
+    /// Reports a name that is not visible in the scope. `remedies`: if nothing has this name, and
+    /// if something of the other kind has it.
     fn check<T, O>(
         &mut self,
         kind: &str,

@@ -34,8 +34,8 @@ const ARM: f64 = 0.75;
 pub type Rectangle = [Point; 2];
 
 /// Draws the labels of vertices that are seen in the picture. Returns notes if some are outside, or
-/// hidden. `covered`: the part of the picture that other annotations cover; `shows_hidden`: labels of
-/// hidden vertices are drawn, too.
+/// hidden. `covered`: the part of the picture that other annotations cover; `shows_hidden`: labels
+/// of hidden vertices are drawn, too.
 ///
 /// # Errors
 /// The font lacks a character; errors of [`SeenScene::visible`].
@@ -81,8 +81,8 @@ pub fn draw<E: From<Error>>(
     Ok(notes.into_iter().filter_map(|(n, note)| (n > 0).then_some(note)).collect())
 }
 
-/// Lines across a point, relative to the eye. They are so much nearer that faces that meet in the
-/// point do not hide all of them.
+/// Two short lines that cross just before a point, relative to the eye: so much nearer to the eye
+/// than the point that the faces that meet in it do not hide all of them.
 fn arms<E: From<Error>>(seen: &SeenScene<'_, E>, point: DVec3) -> [[DVec3; 2]; 2] {
     let view = &seen.view;
     let place = seen.place(point);

@@ -440,8 +440,8 @@ impl World {
     }
 }
 
-/// The end of the parameters of hits on the part in row `row` that replace `best`; `end` if there is
-/// none. Ties go to the part with the lowest row, in whatever order they come.
+/// The end of the parameters of hits on the part in row `row` that replace `best`; `end` if there
+/// is none. Ties go to the part with the lowest row, in whatever order they come.
 #[inline]
 fn end_before(best: Option<Intersection>, row: usize, end: f64) -> f64 {
     best.map_or(end, |best| if row < best.part { best.s.next_up() } else { best.s })
