@@ -8,7 +8,6 @@
 //! table is for x86-64 processors with AVX2. A count is not a time: waiting for memory is not in
 //! it.
 
-use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
 use std::io::Write;
 use std::path::Path;
@@ -17,6 +16,7 @@ use std::process::Command;
 use image::{Rgb, RgbImage};
 
 use crate::Outcome;
+use crate::mesh::Mesh;
 use crate::programs;
 
 /// The table: name of the work, command, millions of instructions, and why the row was raised.
@@ -94,43 +94,11 @@ pub fn count(programs: &Path, command: &str, folder: &Path) -> Outcome<f64> {
 }
 
 fn write_scenes(folder: &Path) -> Outcome<()> {
-    std::fs::write(folder.join("mesh.ug"), mesh()?)?;
+    std::fs::write(folder.join("mesh.ug"), Mesh::of_rows(60).scene(false)?)?;
     std::fs::write(folder.join("cubes.ug"), cubes()?)?;
     let pixel =
         |x: u32, y: u32| Rgb([0, 1, 2].map(|shift| (((x * 7 + y * 3) ^ ((x * y) >> 4)) >> shift) as u8));
     Ok(RgbImage::from_fn(2048, 1024, pixel).save(folder.join("panorama.png"))?)
-}
-
-/// A bumpy sphere of 14,160 triangles with two lamps. Its faces have 36 colours, so that several
-/// meet at most vertices.
-fn mesh() -> Result<String, std::fmt::Error> {
-    const ROWS: u32 = 60;
-    const COLUMNS: u32 = 2 * ROWS;
-    let mut text = String::from("l lamp 1 3 3 3 0 ;\nl sun .7 1 1 1 ;\n");
-    for (i, j) in (0..=ROWS).flat_map(|i| (0..COLUMNS).map(move |j| (i, j))) {
-        let (theta, phi) = (PI * f64::from(i) / f64::from(ROWS), TAU * f64::from(j) / f64::from(COLUMNS));
-        let radius = 1.0 + 0.1 * libm::sin(7.0 * theta) * libm::cos(5.0 * phi);
-        let [x, y] = [libm::cos(phi), libm::sin(phi)].map(|part| radius * libm::sin(theta) * part);
-        writeln!(text, "v v{i}_{j} {x:.6} {y:.6} {:.6} ;", radius * libm::cos(theta))?;
-    }
-    for k in 0..36 {
-        writeln!(
-            text,
-            "c_rgb k{k} {:.2} {:.2} .5 ;",
-            0.2 + 0.16 * f64::from(k % 6),
-            0.2 + 0.16 * f64::from(k / 6)
-        )?;
-    }
-    for (i, j) in (0..ROWS).flat_map(|i| (0..COLUMNS).map(move |j| (i, j))) {
-        let (below, next, color) = (i + 1, (j + 1) % COLUMNS, (i + j) % 36);
-        if below < ROWS {
-            writeln!(text, "f f{i}_{j}_0 (v{i}_{j} v{below}_{j} v{below}_{next}) k{color} ;")?;
-        }
-        if i > 0 {
-            writeln!(text, "f f{i}_{j}_1 (v{i}_{j} v{below}_{next} v{i}_{next}) k{color} ;")?;
-        }
-    }
-    Ok(text)
 }
 
 /// 256 instances of a cube, whose long edges are cut.

@@ -22,7 +22,6 @@
 //! Meshes go to standard output and are the same bytes on every run and platform.
 
 mod gallery;
-mod globe;
 mod hostile;
 mod install;
 mod instructions;
@@ -34,7 +33,6 @@ mod programs;
 mod rays;
 mod scaling;
 mod scripts;
-mod short;
 mod site;
 mod worlds;
 
@@ -55,12 +53,12 @@ struct Args {
 
 #[derive(Subcommand)]
 enum Task {
-    /// Write a bumpy sphere of about N triangles with vertex colours, for benchmarks
+    /// Write a bumpy sphere of about N triangles in 36 colours, for benchmarks
     Mesh {
         /// Triangles, roughly
         #[arg(value_name = "N", value_parser = clap::value_parser!(u32).range(36..=100_000_000))]
         triangles: u32,
-        /// Give every vertex its own colour instead of one from a palette
+        /// Give every vertex a colour of its own
         #[arg(long)]
         each: bool,
     },
@@ -157,7 +155,10 @@ fn is_broken_pipe(error: &(dyn Error + 'static)) -> bool {
 fn run(task: &Task) -> Outcome<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     match task {
-        Task::Mesh { triangles, each } => mesh::write(&mut out, *triangles, *each)?,
+        Task::Mesh { triangles, each } => {
+            let mesh = mesh::Mesh::of_triangles(*triangles).scene(*each)?;
+            writeln!(out, "{mesh}cam -ep 5 3 2 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;")?;
+        }
         Task::Bench { words } => scripts::bench(words)?,
         Task::TraceRays { work, triangles, times } => rays::write(&mut out, *work, *triangles, *times)?,
         Task::Instructions(args) => instructions::write(&mut out, args)?,

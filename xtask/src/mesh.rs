@@ -1,106 +1,86 @@
-//! A bumpy sphere with coloured vertices and any number of triangles, for benchmarks.
+//! A bumpy sphere of any number of triangles, for benchmarks and counts of instructions.
 
-use crate::globe::{Direction, Globe};
-use crate::short::{Short, ShortPoint};
-use glam::DVec3;
 use std::f64::consts::{PI, TAU};
-use std::io::{self, Write};
+use std::fmt::{Error, Write as _};
 
-/// The palette: hues from red to blue and back by longitude, saturations by colatitude. It has no
-/// purples, which have no wavelength.
-const HUES: u32 = 36;
-const SATURATIONS: u32 = 8;
+use glam::DVec3;
 
-/// Writes a mesh of about `triangles` triangles; if `each`, every vertex has its own colour.
-pub fn write(out: &mut impl Write, triangles: u32, each: bool) -> io::Result<()> {
-    let globe = globe(triangles);
-    let bands = globe.bands;
-    writeln!(
-        out,
-        "{{ A bumpy sphere, r = 1 + 0.05 sin 12 theta cos 9 phi, with {} triangles and {}
-  on its vertices: something to measure speed on.
-  z is up; faces run counterclockwise seen from outside.
-  Made by `cargo xtask mesh {triangles}{}`. CC0 1.0.
-}}",
-        4 * bands * (bands - 1),
-        if each { "as many colours as there are".into() } else { format!("{} colours", HUES * SATURATIONS) },
-        if each { " --each" } else { "" },
-    )?;
-    if each {
-        for (i, direction) in globe.directions().enumerate() {
-            writeln!(out, "c c{i} {} ;", own_color(i, direction))?;
-        }
-    } else {
-        write_palette(out)?;
+/// r = 1 + 0.1 sin 7θ cos 5φ.
+pub struct Mesh {
+    pub positions: Vec<DVec3>,
+    /// Counterclockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Mesh {
+    /// Of about so many triangles.
+    pub fn of_triangles(triangles: u32) -> Self {
+        Self::of_rows((f64::from(triangles) / 4.0).sqrt().round() as u32)
     }
-    for (i, direction) in globe.directions().enumerate() {
-        let p = position(direction);
-        let color = if each { format!("c{i}") } else { color_name(direction) };
-        writeln!(out, "v v{i} {} {color} ;", ShortPoint(p))?;
-    }
-    for [a, b, c] in corners(&globe) {
-        writeln!(out, "f (v{a} v{b} v{c}) ;")?;
-    }
-    writeln!(
-        out,
-        "l 0.3 ;
-l sun 0.7 -1 -2 1.5 ;
-cam -ep 0 -6 1 -vc 0 0 0 -ud 0 0 1 -ps -va 30 24 ;"
-    )
-}
 
-/// The positions and triangles of the same mesh.
-pub fn triangles(triangles: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
-    let globe = globe(triangles);
-    (globe.directions().map(position).collect(), corners(&globe).collect())
-}
-
-fn globe(triangles: u32) -> Globe {
-    // A globe of n bands and 2 n sectors has 4 n (n - 1) triangles.
-    Globe::with_bands((f64::from(triangles) / 4.0).sqrt().round() as u32)
-}
-
-fn corners(globe: &Globe) -> impl Iterator<Item = [u32; 3]> {
-    (0..globe.bands).flat_map(|band| globe.cells(band)).flat_map(|cell| {
-        (2..cell.len()).map(|last| [cell[0], cell[last - 1], cell[last]]).collect::<Vec<_>>()
-    })
-}
-
-fn position(direction: Direction) -> DVec3 {
-    radius(direction) * direction.unit()
-}
-
-fn write_palette(out: &mut impl Write) -> io::Result<()> {
-    for h in 0..HUES {
-        for s in 0..SATURATIONS {
-            let hue = 240.0 * f64::from(h) / f64::from(HUES - 1);
-            let saturation = f64::from(s + 1) / f64::from(SATURATIONS);
-            writeln!(out, "c {} 0.9 {} {} ;", name(h, s), Short(hue), Short(saturation))?;
+    /// Of n rows from pole to pole and 2n columns: 4n(n − 1) triangles.
+    pub fn of_rows(n: u32) -> Self {
+        let n_columns = 2 * n;
+        let position = |i: u32, j: u32| {
+            let (theta, phi) = (PI * f64::from(i) / f64::from(n), TAU * f64::from(j) / f64::from(n_columns));
+            let radius = 1.0 + 0.1 * libm::sin(7.0 * theta) * libm::cos(5.0 * phi);
+            let [x, y] = [libm::cos(phi), libm::sin(phi)].map(|part| libm::sin(theta) * part);
+            radius * DVec3::new(x, y, libm::cos(theta))
+        };
+        let cell = |i: u32, j: u32| {
+            let at = |row: u32, column: u32| row * n_columns + column % n_columns;
+            let south = (i + 1 < n).then(|| [at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            let north = (i > 0).then(|| [at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            south.into_iter().chain(north)
+        };
+        let grid = |n_rows: u32| (0..n_rows).flat_map(move |i| (0..n_columns).map(move |j| (i, j)));
+        Self {
+            positions: grid(n + 1).map(|(i, j)| position(i, j)).collect(),
+            triangles: grid(n).flat_map(|(i, j)| cell(i, j)).collect(),
         }
     }
-    Ok(())
+
+    /// As a scene with two lamps. Its faces have 36 colours, so that several meet at most vertices;
+    /// or every vertex has a colour of its own.
+    pub fn scene(&self, has_own_colors: bool) -> Result<String, Error> {
+        let mut text = String::from(
+            "{ A bumpy sphere, to measure speed on. CC0 1.0. }\n\
+             l lamp 1 3 3 3 0 ;\nl sun .7 1 1 1 ;\n",
+        );
+        let n_colors = if has_own_colors { self.positions.len() } else { 36 };
+        for k in 0..n_colors {
+            let part = k as f64 / n_colors as f64;
+            let [red, green] = [part, 6.0 * part % 1.0].map(|part| 0.2 + 0.8 * part);
+            writeln!(text, "c_rgb k{k} {red:.6} {green:.6} .5 ;")?;
+        }
+        for (k, DVec3 { x, y, z }) in self.positions.iter().enumerate() {
+            let color = if has_own_colors { format!("k{k}") } else { String::new() };
+            writeln!(text, "v v{k} {x:.6} {y:.6} {z:.6} {color};")?;
+        }
+        for (k, [a, b, c]) in self.triangles.iter().enumerate() {
+            let color = if has_own_colors { String::new() } else { format!("k{}", k % 36) };
+            writeln!(text, "f (v{a} v{b} v{c}) {color};")?;
+        }
+        Ok(text)
+    }
 }
 
-/// Value, hue and saturation similar to the palette in that direction, but unique for every vertex.
-fn own_color(i: usize, direction: Direction) -> String {
-    let there_and_back = 1.0 - (2.0 * direction.phi / TAU - 1.0).abs();
-    // Multiples of the golden ratio are evenly distributed and do not repeat for many millions of
-    // steps.
-    let value = 0.5 + 0.5 * (i as f64 * 0.618_033_988_749_895).fract();
-    format!("{value:.9} {} {}", Short(240.0 * there_and_back), Short(0.1 + 0.9 * direction.theta / PI))
-}
+#[cfg(test)]
+mod tests {
+    use super::Mesh;
+    use std::collections::BTreeSet;
 
-fn radius(direction: Direction) -> f64 {
-    1.0 + 0.05 * libm::sin(12.0 * direction.theta) * libm::cos(9.0 * direction.phi)
-}
-
-fn color_name(direction: Direction) -> String {
-    let step = |part: f64, steps: u32| ((part * f64::from(steps)) as u32).min(steps - 1);
-    // 0 at longitude 0, 1 on the opposite side.
-    let there_and_back = 1.0 - (2.0 * direction.phi / TAU - 1.0).abs();
-    name(step(there_and_back, HUES), step(direction.theta / PI, SATURATIONS))
-}
-
-fn name(hue_step: u32, saturation_step: u32) -> String {
-    format!("h{hue_step}s{saturation_step}")
+    /// Every edge of a closed surface is used once in each direction.
+    #[test]
+    fn closed() {
+        let mesh = Mesh::of_rows(6);
+        assert_eq!(mesh.triangles.len(), 4 * 6 * 5);
+        let last = mesh.positions.len() as u32 - 12;
+        // The vertices of a pole are one.
+        let vertex = |row: u32| if row < 12 { 0 } else { row.min(last) };
+        let sides = |[a, b, c]: [u32; 3]| [(a, b), (b, c), (c, a)].map(|(a, b)| (vertex(a), vertex(b)));
+        let edges: BTreeSet<_> = mesh.triangles.iter().flat_map(|&triangle| sides(triangle)).collect();
+        assert_eq!(edges.len(), 3 * mesh.triangles.len());
+        assert!(edges.iter().all(|&(a, b)| edges.contains(&(b, a))));
+    }
 }

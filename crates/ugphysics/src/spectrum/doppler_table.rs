@@ -1,7 +1,7 @@
 //! X, Y, Z of a spectrum tabulated over a range of Doppler factors.
 
 use std::ops::RangeInclusive;
-use std::sync::OnceLock;
+use std::sync::{LazyLock, OnceLock};
 
 use crate::spectrum::quadrature::{N_NODES, Quadrature};
 use crate::spectrum::radiance::{Kind, MAX_LN_DOPPLER, Spectrum};
@@ -20,15 +20,23 @@ pub const LN_STEP: f64 = 0.01;
 const MARGIN: i32 = 2;
 
 /// The Doppler factors of tables: e^(0.01 k) over a range with margins, always including D = 1.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct DopplerGrid {
     first: i32,
     last: i32,
-    /// Weighted daylight at each factor, computed once for all surfaces, when it is first read.
-    light: Box<[OnceLock<Box<WeightedDaylight>>]>,
-    /// Quadrature weights at each factor by each rule for infrared, for [`DopplerGrid::xyz`].
-    nodes: [Box<[OnceLock<Box<Quadrature<N_NODES>>>]>; 2],
 }
+
+/// Rows of the widest grid on each side of D = 1.
+const MOST_ROWS: usize = (MAX_LN_DOPPLER / LN_STEP) as usize + 1 + MARGIN as usize;
+
+/// Values at the Doppler factors of the widest grid, computed when they are first read.
+type Rows<T> = LazyLock<Box<[OnceLock<Box<T>>]>>;
+
+/// Weighted daylight, for all surfaces of all scenes.
+static LIGHT: Rows<WeightedDaylight> = LazyLock::new(|| empty(2 * MOST_ROWS + 1));
+
+/// Quadrature weights by each rule for infrared, for [`DopplerGrid::xyz`].
+static NODES: [Rows<Quadrature<N_NODES>>; 2] = [const { LazyLock::new(|| empty(2 * MOST_ROWS + 1)) }; 2];
 
 impl DopplerGrid {
     /// A grid that covers a range of ln D.
@@ -36,13 +44,12 @@ impl DopplerGrid {
         let row = |ln: f64| (ln.clamp(-MAX_LN_DOPPLER, MAX_LN_DOPPLER) / LN_STEP).floor() as i32;
         let first = row(*ln_doppler.start()).min(0) - MARGIN;
         let last = row(*ln_doppler.end()).max(0) + 1 + MARGIN;
-        let n_points = (last - first + 1) as usize;
-        Self { first, last, light: empty(n_points), nodes: [empty(n_points), empty(n_points)] }
+        Self { first, last }
     }
 
     /// The number of Doppler factors.
     pub fn n_points(&self) -> usize {
-        self.light.len()
+        (self.last - self.first + 1) as usize
     }
 
     /// The ln D of each, in increasing order.
@@ -84,13 +91,18 @@ impl DopplerGrid {
         let rule = surface.rule();
         let nodes = |idx: usize| {
             let new = || Box::new(Quadrature::new(self.light(idx), rule));
-            &**self.nodes[rule as usize][idx].get_or_init(new)
+            &**NODES[rule as usize][self.row(idx)].get_or_init(new)
         };
         cell.interpolate(ln_xyz_at_nodes(surface, std::array::from_fn(|i| nodes(cell.idx + i - 1))))
     }
 
-    fn light(&self, idx: usize) -> &WeightedDaylight {
-        self.light[idx].get_or_init(|| Box::new(WeightedDaylight::new(self.doppler(idx))))
+    fn light(&self, idx: usize) -> &'static WeightedDaylight {
+        LIGHT[self.row(idx)].get_or_init(|| Box::new(WeightedDaylight::new(self.doppler(idx))))
+    }
+
+    /// The row of a point in the widest grid.
+    fn row(&self, idx: usize) -> usize {
+        (self.first + idx as i32 + MOST_ROWS as i32) as usize
     }
 }
 
