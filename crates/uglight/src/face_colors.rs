@@ -70,8 +70,10 @@ impl Appearance {
             return [!scene.faces.is_empty(), false];
         }
         let is_light = |face: &&Face| {
-            let is_moving = !self.surface.velocity(face.body).is_zero();
-            self.face_colors_in_motion(scene, face, is_moving).mixing != Mixing::Hue
+            let corners = scene.contours.corners(face.contours.clone());
+            let keeps_light = self.keeps_light() || self.surface.velocity(face.body).is_zero();
+            keeps_light
+                && self.mixing(corners.iter().map(|&vertex| self.surface.swatch(vertex))) != Mixing::Hue
         };
         let n_light = scene.faces.par_iter().filter(is_light).count();
         [n_light < scene.faces.len(), n_light > 0]

@@ -75,35 +75,25 @@ impl Orbit {
     }
 
     pub(super) fn pose(&self, own_time: f64) -> Pose {
-        let Pose { event, scene_from_axes, turn } = self.pose_of_circle(own_time);
-        let event = self.frame.apply(event - self.origin);
-        Pose { event, scene_from_axes: self.frame * scene_from_axes, turn }
-    }
-
-    /// In the frame in which it is a circle.
-    fn pose_of_circle(&self, own_time: f64) -> Pose {
         let gamma = self.velocity.gamma();
         let progress = self.progress(own_time);
         let event = Event { t: gamma * own_time, x: self.center + progress * self.start };
-        let proper = progress * self.velocity.proper();
         // A turn does not change the speed, whose square is below the limit.
-        let velocity = Velocity::from_proper(proper).unwrap_or(self.velocity);
+        let velocity = Velocity::from_proper(progress * self.velocity.proper()).unwrap_or(self.velocity);
         let lag = rotation(self.axis, -self.velocity.gamma_minus_one() * gamma * self.rate * own_time);
         Pose {
-            event,
-            scene_from_axes: Lorentz::boost(velocity) * Lorentz::rotation(lag),
+            event: self.frame.apply(event - self.origin),
+            scene_from_axes: self.frame * Lorentz::boost(velocity) * Lorentz::rotation(lag),
             turn: DQuat::IDENTITY,
         }
     }
 
-    /// Centripetal: γ²ω²ρ towards the axis.
+    /// Centripetal, perpendicular to the velocity: γ²ω²ρ towards the axis. In the carried axes this
+    /// direction turns.
     pub(super) fn acceleration(&self, own_time: f64) -> DVec3 {
-        let pose = self.pose_of_circle(own_time);
-        let from_axis = self.progress(own_time) * self.start;
-        let from_axis = from_axis - from_axis.dot(self.axis) * self.axis;
+        let from_axis = self.start - self.start.dot(self.axis) * self.axis;
         let own_rate = self.velocity.gamma() * self.rate;
-        let in_scene = Event { t: 0.0, x: -own_rate * own_rate * from_axis };
-        let in_axes = pose.scene_from_axes.inverse().apply(in_scene);
-        in_axes.x
+        let turn = rotation(self.axis, self.velocity.gamma() * own_rate * own_time);
+        turn * (-own_rate * own_rate * from_axis)
     }
 }
