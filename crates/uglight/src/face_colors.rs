@@ -69,11 +69,10 @@ impl Appearance {
         if !(self.palette.has_light || self.palette.has_display && self.surface.has_display()) {
             return [!scene.faces.is_empty(), false];
         }
+        let keeps_light = |face: &Face| self.keeps_light() || self.surface.velocity(face.body).is_zero();
         let is_light = |face: &&Face| {
-            let corners = scene.contours.corners(face.contours.clone());
-            let keeps_light = self.keeps_light() || self.surface.velocity(face.body).is_zero();
-            keeps_light
-                && self.mixing(corners.iter().map(|&vertex| self.surface.swatch(vertex))) != Mixing::Hue
+            let corners = scene.contours.corners(face.contours.clone()).iter();
+            self.mixing(corners.map(|&at| self.surface.swatch(at))) != Mixing::Hue && keeps_light(face)
         };
         let n_light = scene.faces.par_iter().filter(is_light).count();
         [n_light < scene.faces.len(), n_light > 0]

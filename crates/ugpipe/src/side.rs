@@ -50,9 +50,7 @@ impl Side {
         let length = UNITS.iter().find_map(|(unit, per_inch)| Some((word.strip_suffix(unit)?, per_inch)));
         let Some((number, per_inch)) = length else {
             let number = word.parse().ok().filter(|&number| number >= 1).map(Self::Whole);
-            return number.ok_or_else(|| {
-                "must be a whole number, 1 or more, or a length in one word, 8.6cm".to_owned()
-            });
+            return number.ok_or_else(|| "must be a whole number, 1 or more, or a length: 6cm".to_owned());
         };
         let inches = number.parse().map(|number: f64| number / per_inch);
         // NaN is outside.
