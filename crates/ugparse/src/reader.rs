@@ -10,10 +10,10 @@ use crate::options::{Limit, Options};
 use crate::request::RequestKind;
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::statement::{FileStatement, PathStatement, References, Statement};
+use crate::statement::{FileStatement, NameKind, PathStatement, Statement};
 use crate::token::{
-    Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
-    mark, skip_statement, syntax_error, wanted, without_mark, word,
+    Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer,
+    line_end, mark, skip_statement, syntax_error, wanted, without_mark, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -77,15 +77,15 @@ pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
 }
 
 struct Reader<'t, 'f> {
-    grammar: Grammar<'t>,
+    text: &'t [u8],
     document: Document<'t>,
     /// The open scopes, from the file inwards.
     open: Vec<usize>,
     options: Options,
     /// A statement has ended on the current line.
     line_has_statement: bool,
-    /// The vertex references of the current statement.
-    references: References,
+    /// The names in the current statement.
+    names: Vec<(NameKind, Span)>,
     findings: &'f mut Vec<Diagnostic>,
     error_count: usize,
 }
@@ -94,19 +94,19 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn new(text: &'t [u8], options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
         let file = Scope::for_text(text.len());
         Self {
-            grammar: Grammar { text },
+            text,
             document: Document { scopes: vec![file], ..Document::default() },
             open: vec![0],
             options: *options,
             line_has_statement: false,
-            references: References::default(),
+            names: Vec::new(),
             findings,
             error_count: 0,
         }
     }
 
     fn run(&mut self) {
-        let mut input: Input<'t> = self.grammar.text;
+        let mut input: Input<'t> = self.text;
         while self.error_count < MAX_ERRORS {
             match self.between(input) {
                 Ok([]) => break,
@@ -140,19 +140,19 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     fn push_comment(&mut self, text: Input<'t>, rest: Input<'t>, trailing: bool) {
-        let end = self.grammar.position(rest) - 1;
+        let end = self.position(rest) - 1;
         let text = Span { start: end - text.len() as u32, end };
         self.document.comments.push(CommentSpan { text, trailing });
     }
 
     /// Parses one statement; returns the rest of the text, or where to continue after an error.
     fn statement(&mut self, input: Input<'t>) -> Input<'t> {
-        let start = self.grammar.position(input);
+        let start = self.position(input);
         let scope = &mut self.document.scopes[self.open[self.open.len() - 1]];
-        if let Some(end) = fast_path::statement(self.grammar.text, start as usize, scope) {
+        if let Some(end) = fast_path::statement(self.text, start as usize, scope) {
             self.document.first_statement.get_or_insert(start);
             self.line_has_statement = true;
-            return &self.grammar.text[end..];
+            return &self.text[end..];
         }
         match self.try_statement(input) {
             Ok(rest) => {
@@ -178,9 +178,9 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
         if input.first() == Some(&b'(') {
             let (rest, text) = escape(input).map_err(syntax_error)?;
-            let end = self.grammar.position(rest) - 1;
+            let end = self.position(rest) - 1;
             let text = Span { start: end - text.len() as u32, end };
-            let (source, span) = (self.grammar.text, self.span(input, rest));
+            let (source, span) = (self.text, self.span(input, rest));
             self.scope_for(span).add_escape(source, span, text);
             return Ok(rest);
         }
@@ -208,17 +208,18 @@ impl<'t, 'f> Reader<'t, 'f> {
         keyword: Input<'t>,
         body: Input<'t>,
     ) -> Result<Input<'t>, SyntaxError<'t>> {
-        let Some(parsed) = self.grammar.statement(keyword, body, &mut self.references) else {
+        let row = self.open[self.open.len() - 1];
+        self.names.clear();
+        let scope = &mut self.document.scopes[row];
+        let mut grammar = Grammar { text: self.text, scope, names: &mut self.names };
+        let Some(parsed) = grammar.statement(keyword, body) else {
             return self.unknown_statement(input, keyword, body);
         };
         let (rest, statement) = parsed.map_err(syntax_error)?;
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         let span = self.span(input, rest);
-        let row = self.open[self.open.len() - 1];
         let request = match &statement {
-            Statement::Texture(texture) => {
-                Some((RequestKind::Image, texture.file, None, texture.texture.image.row))
-            }
+            Statement::Texture(texture, file) => Some((RequestKind::Image, *file, None, texture.image.row)),
             Statement::Motion(motion) => match motion.path {
                 Some(PathStatement::File(file)) => Some((RequestKind::Path, file, Some(motion.name), None)),
                 _ => None,
@@ -229,7 +230,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             self.document.requests.push(RequestStatement { kind, span, file, motion, row });
         }
         self.document.first_statement.get_or_insert(span.start);
-        self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
+        self.document.scopes[row].add(self.text, span, statement);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
@@ -249,7 +250,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             b"#" | b"#line" => &body[line_end(body)..],
             _ => skip_statement(body)?,
         };
-        let start = self.grammar.position(input);
+        let start = self.position(input);
         let span = Span { start, end: start + keyword.len() as u32 };
         let name = shorten(keyword);
         self.findings.push(
@@ -257,7 +258,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                 .label("not known here")
                 .help("remove it if no program downstream reads it"),
         );
-        let (text, span) = (self.grammar.text, self.span(input, rest));
+        let (text, span) = (self.text, self.span(input, rest));
         self.scope_for(span).add_unknown(text, span);
         Ok(rest)
     }
@@ -271,7 +272,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     ) -> Result<Input<'t>, SyntaxError<'t>> {
         let (rest, name) = file_name(body).map_err(syntax_error)?;
         let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
-        let end = self.grammar.position(rest) - quotes as u32;
+        let end = self.position(rest) - quotes as u32;
         let file = Span { start: end - name.len() as u32, end };
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         self.document.requests.push(RequestStatement {
@@ -294,7 +295,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             if rest.is_empty() { None } else { Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1) };
         let behind = behind.strip_prefix(b"\r\n").unwrap_or(behind.get(1..).unwrap_or_default());
         let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
-        Some((behind, LineMark { start: self.grammar.position(behind), line: line as usize, name }))
+        Some((behind, LineMark { start: self.position(behind), line: line as usize, name }))
     }
 
     /// `def ID ;`
@@ -311,7 +312,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         self.open.push(row);
         // The file is open, too. Only the first definition that is nested too deeply is reported.
         if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
-            let start = self.grammar.position(input);
+            let start = self.position(input);
             let span = Span { start, end: start + found(input).len() as u32 };
             self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").limited(
                 &self.options.limits,
@@ -320,12 +321,12 @@ impl<'t, 'f> Reader<'t, 'f> {
             ));
         }
         let (rest, name) = wanted(identifier(body), NAME).map_err(syntax_error)?;
-        let end = self.grammar.position(rest);
+        let end = self.position(rest);
         let name = Span { start: end - name.len() as u32, end };
         let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
         self.document.scopes[row].name = name;
-        self.document.first_statement.get_or_insert(self.grammar.position(input));
-        self.document.scopes[outer].add_definition(self.grammar.text, name, row);
+        self.document.first_statement.get_or_insert(self.position(input));
+        self.document.scopes[outer].add_definition(self.text, name, row);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
@@ -353,8 +354,13 @@ impl<'t, 'f> Reader<'t, 'f> {
         &mut self.document.scopes[row]
     }
 
+    /// Byte position at which `rest` begins.
+    fn position(&self, rest: Input<'_>) -> u32 {
+        (self.text.len() - rest.len()) as u32
+    }
+
     fn span(&self, input: Input<'t>, rest: Input<'t>) -> Span {
-        Span { start: self.grammar.position(input), end: self.grammar.position(rest) }
+        Span { start: self.position(input), end: self.position(rest) }
     }
 
     /// Records the comments between the words of a statement.
@@ -395,7 +401,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         match keyword {
             b"def" => identifier(body).is_ok_and(|(rest, _)| semicolon(rest)),
             b"end" => semicolon(body),
-            _ => match self.grammar.statement(keyword, body, &mut References::default()) {
+            _ => match read_alone(self.text, keyword, body, &mut Vec::new()) {
                 // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
                 Some(Ok((rest, _))) => {
                     let in_contour = matches!(skip_blank(rest), [b'(' | b')', ..]);
@@ -407,7 +413,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     fn report_missing_end(&mut self, statement: Input<'t>, next: &Next<'t>) {
-        let place = self.grammar.position(next.end);
+        let place = self.position(next.end);
         let message = format!("expected {} before the next statement", next.wanted);
         let finding =
             Diagnostic::error(Span { start: place, end: place }, message).label("it is missing here");
@@ -416,7 +422,7 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     fn report_syntax_error(&mut self, syntax_error: &SyntaxError<'t>, statement: Option<Input<'t>>) {
         let at = skip_blank(syntax_error.at);
-        let start = self.grammar.position(at);
+        let start = self.position(at);
         let what = found(at);
         let span = Span { start, end: start + what.len() as u32 };
         let shown = format!("`{}`", shorten(what));
@@ -426,7 +432,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                 let finding = if what.is_empty() {
                     let end =
                         statement.map_or(at, |input| Words { rest: input }.last().map_or(at, |w| w.behind));
-                    let start = self.grammar.position(end);
+                    let start = self.position(end);
                     let message = format!("expected {wanted}, found the end of the file");
                     Diagnostic::error(Span { start, end: start }, message).label("the text ends here")
                 } else {
@@ -454,7 +460,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             }
             Reason::Impossible(words, problem, remedy) => {
                 let behind = Words { rest: at }.take(words).last().map_or(at, |word| word.behind);
-                let span = Span { start, end: self.grammar.position(behind) };
+                let span = Span { start, end: self.position(behind) };
                 Diagnostic::error(span, problem).label("here").help(remedy)
             }
         };
@@ -476,7 +482,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             return self.report_missing_end(statement, &next);
         }
         let name = self.document.scopes[row].name;
-        let shown = shorten(name.of(self.grammar.text));
+        let shown = shorten(name.of(self.text));
         self.report(
             Diagnostic::error(name, format!("definition `{shown}` is not closed"))
                 .label("begins here")
@@ -486,11 +492,11 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     /// A statement without `;` may have parsed the `end` on the next line as the name of a colour.
     fn swallowed_end(&self, row: usize) -> Option<(Input<'t>, Next<'t>)> {
-        self.document.scopes[row].statements(self.grammar.text).into_iter().find_map(|span| {
-            let statement = &self.grammar.text[span.start as usize..];
+        self.document.scopes[row].statements(self.text).into_iter().find_map(|span| {
+            let statement = &self.text[span.start as usize..];
             let mut words = Words { rest: statement };
             let mut end = words.next()?.behind;
-            for word in words.take_while(|word| self.grammar.position(word.at) < span.end) {
+            for word in words.take_while(|word| self.position(word.at) < span.end) {
                 if word.begins_line && word.at.starts_with(b"end") && self.reads_as_statement(word.at) {
                     return Some((statement, Next { at: word.at, end, wanted: "`;`" }));
                 }
@@ -499,6 +505,25 @@ impl<'t, 'f> Reader<'t, 'f> {
             None
         })
     }
+}
+
+/// Parses a statement without adding it to a scope.
+fn read_alone<'t>(
+    text: &'t [u8],
+    keyword: Input<'t>,
+    body: Input<'t>,
+    names: &mut Vec<(NameKind, Span)>,
+) -> Option<Parsed<'t, Statement>> {
+    Grammar { text, scope: &mut Scope::default(), names }.statement(keyword, body)
+}
+
+/// The names in the statement at `span`, which has no syntax errors, in the order of the text.
+pub(crate) fn names_in(text: &[u8], span: Span) -> Vec<(NameKind, Span)> {
+    let mut names = Vec::new();
+    if let Ok((body, keyword)) = word(&text[span.start as usize..]) {
+        drop(read_alone(text, keyword, body, &mut names));
+    }
+    names
 }
 
 /// Skips white space and comments, except an unclosed comment.

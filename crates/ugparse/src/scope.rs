@@ -10,20 +10,15 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
-    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, LightKind,
-    LightMotion, Mix, NameId, Names, RoundShape, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture,
-    TextureImage, Tint, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, Mix, NameId,
+    Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Tint, Vertex, VertexId, Wire,
 };
 
 use crate::named::Named;
 use crate::numbered::{Name, NumberedNames};
 use crate::rows::Rows;
 use crate::source::Span;
-use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
-    MotionReference, MotionStatement, References, ShadingStatement, SkyStatement, Statement,
-    SurfaceStatement, TableStatement, TextureStatement, VertexStatement,
-};
+use crate::statement::{Call, MotionReference, MotionStatement, SkyStatement, Statement};
 use crate::token::{skip_statement, statement_start};
 
 /// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a
@@ -87,15 +82,6 @@ pub(crate) struct Scope<'t> {
     pub n_statements: u64,
 }
 
-/// An instance or array.
-pub(crate) struct Call {
-    pub statement: CallStatement,
-    /// Its colour, as the number of the colour's name.
-    pub color: Option<ColorId>,
-    /// The numbers of rows before it.
-    pub before: Counts,
-}
-
 /// Numbers of rows in the tables that are expanded in the order of the text.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
@@ -149,30 +135,39 @@ impl<'t> Scope<'t> {
         }
     }
 
-    /// Adds the statement at `span`; its contours are in `references`.
-    pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement, references: &References) {
-        if let Statement::Call(statement) = statement {
-            return self.add_call(text, span, statement);
-        }
-        self.n_statements += 1;
+    /// Adds the statement at `span`.
+    pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement) {
+        self.n_statements += u64::from(!matches!(statement, Statement::Call(_)));
         match statement {
-            Statement::Vertex(vertex) => self.add_vertex(text, &vertex),
-            Statement::Face(face) => self.add_face(text, span, &face, references),
-            Statement::Wire(wire) => self.add_wire(text, span, &wire, references),
-            Statement::Color(color) => self.add_color(text, span, &color),
-            Statement::Mix(mix) => self.add_mix(text, span, &mix),
-            Statement::Table(table) => self.add_color_table(text, span, &table),
-            Statement::Texture(texture) => self.add_texture(text, span, texture),
-            Statement::Emission(names) => {
-                let color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
-                self.emissions.push(names.map(color), span);
+            Statement::Vertex(name, vertex) => self.push_vertex(Name::new(name.of(text)), name, vertex),
+            Statement::Face(face) => self.faces.push(face, span),
+            Statement::Wire(wire) => self.wires.push(wire, span),
+            Statement::Color(name, color) => self.add_color(text, span, name, color),
+            Statement::Mix(mix) => self.mixes.push(mix, span),
+            Statement::Table(name, table) => {
+                let tint = Tint::Hue(0.0);
+                let value = ColorValue::Hsv { value: 1.0, tint, saturation: 0.0, factor: 1.0 };
+                let color = Color { name: NameId::from_index(0), value, translucency: 0.0 };
+                self.add_color(text, span, Some(name), color);
+                self.color_tables.push(table, span);
             }
-            Statement::Surface(surface) => self.add_surface(text, span, &surface),
-            Statement::Light(light) => self.add_light(text, span, &light),
-            Statement::Camera(camera) => self.add_camera(text, span, camera),
-            Statement::Motion(motion) => self.add_motion(text, span, *motion),
+            Statement::Texture(texture, _) => self.textures.push(texture, span),
+            Statement::Emission(colors) => self.emissions.push(colors, span),
+            Statement::Surface(name, surface) => {
+                let before = self.surfaces.push(text, Some(name), surface, span);
+                self.note_duplicate("surface", Some(name), before);
+            }
+            Statement::Light(light) => self.lights.push(light, span),
+            Statement::Camera(camera) => self.cameras.push(camera, span),
+            Statement::Motion(motion) => {
+                // Also those that nothing moves with are in the scene. Carriers follow when all
+                // statements are read, so that what is written, with motions first, is read in the
+                // same order.
+                self.bodies.named(text, motion.name);
+                self.motions.push(*motion, span);
+            }
             Statement::Sky(sky) => self.skies.push(sky, span),
-            Statement::Call(_) => {}
+            Statement::Call(call) => self.calls.push(call, span),
         }
     }
 
@@ -194,13 +189,6 @@ impl<'t> Scope<'t> {
         }
     }
 
-    fn add_vertex(&mut self, text: &'t [u8], vertex: &VertexStatement) {
-        let color = self.color(text, vertex.color);
-        let &VertexStatement { name, position, normal, uv, .. } = vertex;
-        let row = Vertex { normal, uv, ..Vertex::at(position, color) };
-        self.push_vertex(Name::new(name.of(text)), name, row);
-    }
-
     /// Adds a vertex. `name`, not that of `vertex`, is its name.
     pub fn push_vertex(&mut self, name: Name<'t>, span: Span, vertex: Vertex) {
         let row = self.vertices.len() as u32;
@@ -217,36 +205,9 @@ impl<'t> Scope<'t> {
         self.vertices.push(Vertex { name, ..vertex }, span);
     }
 
-    fn add_face(&mut self, text: &'t [u8], span: Span, face: &FaceStatement, references: &References) {
-        let contours = match &face.round {
-            Some(round) => self.push_round(text, span, face.name, round),
-            None => self.push_contours(text, references),
-        };
-        let face = Face {
-            name: self.name(text, face.name),
-            contours,
-            color: self.color(text, face.color),
-            shading: face.shading.map(|shading| self.add_shading(text, shading)),
-            body: self.bodies.of_stated(text, face.motion),
-            shape: face.shape,
-        };
-        self.faces.push(face, span);
-    }
-
     /// Adds the vertices of a round face that is given by numbers, and its contours. Vertices are
-    /// named after the face and cannot be referred to.
-    fn push_round(
-        &mut self,
-        text: &'t [u8],
-        span: Span,
-        name: Option<Span>,
-        round: &RoundShape,
-    ) -> std::ops::Range<u32> {
-        let keyword = round.shape.keyword();
-        let behind_keyword = span.start + keyword.len() as u32;
-        // As of the name of a vertex, the statement is that around it.
-        let place = name.unwrap_or(Span { start: behind_keyword, end: behind_keyword });
-        let word = name.map_or(keyword, |name| as_str(name.of(text)));
+    /// named after the face, by `word`, and cannot be referred to. `place`: that of their names.
+    pub fn push_round(&mut self, word: &str, place: Span, round: &RoundShape) -> std::ops::Range<u32> {
         let mut corners = round.corners().into_iter().zip(1..);
         let first = self.contours.row_count();
         for &len in round.shape.corners_of_contours() {
@@ -263,13 +224,7 @@ impl<'t> Scope<'t> {
         first..self.contours.row_count()
     }
 
-    fn add_shading(&mut self, text: &'t [u8], shading: ShadingStatement) -> ShadingId {
-        let shading = match shading {
-            ShadingStatement::Level(level) => Shading::Level(level),
-            ShadingStatement::Surface(name) => {
-                Shading::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
-            }
-        };
+    pub fn add_shading(&mut self, shading: Shading) -> ShadingId {
         // Consecutive faces often share one. -0 and 0 are equal, but written differently.
         let is_same = match (self.shadings.last(), shading) {
             (Some(Shading::Level(last)), Shading::Level(level)) => last.to_bits() == level.to_bits(),
@@ -281,124 +236,29 @@ impl<'t> Scope<'t> {
         ShadingId::from_index(self.shadings.len() - 1)
     }
 
-    fn add_wire(&mut self, text: &'t [u8], span: Span, wire: &FaceStatement, references: &References) {
-        let contours = self.push_contours(text, references);
-        let wire = Wire {
-            name: self.name(text, wire.name),
-            contours,
-            color: self.color(text, wire.color),
-            body: self.bodies.of_stated(text, wire.motion),
-            text: wire.text.map(|span| self.add_name(span.of(text))),
-        };
-        self.wires.push(wire, span);
+    /// Adds the samples of a colour.
+    pub fn add_spectrum(&mut self, reflects: bool, samples: &[[f64; 2]]) -> ColorValue {
+        let start = self.samples.len() as u32;
+        self.samples.extend_from_slice(samples);
+        ColorValue::Spectrum { reflects, start, end: self.samples.len() as u32 }
     }
 
-    fn push_contours(&mut self, text: &'t [u8], references: &References) -> std::ops::Range<u32> {
-        let Self { contours, vertex_names, .. } = self;
-        contours.push_all(references.contours().map(|names| {
-            let names = references.names[names].iter();
-            names.map(|name| VertexId(vertex_names.enter(Name::new(name.of(text))))).collect::<Vec<_>>()
-        }))
-    }
-
-    fn add_color(&mut self, text: &'t [u8], span: Span, color: &ColorStatement) {
-        if color.name.is_none() {
+    fn add_color(&mut self, text: &'t [u8], span: Span, name: Option<Span>, color: Color) {
+        if name.is_none() {
             self.defaults.push(DefaultColor {
                 color: self.colors.table.len() as u32,
                 first_face: self.faces.len(),
                 first_wire: self.wires.len(),
             });
         }
-        // The name is set when the colours of all scopes are joined.
-        let name = NameId::from_index(0);
-        let value = shifted(color.value, self.samples.len());
-        self.samples.extend_from_slice(&color.samples);
-        let row = Color { name, value, translucency: color.translucency };
-        let before = self.colors.push(text, color.name, row, span);
-        self.note_duplicate("colour", color.name, before);
-    }
-
-    fn add_mix(&mut self, text: &'t [u8], span: Span, mix: &MixStatement) {
-        let color = self.color_id(text, mix.color);
-        let parts = mix.parts.iter().map(|&(name, share)| (self.color_id(text, name), share)).collect();
-        let row = Mix { color, parts };
-        self.mixes.push(row, span);
-    }
-
-    /// The bytes of the picture are set when the colours of all scopes are joined.
-    fn add_texture(
-        &mut self,
-        text: &'t [u8],
-        span: Span,
-        TextureStatement { color, file, texture }: TextureStatement,
-    ) {
-        let color = self.color_id(text, color);
-        let image = TextureImage { file: Some(lossy(text, file.name)), ..texture.image };
-        self.textures.push(Texture { color, image, ..texture }, span);
-    }
-
-    /// Adds the colour as well; its own value is set when the colours of all scopes are joined.
-    fn add_color_table(&mut self, text: &'t [u8], span: Span, table: &TableStatement) {
-        let tint = Tint::Hue(0.0);
-        let value = ColorValue::Hsv { value: 1.0, tint, saturation: 0.0, factor: 1.0 };
-        let row = Color { name: NameId::from_index(0), value, translucency: 0.0 };
-        let before = self.colors.push(text, Some(table.color), row, span);
-        self.note_duplicate("colour", Some(table.color), before);
-        let row = ColorTable {
-            color: self.color_id(text, table.color),
-            rows: table.rows.iter().map(|&(time, name)| (time, self.color_id(text, name))).collect(),
-            is_stepped: table.is_stepped,
-            period: table.period,
-            shift: table.shift,
-        };
-        self.color_tables.push(row, span);
-    }
-
-    fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {
-        // The name is set when the surfaces of all scopes are joined.
-        let row = SurfaceProperties { name: NameId::from_index(0), ..surface.surface };
-        let before = self.surfaces.push(text, Some(surface.name), row, span);
-        self.note_duplicate("surface", Some(surface.name), before);
+        let before = self.colors.push(text, name, color, span);
+        self.note_duplicate("colour", name, before);
     }
 
     fn note_duplicate(&mut self, kind: &'static str, again: Option<Span>, first: Option<Span>) {
         if let (Some(again), Some(first)) = (again, first) {
             self.duplicates.push(Duplicate { kind, again, first });
         }
-    }
-
-    fn add_light(&mut self, text: &'t [u8], span: Span, light: &LightStatement) {
-        let light = Light {
-            name: self.name(text, light.name),
-            intensity: light.intensity,
-            kind: light.kind,
-            color: self.color(text, light.color),
-            motion: light.motion.map_or(LightMotion::WithWhatItLights, |motion| {
-                // A lamp with a velocity of its own is at its position at time 0.
-                let at =
-                    if let LightKind::Local { position, .. } = light.kind { position } else { DVec3::ZERO };
-                LightMotion::Body(self.bodies.of_reference(text, motion, at))
-            }),
-        };
-        self.lights.push(light, span);
-    }
-
-    fn add_camera(&mut self, text: &'t [u8], span: Span, statement: CameraStatement) {
-        let name = self.name(text, statement.name);
-        let carrier = statement.carrier.map(|name| self.bodies.named(text, name));
-        self.cameras.push(Camera { name, carrier, ..statement.camera }, span);
-    }
-
-    fn add_motion(&mut self, text: &'t [u8], span: Span, motion: MotionStatement) {
-        // Also those that nothing moves with are in the scene. Carriers follow when all statements
-        // are read, so that what is written, with motions first, is read in the same order.
-        self.bodies.named(text, motion.name);
-        self.motions.push(motion, span);
-    }
-
-    fn add_call(&mut self, text: &'t [u8], span: Span, statement: CallStatement) {
-        let color = self.color(text, statement.color);
-        self.calls.push(Call { statement, color, before: self.counts() }, span);
     }
 
     /// Numbers of rows in the tables that are expanded in the order of the text.
@@ -428,18 +288,6 @@ impl<'t> Scope<'t> {
     /// Adds a name to this scope's table.
     pub fn add_name(&mut self, name: &[u8]) -> NameId {
         self.names.add(as_str(name))
-    }
-
-    fn name(&mut self, text: &[u8], name: Option<Span>) -> Option<NameId> {
-        name.map(|name| self.add_name(name.of(text)))
-    }
-
-    fn color(&mut self, text: &'t [u8], name: Option<Span>) -> Option<ColorId> {
-        name.map(|name| self.color_id(text, name))
-    }
-
-    fn color_id(&mut self, text: &'t [u8], name: Span) -> ColorId {
-        ColorId::from_index(self.colors.names.enter(name.of(text)))
     }
 
     /// Can this name be the path of a vertex of an instance?
@@ -527,7 +375,7 @@ pub(crate) fn as_str(name: &[u8]) -> &str {
     std::str::from_utf8(name).unwrap_or_default()
 }
 
-fn lossy(text: &[u8], span: Span) -> String {
+pub(crate) fn lossy(text: &[u8], span: Span) -> String {
     String::from_utf8_lossy(span.of(text)).into_owned()
 }
 

@@ -196,5 +196,5 @@ fn label_count(scope: &Scope<'_>) -> usize {
 
 fn array_count(scope: &Scope<'_>) -> usize {
     let is_array = |repeat: &Repeat| matches!(repeat, Repeat::Times(..));
-    scope.calls.rows.iter().filter(|call| is_array(&call.statement.repeat)).count()
+    scope.calls.rows.iter().filter(|call| is_array(&call.repeat)).count()
 }

@@ -26,9 +26,9 @@ use ugscene::{ColorId, Item, Scene, Vertex, VertexId};
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
 use crate::resolve::{Link, Links};
-use crate::scope::{BodyTable, Call, Counts, Scope};
+use crate::scope::{BodyTable, Counts, Scope};
 use crate::source::Span;
-use crate::statement::{MotionReference, Repeat, StatedFrame};
+use crate::statement::{Call, MotionReference, Repeat, StatedFrame};
 
 /// The spans of the text from which the rows of a flat scene originate.
 #[derive(Clone, Debug, Default)]
@@ -263,7 +263,6 @@ impl<'t> Expander<'_, 't> {
         place: fn(&mut Self, usize, &Inherited),
     ) {
         let (Some(target), label) = (link.target, &link.label) else { return };
-        let Call { statement: call, color, .. } = call;
         let transform = call.inner.then(&inherited.transform);
         let body = match call.motion {
             None => inherited.body,
@@ -281,7 +280,7 @@ impl<'t> Expander<'_, 't> {
         let mut inner = Inherited {
             transform,
             prefix: format!("{}{colon}{label}", inherited.prefix),
-            color: color.or(inherited.color),
+            color: call.color.or(inherited.color),
             body,
         };
         match &call.repeat {

@@ -10,9 +10,9 @@ use crate::source::Span;
 use crate::statement::{MotionReference, MotionStatement, PathStatement, StatedFrame, Statement};
 use crate::token::{Input, Parsed, Reason, blank, fail, mark, number, point, require, wanted};
 
-impl Grammar<'_> {
+impl<'t> Grammar<'t, '_> {
     /// `motion ID { -vel -at -acc -spin -orbit -path -on -shift }`
-    pub(super) fn motion<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    pub(super) fn motion(&self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
         let mut motion = MotionStatement { name, ..MotionStatement::default() };
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
@@ -22,13 +22,13 @@ impl Grammar<'_> {
     }
 
     /// Parses the arguments of an option, which begins at `at`; `input` begins after it.
-    fn motion_option<'a>(
+    fn motion_option(
         &self,
         motion: &mut MotionStatement,
-        option: Input<'a>,
-        at: Input<'a>,
-        input: Input<'a>,
-    ) -> Parsed<'a, ()> {
+        option: Input<'t>,
+        at: Input<'t>,
+        input: Input<'t>,
+    ) -> Parsed<'t, ()> {
         let at = blank(at)?.0;
         let is_free = motion.velocity.is_some() || !motion.accelerations.is_empty();
         let (no_orbit, no_path) = (motion.orbit.is_none(), motion.path.is_none());
@@ -75,7 +75,7 @@ impl Grammar<'_> {
     }
 
     /// `FILE`, `(t x y z …)` or `< NAME >`, the path of another motion
-    fn path<'a>(&self, input: Input<'a>) -> Parsed<'a, PathStatement> {
+    fn path(&self, input: Input<'t>) -> Parsed<'t, PathStatement> {
         if let Ok((rest, ())) = mark(b'<', "`<`")(input) {
             let (rest, name) = require(wanted(self.name(rest), "the name of a motion with a path"))?;
             return Ok((require(mark(b'>', "`>`")(rest))?.0, PathStatement::Of(name)));

@@ -5,8 +5,8 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::undefined::{show, undefined_like};
 use super::{Link, enclosing};
 use crate::diagnostic::Diagnostic;
-use crate::scope::{Call, Scope};
-use crate::statement::Repeat;
+use crate::scope::Scope;
+use crate::statement::{Call, Repeat};
 
 /// Resolves the calls of a scope.
 pub(super) fn link_calls(
@@ -17,7 +17,7 @@ pub(super) fn link_calls(
 ) -> Vec<Link> {
     let calls = &scopes[row].calls.rows;
     let labels = labels(text, calls);
-    let links = calls.iter().zip(labels).map(|(Call { statement: call, .. }, label)| {
+    let links = calls.iter().zip(labels).map(|(call, label)| {
         let name = call.definition.of(text);
         let target = enclosing(scopes, row).find_map(|scope| scopes[scope].definitions.get(name));
         if target.is_none() {
@@ -38,7 +38,7 @@ pub(super) fn link_calls(
 /// The unique label of each call in a scope: its name, else its definition's name; empty for an
 /// unnamed array that is the only call, because its element number is enough.
 fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
-    let wanted = |Call { statement: call, .. }: &Call| match call.name {
+    let wanted = |call: &Call| match call.name {
         None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),
         name => show(text, name.unwrap_or(call.definition)),
     };

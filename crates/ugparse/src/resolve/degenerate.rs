@@ -4,11 +4,12 @@ use rayon::prelude::*;
 use ugscene::{Contours, Face, RoundShape, Vertex, VertexId, Wire, newell_normal};
 
 use super::corners::{LEAST_ROWS, is_linked};
-use super::undefined::{read_again, show};
+use super::undefined::show;
 use crate::diagnostic::Diagnostic;
+use crate::reader::names_in;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{References, Statement};
+use crate::statement::NameKind;
 
 /// Removes faces with fewer than three different vertices in a contour, or without area, with a
 /// warning for each.
@@ -88,8 +89,5 @@ pub(crate) fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy
 
 /// The span of the name of the face or wire at `span`.
 pub(crate) fn face_name(text: &[u8], span: Span) -> Option<Span> {
-    match read_again(text, span, &mut References::default()) {
-        Some(Statement::Face(face) | Statement::Wire(face)) => face.name,
-        _ => None,
-    }
+    names_in(text, span).into_iter().find(|(kind, _)| *kind == NameKind::Own).map(|(_, name)| name)
 }

@@ -10,7 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::options::{Limit, Limits};
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{CallStatement, MotionStatement, PathStatement, Repeat};
+use crate::statement::{Call, MotionStatement, PathStatement, Repeat};
 
 /// Memory for an entry of a hash table of names, without their text: the string with the overhead
 /// of its allocation, and the free places of the table.
@@ -67,7 +67,7 @@ impl Sizes<'_, '_> {
                 continue;
             };
             let Some(target) = link.target else { continue };
-            let call = &self.scopes[row].calls.rows[idx].statement;
+            let call = &self.scopes[row].calls.rows[idx];
             if on_path.contains(&target) {
                 return Err(self.recursion(call));
             }
@@ -91,10 +91,10 @@ impl Sizes<'_, '_> {
         for (call, link) in self.scopes[row].calls.rows.iter().zip(&self.links.calls[row]) {
             let Some(target) = link.target else { continue };
             let each = sizes[target].unwrap_or_default();
-            let own = each.placed(copies(&call.statement), link.label.len());
+            let own = each.placed(copies(call), link.label.len());
             if own.statements > largest {
                 largest = own.statements;
-                total.largest_call = Some(call.statement.definition);
+                total.largest_call = Some(call.definition);
             }
             total.add(&own);
         }
@@ -102,7 +102,7 @@ impl Sizes<'_, '_> {
         total
     }
 
-    fn recursion(&self, call: &CallStatement) -> Diagnostic {
+    fn recursion(&self, call: &Call) -> Diagnostic {
         let shown = show(self.text, call.definition);
         Diagnostic::error(call.definition, format!("definition `{shown}` contains itself"))
             .label("placed here, inside itself")
@@ -131,7 +131,7 @@ impl Sizes<'_, '_> {
         })
     }
 
-    fn too_long(&self, call: &CallStatement) -> Diagnostic {
+    fn too_long(&self, call: &Call) -> Diagnostic {
         Diagnostic::error(call.definition, "the chain of nested instances is too long").label("here").limited(
             self.limits,
             Limit::Chain,
@@ -197,7 +197,7 @@ impl Scope<'_> {
     }
 }
 
-fn copies(call: &CallStatement) -> u64 {
+fn copies(call: &Call) -> u64 {
     match call.repeat {
         Repeat::Once => 1,
         Repeat::Times(copies, _) => copies,

@@ -3,11 +3,12 @@
 use ugscene::{ColorId, ColorTable, LightKind, LightMotion, Scene};
 
 use super::named::visible;
-use super::undefined::{read_again, show};
+use super::undefined::show;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
+use crate::reader::names_in;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{References, Statement};
+use crate::statement::NameKind;
 
 /// Moves the tables of a scope to the scene.
 pub(super) fn gather(scope: &mut Scope<'_>, colors: &[Option<usize>], scene: &mut Scene) {
@@ -73,12 +74,11 @@ impl Check<'_> {
         for (mix, &span) in scope.mixes.rows.iter().zip(&scope.mixes.spans) {
             let mut names = std::iter::once(mix.color).chain(mix.parts.iter().map(|part| part.0));
             if let Some(at) = names.position(|name| row(name).is_some_and(|color| self.is_timed(color))) {
-                let mut references = References::default();
-                let Some(Statement::Mix(mix)) = read_again(self.text, span, &mut references) else {
-                    continue;
-                };
-                let name = at.checked_sub(1).map_or(mix.color, |part| mix.parts[part].0);
-                self.refuse(name, "is in a mixture", "mix the colours of its rows");
+                self.refuse(
+                    names_in(self.text, span)[at].1,
+                    "is in a mixture",
+                    "mix the colours of its rows",
+                );
             }
         }
         for (row, vertex) in scope.vertices.rows.iter().enumerate() {
@@ -111,9 +111,8 @@ impl Check<'_> {
         let wrong = |&(_, color): &(f64, ColorId)| self.is_timed(color) || translucency(color) != first;
         let Some(row) = table.rows.iter().position(wrong) else { return };
         let nested = self.is_timed(table.rows[row].1);
-        let mut references = References::default();
-        let Some(Statement::Table(statement)) = read_again(self.text, span, &mut references) else { return };
-        let Some(&(_, name)) = statement.rows.get(row) else { return };
+        // Its own name is the first.
+        let name = names_in(self.text, span)[row + 1].1;
         if nested {
             self.refuse(name, "is in a table of times", "write its rows there");
         } else if self.findings.len() < MAX_ERRORS {
@@ -126,13 +125,8 @@ impl Check<'_> {
 
     /// Reports the colour of the vertex or light in a statement.
     fn refuse_in(&mut self, span: Span, what: &str, help: &str) {
-        let mut references = References::default();
-        let name = match read_again(self.text, span, &mut references) {
-            Some(Statement::Vertex(vertex)) => vertex.color,
-            Some(Statement::Light(light)) => light.color,
-            _ => None,
-        };
-        self.refuse(name.unwrap_or(span), what, help);
+        let color = names_in(self.text, span).into_iter().find(|(kind, _)| *kind == NameKind::Color);
+        self.refuse(color.map_or(span, |(_, name)| name), what, help);
     }
 
     fn refuse(&mut self, name: Span, what: &str, help: &str) {

@@ -2,13 +2,12 @@
 
 use super::enclosing;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
-use crate::grammar::Grammar;
 use crate::named::Named;
+use crate::reader::names_in;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{References, ShadingStatement, Statement};
+use crate::statement::NameKind;
 use crate::suggest::nearest;
-use crate::token::word;
 
 /// Parses the statements of a scope again, and reports every undefined name.
 pub(super) struct UndefinedNames<'g, 't, 'f> {
@@ -20,42 +19,24 @@ pub(super) struct UndefinedNames<'g, 't, 'f> {
 
 impl UndefinedNames<'_, '_, '_> {
     pub(super) fn report_all(&mut self) {
-        let mut references = References::default();
         for span in self.scopes[self.row].statements(self.text) {
-            match read_again(self.text, span, &mut references) {
-                Some(Statement::Vertex(vertex)) => self.check_color(vertex.color),
-                Some(Statement::Light(light)) => self.check_color(light.color),
-                Some(Statement::Mix(mix)) => {
-                    self.check_color(Some(mix.color));
-                    mix.parts.iter().for_each(|&(part, _)| self.check_color(Some(part)));
+            for (kind, name) in names_in(self.text, span) {
+                match kind {
+                    NameKind::Own => {}
+                    NameKind::Color => self.check_color(name),
+                    NameKind::Surface => self.check_surface(name),
+                    NameKind::Vertex => self.check_vertex(name),
                 }
-                Some(Statement::Texture(texture)) => self.check_color(Some(texture.color)),
-                Some(Statement::Emission(names)) => {
-                    names.into_iter().for_each(|name| self.check_color(Some(name)));
-                }
-                Some(Statement::Table(table)) => {
-                    table.rows.iter().for_each(|&(_, color)| self.check_color(Some(color)));
-                }
-                Some(Statement::Call(call)) => self.check_color(call.color),
-                Some(Statement::Face(face) | Statement::Wire(face)) => {
-                    self.check_color(face.color);
-                    if let Some(ShadingStatement::Surface(name)) = face.shading {
-                        self.check_surface(name);
-                    }
-                    references.names.iter().for_each(|&name| self.check_vertex(name));
-                }
-                _ => {}
             }
         }
     }
 
-    fn check_color(&mut self, name: Option<Span>) {
+    fn check_color(&mut self, name: Span) {
         let remedies = [
             "define it with a `c` or `c_rgb` statement",
             "there is a surface of that name; on a face it follows the colour, so add one",
         ];
-        name.into_iter()
-            .for_each(|name| self.check("colour", name, remedies, |scope| &scope.colors, |s| &s.surfaces));
+        self.check("colour", name, remedies, |scope| &scope.colors, |scope| &scope.surfaces);
     }
 
     fn check_surface(&mut self, name: Span) {
@@ -129,13 +110,6 @@ pub(crate) fn undefined_like<'n>(
         Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
         None => undefined(text, kind, name, remedy),
     }
-}
-
-/// Parses the statement at `span` again, which has no syntax errors.
-pub(super) fn read_again(text: &[u8], span: Span, references: &mut References) -> Option<Statement> {
-    let (body, keyword) = word(&text[span.start as usize..]).ok()?;
-    let (_, statement) = Grammar { text }.statement(keyword, body, references)?.ok()?;
-    Some(statement)
 }
 
 pub(super) fn show(text: &[u8], name: Span) -> String {
