@@ -5,15 +5,15 @@ use ugscene::Stage;
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
-use crate::grammar::{Grammar, NAME};
+use crate::grammar::{Grammar, NAME, file};
 use crate::options::{Limit, Options};
 use crate::request::RequestKind;
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
 use crate::statement::{FileStatement, NameKind, PathStatement, Statement};
 use crate::token::{
-    Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer,
-    line_end, mark, skip_statement, syntax_error, wanted, without_mark, word,
+    FILE_NAME, Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier,
+    integer, line_end, mark, skip_statement, wanted, without_mark, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -128,7 +128,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                     input = &input[1..];
                 }
                 Some(b'{') => {
-                    let (rest, text) = comment(input).map_err(syntax_error)?;
+                    let (rest, text) = comment(input)?;
                     self.push_comment(text, rest, self.line_has_statement);
                     input = rest;
                 }
@@ -177,7 +177,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             return Ok(rest);
         }
         if input.first() == Some(&b'(') {
-            let (rest, text) = escape(input).map_err(syntax_error)?;
+            let (rest, text) = escape(input)?;
             let end = self.position(rest) - 1;
             let text = Span { start: end - text.len() as u32, end };
             let (source, span) = (self.text, self.span(input, rest));
@@ -215,8 +215,8 @@ impl<'t, 'f> Reader<'t, 'f> {
         let Some(parsed) = grammar.statement(keyword, body) else {
             return self.unknown_statement(input, keyword, body);
         };
-        let (rest, statement) = parsed.map_err(syntax_error)?;
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
+        let (rest, statement) = parsed?;
+        let (rest, ()) = mark(b';', "`;`")(rest)?;
         let span = self.span(input, rest);
         let request = match &statement {
             Statement::Texture(texture, file) => Some((RequestKind::Image, *file, None, texture.image.row)),
@@ -270,18 +270,10 @@ impl<'t, 'f> Reader<'t, 'f> {
         input: Input<'t>,
         body: Input<'t>,
     ) -> Result<Input<'t>, SyntaxError<'t>> {
-        let (rest, name) = file_name(body).map_err(syntax_error)?;
-        let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
-        let end = self.position(rest) - quotes as u32;
-        let file = Span { start: end - name.len() as u32, end };
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
-        self.document.requests.push(RequestStatement {
-            kind,
-            span: self.span(input, rest),
-            file,
-            motion: None,
-            row: None,
-        });
+        let (rest, FileStatement { name: file, .. }) = file(self.text, body, FILE_NAME)?;
+        let (rest, ()) = mark(b';', "`;`")(rest)?;
+        let span = self.span(input, rest);
+        self.document.requests.push(RequestStatement { kind, span, file, motion: None, row: None });
         Ok(rest)
     }
 
@@ -320,10 +312,10 @@ impl<'t, 'f> Reader<'t, 'f> {
                 "use fewer",
             ));
         }
-        let (rest, name) = wanted(identifier(body), NAME).map_err(syntax_error)?;
+        let (rest, name) = wanted(identifier(body), NAME)?;
         let end = self.position(rest);
         let name = Span { start: end - name.len() as u32, end };
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
+        let (rest, ()) = mark(b';', "`;`")(rest)?;
         self.document.scopes[row].name = name;
         self.document.first_statement.get_or_insert(self.position(input));
         self.document.scopes[outer].add_definition(self.text, name, row);
@@ -333,7 +325,7 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     /// `end ;`
     fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
-        let (rest, ()) = mark(b';', "`;`")(body).map_err(syntax_error)?;
+        let (rest, ()) = mark(b';', "`;`")(body)?;
         if self.open.len() == 1 {
             let reason = Reason::Impossible(
                 1,
@@ -454,14 +446,12 @@ impl<'t, 'f> Reader<'t, 'f> {
                     .help(format!("add `{close}`; {kind}s nest, so every one opened inside needs its own"))
             }
             Reason::OutOfRange(remedy) => {
-                Diagnostic::error(span, format!("the number {shown} is out of range"))
-                    .label("here")
-                    .help(remedy)
+                Diagnostic::here(span, format!("the number {shown} is out of range"), remedy)
             }
             Reason::Impossible(words, problem, remedy) => {
                 let behind = Words { rest: at }.take(words).last().map_or(at, |word| word.behind);
                 let span = Span { start, end: self.position(behind) };
-                Diagnostic::error(span, problem).label("here").help(remedy)
+                Diagnostic::here(span, problem, remedy)
             }
         };
         self.report(finding);

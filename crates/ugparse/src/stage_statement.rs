@@ -46,18 +46,13 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
         for (_, span) in statements {
             let keyword = keyword_span(text, span);
             if row > 0 {
-                findings.push(
-                    Diagnostic::error(keyword, "the stage of a scene cannot stand in a definition")
-                        .label("here")
-                        .help("it applies to the whole scene: move it before the first statement"),
-                );
+                let help = "it applies to the whole scene: move it before the first statement";
+                let message = "the stage of a scene cannot stand in a definition";
+                findings.push(Diagnostic::here(keyword, message, help));
             } else if let Some((_, first)) = &document.stage {
-                findings.push(
-                    Diagnostic::error(keyword, "the stage of the scene is stated twice")
-                        .label("again here")
-                        .other(keyword_span(text, *first), "first here")
-                        .help("a scene has one stage: scenes of different stages cannot be joined"),
-                );
+                let places = [keyword, keyword_span(text, *first)];
+                let help = "a scene has one stage: scenes of different stages cannot be joined";
+                findings.push(Diagnostic::again(places, "the stage of the scene is stated twice", help));
             } else {
                 match read(text, span) {
                     Ok(stage) => document.stage = Some((stage, span)),
@@ -245,10 +240,8 @@ impl<'t> Words<'t> {
     /// Refuses a repeated key word.
     fn once(&mut self, word: Word<'t>) -> Result<(), Diagnostic> {
         if let Some(first) = self.known.iter().find(|known| known.text == word.text) {
-            return Err(Diagnostic::error(word.span, format!("`{}` is given twice", word.as_str()))
-                .label("again here")
-                .other(first.span, "first here")
-                .help("remove one of them"));
+            let message = format!("`{}` is given twice", word.as_str());
+            return Err(Diagnostic::again([word.span, first.span], message, "remove one of them"));
         }
         self.known.push(word);
         Ok(())
@@ -289,9 +282,8 @@ impl<'t> Words<'t> {
             None
         };
         Velocity::from_stated(vector, gamma).map_err(|error| {
-            Diagnostic::error(word.span, error.to_string())
-                .label("here")
-                .help("give three numbers whose length is below 1")
+            let help = "give three numbers whose length is below 1";
+            Diagnostic::here(word.span, error.to_string(), help)
         })
     }
 

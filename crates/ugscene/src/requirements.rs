@@ -1,28 +1,36 @@
 //! Checks that a scene is at the stage that a program requires: wrong orders of programs are
 //! refused.
 
-use std::fmt;
-
 use glam::DVec3;
+use thiserror::Error;
 use ugphysics::{Hsv, hue_to_wavelength};
 
 use crate::words::point;
 use crate::{BodyId, ColorScale, ColorStage, ColorValue, HueScale, Scene, Tint};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Error, PartialEq)]
 pub enum StageError {
     /// Rest shapes are required, but positions are as seen.
+    #[error("positions in this scene are as seen already, so its rest shapes are not known")]
     GeometryAsSeen,
     /// Colours at rest are required, but colours are as seen.
+    #[error("colours in this scene are as seen already")]
     ColorsAsSeen,
     /// Colours as seen are required, and the renderer is to shift those of textures.
+    #[error("textures in this scene are shifted where they are drawn, by a ray for each sample")]
     ColorsDeferred,
     /// Positions as seen are required, but bodies move and have their rest shapes.
+    #[error("bodies in this scene move, and their positions are not as seen yet")]
     GeometryAtRest,
     /// Wavelengths are required, but colours as seen are hues.
+    #[error("colours in this scene are as seen, and are not written as wavelengths")]
     NotWavelengths,
     /// Positions are as seen from another eye point.
+    #[error(
+        "positions in this scene are as seen from the eye point {}, and would be wrong from {}",
+        point(*made_for), point(*asked)
+    )]
     OtherEye {
         /// The eye point that positions were computed for.
         made_for: DVec3,
@@ -30,27 +38,6 @@ pub enum StageError {
         asked: DVec3,
     },
 }
-
-impl fmt::Display for StageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::GeometryAsSeen => "positions in this scene are as seen already, so its rest shapes are not known",
-            Self::ColorsAsSeen => "colours in this scene are as seen already",
-            Self::ColorsDeferred => "textures in this scene are shifted where they are drawn, by a ray for each sample",
-            Self::GeometryAtRest => "bodies in this scene move, and their positions are not as seen yet",
-            Self::NotWavelengths => "colours in this scene are as seen, and are not written as wavelengths",
-            Self::OtherEye { made_for, asked } => {
-                let [seen, asked] = [made_for, asked].map(|eye| point(*eye));
-                return write!(
-                    f,
-                    "positions in this scene are as seen from the eye point {seen}, and would be wrong from {asked}"
-                );
-            }
-        })
-    }
-}
-
-impl std::error::Error for StageError {}
 
 /// True if a face or wire moves.
 pub fn has_moving_bodies(scene: &Scene) -> bool {

@@ -3,6 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
+use thiserror::Error;
 
 use crate::{
     Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
@@ -26,16 +27,9 @@ const MOST_POLYGONS: usize = 1_000_000;
 const LEAST_SEGMENTS: usize = 8;
 
 /// The round faces of a scene would become more than a million polygons: so many.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("the round faces of the scene would become {0} polygons, of {MOST_POLYGONS} at most")]
 pub struct TooManyPolygons(pub usize);
-
-impl std::fmt::Display for TooManyPolygons {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the round faces of the scene would become {} polygons, of {MOST_POLYGONS} at most", self.0)
-    }
-}
-
-impl std::error::Error for TooManyPolygons {}
 
 /// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
 /// returns the row of the first polygon of each face, and the number of all faces. In a scene as

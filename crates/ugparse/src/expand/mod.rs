@@ -92,8 +92,10 @@ fn expand_here<'t>(
         links,
         scene,
         origins: Origins::default(),
+        wires: Vec::new(),
+        escapes: Vec::new(),
+        unknown: Vec::new(),
         emitted: has_comments.then(Vec::new),
-        expanded_before: vec![false; document.scopes.len()],
         next_vertex: 0,
         path_rows: FxHashMap::default(),
         has_linked_paths: false,
@@ -132,10 +134,13 @@ struct Expander<'d, 't> {
     links: &'d Links,
     scene: Scene,
     origins: Origins,
-    /// The span of each statement and the first row made from it, if there are comments to attach.
+    /// The statements of each wire, escape and unknown statement.
+    wires: Vec<Span>,
+    escapes: Vec<Span>,
+    unknown: Vec<Span>,
+    /// If there are comments to attach, the statements that are not in these lists and `origins`, and
+    /// their rows.
     emitted: Option<Vec<(Span, Item)>>,
-    /// For each scope, whether its vertices have been expanded before.
-    expanded_before: Vec<bool>,
     /// The first vertex of the next scope, after all vertices have been expanded.
     next_vertex: usize,
     /// Expanded vertices by path, if the scene uses paths.
@@ -158,11 +163,6 @@ struct Expander<'d, 't> {
 impl<'t> Expander<'_, 't> {
     /// Moves the file's tables into the scene, and expands its calls between their rows.
     fn file(&mut self, mut file: Scope<'t>) {
-        if self.emitted.is_some() {
-            let names = file.vertices.spans.iter();
-            let spans: Vec<Span> = names.map(|&name| Scope::vertex_statement(self.text, name)).collect();
-            self.note(&spans, 0, Item::Vertex);
-        }
         self.scene.vertices = std::mem::take(&mut file.vertices.rows);
         self.origins.vertices = std::mem::take(&mut file.vertices.spans);
         // Faces may use later vertices, also those of instances, so vertices are expanded first.
@@ -195,17 +195,12 @@ impl<'t> Expander<'_, 't> {
     /// Copies the vertices of a definition and of its instances.
     fn vertices(&mut self, row: usize, inherited: &Inherited) {
         let scope = &self.scopes[row];
-        let first_time = !std::mem::replace(&mut self.expanded_before[row], true);
         for (vertex, &span) in scope.vertices.rows.iter().zip(&scope.vertices.spans) {
             let position = inherited.transform.point(vertex.position);
             let normal = vertex.normal.map(|normal| inherited.transform.normal(normal));
             self.check_finite(span, position);
             normal.into_iter().for_each(|normal| self.check_length(span, normal));
             let name = self.name(scope, vertex.name, inherited);
-            if first_time && self.emitted.is_some() {
-                let row = self.scene.vertices.len();
-                self.note(&[Scope::vertex_statement(self.text, span)], row, Item::Vertex);
-            }
             self.scene.vertices.push(Vertex { name, position, normal, ..*vertex });
             self.origins.vertices.push(span);
         }

@@ -46,10 +46,9 @@ impl Expander<'_, '_> {
             let body = self.bodies.named(self.text, motion.name);
             if let Some(first) = motions.rows.insert(body, row) {
                 let shown = String::from_utf8_lossy(motion.name.of(self.text)).into_owned();
-                let error = Diagnostic::error(motion.name, format!("motion `{shown}` is defined twice"));
-                let first = statements.rows[first].name;
-                let error = error.label("again here").other(first, "first here");
-                findings.push(error.help("give one of them another name: each is a body of its own"));
+                let places = [motion.name, statements.rows[first].name];
+                let help = "give one of them another name: each is a body of its own";
+                findings.push(Diagnostic::again(places, format!("motion `{shown}` is defined twice"), help));
             }
         }
         let names = self.bodies.names();
@@ -120,9 +119,9 @@ impl Expander<'_, '_> {
     fn inner_motions(&self) -> Vec<Diagnostic> {
         let inner = self.scopes.iter().flat_map(|scope| scope.motions.spans.first()).next();
         let error = |&span: &Span| {
-            Diagnostic::error(span, "a motion is inside a definition")
-                .label("here")
-                .help("state it outside: it is one body of the scene, however often the definition is placed")
+            let help =
+                "state it outside: it is one body of the scene, however often the definition is placed";
+            Diagnostic::here(span, "a motion is inside a definition", help)
         };
         inner.map(error).into_iter().collect()
     }

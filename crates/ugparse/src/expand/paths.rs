@@ -1,9 +1,9 @@
 //! Resolves vertices of instances by their paths.
 
-use ugscene::{Face, VertexId};
+use ugscene::VertexId;
 
 use super::Expander;
-use crate::resolve::{degeneracy, is_short, omitted, short_wire, undefined};
+use crate::resolve::{remove_degenerate, undefined};
 use crate::scope::{Scope, as_str};
 use crate::source::Span;
 
@@ -43,22 +43,7 @@ impl Expander<'_, '_> {
         if !self.has_linked_paths || !self.undefined.is_empty() {
             return;
         }
-        let problem = |face: &Face| degeneracy(&file.contours, &self.scene.vertices, face);
-        let faces = file.faces.rows.iter().enumerate();
-        let flat: Vec<_> = faces.filter_map(|(row, face)| Some((row, problem(face)?))).collect();
-        for &(row, problem) in &flat {
-            let span = file.faces.spans[row];
-            let warning = omitted(self.text, span, "face", problem, "remove it, or correct its vertices");
-            self.degenerate.insert(span.start, warning);
-        }
-        file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());
-        let wires = file.wires.rows.iter().enumerate();
-        let short: Vec<usize> =
-            wires.filter(|(_, wire)| is_short(&file.contours, wire)).map(|(row, _)| row).collect();
-        for &row in &short {
-            let span = file.wires.spans[row];
-            self.degenerate.insert(span.start, short_wire(self.text, span));
-        }
-        file.remove_wires(&short);
+        let found = remove_degenerate(self.text, file, &self.scene.vertices, true);
+        self.degenerate.extend(found.into_iter().map(|warning| (warning.span.start, warning)));
     }
 }

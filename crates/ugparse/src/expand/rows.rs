@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use glam::DVec3;
 use ugscene::{
-    Beam, Camera, Face, FaceShape, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId,
-    Wire, newell_normal,
+    Beam, Camera, Face, FaceShape, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId, Wire,
+    newell_normal,
 };
 
 use super::Expander;
@@ -34,16 +34,10 @@ impl Expander<'_, '_> {
         }
         if placement.first_time {
             let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
-            self.note(&scope.escapes.spans[escapes.clone()], self.scene.remarks.escapes.len(), Item::Escape);
+            self.escapes.extend_from_slice(&scope.escapes.spans[escapes.clone()]);
             self.scene.remarks.escapes.extend_from_slice(&scope.escapes.rows[escapes]);
-            self.note(&scope.unknown.spans[unknown.clone()], self.scene.remarks.unknown.len(), Item::Unknown);
+            self.unknown.extend_from_slice(&scope.unknown.spans[unknown.clone()]);
             self.scene.remarks.unknown.extend_from_slice(&scope.unknown.rows[unknown]);
-        }
-    }
-
-    fn note_first(&mut self, placement: &Placement<'_>, span: Span, row: usize, item: fn(u32) -> Item) {
-        if placement.first_time {
-            self.note(&[span], row, item);
         }
     }
 
@@ -53,7 +47,6 @@ impl Expander<'_, '_> {
         if !self.has_area(placement, face, span) {
             return;
         }
-        self.note_first(placement, span, self.scene.faces.len(), Item::Face);
         let placed = Face {
             name: self.optional_name(scope, face.name, inherited),
             contours: self.contours(placement, face.contours.clone(), inherited.transform.mirrored),
@@ -74,7 +67,6 @@ impl Expander<'_, '_> {
             self.degenerate.entry(span.start).or_insert_with(|| short_wire(self.text, span));
             return;
         }
-        self.note_first(placement, span, self.scene.wires.len(), Item::Wire);
         let placed = Wire {
             name: self.optional_name(scope, wire.name, inherited),
             contours: self.contours(placement, wire.contours.clone(), false),
@@ -83,6 +75,7 @@ impl Expander<'_, '_> {
             text: wire.text.map(|text| self.scene.names.add(scope.names.get(text))),
         };
         self.scene.wires.push(placed);
+        self.wires.push(span);
     }
 
     /// Copies contours; mirroring reverses their direction but keeps the first vertex.
@@ -133,7 +126,6 @@ impl Expander<'_, '_> {
     fn light(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (light, span) = (&scope.lights.rows[row], scope.lights.spans[row]);
-        self.note_first(placement, span, self.scene.lights.len(), Item::Light);
         let kind = match light.kind {
             LightKind::Ambient => LightKind::Ambient,
             LightKind::Directional(toward) => {
@@ -174,7 +166,6 @@ impl Expander<'_, '_> {
     fn camera(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (camera, span) = (&scope.cameras.rows[row], scope.cameras.spans[row]);
-        self.note_first(placement, span, self.scene.cameras.len(), Item::Camera);
         let placed = Camera {
             name: self.optional_name(scope, camera.name, inherited),
             center: camera.center.map(|point| inherited.transform.point(point)),
@@ -195,22 +186,15 @@ impl Expander<'_, '_> {
 
     pub(super) fn check_finite(&mut self, span: Span, position: DVec3) {
         if !position.is_finite() {
-            self.error.get_or_insert_with(|| {
-                Diagnostic::error(span, "coordinates overflow when this is placed")
-                    .label("here")
-                    .help("use smaller numbers")
-            });
+            self.fail(span, "coordinates overflow when this is placed", "use smaller numbers");
         }
     }
 
     /// Checks a normal or another direction.
     pub(super) fn check_length(&mut self, span: Span, direction: DVec3) {
         if !direction.is_finite() {
-            self.error.get_or_insert_with(|| {
-                Diagnostic::error(span, "this normal or direction becomes too long when it is placed")
-                    .label("here")
-                    .help("make it shorter; its length has no meaning")
-            });
+            let help = "make it shorter; its length has no meaning";
+            self.fail(span, "this normal or direction becomes too long when it is placed", help);
         }
     }
 
@@ -223,5 +207,9 @@ impl Expander<'_, '_> {
                     .help("place it without a scale of 0")
             });
         }
+    }
+
+    pub(super) fn fail(&mut self, span: Span, message: &str, help: &str) {
+        self.error.get_or_insert_with(|| Diagnostic::here(span, message, help));
     }
 }

@@ -158,15 +158,6 @@ impl<'t> Grammar<'t, '_> {
         Ok((rest, self.scope.bodies.of_stated(self.text, motion)))
     }
 
-    /// A file name, for messages `what`.
-    fn file(&self, input: Input<'t>, what: &'static str) -> Parsed<'t, FileStatement> {
-        let at = blank(input)?.0;
-        let (rest, name) = wanted(file_name(input), what)?;
-        let span = Span { start: self.position(at), end: self.position(rest) };
-        let start = span.start + u32::from(at.starts_with(b"\""));
-        Ok((rest, FileStatement { span, name: Span { start, end: start + name.len() as u32 } }))
-    }
-
     /// `v ID x y z [color] [nx ny nz] [(u v)]`
     fn vertex(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = wanted(self.name(input), NAME)?;
@@ -415,7 +406,7 @@ impl<'t> Grammar<'t, '_> {
 
     /// `sky FILE [-ra x y z]`
     fn sky(&self, input: Input<'t>) -> Parsed<'t, Statement> {
-        let (input, FileStatement { name: file, .. }) = self.file(input, FILE_NAME)?;
+        let (input, FileStatement { name: file, .. }) = file(self.text, input, FILE_NAME)?;
         let (input, turn) = match opt(option_word).parse(input)? {
             (rest, Some(b"ra")) => require(numbers(rest))?,
             (_, Some(_)) => return fail(blank(input)?.0, Reason::Expected("`-ra` or `;`")),
@@ -454,6 +445,16 @@ const SHARE: &str = "use a number from 0 to 1";
 /// The vector in these words has no length.
 const fn zero_vector(words: usize) -> Reason {
     Reason::Impossible(words, "the vector is zero", "give a vector with a direction, such as `0 0 1`")
+}
+
+/// A file name, for messages `what`.
+pub(crate) fn file<'t>(text: &[u8], input: Input<'t>, what: &'static str) -> Parsed<'t, FileStatement> {
+    let position = |rest: Input<'_>| (text.len() - rest.len()) as u32;
+    let at = blank(input)?.0;
+    let (rest, name) = wanted(file_name(input), what)?;
+    let span = Span { start: position(at), end: position(rest) };
+    let start = span.start + u32::from(at.starts_with(b"\""));
+    Ok((rest, FileStatement { span, name: Span { start, end: start + name.len() as u32 } }))
 }
 
 /// A colour, whose name is set when the colours of all scopes are joined.

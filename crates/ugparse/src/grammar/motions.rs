@@ -5,7 +5,7 @@ use nom::Parser;
 use nom::combinator::opt;
 use ugphysics::{Event, Piece, SampledPath};
 
-use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
+use super::{Grammar, NAME, file, numbers, option_word, velocity, zero_vector};
 use crate::source::Span;
 use crate::statement::{MotionReference, MotionStatement, PathStatement, StatedFrame, Statement};
 use crate::token::{Input, Parsed, Reason, blank, fail, mark, number, point, require, wanted};
@@ -81,7 +81,7 @@ impl<'t> Grammar<'t, '_> {
             return Ok((require(mark(b'>', "`>`")(rest))?.0, PathStatement::Of(name)));
         }
         let Ok((list, ())) = mark(b'(', "`(`")(input) else {
-            let (rest, file) = require(self.file(input, "a file name, or `(` and a list of events"))?;
+            let (rest, file) = require(file(self.text, input, "a file name, or `(` and a list of events"))?;
             return Ok((rest, PathStatement::File(file)));
         };
         let (mut input, mut events) = (list, Vec::new());

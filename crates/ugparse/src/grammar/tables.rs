@@ -5,7 +5,7 @@ use nom::combinator::opt;
 
 use ugscene::{AlphaMode, ColorTable, Texture, TextureImage, Wrap};
 
-use super::{Grammar, NAME, number_from, option_word, pairs};
+use super::{Grammar, NAME, file, number_from, option_word, pairs};
 use crate::scope::lossy;
 use crate::statement::Statement;
 use crate::token::{
@@ -52,7 +52,7 @@ impl<'t> Grammar<'t, '_> {
     /// `c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]`
     pub(super) fn texture(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, color) = wanted(self.color_name(input), NAME)?;
-        let (mut input, file) = require(self.file(input, "the file of a picture"))?;
+        let (mut input, file) = require(file(self.text, input, "the file of a picture"))?;
         // The bytes of the picture are set when the colours of all scopes are joined.
         let image = TextureImage { file: Some(lossy(self.text, file.name)), ..TextureImage::default() };
         let mut texture = Texture::new(color, image);

@@ -1,5 +1,7 @@
 //! Removes degenerate faces and wires, which would draw nothing.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use ugscene::{Contours, Face, RoundShape, Vertex, VertexId, Wire, newell_normal};
 
@@ -11,45 +13,36 @@ use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::NameKind;
 
-/// Removes faces with fewer than three different vertices in a contour, or without area, with a
-/// warning for each.
-pub(super) fn remove_degenerate_faces(
+/// Removes faces with fewer than three different vertices in a contour, or without area, and wires
+/// of fewer than two vertices. Returns a warning for each. `vertices`: those of the scope, with
+/// others behind. `has_corners`: every corner is a row of them.
+pub(crate) fn remove_degenerate(
     text: &[u8],
     scope: &mut Scope<'_>,
+    vertices: &[Vertex],
     has_corners: bool,
-    findings: &mut Vec<Diagnostic>,
-) {
-    let is_whole = |face: &Face| has_corners || is_linked(scope.contours.corners(face.contours.clone()));
-    let problem = |face: &Face| degeneracy(&scope.contours, &scope.vertices.rows, face);
-    let faces = &scope.faces.rows;
-    let is_degenerate = |&row: &usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
-    let rows = (0..faces.len()).into_par_iter().with_min_len(LEAST_ROWS);
-    let degenerate: Vec<usize> = rows.filter(is_degenerate).collect();
-    for &row in &degenerate {
-        let problem = problem(&scope.faces.rows[row]).unwrap_or_default();
-        let span = scope.faces.spans[row];
-        findings.push(omitted(text, span, "face", problem, "remove it, or correct its vertices"));
-    }
-    scope.remove_faces(&degenerate);
-}
-
-pub(super) fn remove_short_wires(
-    text: &[u8],
-    scope: &mut Scope<'_>,
-    has_corners: bool,
-    findings: &mut Vec<Diagnostic>,
-) {
-    let wires = &scope.wires.rows;
-    let is_whole = |wire: &Wire| has_corners || is_linked(scope.contours.corners(wire.contours.clone()));
-    let is_short = |&row: &usize| is_whole(&wires[row]) && is_short(&scope.contours, &wires[row]);
-    let rows = (0..wires.len()).into_par_iter().with_min_len(LEAST_ROWS);
-    let short: Vec<usize> = rows.filter(is_short).collect();
-    findings.extend(short.iter().map(|&row| short_wire(text, scope.wires.spans[row])));
+) -> Vec<Diagnostic> {
+    let Scope { faces, wires, contours, .. } = &*scope;
+    let is_whole = |rows: &Range<u32>| has_corners || is_linked(contours.corners(rows.clone()));
+    let problem =
+        |face: &Face| is_whole(&face.contours).then(|| degeneracy(contours, vertices, face)).flatten();
+    let is_short = |wire: &Wire| is_whole(&wire.contours) && is_short(contours, wire);
+    let rows = |n: usize| (0..n).into_par_iter().with_min_len(LEAST_ROWS);
+    let flat: Vec<usize> = rows(faces.len()).filter(|&row| problem(&faces.rows[row]).is_some()).collect();
+    let short: Vec<usize> = rows(wires.len()).filter(|&row| is_short(&wires.rows[row])).collect();
+    let of_face = |&row: &usize| {
+        let problem = problem(&faces.rows[row]).unwrap_or_default();
+        omitted(text, faces.spans[row], "face", problem, "remove it, or correct its vertices")
+    };
+    let of_wire = |&row: &usize| short_wire(text, wires.spans[row]);
+    let found = flat.iter().map(of_face).chain(short.iter().map(of_wire)).collect();
+    scope.remove_faces(&flat);
     scope.remove_wires(&short);
+    found
 }
 
 /// Why a face is degenerate, if it is.
-pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
     if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
     }
@@ -80,7 +73,7 @@ pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
     omitted(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
 }
 
-pub(crate) fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
     let name = face_name(text, span);
     let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });

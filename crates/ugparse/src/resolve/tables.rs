@@ -2,7 +2,6 @@
 
 use ugscene::{ColorId, ColorTable, LightKind, LightMotion, Scene};
 
-use super::named::visible;
 use super::undefined::show;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::reader::names_in;
@@ -10,28 +9,8 @@ use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::NameKind;
 
-/// Moves the tables of a scope to the scene.
-pub(super) fn gather(scope: &mut Scope<'_>, colors: &[Option<usize>], scene: &mut Scene) {
-    let row = |name: ColorId| colors.get(name.index()).copied().flatten().map(ColorId::from_index);
-    for table in &mut scope.color_tables.rows {
-        let mut rows = std::mem::take(&mut table.rows);
-        rows.iter_mut().for_each(|(_, color)| *color = row(*color).unwrap_or(*color));
-        if let Some(color) = row(table.color) {
-            table.color = color;
-            scene.color_tables.push(ColorTable { rows, ..table.clone() });
-        }
-    }
-}
-
 /// Reports colours that change where none may change; gives the others their colour at own time 0.
-///
-/// `firsts`: for each scope the row of its first colour in the scene.
-pub(super) fn check(
-    text: &[u8],
-    (scopes, firsts): (&[Scope<'_>], &[usize]),
-    scene: &mut Scene,
-    findings: &mut Vec<Diagnostic>,
-) {
+pub(super) fn check(text: &[u8], scopes: &[Scope<'_>], scene: &mut Scene, findings: &mut Vec<Diagnostic>) {
     if scene.color_tables.is_empty() {
         return;
     }
@@ -39,9 +18,7 @@ pub(super) fn check(
     let mut is_timed = vec![false; scene.colors.len()];
     scene.color_tables.iter().for_each(|table| is_timed[table.color.index()] = true);
     let mut check = Check { text, scene, is_timed, findings };
-    for (row, scope) in scopes.iter().enumerate() {
-        check.scope(scope, &visible(scopes, row, |scope| &scope.colors, firsts));
-    }
+    scopes.iter().for_each(|scope| check.scope(scope));
     for row in 0..scene.color_tables.len() {
         let table = &scene.color_tables[row];
         let [(now, _), _] = table.at(0.0).parts;
@@ -65,15 +42,13 @@ impl Check<'_> {
         self.is_timed.get(color.index()).copied().unwrap_or_default()
     }
 
-    /// `colors`: of each name the row in the scene.
-    fn scope(&mut self, scope: &Scope<'_>, colors: &[Option<usize>]) {
+    fn scope(&mut self, scope: &Scope<'_>) {
         for (table, &span) in scope.color_tables.rows.iter().zip(&scope.color_tables.spans) {
             self.table(table, span);
         }
-        let row = |name: ColorId| colors.get(name.index()).copied().flatten().map(ColorId::from_index);
         for (mix, &span) in scope.mixes.rows.iter().zip(&scope.mixes.spans) {
             let mut names = std::iter::once(mix.color).chain(mix.parts.iter().map(|part| part.0));
-            if let Some(at) = names.position(|name| row(name).is_some_and(|color| self.is_timed(color))) {
+            if let Some(at) = names.position(|color| self.is_timed(color)) {
                 self.refuse(
                     names_in(self.text, span)[at].1,
                     "is in a mixture",
@@ -103,7 +78,6 @@ impl Check<'_> {
         }
     }
 
-    /// The rows of a table are in `scene`, since those of the scope were moved there.
     fn table(&mut self, table: &ColorTable, span: Span) {
         let Some(table) = self.scene.table_of(table.color) else { return };
         let translucency = |color: ColorId| self.scene.colors[color.index()].translucency;
@@ -118,8 +92,8 @@ impl Check<'_> {
         } else if self.findings.len() < MAX_ERRORS {
             let message =
                 format!("colour `{}` has another translucency than the first row", show(self.text, name));
-            let error = Diagnostic::error(name, message).label("here");
-            self.findings.push(error.help("give all colours of a table the same translucency"));
+            let help = "give all colours of a table the same translucency";
+            self.findings.push(Diagnostic::here(name, message, help));
         }
     }
 
@@ -132,7 +106,7 @@ impl Check<'_> {
     fn refuse(&mut self, name: Span, what: &str, help: &str) {
         if self.findings.len() < MAX_ERRORS {
             let message = format!("colour `{}` changes with time and {what}", show(self.text, name));
-            self.findings.push(Diagnostic::error(name, message).label("here").help(help));
+            self.findings.push(Diagnostic::here(name, message, help));
         }
     }
 }

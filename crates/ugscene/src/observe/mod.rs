@@ -16,10 +16,9 @@ mod shown_effects;
 mod view_ahead;
 mod world_lines;
 
-use std::fmt;
-
 use glam::DVec3;
 use rayon::prelude::*;
+use thiserror::Error;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
 pub use camera_motion::{axes_from_scene, camera_velocity};
@@ -76,27 +75,38 @@ pub enum Anchor {
 }
 
 /// Why the motions of a scene are invalid.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Error)]
 pub enum MotionError {
     /// Positions or colours of the scene are as seen already.
-    Stage(StageError),
+    #[error(transparent)]
+    Stage(#[from] StageError),
     /// [`MotionOptions::velocity`] is invalid.
+    #[error("velocity of the bodies: {0}")]
     Velocity(VelocityError),
     /// [`MotionOptions::camera_velocity`] is invalid.
+    #[error("velocity of the camera: {0}")]
     CameraVelocity(VelocityError),
     /// The velocity of a body relative to the camera rounds to the speed of light.
+    #[error(
+        "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to the \
+         camera",
+        beta.x, beta.y, beta.z
+    )]
     TooFast {
         /// The body's velocity in the frame of the scene.
         beta: DVec3,
     },
     /// The camera is invalid.
-    Camera(CameraError),
+    #[error(transparent)]
+    Camera(#[from] CameraError),
     /// The eye cannot move with the camera's body.
+    #[error("the eye cannot move with the motion of the camera: {error}")]
     Eye {
         /// Why.
         error: WorldLineError,
     },
     /// A body cannot move so.
+    #[error("motion `{name}`: {error}")]
     WorldLine {
         /// The name of the motion.
         name: String,
@@ -104,6 +114,9 @@ pub enum MotionError {
         error: WorldLineError,
     },
     /// Rounding moves a body on a world line by more than [`MOST_ROUNDED`] of its size.
+    #[error(
+        "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of its size"
+    )]
     Rounded {
         /// The name of the motion.
         name: String,
@@ -111,8 +124,10 @@ pub enum MotionError {
         error: f64,
     },
     /// A single effect is asked for, and a body accelerates or turns.
+    #[error("bodies that accelerate or turn are seen with contraction and flight time together")]
     PartialGeometry,
     /// A single effect is asked for, and a colour changes with own time.
+    #[error("colours that change with time are seen with contraction and flight time together")]
     PartialTimes,
 }
 
@@ -128,37 +143,6 @@ pub struct ShownPoint {
     /// The own time of the body at emission, of one on a world line.
     pub own_time: f64,
 }
-
-impl fmt::Display for MotionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Stage(error) => error.fmt(f),
-            Self::Velocity(error) => write!(f, "velocity of the bodies: {error}"),
-            Self::CameraVelocity(error) => write!(f, "velocity of the camera: {error}"),
-            Self::TooFast { beta: DVec3 { x, y, z } } => write!(
-                f,
-                "the body with velocity {x} {y} {z} in the scene moves too close to the speed of light \
-                 relative to the camera"
-            ),
-            Self::Camera(error) => error.fmt(f),
-            Self::Eye { error } => write!(f, "the eye cannot move with the motion of the camera: {error}"),
-            Self::WorldLine { name, error } => write!(f, "motion `{name}`: {error}"),
-            Self::Rounded { name, error } => write!(
-                f,
-                "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of \
-                 its size"
-            ),
-            Self::PartialGeometry => f.write_str(
-                "bodies that accelerate or turn are seen with contraction and flight time together",
-            ),
-            Self::PartialTimes => f.write_str(
-                "colours that change with time are seen with contraction and flight time together",
-            ),
-        }
-    }
-}
-
-impl std::error::Error for MotionError {}
 
 /// Where the bodies of a scene are relative to the camera.
 #[derive(Clone, Debug)]
@@ -196,8 +180,8 @@ impl PlacedBodies {
     ) -> Result<Self, MotionError> {
         let velocity = Velocity::from_beta(options.velocity.unwrap_or(DVec3::ZERO));
         let velocity = velocity.map_err(MotionError::Velocity)?;
-        crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
-        crate::require_colors_at_rest(scene).map_err(MotionError::Stage)?;
+        crate::require_geometry_at_rest(scene)?;
+        crate::require_colors_at_rest(scene)?;
         let overridden = options.velocity.map(|_| camera_frame::set_velocity(scene, velocity));
         let observer = Observer::take(scene, options, camera.eye)?;
         let of_camera = observer.velocity;
@@ -213,8 +197,7 @@ impl PlacedBodies {
             let motion = (!scene.bodies.is_on_world_line(body)).then(|| motions[body.index()].clone());
             motion.into_iter().collect()
         };
-        let default_camera = DefaultCamera::new(scene, camera, size, fitted);
-        let default_camera = default_camera.map_err(MotionError::Camera)?;
+        let default_camera = DefaultCamera::new(scene, camera, size, fitted)?;
         let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
         let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
@@ -231,9 +214,9 @@ impl PlacedBodies {
         let shifts = placement.shifts(&motions, &frames);
         placement::shift_lights(scene, &motions, &shifts);
         clocks::count_from_eye(scene, (&motions, &frames), &placement)?;
-        camera.check_up().map_err(MotionError::Camera)?;
+        camera.check_up()?;
         let center = default_camera.map(|camera| camera.center);
-        set_camera(scene, eye, center, camera, of_camera).map_err(MotionError::Camera)?;
+        set_camera(scene, eye, center, camera, of_camera)?;
         turn_camera(scene, eye, &observer);
         let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } = *options;
         if has_motion || options.geometry != ShownEffects::default() {
@@ -345,15 +328,15 @@ pub fn moving_camera(
     options: &MotionOptions,
     camera: &CameraOptions,
 ) -> Result<Option<(Camera, Velocity)>, MotionError> {
-    crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
+    crate::require_geometry_at_rest(scene)?;
     let Some(row) = scene.camera_row() else { return Ok(None) };
     let middle = crate::camera::middle(scene);
     let (cameras, bodies) = (scene.cameras.clone(), scene.bodies.clone());
     let mut scene = Scene { cameras, bodies, ..Scene::default() };
     let observer = Observer::take(&mut scene, options, camera.eye)?;
     let eye = eye(&scene, camera.eye);
-    camera.check_up().map_err(MotionError::Camera)?;
-    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity).map_err(MotionError::Camera)?;
+    camera.check_up()?;
+    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity)?;
     turn_camera(&mut scene, eye, &observer);
     Ok(Some((scene.cameras.swap_remove(row), observer.velocity)))
 }
