@@ -24,8 +24,8 @@ impl<T> Default for Named<'_, T> {
 }
 
 impl<'t, T> Named<'t, T> {
-    /// Adds the statement at `span`. If its name is already defined, returns the first definition.
-    pub fn push(&mut self, text: &'t [u8], name: Option<Span>, row: T, span: Span) -> Option<Span> {
+    /// Adds the statement at `span`. If its name is already defined, returns it with the first one.
+    pub fn push(&mut self, text: &'t [u8], name: Option<Span>, row: T, span: Span) -> Option<[Span; 2]> {
         let before = name.and_then(|name| {
             let number = self.names.enter(name.of(text));
             if number >= self.rows.len() {
@@ -35,7 +35,7 @@ impl<'t, T> Named<'t, T> {
         });
         self.table.push(row, span);
         self.spans.push(name);
-        before.map(|row| self.spans[row as usize].unwrap_or_default())
+        Some([name?, self.spans[before? as usize]?])
     }
 
     /// The row with this name, if it is defined in this scope.

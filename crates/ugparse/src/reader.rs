@@ -76,6 +76,9 @@ pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
     read(text, &options, &mut Vec::new()).line_marks
 }
 
+/// The text behind a statement.
+type Rest<'t> = Result<Input<'t>, SyntaxError<'t>>;
+
 struct Reader<'t, 'f> {
     text: &'t [u8],
     document: Document<'t>,
@@ -120,7 +123,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     /// Skips white space and records comments up to the next statement.
-    fn between(&mut self, mut input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn between(&mut self, mut input: Input<'t>) -> Rest<'t> {
         loop {
             match input.first() {
                 Some(b'\n' | b'\r') => {
@@ -172,16 +175,13 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    fn try_statement(&mut self, input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn try_statement(&mut self, input: Input<'t>) -> Rest<'t> {
         if let Some(rest) = input.strip_prefix(b";") {
             return Ok(rest);
         }
         if input.first() == Some(&b'(') {
-            let (rest, text) = escape(input)?;
-            let end = self.position(rest) - 1;
-            let text = Span { start: end - text.len() as u32, end };
-            let (source, span) = (self.text, self.span(input, rest));
-            self.scope_for(span).add_escape(source, span, text);
+            let rest = escape(input)?.0;
+            self.pass_on(input, rest);
             return Ok(rest);
         }
         let (body, keyword) =
@@ -202,12 +202,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    fn plain_statement(
-        &mut self,
-        input: Input<'t>,
-        keyword: Input<'t>,
-        body: Input<'t>,
-    ) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn plain_statement(&mut self, input: Input<'t>, keyword: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let row = self.open[self.open.len() - 1];
         self.names.clear();
         let scope = &mut self.document.scopes[row];
@@ -236,12 +231,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     /// Passes on an unknown statement unchanged, or refuses it.
-    fn unknown_statement(
-        &mut self,
-        input: Input<'t>,
-        keyword: Input<'t>,
-        body: Input<'t>,
-    ) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn unknown_statement(&mut self, input: Input<'t>, keyword: Input<'t>, body: Input<'t>) -> Rest<'t> {
         if !self.options.lax {
             return Err(SyntaxError { at: input, reason: Reason::Expected("a statement") });
         }
@@ -258,18 +248,12 @@ impl<'t, 'f> Reader<'t, 'f> {
                 .label("not known here")
                 .help("remove it if no program downstream reads it"),
         );
-        let (text, span) = (self.text, self.span(input, rest));
-        self.scope_for(span).add_unknown(text, span);
+        self.pass_on(input, rest);
         Ok(rest)
     }
 
     /// `include FILE ;` or `execute FILE ;`
-    fn request(
-        &mut self,
-        kind: RequestKind,
-        input: Input<'t>,
-        body: Input<'t>,
-    ) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn request(&mut self, kind: RequestKind, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let (rest, FileStatement { name: file, .. }) = file(self.text, body, FILE_NAME)?;
         let (rest, ()) = mark(b';', "`;`")(rest)?;
         let span = self.span(input, rest);
@@ -293,7 +277,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     /// `def ID ;`
     ///
     /// Opens a scope even if the line has an error, so that the `end` of the definition matches.
-    fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let row = self.document.scopes.len();
         let outer = self.open[self.open.len() - 1];
         let mut scope = Scope::new(Span::default(), Some(outer));
@@ -324,7 +308,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     /// `end ;`
-    fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let (rest, ()) = mark(b';', "`;`")(body)?;
         if self.open.len() == 1 {
             let reason = Reason::Impossible(
@@ -339,11 +323,11 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// The current scope, for the statement at `span`.
-    fn scope_for(&mut self, span: Span) -> &mut Scope<'t> {
+    /// Passes on an escape or an unknown statement.
+    fn pass_on(&mut self, input: Input<'t>, rest: Input<'t>) {
+        let span = self.span(input, rest);
         self.document.first_statement.get_or_insert(span.start);
-        let row = self.open[self.open.len() - 1];
-        &mut self.document.scopes[row]
+        self.document.scopes[self.open[self.open.len() - 1]].pass_on(self.text, span);
     }
 
     /// Byte position at which `rest` begins.
@@ -372,15 +356,18 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn next_statement(&self, input: Input<'t>, syntax_error: &SyntaxError<'t>) -> Option<Next<'t>> {
         let Reason::Expected(wanted) = syntax_error.reason else { return None };
         let limit = skip_blank(syntax_error.at);
+        let next = self.statement_within(input, |word| word.len() >= limit.len())?;
+        Some(if next.at.len() == limit.len() { Next { wanted, ..next } } else { next })
+    }
+
+    /// Finds a statement that begins on its own line behind the first word of `input`, while words
+    /// are `within`.
+    fn statement_within(&self, input: Input<'t>, within: impl Fn(Input<'t>) -> bool) -> Option<Next<'t>> {
         let mut words = Words { rest: input };
         let mut end = words.next()?.behind;
-        for word in words {
-            if word.at.len() < limit.len() {
-                return None;
-            }
+        for word in words.take_while(|word| within(word.at)) {
             if word.begins_line && self.reads_as_statement(word.at) {
-                let wanted = if word.at.len() == limit.len() { wanted } else { "`;`" };
-                return Some(Next { at: word.at, end, wanted });
+                return Some(Next { at: word.at, end, wanted: "`;`" });
             }
             end = word.behind;
         }
@@ -484,15 +471,9 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn swallowed_end(&self, row: usize) -> Option<(Input<'t>, Next<'t>)> {
         self.document.scopes[row].statements(self.text).into_iter().find_map(|span| {
             let statement = &self.text[span.start as usize..];
-            let mut words = Words { rest: statement };
-            let mut end = words.next()?.behind;
-            for word in words.take_while(|word| self.position(word.at) < span.end) {
-                if word.begins_line && word.at.starts_with(b"end") && self.reads_as_statement(word.at) {
-                    return Some((statement, Next { at: word.at, end, wanted: "`;`" }));
-                }
-                end = word.behind;
-            }
-            None
+            let is_within = |word: Input<'t>| self.position(word) < span.end;
+            let next = self.statement_within(statement, is_within)?;
+            next.at.starts_with(b"end").then_some((statement, next))
         })
     }
 }

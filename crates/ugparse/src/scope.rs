@@ -14,6 +14,7 @@ use ugscene::{
     Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Tint, Vertex, VertexId, Wire,
 };
 
+use crate::diagnostic::Diagnostic;
 use crate::named::Named;
 use crate::numbered::{Name, NumberedNames};
 use crate::rows::Rows;
@@ -57,8 +58,8 @@ pub(crate) struct Scope<'t> {
     pub lights: Rows<Light>,
     pub cameras: Rows<Camera>,
     pub skies: Rows<SkyStatement>,
-    pub escapes: Rows<String>,
-    pub unknown: Rows<String>,
+    /// Escapes and unknown statements.
+    pub passed_on: Rows<String>,
 
     /// Samples of spectra.
     pub samples: Vec<[f64; 2]>,
@@ -76,8 +77,8 @@ pub(crate) struct Scope<'t> {
     pub calls: Rows<Call>,
     /// Definitions in this scope, by name.
     pub definitions: FxHashMap<&'t [u8], (usize, Span)>,
-    /// Names defined twice.
-    pub duplicates: Vec<Duplicate>,
+    /// Errors for names that are defined twice.
+    pub duplicates: Vec<Diagnostic>,
     /// Number of statements other than calls.
     pub n_statements: u64,
 }
@@ -89,8 +90,7 @@ pub(crate) struct Counts {
     pub wires: usize,
     pub lights: usize,
     pub cameras: usize,
-    pub escapes: usize,
-    pub unknown: usize,
+    pub passed_on: usize,
 }
 
 /// A colour without a name.
@@ -107,13 +107,6 @@ pub(crate) struct PathCorner {
     /// Its position among the corners of all contours of the scope.
     pub corner: usize,
     pub name: Span,
-}
-
-/// A name defined twice.
-pub(crate) struct Duplicate {
-    pub kind: &'static str,
-    pub again: Span,
-    pub first: Span,
 }
 
 impl<'t> Scope<'t> {
@@ -154,8 +147,8 @@ impl<'t> Scope<'t> {
             Statement::Texture(texture, _) => self.textures.push(texture, span),
             Statement::Emission(colors) => self.emissions.push(colors, span),
             Statement::Surface(name, surface) => {
-                let before = self.surfaces.push(text, Some(name), surface, span);
-                self.note_duplicate("surface", Some(name), before);
+                let twice = self.surfaces.push(text, Some(name), surface, span);
+                self.note_duplicate("surface", name.of(text), twice);
             }
             Statement::Light(light) => self.lights.push(light, span),
             Statement::Camera(camera) => self.cameras.push(camera, span),
@@ -171,22 +164,17 @@ impl<'t> Scope<'t> {
         }
     }
 
-    pub fn add_escape(&mut self, text: &[u8], span: Span, inner: Span) {
+    /// Adds an escape or an unknown statement.
+    pub fn pass_on(&mut self, text: &[u8], span: Span) {
         self.n_statements += 1;
-        self.escapes.push(lossy(text, inner), span);
-    }
-
-    pub fn add_unknown(&mut self, text: &[u8], span: Span) {
-        self.n_statements += 1;
-        self.unknown.push(lossy(text, span), span);
+        self.passed_on.push(lossy(text, span), span);
     }
 
     /// Adds a definition, which has its own scope.
     pub fn add_definition(&mut self, text: &'t [u8], name: Span, scope: usize) {
         self.n_statements += 1;
-        if let Some((_, first)) = self.definitions.insert(name.of(text), (scope, name)) {
-            self.duplicates.push(Duplicate { kind: "definition", again: name, first });
-        }
+        let before = self.definitions.insert(name.of(text), (scope, name));
+        self.note_duplicate("definition", name.of(text), before.map(|(_, first)| [name, first]));
     }
 
     /// Adds a vertex. `name`, not that of `vertex`, is its name.
@@ -198,8 +186,8 @@ impl<'t> Scope<'t> {
         }
         let before = std::mem::replace(&mut self.vertex_rows[number], row);
         if before != NO_ROW {
-            let first = self.vertices.spans[before as usize];
-            self.duplicates.push(Duplicate { kind: "vertex", again: span, first });
+            let places = [span, self.vertices.spans[before as usize]];
+            self.note_duplicate("vertex", name.text, Some(places));
         }
         let name = self.add_name(name.text);
         self.vertices.push(Vertex { name, ..vertex }, span);
@@ -251,14 +239,16 @@ impl<'t> Scope<'t> {
                 first_wire: self.wires.len(),
             });
         }
-        let before = self.colors.push(text, name, color, span);
-        self.note_duplicate("colour", name, before);
+        let twice = self.colors.push(text, name, color, span);
+        self.note_duplicate("colour", name.unwrap_or_default().of(text), twice);
     }
 
-    fn note_duplicate(&mut self, kind: &'static str, again: Option<Span>, first: Option<Span>) {
-        if let (Some(again), Some(first)) = (again, first) {
-            self.duplicates.push(Duplicate { kind, again, first });
-        }
+    /// `places`: those of the name, if it is defined twice.
+    fn note_duplicate(&mut self, kind: &str, name: &[u8], places: Option<[Span; 2]>) {
+        self.duplicates.extend(places.map(|places| {
+            let message = format!("{kind} `{}` is defined twice", String::from_utf8_lossy(name));
+            Diagnostic::again(places, message, "give one of them another name")
+        }));
     }
 
     /// Numbers of rows in the tables that are expanded in the order of the text.
@@ -268,8 +258,7 @@ impl<'t> Scope<'t> {
             wires: self.wires.len(),
             lights: self.lights.len(),
             cameras: self.cameras.len(),
-            escapes: self.escapes.len(),
-            unknown: self.unknown.len(),
+            passed_on: self.passed_on.len(),
         }
     }
 
@@ -317,8 +306,8 @@ impl<'t> Scope<'t> {
 
     /// Removes the escapes of these rows, in order.
     pub fn remove_escapes(&mut self, rows: &[usize]) {
-        self.escapes.remove(rows);
-        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.escapes, rows));
+        self.passed_on.remove(rows);
+        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.passed_on, rows));
     }
 
     /// The whole statement of a vertex, from the span of its name.
@@ -344,8 +333,7 @@ impl<'t> Scope<'t> {
             &self.emissions.spans,
             &self.surfaces.table.spans,
             &self.calls.spans,
-            &self.escapes.spans,
-            &self.unknown.spans,
+            &self.passed_on.spans,
         ];
         let mut spans: Vec<Span> = vertices.chain(others.into_iter().flatten().copied()).collect();
         spans.sort();

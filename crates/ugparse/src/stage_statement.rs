@@ -30,18 +30,18 @@ const GEOMETRY: &str = "geometry";
 const COLORS: &str = "colors";
 const MIXTURES: &str = "mixtures";
 
-/// Is an escape, given with its parentheses, a stage statement?
+/// Is a text that is passed on a stage statement?
 pub(crate) fn is_stage(escape: &[u8]) -> bool {
-    escape.len() > 2 && first_word(escape, Span { start: 0, end: escape.len() as u32 }) == KEYWORD.as_bytes()
+    escape.starts_with(b"(")
+        && first_word(escape, Span { start: 0, end: escape.len() as u32 }) == KEYWORD.as_bytes()
 }
 
 /// Moves the stage statement of a document from its escapes to [`Document::stage`].
 pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<Diagnostic>) {
     for row in 0..document.scopes.len() {
         let scope = &mut document.scopes[row];
-        let spans = scope.escapes.spans.iter().copied();
-        let is_stage = |(_, span): &(usize, Span)| first_word(text, *span) == KEYWORD.as_bytes();
-        let statements: Vec<(usize, Span)> = spans.enumerate().filter(is_stage).collect();
+        let spans = scope.passed_on.spans.iter().copied().enumerate();
+        let statements: Vec<(usize, Span)> = spans.filter(|(_, span)| is_stage(span.of(text))).collect();
         scope.remove_escapes(&statements.iter().map(|(row, _)| *row).collect::<Vec<_>>());
         for (_, span) in statements {
             let keyword = keyword_span(text, span);

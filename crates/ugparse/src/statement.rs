@@ -131,6 +131,9 @@ pub(crate) struct Call {
     pub motion: Option<MotionReference>,
     /// The numbers of rows before it.
     pub before: Counts,
+    /// The scope of its definition, if that is defined, and its name in paths; after resolution.
+    pub target: Option<usize>,
+    pub label: String,
 }
 
 /// The number of copies of a definition.

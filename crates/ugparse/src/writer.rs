@@ -73,12 +73,7 @@ impl<'s> Tables<'s, '_> {
                 sky_statement::write(sky, &mut w.out, &mut w.numbers);
             },
         )?;
-        self.rows(&scene.remarks.escapes, Item::Escape, |w, text| {
-            w.text("(");
-            w.text(text);
-            w.text(")");
-        })?;
-        self.rows(&scene.remarks.unknown, Item::Unknown, |w, text| w.text(text))?;
+        self.rows(&scene.remarks.passed_on, Item::PassedOn, |w, text| w.text(text))?;
         self.rows(&scene.colors, Item::Color, |w, color| {
             match scene.table_of(ColorId::from_index(w.row as usize)) {
                 Some(table) => w.color_table(table),

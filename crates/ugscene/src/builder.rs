@@ -8,8 +8,8 @@ use thiserror::Error;
 use ugphysics::Velocity;
 
 use crate::{
-    BodyId, Camera, Color, ColorId, ColorValue, Face, FaceShape, Light, LightKind, Scene, Shading, ShadingId,
-    SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
+    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
+    SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
 };
 
 /// The most vertices, corners or rows of any other table: ids have 32 bits, and one is for nothing.
@@ -260,14 +260,8 @@ impl SceneBuilder {
             }
             let ids = corners.iter().map(|&corner| VertexId::from_index(first + corner as usize));
             let contours = self.scene.contours.push_all([ids]);
-            self.scene.faces.push(Face {
-                name,
-                contours,
-                color: mesh.color,
-                shading,
-                body,
-                shape: FaceShape::Polygon,
-            });
+            let face = Face { name, color: mesh.color, shading, ..Face::polygon(contours, body) };
+            self.scene.faces.push(face);
         }
         let faces = first_face..self.scene.faces.len();
         let n_degenerate = sizes.len() - faces.len();

@@ -3,7 +3,7 @@
 use rustc_hash::FxHashSet;
 use ugscene::{Comment, Item};
 
-use super::Expander;
+use super::{Expander, Origins};
 use crate::reader::CommentSpan;
 use crate::scope::Scope;
 use crate::source::Span;
@@ -30,19 +30,14 @@ impl Expander<'_, '_> {
     fn statements(&mut self) -> Vec<(Span, Item)> {
         let Some(mut all) = self.emitted.take() else { return Vec::new() };
         let is_flat = self.scopes.len() == 1;
-        let rows = |spans: &[Span], item: fn(u32) -> Item| {
-            let mut known = FxHashSet::default();
-            let rows = spans.iter().zip(0..).filter(|(span, _)| is_flat || known.insert(span.start));
-            rows.map(|(&span, row)| (span, item(row))).collect::<Vec<_>>()
-        };
-        let vertices = rows(&self.origins.vertices, Item::Vertex).into_iter();
+        let Origins { vertices, faces, lights, cameras, wires, passed_on } = &self.origins;
+        let vertices = first_rows(is_flat, vertices, Item::Vertex);
         all.extend(vertices.map(|(name, item)| (Scope::vertex_statement(self.text, name), item)));
-        all.extend(rows(&self.origins.faces, Item::Face));
-        all.extend(rows(&self.wires, Item::Wire));
-        all.extend(rows(&self.origins.lights, Item::Light));
-        all.extend(rows(&self.origins.cameras, Item::Camera));
-        all.extend(rows(&self.escapes, Item::Escape));
-        all.extend(rows(&self.unknown, Item::Unknown));
+        all.extend(first_rows(is_flat, faces, Item::Face));
+        all.extend(first_rows(is_flat, wires, Item::Wire));
+        all.extend(first_rows(is_flat, lights, Item::Light));
+        all.extend(first_rows(is_flat, cameras, Item::Camera));
+        all.extend(first_rows(is_flat, passed_on, Item::PassedOn));
         all.sort_by_key(|&(span, item)| (span.start, item));
         all
     }
@@ -63,6 +58,14 @@ impl Expander<'_, '_> {
         // The writer traverses rows and comments in parallel.
         self.scene.remarks.comments.sort_by_key(|comment| comment.at);
     }
+}
+
+/// Statements with the first row of each. `is_flat`: none has several.
+fn first_rows(is_flat: bool, spans: &[Span], item: fn(u32) -> Item) -> impl Iterator<Item = (Span, Item)> {
+    let mut known = FxHashSet::default();
+    let rows = spans.iter().zip(0..);
+    rows.filter(move |(span, _)| is_flat || known.insert(span.start))
+        .map(move |(&span, row)| (span, item(row)))
 }
 
 /// The statement to which a comment belongs.

@@ -25,7 +25,7 @@ use ugscene::{ColorId, Item, Scene, Vertex, VertexId};
 
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
-use crate::resolve::{Link, Links};
+use crate::resolve::Links;
 use crate::scope::{BodyTable, Counts, Scope};
 use crate::source::Span;
 use crate::statement::{Call, MotionReference, Repeat, StatedFrame};
@@ -41,6 +41,8 @@ pub struct Origins {
     pub lights: Vec<Span>,
     /// For each camera, its statement.
     pub cameras: Vec<Span>,
+    pub(super) wires: Vec<Span>,
+    pub(super) passed_on: Vec<Span>,
 }
 
 /// The longest chain of nested instances for which the stack of any thread suffices.
@@ -92,9 +94,6 @@ fn expand_here<'t>(
         links,
         scene,
         origins: Origins::default(),
-        wires: Vec::new(),
-        escapes: Vec::new(),
-        unknown: Vec::new(),
         emitted: has_comments.then(Vec::new),
         next_vertex: 0,
         path_rows: FxHashMap::default(),
@@ -134,12 +133,7 @@ struct Expander<'d, 't> {
     links: &'d Links,
     scene: Scene,
     origins: Origins,
-    /// The statements of each wire, escape and unknown statement.
-    wires: Vec<Span>,
-    escapes: Vec<Span>,
-    unknown: Vec<Span>,
-    /// If there are comments to attach, the statements that are not in these lists and `origins`, and
-    /// their rows.
+    /// If there are comments to attach, the statements that are not in `origins`, and their rows.
     emitted: Option<Vec<(Span, Item)>>,
     /// The first vertex of the next scope, after all vertices have been expanded.
     next_vertex: usize,
@@ -168,8 +162,8 @@ impl<'t> Expander<'_, 't> {
         // Faces may use later vertices, also those of instances, so vertices are expanded first.
         let inherited = Inherited::file();
         self.next_vertex = self.scene.vertices.len();
-        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
-            self.call(call, link, &inherited, Self::vertices);
+        for call in &file.calls.rows {
+            self.call(call, &inherited, Self::vertices);
         }
         self.enter_paths(&file);
         self.link_paths(&mut file);
@@ -182,12 +176,11 @@ impl<'t> Expander<'_, 't> {
             wires: Queue::new(file.wires),
             lights: Queue::new(file.lights),
             cameras: Queue::new(file.cameras),
-            escapes: Queue::new(file.escapes),
-            unknown: Queue::new(file.unknown),
+            passed_on: Queue::new(file.passed_on),
         };
-        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
+        for call in &file.calls.rows {
             self.move_rows(&mut queues, call.before);
-            self.call(call, link, &inherited, Self::scope);
+            self.call(call, &inherited, Self::scope);
         }
         self.move_rows(&mut queues, end);
     }
@@ -204,8 +197,8 @@ impl<'t> Expander<'_, 't> {
             self.scene.vertices.push(Vertex { name, position, normal, ..*vertex });
             self.origins.vertices.push(span);
         }
-        for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {
-            self.call(call, link, inherited, Self::vertices);
+        for call in &scope.calls.rows {
+            self.call(call, inherited, Self::vertices);
         }
     }
 
@@ -241,23 +234,17 @@ impl<'t> Expander<'_, 't> {
                 .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
         };
         let mut done = Counts::default();
-        for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {
+        for call in &scope.calls.rows {
             self.rows(&placement, done, call.before);
             done = call.before;
-            self.call(call, link, inherited, Self::scope);
+            self.call(call, inherited, Self::scope);
         }
         self.rows(&placement, done, scope.counts());
     }
 
     /// Calls `place` for every copy of an instance or array.
-    fn call(
-        &mut self,
-        call: &Call,
-        link: &Link,
-        inherited: &Inherited,
-        place: fn(&mut Self, usize, &Inherited),
-    ) {
-        let (Some(target), label) = (link.target, &link.label) else { return };
+    fn call(&mut self, call: &Call, inherited: &Inherited, place: fn(&mut Self, usize, &Inherited)) {
+        let (Some(target), label) = (call.target, &call.label) else { return };
         let transform = call.inner.then(&inherited.transform);
         let body = match call.motion {
             None => inherited.body,

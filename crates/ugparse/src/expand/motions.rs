@@ -51,48 +51,42 @@ impl Expander<'_, '_> {
                 findings.push(Diagnostic::again(places, format!("motion `{shown}` is defined twice"), help));
             }
         }
-        let names = self.bodies.names();
-        findings.extend(self.undefined_motions(&motions, findings.is_empty()));
         if findings.is_empty() {
-            findings.extend(self.too_many_pieces(&motions, &names));
-        }
-        if findings.is_empty() {
-            match self.paths(&motions) {
-                Ok(paths) => motions.paths = paths,
-                Err(error) => findings.push(error),
-            }
-        }
-        if findings.is_empty() {
-            let lines = names.iter().try_for_each(|&(body, name)| self.set_motion(&motions, body, name));
-            findings.extend(lines.err());
+            findings.extend(self.set_all(&mut motions).err());
         }
         (motions, findings)
     }
 
-    /// Names that no statement defines, and vertices that cannot move as their bodies do; after all
-    /// definitions are expanded. The bodies become those of the scene.
-    pub(super) fn finish_motions(&mut self, motions: &Motions<'_>, is_valid: bool) -> Vec<Diagnostic> {
-        let mut findings: Vec<Diagnostic> = self.undefined_motions(motions, is_valid).into_iter().collect();
-        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
-        if is_valid && findings.is_empty() {
-            findings.extend(self.check_points(motions).err());
-        }
-        self.note_motions(motions);
-        findings
+    fn set_all(&mut self, motions: &mut Motions<'_>) -> Result<(), Diagnostic> {
+        self.undefined_motions(motions)?;
+        let names = self.bodies.names();
+        self.too_many_pieces(motions, &names)?;
+        motions.paths = self.paths(motions)?;
+        names.iter().try_for_each(|&(body, name)| self.set_motion(motions, body, name))
     }
 
-    /// The first name that no statement defines, if no other error was found.
-    fn undefined_motions(&self, motions: &Motions<'_>, is_valid: bool) -> Option<Diagnostic> {
+    /// Names that no statement defines, and vertices that cannot move as their bodies do; after all
+    /// definitions are expanded. The bodies become those of the scene.
+    pub(super) fn finish_motions(&mut self, motions: &Motions<'_>, is_valid: bool) -> Option<Diagnostic> {
+        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
+        self.note_motions(motions);
+        let check = || self.undefined_motions(motions).and_then(|()| self.check_points(motions)).err();
+        if is_valid { check() } else { None }
+    }
+
+    /// An error for the first name that no statement defines.
+    fn undefined_motions(&self, motions: &Motions<'_>) -> Result<(), Diagnostic> {
         let names = self.bodies.names();
-        let undefined = names.iter().find(|(body, _)| is_valid && !motions.rows.contains_key(body));
-        let &(_, name) = undefined?;
+        let Some(&(_, name)) = names.iter().find(|(body, _)| !motions.rows.contains_key(body)) else {
+            return Ok(());
+        };
         let remedy = "define it with a `motion` statement";
         let defined = motions.statements.rows.iter().map(|motion| motion.name.of(self.text));
-        Some(undefined_like(self.text, "motion", name, remedy, defined, 0))
+        Err(undefined_like(self.text, "motion", name, remedy, defined, 0))
     }
 
     /// An error if motions take over more pieces than [`MAX_CARRIED_PIECES`]. Circles end it, too.
-    fn too_many_pieces(&mut self, motions: &Motions<'_>, names: &[(BodyId, Span)]) -> Option<Diagnostic> {
+    fn too_many_pieces(&mut self, motions: &Motions<'_>, names: &[(BodyId, Span)]) -> Result<(), Diagnostic> {
         let mut n_pieces = 0;
         for &(body, name) in names {
             let mut row = motions.rows[&body];
@@ -109,10 +103,10 @@ impl Expander<'_, '_> {
                     "all motions together may take over {MAX_CARRIED_PIECES} pieces of -acc and -spin from \
                      those they are on"
                 );
-                return Some(error.label("used here").help(help));
+                return Err(error.label("used here").help(help));
             }
         }
-        None
+        Ok(())
     }
 
     /// A motion is a body of the whole scene.

@@ -11,13 +11,11 @@ impl Expander<'_, '_> {
     /// Moves rows of the file up to `end`.
     pub(super) fn move_rows(&mut self, queues: &mut Queues, end: Counts) {
         let Self { scene, origins, .. } = self;
-        let remarks = &mut scene.remarks;
         queues.faces.move_up_to(end.faces, &mut scene.faces, &mut origins.faces);
-        queues.wires.move_up_to(end.wires, &mut scene.wires, &mut self.wires);
+        queues.wires.move_up_to(end.wires, &mut scene.wires, &mut origins.wires);
         queues.lights.move_up_to(end.lights, &mut scene.lights, &mut origins.lights);
         queues.cameras.move_up_to(end.cameras, &mut scene.cameras, &mut origins.cameras);
-        queues.escapes.move_up_to(end.escapes, &mut remarks.escapes, &mut self.escapes);
-        queues.unknown.move_up_to(end.unknown, &mut remarks.unknown, &mut self.unknown);
+        queues.passed_on.move_up_to(end.passed_on, &mut scene.remarks.passed_on, &mut origins.passed_on);
     }
 }
 
@@ -27,8 +25,7 @@ pub(super) struct Queues {
     pub wires: Queue<Wire>,
     pub lights: Queue<Light>,
     pub cameras: Queue<Camera>,
-    pub escapes: Queue<String>,
-    pub unknown: Queue<String>,
+    pub passed_on: Queue<String>,
 }
 
 pub(super) struct Queue<T> {

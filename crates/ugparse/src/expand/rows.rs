@@ -3,16 +3,13 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{
-    Beam, Camera, Face, FaceShape, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId, Wire,
-    newell_normal,
-};
+use ugscene::{Beam, Camera, Face, Light, LightKind, LightMotion, ShadingId, Wire};
 
 use super::Expander;
 use super::cameras::NestedCamera;
 use super::placement::Placement;
 use crate::diagnostic::Diagnostic;
-use crate::resolve::{face_name, has_three, is_short, short_wire};
+use crate::resolve::{degeneracy, face_name, is_short, short_wire};
 use crate::scope::Counts;
 use crate::source::Span;
 
@@ -33,27 +30,36 @@ impl Expander<'_, '_> {
             self.camera(placement, row);
         }
         if placement.first_time {
-            let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
-            self.escapes.extend_from_slice(&scope.escapes.spans[escapes.clone()]);
-            self.scene.remarks.escapes.extend_from_slice(&scope.escapes.rows[escapes]);
-            self.unknown.extend_from_slice(&scope.unknown.spans[unknown.clone()]);
-            self.scene.remarks.unknown.extend_from_slice(&scope.unknown.rows[unknown]);
+            let passed_on = start.passed_on..end.passed_on;
+            self.origins.passed_on.extend_from_slice(&scope.passed_on.spans[passed_on.clone()]);
+            self.scene.remarks.passed_on.extend_from_slice(&scope.passed_on.rows[passed_on]);
         }
     }
 
     fn face(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (face, span) = (&scope.faces.rows[row], scope.faces.spans[row]);
-        if !self.has_area(placement, face, span) {
+        let contours = self.contours(placement, face.contours.clone(), inherited.transform.mirrored);
+        let placed = Face { contours, ..face.clone() };
+        // Collapsed by `-sz 0`, too small relative to its distance, or with one vertex by several paths.
+        if degeneracy(&self.scene.contours, &self.scene.vertices, &placed).is_some() {
+            self.scene.contours.truncate(placed.contours.start as usize);
+            let text = self.text;
+            self.degenerate.entry(span.start).or_insert_with(|| {
+                let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
+                let kind = if face.shape.is_round() { face.shape.keyword() } else { "face" };
+                Diagnostic::warning(shown, format!("{kind} has no area where it is placed"))
+                    .label("omitted")
+                    .help("correct the transformations of its instance")
+            });
             return;
         }
         let placed = Face {
             name: self.optional_name(scope, face.name, inherited),
-            contours: self.contours(placement, face.contours.clone(), inherited.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
             shading: face.shading.map(|row| ShadingId::from_index(placement.first_shading + row.index())),
             body: placement.bodies[face.body.index()],
-            shape: face.shape,
+            ..placed
         };
         self.scene.faces.push(placed);
         self.origins.faces.push(span);
@@ -75,7 +81,7 @@ impl Expander<'_, '_> {
             text: wire.text.map(|text| self.scene.names.add(scope.names.get(text))),
         };
         self.scene.wires.push(placed);
-        self.wires.push(span);
+        self.origins.wires.push(span);
     }
 
     /// Copies contours; mirroring reverses their direction but keeps the first vertex.
@@ -88,39 +94,6 @@ impl Expander<'_, '_> {
                 placement.corner(corners.start + idx)
             })
         }))
-    }
-
-    /// Returns false and adds a warning if a face has no area after transformation: collapsed by
-    /// `-sz 0`, or too small relative to its distance.
-    fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
-        let outline = placement.corners(face.contours.start);
-        let position = |corner: usize| self.scene.vertices[placement.corner(corner).index()].position;
-        // Several paths may refer to the same vertex.
-        let has_three = placement.paths.is_empty()
-            || face.contours.clone().all(|row| {
-                let corners: Vec<VertexId> =
-                    placement.corners(row).map(|idx| placement.corner(idx)).collect();
-                has_three(&corners)
-            });
-        let is_whole = match face.shape {
-            FaceShape::Polygon => newell_normal(outline.map(position)) != DVec3::ZERO,
-            shape => {
-                let corners = face.contours.clone().flat_map(|row| placement.corners(row)).map(position);
-                RoundShape::from_corners(shape, &corners.collect::<Vec<_>>()).is_some()
-            }
-        };
-        if has_three && is_whole {
-            return true;
-        }
-        let text = self.text;
-        self.degenerate.entry(span.start).or_insert_with(|| {
-            let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
-            let kind = if face.shape.is_round() { face.shape.keyword() } else { "face" };
-            Diagnostic::warning(shown, format!("{kind} has no area where it is placed"))
-                .label("omitted")
-                .help("correct the transformations of its instance")
-        });
-        false
     }
 
     fn light(&mut self, placement: &Placement<'_>, row: usize) {

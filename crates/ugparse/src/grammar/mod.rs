@@ -167,16 +167,12 @@ impl<'t> Grammar<'t, '_> {
         if normal == Some(DVec3::ZERO) {
             return fail(blank(input)?.0, zero_vector(3));
         }
-        let (rest, uv) = match mark(b'(', "`(` and texture coordinates")(rest) {
-            Ok((inner, ())) => {
-                let (inner, u) = require(number32(inner))?;
-                let (inner, v) = require(number32(inner))?;
-                let (rest, ()) = require(mark(b')', "`)`")(inner))?;
-                (rest, Some([u, v]))
-            }
-            Err(nom::Err::Error(_)) => (rest, None),
-            Err(error) => return Err(error),
-        };
+        let (mut rest, open) = opt(mark(b'(', "`(` and texture coordinates")).parse(rest)?;
+        let mut uv = None;
+        if open.is_some() {
+            let (behind, (u, v, ())) = require((number32, number32, mark(b')', "`)`")).parse(rest))?;
+            (rest, uv) = (behind, Some([u, v]));
+        }
         Ok((rest, Statement::Vertex(name, Vertex { normal, uv, ..Vertex::at(position, color) })))
     }
 
@@ -244,10 +240,9 @@ impl<'t> Grammar<'t, '_> {
         loop {
             input = self.contour(input)?.0;
             self.scope.contours.end_contour();
-            match mark(b'(', "`(`")(input) {
-                Ok((rest, ())) => input = rest,
-                Err(nom::Err::Error(_)) => return Ok((input, first..self.scope.contours.row_count())),
-                Err(err) => return Err(err),
+            match opt(mark(b'(', "`(`")).parse(input)? {
+                (rest, Some(())) => input = rest,
+                (rest, None) => return Ok((rest, first..self.scope.contours.row_count())),
             }
         }
     }
@@ -255,24 +250,17 @@ impl<'t> Grammar<'t, '_> {
     /// `vertex … )`
     fn contour(&mut self, input: Input<'t>) -> Parsed<'t, ()> {
         let (mut input, ()) = require(wanted(self.corner(input), "a vertex name"))?;
-        loop {
-            match self.corner(input) {
-                Ok((rest, ())) => input = rest,
-                Err(nom::Err::Error(_)) => {
-                    return require(mark(b')', "a vertex name or `)`")(input));
-                }
-                Err(err) => return Err(err),
-            }
+        while let (rest, Some(())) = opt(|i| self.corner(i)).parse(input)? {
+            input = rest;
         }
+        require(mark(b')', "a vertex name or `)`")(input))
     }
 
     /// `c [ID] lightness [hue [saturation [translucency [factor]]]]`
     fn color(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, value) = number_from(0.0, f64::INFINITY, "a lightness is 0 or more")(input)?;
-        let (input, hue) = opt(number).parse(input)?;
-        let (input, saturation) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
-        let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
+        let (input, (hue, saturation, translucency)) = (opt(number), opt(share), opt(share)).parse(input)?;
         let (input, factor) = match translucency {
             Some(_) => opt(number_from(0.0, f64::INFINITY, "a factor is 0 or more")).parse(input)?,
             None => (input, None),
@@ -287,20 +275,15 @@ impl<'t> Grammar<'t, '_> {
 
     /// `c_rgb [ID] r g b [translucency]`
     fn rgb(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
-        let share = number_from(0.0, 1.0, SHARE);
         let (input, name) = self.optional_name(input)?;
-        let (input, r) = share(input)?;
-        let (input, g) = share(input)?;
-        let (input, b) = share(input)?;
-        let (input, translucency) = opt(share).parse(input)?;
+        let (input, (r, g, b, translucency)) = (share, share, share, opt(share)).parse(input)?;
         Ok((input, color(name, ColorValue::Rgb([r, g, b]), translucency)))
     }
 
     /// `c_xyz [ID] X Y Z [translucency]`
     fn xyz(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, xyz) = point(input)?;
-        let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
+        let (input, (xyz, translucency)) = (point, opt(share)).parse(input)?;
         Ok((input, color(name, ColorValue::Xyz(xyz.to_array()), translucency)))
     }
 
@@ -341,7 +324,7 @@ impl<'t> Grammar<'t, '_> {
     fn mix(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, color) = wanted(self.color_name(input), NAME)?;
         let part = |input| wanted(self.color_name(input), NAME);
-        let (input, parts) = pairs(input, part, number_from(0.0, 1.0, SHARE))?;
+        let (input, parts) = pairs(input, part, share)?;
         Ok((input, Statement::Mix(Mix { color, parts })))
     }
 
@@ -432,15 +415,18 @@ impl<'t> Grammar<'t, '_> {
             (input, Repeat::Once)
         };
         let (input, motion) = self.optional_motion(input)?;
-        let before = self.scope.counts();
-        Ok((input, Statement::Call(Call { name, definition, color, inner, repeat, motion, before })))
+        let (before, target, label) = (self.scope.counts(), None, String::new());
+        let call = Call { name, definition, color, inner, repeat, motion, before, target, label };
+        Ok((input, Statement::Call(call)))
     }
 }
 
 /// The first characters of a name, for messages.
 pub(crate) const NAME: &str = "a name that begins with a letter, `:`, `_` or `#`";
 
-const SHARE: &str = "use a number from 0 to 1";
+fn share(input: Input<'_>) -> Parsed<'_, f64> {
+    number_from(0.0, 1.0, "use a number from 0 to 1")(input)
+}
 
 /// The vector in these words has no length.
 const fn zero_vector(words: usize) -> Reason {
@@ -516,6 +502,7 @@ fn option_word(input: Input<'_>) -> Parsed<'_, Input<'_>> {
 /// `-spot x y z angle edge` or `-area ux uy uz vx vy vz`
 fn beam<'a>(input: Input<'a>, kind: &mut LightKind) -> Parsed<'a, ()> {
     let at = blank(input)?.0;
+    let wrong = |remedy| fail(at, Reason::OutOfRange(remedy));
     let (input, stated) = match (opt(option_word).parse(input)?, &kind) {
         ((rest, Some(b"spot")), LightKind::Local { .. }) => {
             let (rest, [x, y, z, angle, edge]) = require(numbers(rest))?;
@@ -526,28 +513,32 @@ fn beam<'a>(input: Input<'a>, kind: &mut LightKind) -> Parsed<'a, ()> {
             (rest, Beam::Area([DVec3::new(x, y, z), DVec3::new(u, v, w)]))
         }
         ((_, Some(b"spot")), _) => {
-            return fail(
-                at,
-                Reason::OutOfRange("a spot has a position and a radius, such as `l 1  0 0 5 0`"),
-            );
+            return wrong("a spot has a position and a radius, such as `l 1  0 0 5 0`");
         }
         ((_, Some(b"area")), _) => {
-            let remedy =
-                "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`";
-            return fail(at, Reason::OutOfRange(remedy));
+            return wrong(
+                "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`",
+            );
         }
         ((_, Some(_)), _) => return fail(at, Reason::Expected("`-spot`, `-area`, `<` or `;`")),
         ((_, None), _) => return Ok((input, ())),
     };
     if !stated.is_valid() {
-        let remedy =
-            "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area";
-        return fail(at, Reason::OutOfRange(remedy));
+        return wrong(
+            "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area",
+        );
     }
     if let LightKind::Local { beam, .. } = kind {
         *beam = stated;
     }
     Ok((input, ()))
+}
+
+/// Puts the argument of an option into its place.
+fn store<'a, T>(place: &mut Option<T>, parsed: Parsed<'a, T>) -> Parsed<'a, ()> {
+    let (rest, value) = require(parsed)?;
+    *place = Some(value);
+    Ok((rest, ()))
 }
 
 /// Pairs, one or more, up to where `first` does not match.

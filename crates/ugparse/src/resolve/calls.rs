@@ -2,22 +2,17 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::enclosing;
 use super::undefined::{show, undefined_like};
-use super::{Link, enclosing};
 use crate::diagnostic::Diagnostic;
 use crate::scope::Scope;
 use crate::statement::{Call, Repeat};
 
-/// Resolves the calls of a scope.
-pub(super) fn link_calls(
-    text: &[u8],
-    scopes: &[Scope<'_>],
-    row: usize,
-    findings: &mut Vec<Diagnostic>,
-) -> Vec<Link> {
+/// Resolves the calls of a scope, and labels them.
+pub(super) fn link_calls(text: &[u8], scopes: &mut [Scope<'_>], row: usize, findings: &mut Vec<Diagnostic>) {
     let calls = &scopes[row].calls.rows;
     let labels = labels(text, calls);
-    let links = calls.iter().zip(labels).map(|(call, label)| {
+    let target = |call: &Call| {
         let name = call.definition.of(text);
         let target = enclosing(scopes, row).find_map(|scope| scopes[scope].definitions.get(name));
         if target.is_none() {
@@ -29,10 +24,12 @@ pub(super) fn link_calls(
             let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
             findings.push(found);
         }
-        let target = target.map(|&(scope, _)| scope);
-        Link { target, label }
-    });
-    links.collect()
+        target.map(|&(scope, _)| scope)
+    };
+    let targets: Vec<_> = calls.iter().map(target).collect();
+    for (call, link) in scopes[row].calls.rows.iter_mut().zip(targets.into_iter().zip(labels)) {
+        (call.target, call.label) = link;
+    }
 }
 
 /// The unique label of each call in a scope: its name, else its definition's name; empty for an

@@ -42,7 +42,7 @@ pub(crate) fn remove_degenerate(
 }
 
 /// Why a face is degenerate, if it is.
-fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
+pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&'static str> {
     if !contours.iter(face.contours.clone()).all(has_three) {
         return Some("has a contour of fewer than 3 different vertices");
     }
@@ -57,7 +57,7 @@ fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) -> Option<&
 }
 
 /// Does a contour have three different vertices?
-pub(crate) fn has_three(corners: &[VertexId]) -> bool {
+fn has_three(corners: &[VertexId]) -> bool {
     let Some((&a, rest)) = corners.split_first() else { return false };
     let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
     rest.iter().any(|&c| c != a && c != b)

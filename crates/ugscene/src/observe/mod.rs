@@ -2,12 +2,10 @@
 //! for the vertices of a scene as seen the columns of rest positions and own times.
 
 mod camera_frame;
-mod camera_motion;
 mod clocks;
 mod eye;
 mod observer;
 mod placement;
-mod position;
 mod relative_motion;
 mod rest_frames;
 mod seen_event;
@@ -21,14 +19,13 @@ use rayon::prelude::*;
 use thiserror::Error;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
-pub use camera_motion::{axes_from_scene, camera_velocity};
+pub use camera_frame::{axes_from_scene, camera_velocity};
 pub use eye::{eye, vertex_at_eye};
-pub use position::{RestPosition, SeenPosition};
 pub use relative_motion::RelativeMotion;
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
 pub use seen_event::seen_event;
 pub use seen_vertices::{SeenVertices, rest_positions};
-pub use shown_effects::ShownEffects;
+pub use shown_effects::{RestPosition, SeenPosition, ShownEffects};
 
 use observer::Observer;
 use placement::Placement;
