@@ -1,5 +1,5 @@
-//! Warnings about faces: those that are not flat, and those that move and are drawn with their shapes at
-//! rest.
+//! Warnings about faces: those that are not flat, and those that move and are drawn with their
+//! shapes at rest.
 
 use ugscene::{BentFace, require_seen_geometry};
 

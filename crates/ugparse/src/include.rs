@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
-use crate::grammar::KEYWORDS;
+use crate::grammar::is_keyword;
 use crate::options::{Limit, Options};
 use crate::reader::{self, RequestStatement};
 use crate::refuse_errors;
@@ -448,7 +448,7 @@ fn begins_like_a_scene(mut text: &[u8]) -> bool {
             Err(_) => return false,
         }
     }
-    word(text).is_ok_and(|(_, word)| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word))
+    word(text).is_ok_and(|(_, word)| is_keyword(word))
 }
 
 fn is_line_mark(text: &[u8]) -> bool {

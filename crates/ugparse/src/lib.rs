@@ -52,7 +52,6 @@ mod grammar;
 mod include;
 #[cfg(feature = "cli")]
 mod mesh;
-mod named;
 mod number_text;
 mod numbered;
 mod options;

@@ -15,9 +15,8 @@ use ugscene::{
 };
 
 use crate::diagnostic::Diagnostic;
-use crate::named::Named;
 use crate::numbered::{Name, NumberedNames};
-use crate::rows::Rows;
+use crate::rows::{Named, Rows};
 use crate::source::Span;
 use crate::statement::{Call, MotionReference, MotionStatement, SkyStatement, Statement};
 use crate::token::{skip_statement, statement_start};
@@ -167,7 +166,7 @@ impl<'t> Scope<'t> {
     /// Adds an escape or an unknown statement.
     pub fn pass_on(&mut self, text: &[u8], span: Span) {
         self.n_statements += 1;
-        self.passed_on.push(lossy(text, span), span);
+        self.passed_on.push(span.lossy(text), span);
     }
 
     /// Adds a definition, which has its own scope.
@@ -363,10 +362,6 @@ pub(crate) fn as_str(name: &[u8]) -> &str {
     std::str::from_utf8(name).unwrap_or_default()
 }
 
-pub(crate) fn lossy(text: &[u8], span: Span) -> String {
-    String::from_utf8_lossy(span.of(text)).into_owned()
-}
-
 /// Bodies indexed by frame or name, each once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyTable<'t> {
@@ -384,11 +379,6 @@ pub(crate) struct BodyTable<'t> {
 type FrameBits = ([[u64; 3]; 4], [u64; 2]);
 
 impl<'t> BodyTable<'t> {
-    /// The body of a face or wire with this motion, if it has one.
-    pub fn of_stated(&mut self, text: &'t [u8], motion: Option<MotionReference>) -> BodyId {
-        motion.map_or(self.bodies.unstated(), |motion| self.of_reference(text, motion, DVec3::ZERO))
-    }
-
     /// The body with this motion; adds it if it is new. `at`: the reference point if none is
     /// stated.
     pub fn of_reference(&mut self, text: &'t [u8], motion: MotionReference, at: DVec3) -> BodyId {

@@ -25,7 +25,7 @@ pub(crate) fn take(
         findings.push(Diagnostic::again(places, "the scene has two skies", "remove one of them"));
     }
     let statement = file.skies.rows.first()?;
-    let file = String::from_utf8_lossy(statement.file.of(text)).into_owned();
+    let file = statement.file.lossy(text);
     Some(StatedSky { file, turn: statement.turn })
 }
 

@@ -32,8 +32,8 @@ const MIXTURES: &str = "mixtures";
 
 /// Is a text that is passed on a stage statement?
 pub(crate) fn is_stage(escape: &[u8]) -> bool {
-    escape.starts_with(b"(")
-        && first_word(escape, Span { start: 0, end: escape.len() as u32 }) == KEYWORD.as_bytes()
+    let first = || Words::new(escape, Span { start: 0, end: escape.len() as u32 }).next();
+    escape.starts_with(b"(") && first().is_some_and(|word| word.as_str() == KEYWORD)
 }
 
 /// Moves the stage statement of a document from its escapes to [`Document::stage`].
@@ -66,10 +66,6 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
 /// The text of an escape, without its parentheses.
 fn inner(span: Span) -> Span {
     Span { start: span.start + 1, end: span.end - 1 }
-}
-
-fn first_word(text: &[u8], span: Span) -> &[u8] {
-    Words::new(text, span).next().map_or(&[][..], |word| word.text)
 }
 
 fn keyword_span(text: &[u8], span: Span) -> Span {

@@ -1,5 +1,5 @@
-//! Parsed statements: rows for the tables of a scope, where the name of a colour, surface or vertex is
-//! its number there. Other names are spans of the text.
+//! Parsed statements: rows for the tables of a scope, where the name of a colour, surface or vertex
+//! is its number there. Other names are spans of the text.
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};

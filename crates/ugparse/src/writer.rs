@@ -8,8 +8,8 @@ use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
     AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours,
-    Item, Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, Stage, StatedMotion,
-    SurfaceProperties, Texture, VertexId, Wire, Wrap,
+    Item, Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
+    Texture, VertexId, Wire, Wrap,
 };
 
 use crate::chunked_writer::ChunkedWriter;
@@ -62,17 +62,11 @@ impl<'s> Tables<'s, '_> {
         for text in &scene.remarks.head {
             self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
-        let stage = Some(&scene.stage).filter(|stage| !stage.is_at_rest());
-        let write_stage =
-            |w: &mut Writer<'s>, stage: &Stage| stage_statement::write(stage, &mut w.out, &mut w.numbers);
-        self.rows(stage.map_or(&[][..], std::slice::from_ref), |_| Item::Stage, write_stage)?;
-        self.rows(
-            scene.sky.as_slice(),
-            |_| Item::Stage,
-            |w, sky| {
-                sky_statement::write(sky, &mut w.out, &mut w.numbers);
-            },
-        )?;
+        let at_stage: fn(u32) -> Item = |_| Item::Stage;
+        let stage = if scene.stage.is_at_rest() { &[] } else { std::slice::from_ref(&scene.stage) };
+        self.rows(stage, at_stage, |w, stage| stage_statement::write(stage, &mut w.out, &mut w.numbers))?;
+        let sky = scene.sky.as_slice();
+        self.rows(sky, at_stage, |w, sky| sky_statement::write(sky, &mut w.out, &mut w.numbers))?;
         self.rows(&scene.remarks.passed_on, Item::PassedOn, |w, text| w.text(text))?;
         self.rows(&scene.colors, Item::Color, |w, color| {
             match scene.table_of(ColorId::from_index(w.row as usize)) {

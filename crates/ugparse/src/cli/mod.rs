@@ -153,8 +153,8 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Written for an empty scene, because the next program in the pipe takes no input at all for a failure
-/// of this one.
+/// Written for an empty scene, because the next program in the pipe takes no input at all for a
+/// failure of this one.
 const EMPTY: &[u8] = b"\n";
 
 fn read(source: Source, options: &Options, context: &Context) -> Result<(Source, Parsed), Diagnostics> {

@@ -74,7 +74,7 @@ impl Expander<'_, '_> {
         let carriers = |&body: &BodyId| bodies.statement(body).and_then(|motion| motion.body());
         let rides_on = |carrier| std::iter::successors(Some(body), carriers).any(|body| body == carrier);
         if inherited.body.is_some_and(|carrier| bodies.is_moving(carrier) && !rides_on(carrier)) {
-            let shown = String::from_utf8_lossy(name.of(self.text)).into_owned();
+            let shown = name.lossy(self.text);
             self.fail(
                 name,
                 &format!("the body of motion `{shown}` is inside an instance that moves otherwise"),

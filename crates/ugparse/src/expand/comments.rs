@@ -47,7 +47,7 @@ impl Expander<'_, '_> {
     pub(super) fn place_comments(&mut self, comments: &[CommentSpan], first_statement: u32) {
         let emitted = self.statements();
         for comment in comments {
-            let text = String::from_utf8_lossy(comment.text.of(self.text)).into_owned();
+            let text = comment.text.lossy(self.text);
             if comment.text.start < first_statement {
                 self.scene.remarks.head.push(text);
                 continue;

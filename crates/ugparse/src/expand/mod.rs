@@ -8,7 +8,6 @@ mod cameras;
 mod comments;
 mod labels;
 mod motions;
-mod names;
 mod paths;
 mod placement;
 mod queue;

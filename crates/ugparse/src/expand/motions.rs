@@ -45,7 +45,7 @@ impl Expander<'_, '_> {
         for (row, motion) in statements.rows.iter().enumerate() {
             let body = self.bodies.named(self.text, motion.name);
             if let Some(first) = motions.rows.insert(body, row) {
-                let shown = String::from_utf8_lossy(motion.name.of(self.text)).into_owned();
+                let shown = motion.name.lossy(self.text);
                 let places = [motion.name, statements.rows[first].name];
                 let help = "give one of them another name: each is a body of its own";
                 findings.push(Diagnostic::again(places, format!("motion `{shown}` is defined twice"), help));
@@ -135,7 +135,7 @@ impl Expander<'_, '_> {
             let other = self.bodies.named(self.text, name);
             let path = motions.rows.get(&other).map(|&other| &statements[other].path);
             if !matches!(path, Some(Some(PathStatement::Events { .. }))) {
-                let shown = String::from_utf8_lossy(name.of(self.text)).into_owned();
+                let shown = name.lossy(self.text);
                 return Err(Diagnostic::error(name, format!("motion `{shown}` states no table of a path"))
                     .label("used here")
                     .help("name a motion that has `-path` with a file or with events"));
@@ -156,7 +156,7 @@ impl Expander<'_, '_> {
 
     fn set_motion(&mut self, motions: &Motions<'_>, body: BodyId, name: Span) -> Result<(), Diagnostic> {
         let (motion, line) = self.motion(motions, body, 0)?;
-        let name = String::from_utf8_lossy(name.of(self.text)).into_owned();
+        let name = name.lossy(self.text);
         let name = self.scene.names.add(&name);
         self.bodies.bodies.set_statement(body, name, motion, line);
         Ok(())

@@ -39,6 +39,11 @@ use crate::token::{
 pub(crate) const KEYWORDS: &str = "v w label f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex c_emit surf l cam \
                                    motion sky def end i a include execute";
 
+/// Is this word the keyword of a statement?
+pub(crate) fn is_keyword(word: &[u8]) -> bool {
+    KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word)
+}
+
 /// A parser of statements of one scope. The text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t, 's> {
     pub text: &'t [u8],
@@ -155,7 +160,9 @@ impl<'t> Grammar<'t, '_> {
     /// `[< x y z >]` of a face or wire
     fn body(&mut self, input: Input<'t>) -> Parsed<'t, BodyId> {
         let (rest, motion) = self.optional_motion(input)?;
-        Ok((rest, self.scope.bodies.of_stated(self.text, motion)))
+        let (text, bodies) = (self.text, &mut self.scope.bodies);
+        let unstated = bodies.bodies.unstated();
+        Ok((rest, motion.map_or(unstated, |motion| bodies.of_reference(text, motion, DVec3::ZERO))))
     }
 
     /// `v ID x y z [color] [nx ny nz] [(u v)]`

@@ -6,7 +6,6 @@ use nom::combinator::opt;
 use ugscene::{AlphaMode, ColorTable, Texture, TextureImage, Wrap};
 
 use super::{Grammar, NAME, file, number_from, option_word, pairs};
-use crate::scope::lossy;
 use crate::statement::Statement;
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, integer, number, number32, require, wanted, word,
@@ -54,7 +53,7 @@ impl<'t> Grammar<'t, '_> {
         let (input, color) = wanted(self.color_name(input), NAME)?;
         let (mut input, file) = require(file(self.text, input, "the file of a picture"))?;
         // The bytes of the picture are set when the colours of all scopes are joined.
-        let image = TextureImage { file: Some(lossy(self.text, file.name)), ..TextureImage::default() };
+        let image = TextureImage { file: Some(file.name.lossy(self.text)), ..TextureImage::default() };
         let mut texture = Texture::new(color, image);
         while let (rest, Some(option)) = opt(option_word).parse(input)? {
             match option {

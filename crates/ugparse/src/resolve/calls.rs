@@ -1,9 +1,10 @@
 //! Resolves the definitions of instances and arrays, and their labels in paths.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
+use ugscene::UniqueNames;
 
 use super::enclosing;
-use super::undefined::{show, undefined_like};
+use super::undefined::undefined_like;
 use crate::diagnostic::Diagnostic;
 use crate::scope::Scope;
 use crate::statement::{Call, Repeat};
@@ -37,25 +38,12 @@ pub(super) fn link_calls(text: &[u8], scopes: &mut [Scope<'_>], row: usize, find
 fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
     let wanted = |call: &Call| match call.name {
         None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),
-        name => show(text, name.unwrap_or(call.definition)),
+        name => name.unwrap_or(call.definition).lossy(text),
     };
     let wanted: Vec<String> = calls.iter().map(wanted).collect();
     // Labels in the text are never used for other calls.
-    let mut taken: FxHashSet<String> = wanted.iter().cloned().collect();
-    let mut uses: FxHashMap<&str, u64> = FxHashMap::default();
-    let mut labels = Vec::with_capacity(wanted.len());
-    for wanted in &wanted {
-        let uses = uses.entry(wanted).or_default();
-        *uses += 1;
-        let mut label = wanted.clone();
-        while *uses > 1 {
-            label = format!("{wanted}_{uses}");
-            if taken.insert(label.clone()) {
-                break;
-            }
-            *uses += 1;
-        }
-        labels.push(label);
-    }
-    labels
+    let mut taken: UniqueNames = wanted.iter().map(String::as_str).collect();
+    let mut known = FxHashSet::default();
+    let again = wanted.iter().map(|label| if known.insert(label) { None } else { taken.fresh(label) });
+    again.zip(&wanted).map(|(again, label)| again.unwrap_or_else(|| label.clone())).collect()
 }

@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use ugscene::{Contours, Face, RoundShape, Vertex, VertexId, Wire, newell_normal};
 
 use super::corners::{LEAST_ROWS, is_linked};
-use super::undefined::show;
 use crate::diagnostic::Diagnostic;
 use crate::reader::names_in;
 use crate::scope::Scope;
@@ -75,7 +74,7 @@ pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
 
 fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
     let name = face_name(text, span);
-    let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
+    let shown = name.map_or(String::new(), |name| format!(" `{}`", name.lossy(text)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
     Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("omitted").help(remedy)
 }

@@ -5,11 +5,9 @@ use ugscene::{Color, ColorId, ColorTable, Mix, NameId, Names, Scene, Shading, Su
 
 use super::corners::LEAST_ROWS;
 use super::enclosing;
-use super::undefined::show;
 use crate::diagnostic::Diagnostic;
-use crate::named::Named;
 use crate::options::{Limit, Limits};
-use crate::rows::Rows;
+use crate::rows::{Named, Rows};
 use crate::scope::{Scope, shifted};
 use crate::source::{Images, Span};
 
@@ -52,7 +50,7 @@ pub(super) fn gather_named(
         let colors = std::mem::take(&mut scope.colors.table.rows).into_iter();
         for ((color, &span), own) in colors.zip(&scope.colors.table.spans).zip(&scope.colors.spans) {
             let own = match own {
-                Some(own) => show(text, *own),
+                Some(own) => own.lossy(text),
                 None => format!("unnamed#{}", scene.colors.len()),
             };
             let name = name(&mut scene.names, &own, span)?;
@@ -63,7 +61,7 @@ pub(super) fn gather_named(
         for ((surface, &span), own) in
             surfaces.zip(&scope.surfaces.table.spans).zip(scope.surfaces.spans.iter().flatten())
         {
-            let name = name(&mut scene.names, &show(text, *own), span)?;
+            let name = name(&mut scene.names, &own.lossy(text), span)?;
             scene.surfaces.push(SurfaceProperties { name, ..surface });
         }
     }
@@ -85,7 +83,7 @@ fn long_names(span: Span, limits: &Limits) -> Diagnostic {
 fn scope_prefix(text: &[u8], scopes: &[Scope<'_>], row: usize) -> String {
     enclosing(scopes, row)
         .filter(|&scope| scopes[scope].parent.is_some())
-        .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, scopes[scope].name)))
+        .fold(String::new(), |inner, scope| format!("{}:{inner}", scopes[scope].name.lossy(text)))
 }
 
 /// For each name of a kind in a scope, the row in the scene to which it refers.
@@ -129,8 +127,8 @@ pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     colors.iter().all(Option::is_some)
 }
 
-/// Moves what a scope states of its colours to the scene. Returns errors where it is stated twice of
-/// one colour.
+/// Moves what a scope states of its colours to the scene. Returns errors where it is stated twice
+/// of one colour.
 pub(super) fn gather_of_colors(
     scope: &mut Scope<'_>,
     images: &Images,

@@ -4,7 +4,6 @@ use rustc_hash::FxHashSet;
 use ugphysics::SampledPath;
 use ugscene::Body;
 
-use super::undefined::show;
 use crate::diagnostic::Diagnostic;
 use crate::options::{Limit, Limits};
 use crate::scope::Scope;
@@ -100,7 +99,7 @@ impl Sizes<'_, '_> {
     }
 
     fn recursion(&self, call: &Call) -> Diagnostic {
-        let shown = show(self.text, call.definition);
+        let shown = call.definition.lossy(self.text);
         Diagnostic::error(call.definition, format!("definition `{shown}` contains itself"))
             .label("placed here, inside itself")
             .help("a definition must not place itself, directly or through others")

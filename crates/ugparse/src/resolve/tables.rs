@@ -2,7 +2,6 @@
 
 use ugscene::{ColorId, ColorTable, LightKind, LightMotion, Scene};
 
-use super::undefined::show;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::reader::names_in;
 use crate::scope::Scope;
@@ -91,7 +90,7 @@ impl Check<'_> {
             self.refuse(name, "is in a table of times", "write its rows there");
         } else if self.findings.len() < MAX_ERRORS {
             let message =
-                format!("colour `{}` has another translucency than the first row", show(self.text, name));
+                format!("colour `{}` has another translucency than the first row", name.lossy(self.text));
             let help = "give all colours of a table the same translucency";
             self.findings.push(Diagnostic::here(name, message, help));
         }
@@ -105,7 +104,7 @@ impl Check<'_> {
 
     fn refuse(&mut self, name: Span, what: &str, help: &str) {
         if self.findings.len() < MAX_ERRORS {
-            let message = format!("colour `{}` changes with time and {what}", show(self.text, name));
+            let message = format!("colour `{}` changes with time and {what}", name.lossy(self.text));
             self.findings.push(Diagnostic::here(name, message, help));
         }
     }

@@ -63,7 +63,7 @@ impl UndefinedNames<'_, '_, '_> {
 }
 
 pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
-    Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
+    Diagnostic::error(name, format!("{kind} `{}` is not defined", name.lossy(text)))
         .label("used here")
         .help(remedy)
 }
@@ -83,8 +83,4 @@ pub(crate) fn undefined_like<'n>(
         Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
         None => undefined(text, kind, name, remedy),
     }
-}
-
-pub(super) fn show(text: &[u8], name: Span) -> String {
-    String::from_utf8_lossy(name.of(text)).into_owned()
 }

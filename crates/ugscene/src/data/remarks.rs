@@ -14,8 +14,8 @@ pub struct Remarks {
     pub origin: Option<String>,
     /// All other comments, sorted by statement.
     pub comments: Vec<Comment>,
-    /// Text for other programs: escapes `( … )` with their parentheses, and unknown statements, if they
-    /// are accepted, with their `;`.
+    /// Text for other programs: escapes `( … )` with their parentheses, and unknown statements, if
+    /// they are accepted, with their `;`.
     pub passed_on: Vec<String>,
 }
 
