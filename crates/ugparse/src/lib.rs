@@ -162,12 +162,8 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
 /// Refuses texts whose positions do not fit 32 bits or that exceed the limit.
 fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
     if source.text.len() as u64 > options.limits.get(Limit::Text) {
-        let finding = Diagnostic::error(Span::default(), "the scene is too large").limited(
-            &options.limits,
-            Limit::Text,
-            "split it",
-        );
-        return Err(Diagnostics::one(source, finding));
+        let finding = Diagnostic::error(Span::default(), "the scene is too large");
+        return Err(Diagnostics::one(source, finding.limited(&options.limits, Limit::Text, "split it")));
     }
     Ok(())
 }

@@ -59,7 +59,16 @@ pub(crate) struct RequestStatement {
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
 /// are too many.
 pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
-    let mut reader = Reader::new(text, options, findings);
+    let mut reader = Reader {
+        text,
+        document: Document { scopes: vec![Scope::for_text(text.len())], ..Document::default() },
+        open: vec![0],
+        options: *options,
+        line_has_statement: false,
+        names: Vec::new(),
+        findings,
+        error_count: 0,
+    };
     reader.run();
     reader.check_all_closed();
     reader.document
@@ -93,21 +102,7 @@ struct Reader<'t, 'f> {
     error_count: usize,
 }
 
-impl<'t, 'f> Reader<'t, 'f> {
-    fn new(text: &'t [u8], options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
-        let file = Scope::for_text(text.len());
-        Self {
-            text,
-            document: Document { scopes: vec![file], ..Document::default() },
-            open: vec![0],
-            options: *options,
-            line_has_statement: false,
-            names: Vec::new(),
-            findings,
-            error_count: 0,
-        }
-    }
-
+impl<'t> Reader<'t, '_> {
     fn run(&mut self) {
         let mut input: Input<'t> = self.text;
         while self.error_count < MAX_ERRORS {
@@ -280,21 +275,17 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let row = self.document.scopes.len();
         let outer = self.open[self.open.len() - 1];
-        let mut scope = Scope::new(Span::default(), Some(outer));
         let around = &self.document.scopes[outer];
-        scope.outer_default =
-            around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);
-        self.document.scopes.push(scope);
+        let last_default = around.defaults.last().map(|default| (outer, default.color));
+        let outer_default = last_default.or(around.outer_default);
+        self.document.scopes.push(Scope { parent: Some(outer), outer_default, ..Scope::default() });
         self.open.push(row);
         // The file is open, too. Only the first definition that is nested too deeply is reported.
         if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
             let start = self.position(input);
             let span = Span { start, end: start + found(input).len() as u32 };
-            self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").limited(
-                &self.options.limits,
-                Limit::Nesting,
-                "use fewer",
-            ));
+            let error = Diagnostic::error(span, "definitions nest too deeply").label("here");
+            self.report(error.limited(&self.options.limits, Limit::Nesting, "use fewer"));
         }
         let (rest, name) = wanted(identifier(body), NAME)?;
         let end = self.position(rest);

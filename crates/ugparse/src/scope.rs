@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
     Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, Mix, NameId,
-    Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Tint, Vertex, VertexId, Wire,
+    Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Vertex, VertexId, Wire,
 };
 
 use crate::diagnostic::Diagnostic;
@@ -109,11 +109,6 @@ pub(crate) struct PathCorner {
 }
 
 impl<'t> Scope<'t> {
-    /// The scope of a definition.
-    pub fn new(name: Span, parent: Option<usize>) -> Self {
-        Self { name, parent, ..Self::default() }
-    }
-
     /// The scope of the file, with capacity for as many rows as a text of this
     /// size usually has. Reserved memory that is not used costs nothing, but growing a table copies
     /// it.
@@ -137,8 +132,7 @@ impl<'t> Scope<'t> {
             Statement::Color(name, color) => self.add_color(text, span, name, color),
             Statement::Mix(mix) => self.mixes.push(mix, span),
             Statement::Table(name, table) => {
-                let tint = Tint::Hue(0.0);
-                let value = ColorValue::Hsv { value: 1.0, tint, saturation: 0.0, factor: 1.0 };
+                let value = ColorValue::Rgb([1.0; 3]);
                 let color = Color { name: NameId::from_index(0), value, translucency: 0.0 };
                 self.add_color(text, span, Some(name), color);
                 self.color_tables.push(table, span);

@@ -5,6 +5,7 @@ use std::f64::consts::{PI, TAU};
 use glam::{DVec2, DVec3};
 use thiserror::Error;
 
+use crate::split::vertex_names;
 use crate::{
     Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
     VertexId, rest_positions,
@@ -80,8 +81,7 @@ pub fn cut_rounds(
     if n_polygons > MOST_POLYGONS {
         return Err(TooManyPolygons(n_polygons));
     }
-    let names = scene.vertices.iter().map(|vertex| scene.names.get(vertex.name));
-    let mut names: UniqueNames = names.collect();
+    let mut names = vertex_names(scene);
     let mut first_pieces = Vec::with_capacity(cuts.len() + 1);
     for (face, cut) in std::mem::take(&mut scene.faces).into_iter().zip(cuts) {
         first_pieces.push(scene.faces.len() as u32);

@@ -97,20 +97,17 @@ impl<'s> Counts<'s> {
     }
 
     pub fn json(&self) -> Value {
-        let written: Map<String, Value> =
-            self.statements.iter().map(|row| (row.kind.to_string(), row.written.into())).collect();
-        let placed: Map<String, Value> = self
-            .statements
-            .iter()
-            .filter_map(|row| Some((row.kind.to_string(), row.placed?.into())))
-            .collect();
+        let count = |of: fn(&Statements) -> Option<usize>| -> Map<String, Value> {
+            let rows = self.statements.iter();
+            rows.filter_map(|row| Some((row.kind.to_string(), of(row)?.into()))).collect()
+        };
         let bodies = bodies(self.scene).into_iter().map(|(velocity, faces, wires)| {
             let velocity = velocity.map(|velocity| velocity.beta().to_array());
             json!({ "velocity": velocity, "faces": faces, "wires": wires })
         });
         json!({
-            "written": written,
-            "placed": placed,
+            "written": count(|row| Some(row.written)),
+            "placed": count(|row| row.placed),
             "corners": self.corners,
             "faces_with_holes": self.faces_with_holes,
             "box": self.scene.bounds().map(|(low, high)| [low.to_array(), high.to_array()]),

@@ -210,10 +210,7 @@ fn findings_json(findings: &Diagnostics) -> Value {
             json!({ "file": place.file, "line": place.line, "column": place.column, "label": label })
         });
         json!({
-            "severity": match finding.severity {
-                Severity::Error => "error",
-                Severity::Warning => "warning",
-            },
+            "severity": if finding.severity == Severity::Error { "error" } else { "warning" },
             "message": finding.message,
             "file": place.file,
             "line": place.line,

@@ -128,11 +128,8 @@ impl Sizes<'_, '_> {
     }
 
     fn too_long(&self, call: &Call) -> Diagnostic {
-        Diagnostic::error(call.definition, "the chain of nested instances is too long").label("here").limited(
-            self.limits,
-            Limit::Chain,
-            "use fewer",
-        )
+        let error = Diagnostic::error(call.definition, "the chain of nested instances is too long");
+        error.label("here").limited(self.limits, Limit::Chain, "use fewer")
     }
 }
 

@@ -8,7 +8,6 @@ mod observer;
 mod placement;
 mod relative_motion;
 mod rest_frames;
-mod seen_event;
 mod seen_vertices;
 mod shown_effects;
 mod view_ahead;
@@ -20,10 +19,9 @@ use thiserror::Error;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
 pub use camera_frame::{axes_from_scene, camera_velocity};
-pub use eye::{eye, vertex_at_eye};
+pub use eye::{eye, seen_event, vertex_at_eye};
 pub use relative_motion::RelativeMotion;
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
-pub use seen_event::seen_event;
 pub use seen_vertices::{SeenVertices, rest_positions};
 pub use shown_effects::{RestPosition, SeenPosition, ShownEffects};
 
