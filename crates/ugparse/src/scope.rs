@@ -18,7 +18,7 @@ use crate::diagnostic::Diagnostic;
 use crate::numbered::{Name, NumberedNames};
 use crate::rows::{Named, Rows};
 use crate::source::Span;
-use crate::statement::{Call, MotionReference, MotionStatement, SkyStatement, Statement};
+use crate::statement::{Call, Counts, MotionReference, MotionStatement, SkyStatement, Statement};
 use crate::token::{skip_statement, statement_start};
 
 /// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a
@@ -80,16 +80,6 @@ pub(crate) struct Scope<'t> {
     pub duplicates: Vec<Diagnostic>,
     /// Number of statements other than calls.
     pub n_statements: u64,
-}
-
-/// Numbers of rows in the tables that are expanded in the order of the text.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counts {
-    pub faces: usize,
-    pub wires: usize,
-    pub lights: usize,
-    pub cameras: usize,
-    pub passed_on: usize,
 }
 
 /// A colour without a name.

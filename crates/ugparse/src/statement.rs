@@ -7,7 +7,6 @@ use ugscene::{
     Camera, Color, ColorId, ColorTable, Face, Light, Mix, SurfaceProperties, Texture, Vertex, Wire,
 };
 
-use crate::scope::Counts;
 use crate::source::Span;
 use crate::transform::Transform;
 
@@ -134,6 +133,16 @@ pub(crate) struct Call {
     /// The scope of its definition, if that is defined, and its name in paths; after resolution.
     pub target: Option<usize>,
     pub label: String,
+}
+
+/// Numbers of rows in the tables that are expanded in the order of the text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub faces: usize,
+    pub wires: usize,
+    pub lights: usize,
+    pub cameras: usize,
+    pub passed_on: usize,
 }
 
 /// The number of copies of a definition.

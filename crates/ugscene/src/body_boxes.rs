@@ -150,7 +150,7 @@ impl BodyBoxes {
             vertex.position = placed.eye + *seen;
         }
         let camera = CameraOptions { eye: None, ..camera.clone() };
-        let view = View::new(&scene, &camera, size)?;
+        let view = View::new(&scene, &camera, size).map_err(MotionError::Camera)?;
         let n_boxes = scene.wires.len();
         let stage = scene.stage.seen_geometry();
         let camera_speed = stage.map_or(0.0, |stage| stage.camera_velocity.beta().length());

@@ -4,9 +4,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 use rustc_hash::FxHashSet;
-use thiserror::Error;
 use ugphysics::Velocity;
 
+use crate::words::messages;
 use crate::{
     BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
     SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
@@ -81,23 +81,20 @@ pub struct AddedMesh {
 }
 
 /// Why something cannot be part of a scene. Rows are counted from 0.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum BuildError {
     /// A name is empty or has other characters than letters, digits, `:`, `_` and `#`, or begins
     /// with a digit.
-    #[error("`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit")]
     Name {
         /// The name.
         name: String,
     },
     /// Two colours, two surfaces or two meshes have the same name.
-    #[error("the name `{name}` is used twice")]
     Repeated {
         /// The name.
         name: String,
     },
     /// A number is NaN, infinite, or out of its range.
-    #[error("{what} {row} is out of range: {range}")]
     OutOfRange {
         /// The array, or the property.
         what: &'static str,
@@ -107,7 +104,6 @@ pub enum BuildError {
         range: &'static str,
     },
     /// An array has not as many rows as another.
-    #[error("{found} rows of {what} instead of {expected}")]
     Length {
         /// The array.
         what: &'static str,
@@ -117,7 +113,6 @@ pub enum BuildError {
         expected: usize,
     },
     /// A corner is no row of the positions, or a colour, surface or body no row of the scene.
-    #[error("{what} {row} refers to row {id} of {n_rows}")]
     NoRow {
         /// The array.
         what: &'static str,
@@ -129,9 +124,18 @@ pub enum BuildError {
         n_rows: usize,
     },
     /// A table would have more rows than ids can express.
-    #[error("the scene has too many rows; split it")]
     TooMany,
 }
+
+messages! { BuildError {
+    Self::Name { name } =>
+        "`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit";
+    Self::Repeated { name } => "the name `{name}` is used twice";
+    Self::OutOfRange { what, row, range } => "{what} {row} is out of range: {range}";
+    Self::Length { what, found, expected } => "{found} rows of {what} instead of {expected}";
+    Self::NoRow { what, row, id, n_rows } => "{what} {row} refers to row {id} of {n_rows}";
+    Self::TooMany => "the scene has too many rows; split it";
+} }
 
 impl SceneBuilder {
     /// Adds a colour. `translucency`: 0 opaque … 1 invisible.

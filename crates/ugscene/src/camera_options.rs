@@ -1,9 +1,9 @@
 //! Options of the camera, their errors, and the film.
 
 use glam::DVec3;
-use thiserror::Error;
 
-use crate::{Camera, words};
+use crate::Camera;
+use crate::words::{messages, point};
 
 /// Default view angle across the picture, degrees.
 pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;
@@ -29,30 +29,34 @@ pub struct CameraOptions {
 }
 
 /// Why a camera is invalid.
-#[derive(Clone, Copy, Debug, Error, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CameraError {
     /// The eye point is the view centre, or the direction between them underflows or overflows.
-    #[error("the eye point {} is also the view centre, so there is no direction to look in", words::point(*eye))]
     NoDirection {
         /// The eye point.
         eye: DVec3,
     },
     /// The up direction of the options is the zero vector.
-    #[error("the up direction 0 0 0 is no direction")]
     NoUp,
     /// A view angle, in degrees, that is not between 0 and 180.
-    #[error("a view angle of {0} degrees cannot be projected on a flat picture")]
     ViewAngle(f64),
     /// A film size or focal length that is not positive.
-    #[error("the film size and the focal length of the camera must be positive")]
     Film,
     /// A film rectangle without area.
-    #[error("the film rectangle of the camera has no area")]
     FilmRectangle,
     /// The yon distance is not behind the hither distance, or not in front of the eye.
-    #[error("nothing lies between the clipping distances {} and {}", _0[0], _0[1])]
     Clip([f64; 2]),
 }
+
+messages! { CameraError {
+    Self::NoDirection { eye } =>
+        "the eye point {} is also the view centre, so there is no direction to look in", point(*eye);
+    Self::NoUp => "the up direction 0 0 0 is no direction";
+    Self::ViewAngle(angle) => "a view angle of {angle} degrees cannot be projected on a flat picture";
+    Self::Film => "the film size and the focal length of the camera must be positive";
+    Self::FilmRectangle => "the film rectangle of the camera has no area";
+    Self::Clip([hither, yon]) => "nothing lies between the clipping distances {hither} and {yon}";
+} }
 
 impl CameraOptions {
     /// # Errors

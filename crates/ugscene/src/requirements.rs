@@ -2,35 +2,25 @@
 //! refused.
 
 use glam::DVec3;
-use thiserror::Error;
 use ugphysics::{Hsv, hue_to_wavelength};
 
-use crate::words::point;
+use crate::words::{messages, point};
 use crate::{BodyId, ColorScale, ColorStage, ColorValue, HueScale, Scene, Tint};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
-#[derive(Clone, Debug, Error, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum StageError {
     /// Rest shapes are required, but positions are as seen.
-    #[error("positions in this scene are as seen already, so its rest shapes are not known")]
     GeometryAsSeen,
     /// Colours at rest are required, but colours are as seen.
-    #[error("colours in this scene are as seen already")]
     ColorsAsSeen,
     /// Colours as seen are required, and the renderer is to shift those of textures.
-    #[error("textures in this scene are shifted where they are drawn, by a ray for each sample")]
     ColorsDeferred,
     /// Positions as seen are required, but bodies move and have their rest shapes.
-    #[error("bodies in this scene move, and their positions are not as seen yet")]
     GeometryAtRest,
     /// Wavelengths are required, but colours as seen are hues.
-    #[error("colours in this scene are as seen, and are not written as wavelengths")]
     NotWavelengths,
     /// Positions are as seen from another eye point.
-    #[error(
-        "positions in this scene are as seen from the eye point {}, and would be wrong from {}",
-        point(*made_for), point(*asked)
-    )]
     OtherEye {
         /// The eye point that positions were computed for.
         made_for: DVec3,
@@ -38,6 +28,19 @@ pub enum StageError {
         asked: DVec3,
     },
 }
+
+messages! { StageError {
+    Self::GeometryAsSeen =>
+        "positions in this scene are as seen already, so its rest shapes are not known";
+    Self::ColorsAsSeen => "colours in this scene are as seen already";
+    Self::ColorsDeferred =>
+        "textures in this scene are shifted where they are drawn, by a ray for each sample";
+    Self::GeometryAtRest => "bodies in this scene move, and their positions are not as seen yet";
+    Self::NotWavelengths => "colours in this scene are as seen, and are not written as wavelengths";
+    Self::OtherEye { made_for, asked } =>
+        "positions in this scene are as seen from the eye point {}, and would be wrong from {}",
+        point(*made_for), point(*asked);
+} }
 
 /// True if a face or wire moves.
 pub fn has_moving_bodies(scene: &Scene) -> bool {

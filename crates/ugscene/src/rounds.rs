@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
-use thiserror::Error;
 
 use crate::split::vertex_names;
+use crate::words::messages;
 use crate::{
     Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
     VertexId, rest_positions,
@@ -28,9 +28,12 @@ const MOST_POLYGONS: usize = 1_000_000;
 const LEAST_SEGMENTS: usize = 8;
 
 /// The round faces of a scene would become more than a million polygons: so many.
-#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error("the round faces of the scene would become {0} polygons, of {MOST_POLYGONS} at most")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyPolygons(pub usize);
+
+messages! { TooManyPolygons {
+    Self(n) => "the round faces of the scene would become {n} polygons, of {MOST_POLYGONS} at most";
+} }
 
 /// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
 /// returns the row of the first polygon of each face, and the number of all faces. In a scene as

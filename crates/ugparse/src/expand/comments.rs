@@ -31,13 +31,13 @@ impl Expander<'_, '_> {
         let Some(mut all) = self.emitted.take() else { return Vec::new() };
         let is_flat = self.scopes.len() == 1;
         let Origins { vertices, faces, lights, cameras, wires, passed_on } = &self.origins;
-        let vertices = first_rows(is_flat, vertices, Item::Vertex);
+        let vertices = firsts(is_flat, vertices, Item::Vertex);
         all.extend(vertices.map(|(name, item)| (Scope::vertex_statement(self.text, name), item)));
-        all.extend(first_rows(is_flat, faces, Item::Face));
-        all.extend(first_rows(is_flat, wires, Item::Wire));
-        all.extend(first_rows(is_flat, lights, Item::Light));
-        all.extend(first_rows(is_flat, cameras, Item::Camera));
-        all.extend(first_rows(is_flat, passed_on, Item::PassedOn));
+        all.extend(firsts(is_flat, faces, Item::Face));
+        all.extend(firsts(is_flat, wires, Item::Wire));
+        all.extend(firsts(is_flat, lights, Item::Light));
+        all.extend(firsts(is_flat, cameras, Item::Camera));
+        all.extend(firsts(is_flat, passed_on, Item::PassedOn));
         all.sort_by_key(|&(span, item)| (span.start, item));
         all
     }
@@ -61,7 +61,7 @@ impl Expander<'_, '_> {
 }
 
 /// Statements with the first row of each. `is_flat`: none has several.
-fn first_rows(is_flat: bool, spans: &[Span], item: fn(u32) -> Item) -> impl Iterator<Item = (Span, Item)> {
+fn firsts<I: Fn(u32) -> Item>(is_flat: bool, spans: &[Span], item: I) -> impl Iterator<Item = (Span, Item)> {
     let mut known = FxHashSet::default();
     let rows = spans.iter().zip(0..);
     rows.filter(move |(span, _)| is_flat || known.insert(span.start))

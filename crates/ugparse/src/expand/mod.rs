@@ -25,9 +25,9 @@ use ugscene::{ColorId, Item, Scene, Vertex, VertexId};
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
 use crate::resolve::Links;
-use crate::scope::{BodyTable, Counts, Scope};
+use crate::scope::{BodyTable, Scope};
 use crate::source::Span;
-use crate::statement::{Call, MotionReference, Repeat, StatedFrame};
+use crate::statement::{Call, Counts, MotionReference, Repeat, StatedFrame};
 
 /// The spans of the text from which the rows of a flat scene originate.
 #[derive(Clone, Debug, Default)]

@@ -4,8 +4,8 @@ use ugscene::{Camera, Face, Light, Wire};
 
 use super::Expander;
 use crate::rows::Rows;
-use crate::scope::Counts;
 use crate::source::Span;
+use crate::statement::Counts;
 
 impl Expander<'_, '_> {
     /// Moves rows of the file up to `end`.

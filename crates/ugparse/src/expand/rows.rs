@@ -10,8 +10,8 @@ use super::cameras::NestedCamera;
 use super::placement::Placement;
 use crate::diagnostic::Diagnostic;
 use crate::resolve::{degeneracy, face_name, is_short, short_wire};
-use crate::scope::Counts;
 use crate::source::Span;
+use crate::statement::Counts;
 
 impl Expander<'_, '_> {
     /// Expands everything except vertices and calls, from `start` up to `end`.

@@ -15,7 +15,6 @@ mod world_lines;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use thiserror::Error;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
 pub use camera_frame::{axes_from_scene, camera_velocity};
@@ -29,6 +28,7 @@ use observer::Observer;
 use placement::Placement;
 
 use crate::camera_options::half_side;
+use crate::words::messages;
 use crate::{
     BodyId, Camera, CameraError, CameraOptions, DefaultCamera, GeometryStage, Projection, Scene,
     SeenGeometry, StageError,
@@ -70,38 +70,27 @@ pub enum Anchor {
 }
 
 /// Why the motions of a scene are invalid.
-#[derive(Clone, Debug, Error)]
+#[derive(Clone, Debug)]
 pub enum MotionError {
     /// Positions or colours of the scene are as seen already.
-    #[error(transparent)]
-    Stage(#[from] StageError),
+    Stage(StageError),
     /// [`MotionOptions::velocity`] is invalid.
-    #[error("velocity of the bodies: {0}")]
     Velocity(VelocityError),
     /// [`MotionOptions::camera_velocity`] is invalid.
-    #[error("velocity of the camera: {0}")]
     CameraVelocity(VelocityError),
     /// The velocity of a body relative to the camera rounds to the speed of light.
-    #[error(
-        "the body with velocity {} {} {} in the scene moves too close to the speed of light relative to the \
-         camera",
-        beta.x, beta.y, beta.z
-    )]
     TooFast {
         /// The body's velocity in the frame of the scene.
         beta: DVec3,
     },
     /// The camera is invalid.
-    #[error(transparent)]
-    Camera(#[from] CameraError),
+    Camera(CameraError),
     /// The eye cannot move with the camera's body.
-    #[error("the eye cannot move with the motion of the camera: {error}")]
     Eye {
         /// Why.
         error: WorldLineError,
     },
     /// A body cannot move so.
-    #[error("motion `{name}`: {error}")]
     WorldLine {
         /// The name of the motion.
         name: String,
@@ -109,9 +98,6 @@ pub enum MotionError {
         error: WorldLineError,
     },
     /// Rounding moves a body on a world line by more than [`MOST_ROUNDED`] of its size.
-    #[error(
-        "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of its size"
-    )]
     Rounded {
         /// The name of the motion.
         name: String,
@@ -119,10 +105,8 @@ pub enum MotionError {
         error: f64,
     },
     /// A single effect is asked for, and a body accelerates or turns.
-    #[error("bodies that accelerate or turn are seen with contraction and flight time together")]
     PartialGeometry,
     /// A single effect is asked for, and a colour changes with own time.
-    #[error("colours that change with time are seen with contraction and flight time together")]
     PartialTimes,
 }
 
@@ -138,6 +122,24 @@ pub struct ShownPoint {
     /// The own time of the body at emission, of one on a world line.
     pub own_time: f64,
 }
+
+messages! { MotionError {
+    Self::Stage(error) => "{error}";
+    Self::Velocity(error) => "velocity of the bodies: {error}";
+    Self::CameraVelocity(error) => "velocity of the camera: {error}";
+    Self::TooFast { beta: DVec3 { x, y, z } } =>
+        "the body with velocity {x} {y} {z} in the scene moves too close to the speed of light relative to \
+         the camera";
+    Self::Camera(error) => "{error}";
+    Self::Eye { error } => "the eye cannot move with the motion of the camera: {error}";
+    Self::WorldLine { name, error } => "motion `{name}`: {error}";
+    Self::Rounded { name, error } =>
+        "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of its size";
+    Self::PartialGeometry =>
+        "bodies that accelerate or turn are seen with contraction and flight time together";
+    Self::PartialTimes =>
+        "colours that change with time are seen with contraction and flight time together";
+} }
 
 /// Where the bodies of a scene are relative to the camera.
 #[derive(Clone, Debug)]
@@ -175,8 +177,8 @@ impl PlacedBodies {
     ) -> Result<Self, MotionError> {
         let velocity = Velocity::from_beta(options.velocity.unwrap_or(DVec3::ZERO));
         let velocity = velocity.map_err(MotionError::Velocity)?;
-        crate::require_geometry_at_rest(scene)?;
-        crate::require_colors_at_rest(scene)?;
+        crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
+        crate::require_colors_at_rest(scene).map_err(MotionError::Stage)?;
         let overridden = options.velocity.map(|_| camera_frame::set_velocity(scene, velocity));
         let observer = Observer::take(scene, options, camera.eye)?;
         let of_camera = observer.velocity;
@@ -192,7 +194,7 @@ impl PlacedBodies {
             let motion = (!scene.bodies.is_on_world_line(body)).then(|| motions[body.index()].clone());
             motion.into_iter().collect()
         };
-        let default_camera = DefaultCamera::new(scene, camera, size, fitted)?;
+        let default_camera = DefaultCamera::new(scene, camera, size, fitted).map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
         let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;
@@ -209,9 +211,9 @@ impl PlacedBodies {
         let shifts = placement.shifts(&motions, &frames);
         placement::shift_lights(scene, &motions, &shifts);
         clocks::count_from_eye(scene, (&motions, &frames), &placement)?;
-        camera.check_up()?;
+        camera.check_up().map_err(MotionError::Camera)?;
         let center = default_camera.map(|camera| camera.center);
-        set_camera(scene, eye, center, camera, of_camera)?;
+        set_camera(scene, eye, center, camera, of_camera).map_err(MotionError::Camera)?;
         turn_camera(scene, eye, &observer);
         let MotionOptions { time, geometry: ShownEffects { contraction, flight_time }, .. } = *options;
         if has_motion || options.geometry != ShownEffects::default() {
@@ -323,15 +325,15 @@ pub fn moving_camera(
     options: &MotionOptions,
     camera: &CameraOptions,
 ) -> Result<Option<(Camera, Velocity)>, MotionError> {
-    crate::require_geometry_at_rest(scene)?;
+    crate::require_geometry_at_rest(scene).map_err(MotionError::Stage)?;
     let Some(row) = scene.camera_row() else { return Ok(None) };
     let middle = crate::camera::middle(scene);
     let (cameras, bodies) = (scene.cameras.clone(), scene.bodies.clone());
     let mut scene = Scene { cameras, bodies, ..Scene::default() };
     let observer = Observer::take(&mut scene, options, camera.eye)?;
     let eye = eye(&scene, camera.eye);
-    camera.check_up()?;
-    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity)?;
+    camera.check_up().map_err(MotionError::Camera)?;
+    set_camera(&mut scene, eye, Some(middle), camera, observer.velocity).map_err(MotionError::Camera)?;
     turn_camera(&mut scene, eye, &observer);
     Ok(Some((scene.cameras.swap_remove(row), observer.velocity)))
 }
