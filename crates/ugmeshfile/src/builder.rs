@@ -216,14 +216,8 @@ impl Builder {
             return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
         }
         let contours = self.scene.contours.push_all([corners]);
-        self.scene.faces.push(Face {
-            name: self.face_name,
-            contours,
-            color,
-            shading: None,
-            body: self.scene.bodies.unstated(),
-            shape: ugscene::FaceShape::Polygon,
-        });
+        let face = Face::polygon(contours, self.scene.bodies.unstated());
+        self.scene.faces.push(Face { name: self.face_name, color, ..face });
         self.lines.faces.push(self.line);
         Ok(())
     }

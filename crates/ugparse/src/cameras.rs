@@ -5,20 +5,14 @@ use ugscene::{Item, Scene};
 use crate::suggest::nearest;
 use crate::{Diagnostic, Diagnostics, Parsed, Setting, Source, Span};
 
-/// Selects the camera of row `chosen`: removes its name, and moves it before others without
-/// one. `spans`: of all cameras.
-fn select_camera(scene: &mut Scene, chosen: usize, spans: &mut [Span]) {
-    scene.cameras[chosen].name = None;
-    let Some(first) = scene.camera_row().filter(|&first| first < chosen) else { return };
-    scene.cameras[first..=chosen].rotate_right(1);
-    spans[first..=chosen].rotate_right(1);
+/// Puts the cameras of a scene in another order. `order`: the old row of each. `spans`: of all.
+pub(crate) fn reorder(scene: &mut Scene, spans: &mut Vec<Span>, order: &[usize]) {
+    scene.cameras = order.iter().map(|&row| scene.cameras[row].clone()).collect();
+    *spans = order.iter().map(|&row| spans[row]).collect();
     for comment in &mut scene.remarks.comments {
         if let Item::Camera(row) = &mut comment.at {
-            *row = match *row as usize {
-                old if old == chosen => first as u32,
-                old if (first..chosen).contains(&old) => *row + 1,
-                _ => *row,
-            };
+            let new = order.iter().position(|&old| old == *row as usize);
+            *row = new.map_or(*row, |new| new as u32);
         }
     }
     scene.remarks.comments.sort_by_key(|comment| comment.at);
@@ -33,13 +27,15 @@ impl Parsed {
     pub fn choose_camera(&mut self, source: &Source, name: &str) -> Result<(), Diagnostics> {
         let names = self.scene.cameras.iter().map(|camera| camera.name.map(|id| self.scene.names.get(id)));
         let names: Vec<Option<&str>> = names.collect();
-        match names.iter().position(|&other| other == Some(name)) {
-            Some(row) => {
-                select_camera(&mut self.scene, row, &mut self.origins.cameras);
-                Ok(())
-            }
-            None => Err(Diagnostics::one(source, self.no_camera(name, &names))),
-        }
+        let Some(chosen) = names.iter().position(|&other| other == Some(name)) else {
+            return Err(Diagnostics::one(source, self.no_camera(name, &names)));
+        };
+        self.scene.cameras[chosen].name = None;
+        let first = self.scene.camera_row().unwrap_or(chosen);
+        let mut order: Vec<usize> = (0..self.scene.cameras.len()).collect();
+        order[first..=chosen].rotate_right(1);
+        reorder(&mut self.scene, &mut self.origins.cameras, &order);
+        Ok(())
     }
 
     fn no_camera(&self, name: &str, names: &[Option<&str>]) -> Diagnostic {

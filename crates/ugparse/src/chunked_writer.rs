@@ -13,11 +13,13 @@ pub(crate) struct ChunkedWriter<'o> {
     ready: Vec<Vec<u8>>,
     /// Empty buffers, for reuse.
     spare: Vec<Vec<u8>>,
+    /// Bytes that were sent.
+    pub(crate) n_sent: usize,
 }
 
 impl<'o> ChunkedWriter<'o> {
     pub(crate) fn new(out: &'o mut dyn Write) -> Self {
-        Self { out, ready: Vec::new(), spare: Vec::new() }
+        Self { out, ready: Vec::new(), spare: Vec::new(), n_sent: 0 }
     }
 
     /// Appends text to the last piece that waits to be sent.
@@ -51,6 +53,7 @@ impl<'o> ChunkedWriter<'o> {
     pub(crate) fn send(&mut self) -> io::Result<()> {
         for piece in &mut self.ready {
             self.out.write_all(piece)?;
+            self.n_sent += piece.len();
             piece.clear();
         }
         Ok(())

@@ -62,6 +62,16 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(span, message) }
     }
 
+    /// An error at a location, with its remedy.
+    pub(crate) fn here(span: Span, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::error(span, message).label("here").help(help)
+    }
+
+    /// An error where something is stated again, with its remedy.
+    pub(crate) fn again([again, first]: [Span; 2], message: impl Into<String>, help: &str) -> Self {
+        Self::error(again, message).label("again here").other(first, "first here").help(help)
+    }
+
     /// Adds the words at the location.
     pub fn label(mut self, label: impl Into<String>) -> Self {
         self.label = label.into();

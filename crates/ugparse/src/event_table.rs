@@ -5,7 +5,7 @@ use ugphysics::{Event, SampledPath, WorldLineError};
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::diagnostics::Diagnostics;
 use crate::source::{Source, Span};
-use crate::token::{line_end, number};
+use crate::token::number;
 use crate::wording::{shorten, word_help};
 
 /// The names of the columns.
@@ -18,7 +18,7 @@ const COLUMNS: [&[u8]; 4] = [b"t", b"x", b"y", b"z"];
 /// Rows that are not numbers, or between which no body can move.
 pub(crate) fn events(table: &Source) -> Result<Option<Vec<u8>>, Diagnostics> {
     let text = &table.text[..];
-    let mut lines = Lines { text, at: if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 } };
+    let mut lines = lines(text);
     let Some(names) = lines.next() else { return Ok(None) };
     let separator = if names.of(text).contains(&b',') { Some(b',') } else { None };
     let names = fields(text, names, separator);
@@ -141,25 +141,12 @@ fn fields(text: &[u8], line: Span, separator: Option<u8>) -> Vec<Span> {
 }
 
 /// The lines of a text, without blanks around them, but those that are empty or comments.
-struct Lines<'t> {
-    text: &'t [u8],
-    at: usize,
-}
-
-impl Iterator for Lines<'_> {
-    type Item = Span;
-
-    fn next(&mut self) -> Option<Span> {
-        loop {
-            let rest = self.text.get(self.at..).filter(|rest| !rest.is_empty())?;
-            let len = line_end(rest);
-            let line = &rest[..len];
-            let start = self.at + (len - line.trim_ascii_start().len());
-            let end = start + line.trim_ascii().len();
-            self.at += len + 1;
-            if !matches!(self.text[start..end], [] | [b'#', ..]) {
-                return Some(Span { start: start as u32, end: end as u32 });
-            }
-        }
-    }
+fn lines(text: &[u8]) -> impl Iterator<Item = Span> {
+    let mut next = if text.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+    let lines = text[next..].split(|byte| matches!(byte, b'\n' | b'\r')).map(move |line| {
+        let start = next + (line.len() - line.trim_ascii_start().len());
+        next += line.len() + 1;
+        Span { start: start as u32, end: (start + line.trim_ascii().len()) as u32 }
+    });
+    lines.filter(|line| !matches!(line.of(text), [] | [b'#', ..]))
 }

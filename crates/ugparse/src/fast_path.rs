@@ -4,7 +4,7 @@
 //! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
-use ugscene::{ColorId, Face, FaceShape, Vertex, VertexId};
+use ugscene::{BodyId, ColorId, Face, FaceShape, Vertex, VertexId};
 
 use crate::numbered::Name;
 use crate::scope::Scope;
@@ -43,28 +43,13 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
     cursor.skip_blank();
     let name = cursor.identifier();
     let first = scope.contours.len();
-    let Some(tail) = contours(&mut cursor, scope).and_then(|()| Tail::read(&mut cursor)) else {
+    let Some((color, body)) = contours(&mut cursor, scope).and_then(|()| tail(&mut cursor, scope)) else {
         scope.contours.truncate(first);
         return None;
     };
-    let body = match tail.motion {
-        None => Some(scope.bodies.bodies.unstated()),
-        Some(TailMotion::Velocity(beta)) => scope.bodies.moving_with_beta(beta),
-        Some(TailMotion::Named(name, span)) => Some(scope.bodies.enter_name(name, span)),
-    };
-    let Some(body) = body else {
-        // Faster than light: the grammar reports the error.
-        scope.contours.truncate(first);
-        return None;
-    };
-    let face = Face {
-        name: name.map(|name| scope.add_name(name)),
-        contours: first as u32..scope.contours.row_count(),
-        color: tail.color.map(|color| ColorId::from_index(scope.colors.names.enter(color))),
-        shading: None,
-        body,
-        shape: FaceShape::Polygon,
-    };
+    let name = name.map(|name| scope.add_name(name));
+    let contours = first as u32..scope.contours.row_count();
+    let face = Face { name, contours, color, shading: None, body, shape: FaceShape::Polygon };
     scope.n_statements += 1;
     scope.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });
     Some(cursor.at)
@@ -95,28 +80,29 @@ fn contours<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<()> {
     }
 }
 
-/// The part of a face statement after the contours.
-struct Tail<'t> {
-    color: Option<&'t [u8]>,
-    motion: Option<TailMotion<'t>>,
+/// `[color] [< x y z >] ;`: what of it is known is added even if the rest is not as simple.
+#[inline(always)]
+fn tail<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<(Option<ColorId>, BodyId)> {
+    let color = cursor.identifier().map(|color| ColorId::from_index(scope.colors.names.enter(color)));
+    cursor.skip_blank();
+    let body = if cursor.next_is(b'<') { motion(cursor, scope)? } else { scope.bodies.bodies.unstated() };
+    cursor.mark(b';')?;
+    Some((color, body))
 }
 
-/// What is between `<` and `>`.
-enum TailMotion<'t> {
-    /// Of any magnitude.
-    Velocity(DVec3),
-    Named(&'t [u8], Span),
-}
-
-impl<'t> Tail<'t> {
-    #[inline(always)]
-    fn read(cursor: &mut Cursor<'t>) -> Option<Self> {
-        let color = cursor.identifier();
-        cursor.skip_blank();
-        let motion = if cursor.next_is(b'<') { Some(cursor.motion()?) } else { None };
-        cursor.mark(b';')?;
-        Some(Self { color, motion })
-    }
+/// `< x y z >` or `< NAME >`
+fn motion<'t>(cursor: &mut Cursor<'t>, scope: &mut Scope<'t>) -> Option<BodyId> {
+    cursor.at += 1;
+    cursor.skip_blank();
+    let start = cursor.at as u32;
+    let Some(name) = cursor.identifier() else {
+        let beta = cursor.point()?;
+        cursor.mark(b'>')?;
+        // Of one that is faster than light, the grammar reports the error.
+        return scope.bodies.moving_with_beta(beta);
+    };
+    cursor.mark(b'>')?;
+    Some(scope.bodies.enter_name(name, Span { start, end: start + name.len() as u32 }))
 }
 
 #[derive(Clone, Copy)]
@@ -211,18 +197,5 @@ impl<'t> Cursor<'t> {
         }
         self.mark(b')')?;
         Some(uv)
-    }
-
-    /// `< x y z >` or `< NAME >`
-    fn motion(&mut self) -> Option<TailMotion<'t>> {
-        self.at += 1;
-        self.skip_blank();
-        let start = self.at as u32;
-        let motion = match self.identifier() {
-            Some(name) => TailMotion::Named(name, Span { start, end: start + name.len() as u32 }),
-            None => TailMotion::Velocity(self.point()?),
-        };
-        self.mark(b'>')?;
-        Some(motion)
     }
 }

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::diagnostics::Diagnostics;
 use crate::event_table;
-use crate::grammar::KEYWORDS;
+use crate::grammar::is_keyword;
 use crate::options::{Limit, Options};
 use crate::reader::{self, RequestStatement};
 use crate::refuse_errors;
@@ -174,7 +174,7 @@ impl Inclusion<'_> {
     /// Writes the events of a table, in parentheses and on one line, so that the numbers of the
     /// lines that follow stay the same.
     fn events(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
-        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
+        let source = self.source();
         let path = relative_to(&source.name, &source.slice(statement.file));
         if let Some(motion) = self.tables.get(&path) {
             self.out.push(b'<');
@@ -186,11 +186,9 @@ impl Inclusion<'_> {
         let (path, text) = self.fetch(statement)?;
         let table = Source { mesh: Some(Box::new(None)), ..Source::new(path.display().to_string(), text) };
         let Some(events) = event_table::events(&table)? else {
-            let (source, finding) = self.finding(statement);
-            let finding =
-                finding(format!("file `{}` is not a table of events", source.slice(statement.file)));
+            let message = format!("file `{}` is not a table of events", self.source().slice(statement.file));
             let help = "its first line names the columns `t`, `x`, `y` and `z`, with commas between them";
-            return Err(Diagnostics::one(source, finding.help(help)));
+            return Err(self.refused(statement, message, help));
         };
         self.out.extend_from_slice(&events);
         self.tables.insert(path, motion);
@@ -199,13 +197,11 @@ impl Inclusion<'_> {
 
     /// Writes the path of a picture, whose bytes are kept.
     fn image(&mut self, statement: RequestStatement) -> Result<(), Diagnostics> {
-        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
-        let path = relative_to(&source.name, &source.slice(statement.file));
+        let path = relative_to(&self.source().name, &self.source().slice(statement.file));
         let name = path.to_string_lossy().into_owned();
         if name.contains(['"', '\n']) {
-            let (source, finding) = self.finding(statement);
-            let finding = finding(format!("the path `{name}` has a quotation mark or a line end"));
-            return Err(Diagnostics::one(source, finding.help("rename its folder")));
+            let message = format!("the path `{name}` has a quotation mark or a line end");
+            return Err(self.refused(statement, message, "rename its folder"));
         }
         let key = (name, statement.row);
         if !self.images.contains_key(&key) {
@@ -239,13 +235,12 @@ impl Inclusion<'_> {
         };
         let checked = picture.and_then(|picture| ugmeshfile::check_picture(&picture).map(|()| picture));
         checked.map_err(|problem| {
-            let (source, finding) = self.finding(statement);
-            let finding = finding(format!("cannot read `{}`: {problem}", path.display()));
             let help = match statement.row {
                 Some(_) => "give the number of a picture (PNG or JPEG) within a glTF file, from 0",
                 None => "give a picture (PNG, JPEG, HDR, EXR or PFM) of at most 268435456 pixels",
             };
-            Diagnostics::one(source, finding.help(help))
+            let message = format!("cannot read `{}`: {problem}", path.display());
+            self.refused(statement, message, help)
         })
     }
 
@@ -254,36 +249,51 @@ impl Inclusion<'_> {
         Ok(Arc::clone(file))
     }
 
-    /// The innermost open text, and an error at a request in it.
-    fn finding(&self, statement: RequestStatement) -> (&Source, impl Fn(String) -> Diagnostic + use<>) {
-        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
-        let label = match statement.kind {
-            RequestKind::Include => "included here",
-            RequestKind::Path | RequestKind::Image => "read here",
-            RequestKind::Execute => "run here",
-        };
-        (source, move |message: String| Diagnostic::error(statement.file, message).label(label))
+    /// The innermost open text.
+    fn source(&self) -> &Source {
+        &self.open.last().expect("a statement stands in an open text").1.source
+    }
+
+    /// An error at a request in the innermost open text.
+    fn refused(&self, statement: RequestStatement, message: impl Into<String>, help: &str) -> Diagnostics {
+        Diagnostics::one(self.source(), finding(statement, message).help(help))
+    }
+
+    /// The same because of a limit.
+    fn limited(
+        &self,
+        statement: RequestStatement,
+        message: &str,
+        limit: Limit,
+        else_do: &str,
+    ) -> Diagnostics {
+        let limits = &self.options.limits;
+        Diagnostics::one(self.source(), finding(statement, message).limited(limits, limit, else_do))
     }
 
     /// Loads the text requested by a statement of the innermost open text.
     fn load(&mut self, statement: RequestStatement) -> Result<(PathBuf, Text), Diagnostics> {
         let limits = &self.options.limits;
-        let (source, finding) = self.finding(statement);
-        let refuse = |finding: Diagnostic| Diagnostics::one(source, finding);
+        let source = self.source();
         let shown = source.slice(statement.file);
         if statement.kind == RequestKind::Execute && !self.options.execute {
-            let finding = finding(format!("program `{shown}` is not run"));
-            let finding = finding.help("a scene can run any program; if you trust this one, allow it");
-            return Err(refuse(finding.setting(Setting::Execute)));
+            let help = "a scene can run any program; if you trust this one, allow it";
+            let finding = finding(statement, format!("program `{shown}` is not run")).help(help);
+            return Err(Diagnostics::one(source, finding.setting(Setting::Execute)));
         }
         let path = relative_to(&source.name, &shown);
         if self.open.iter().any(|(open, _)| *open == path) {
-            let finding = finding(format!("file `{shown}` includes itself"));
-            return Err(refuse(finding.help("a file must not include itself, directly or through others")));
+            let help = "a file must not include itself, directly or through others";
+            let message = format!("file `{shown}` includes itself");
+            return Err(self.refused(statement, message, help));
         }
         if self.open.len() as u64 > limits.get(Limit::Includes) {
-            let finding = finding("files include each other too deeply".into());
-            return Err(refuse(finding.limited(limits, Limit::Includes, "use fewer")));
+            return Err(self.limited(
+                statement,
+                "files include each other too deeply",
+                Limit::Includes,
+                "use fewer",
+            ));
         }
         let (path, text) = self.fetch(statement)?;
         let file = Source::new(path.display().to_string(), text);
@@ -318,56 +328,56 @@ impl Inclusion<'_> {
         let text = crate::write(&scene);
         self.n_bytes = self.n_bytes.saturating_add(text.len() as u64);
         if self.n_bytes > self.options.limits.get(Limit::Text) {
-            let (source, finding) = self.finding(statement);
-            let finding = finding("with the statements of this mesh the scene is too large".to_owned());
-            return Err(Diagnostics::one(
-                source,
-                finding.limited(&self.options.limits, Limit::Text, "split it"),
+            return Err(self.limited(
+                statement,
+                "with the statements of this mesh the scene is too large",
+                Limit::Text,
+                "split it",
             ));
         }
         Ok(Source::new(name, text))
     }
 
     fn not_a_scene(&self, statement: RequestStatement) -> Diagnostics {
-        let (source, finding) = self.finding(statement);
-        let shown = source.slice(statement.file);
+        let shown = self.source().slice(statement.file);
         let text = match statement.kind {
             RequestKind::Include | RequestKind::Path | RequestKind::Image => format!("file `{shown}`"),
             RequestKind::Execute => format!("the output of `{shown}`"),
         };
         let help = "it must begin with a statement or a comment, or be a mesh; errors in it are shown if it is read by itself";
-        Diagnostics::one(source, finding(format!("{text} is not UniGrafix")).help(help))
+        self.refused(statement, format!("{text} is not UniGrafix"), help)
     }
 
     /// Loads the bytes requested by a statement of the innermost open text.
     fn fetch(&mut self, statement: RequestStatement) -> Result<(PathBuf, Vec<u8>), Diagnostics> {
         self.n_files += 1;
         let limits = &self.options.limits;
-        let (_, Text { source, .. }) = self.open.last().expect("a statement stands in an open text");
-        let finding = self.finding(statement).1;
-        let refuse = |finding: Diagnostic| Diagnostics::one(source, finding);
-        let shown = source.slice(statement.file);
-        let path = relative_to(&source.name, &shown);
+        let shown = self.source().slice(statement.file).into_owned();
+        let path = relative_to(&self.source().name, &shown);
         if self.n_files > limits.get(Limit::Files) {
-            let finding = finding("too many files are included".into());
-            return Err(refuse(finding.limited(limits, Limit::Files, "include fewer")));
+            return Err(self.limited(
+                statement,
+                "too many files are included",
+                Limit::Files,
+                "include fewer",
+            ));
         }
         let is_image = statement.kind == RequestKind::Image;
         let (limit, n_before) =
             if is_image { (Limit::Memory, self.n_image_bytes) } else { (Limit::Text, self.n_bytes) };
         let most = if is_image { MOST_IMAGE_BYTES } else { u64::MAX };
         let room = limits.get(limit).saturating_sub(n_before).min(most);
-        let text = (self.loader)(&Request { kind: statement.kind, path: &path, room }).map_err(|error| {
-            refuse(finding(complaint(statement.kind, &path, &error)).help(remedy(statement.kind, &error)))
-        })?;
+        let kind = statement.kind;
+        let text = (self.loader)(&Request { kind, path: &path, room })
+            .map_err(|error| self.refused(statement, complaint(kind, &path, &error), remedy(kind, &error)))?;
         if text.len() as u64 > room {
             let what = if is_image { "picture" } else { "text" };
-            let finding = finding(format!("with the {what} of `{shown}` the scene is too large"));
+            let message = format!("with the {what} of `{shown}` the scene is too large");
             if room == MOST_IMAGE_BYTES {
                 let help = format!("a file of a picture may have {MOST_IMAGE_BYTES} bytes; make it smaller");
-                return Err(refuse(finding.help(help)));
+                return Err(self.refused(statement, message, &help));
             }
-            return Err(refuse(finding.limited(limits, limit, "split it")));
+            return Err(self.limited(statement, &message, limit, "split it"));
         }
         *(if is_image { &mut self.n_image_bytes } else { &mut self.n_bytes }) += text.len() as u64;
         Ok((path, text))
@@ -381,6 +391,15 @@ impl Inclusion<'_> {
         let name = name.replace(['"', '\n', '\r'], "?");
         self.out.extend_from_slice(format!("\n# {line} \"{name}\"\n").as_bytes());
     }
+}
+
+/// An error at a request.
+fn finding(statement: RequestStatement, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::error(statement.file, message).label(match statement.kind {
+        RequestKind::Include => "included here",
+        RequestKind::Path | RequestKind::Image => "read here",
+        RequestKind::Execute => "run here",
+    })
 }
 
 /// What went wrong, for messages, with the beginning of what a program says.
@@ -429,7 +448,7 @@ fn begins_like_a_scene(mut text: &[u8]) -> bool {
             Err(_) => return false,
         }
     }
-    word(text).is_ok_and(|(_, word)| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word))
+    word(text).is_ok_and(|(_, word)| is_keyword(word))
 }
 
 fn is_line_mark(text: &[u8]) -> bool {

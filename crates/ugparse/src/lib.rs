@@ -44,15 +44,14 @@ mod diagnostic;
 mod diagnostics;
 mod event_table;
 mod expand;
+mod face_warnings;
 mod fast_path;
-mod flatness;
 #[cfg(feature = "cli")]
 mod foreign;
 mod grammar;
 mod include;
 #[cfg(feature = "cli")]
 mod mesh;
-mod named;
 mod number_text;
 mod numbered;
 mod options;
@@ -66,7 +65,6 @@ mod reader;
 mod report;
 mod request;
 mod resolve;
-mod rest_shapes;
 mod rgb_as_hsv;
 mod rows;
 mod scope;
@@ -86,14 +84,13 @@ pub use cli::{Args, main};
 pub use diagnostic::{Diagnostic, MAX_ERRORS, Setting, Severity};
 pub use diagnostics::{Diagnostics, Location};
 pub use expand::Origins;
-pub use flatness::FLAT;
+pub use face_warnings::{FLAT, rest_shapes_warning};
 pub use include::include;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
 #[cfg(feature = "triangles")]
 pub use read::read;
 pub use request::{Request, RequestError, RequestKind, name_pictures};
-pub use rest_shapes::rest_shapes_warning;
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};
 pub use tidy::tidy;
@@ -158,19 +155,15 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     let (scene, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
     let bent = ugscene::bent_faces(&scene);
-    findings.extend(flatness::warning(source, &origins, &bent));
+    findings.extend(face_warnings::bent_warning(source, &origins, &bent));
     Ok(Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) })
 }
 
 /// Refuses texts whose positions do not fit 32 bits or that exceed the limit.
 fn check_length(source: &Source, options: &Options) -> Result<(), Diagnostics> {
     if source.text.len() as u64 > options.limits.get(Limit::Text) {
-        let finding = Diagnostic::error(Span::default(), "the scene is too large").limited(
-            &options.limits,
-            Limit::Text,
-            "split it",
-        );
-        return Err(Diagnostics::one(source, finding));
+        let finding = Diagnostic::error(Span::default(), "the scene is too large");
+        return Err(Diagnostics::one(source, finding.limited(&options.limits, Limit::Text, "split it")));
     }
     Ok(())
 }

@@ -13,7 +13,7 @@ use crate::expand::Origins;
 use crate::options::Options;
 use crate::request::{Request, RequestError, RequestKind, name_pictures};
 use crate::source::{Source, Span};
-use crate::{Parsed, check_length, flatness};
+use crate::{Parsed, check_length, face_warnings};
 
 /// Reads the mesh in a source as a scene with z as the up axis. `load` reads the files that it
 /// names, as those of [`crate::include`].
@@ -65,7 +65,7 @@ fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let mut scene: Scene = mesh.z_up(format.up());
     name_pictures(&mut scene, &source.name);
     let bent = ugscene::bent_faces(&scene);
-    findings.extend(flatness::warning(source, &origins, &bent));
+    findings.extend(face_warnings::bent_warning(source, &origins, &bent));
     Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) }
 }
 

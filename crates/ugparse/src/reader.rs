@@ -5,15 +5,15 @@ use ugscene::Stage;
 
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
 use crate::fast_path;
-use crate::grammar::{Grammar, NAME};
+use crate::grammar::{Grammar, NAME, file};
 use crate::options::{Limit, Options};
 use crate::request::RequestKind;
 use crate::scope::Scope;
 use crate::source::{LineMark, Span};
-use crate::statement::{FileStatement, PathStatement, References, Statement};
+use crate::statement::{FileStatement, NameKind, PathStatement, Statement};
 use crate::token::{
-    Input, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier, integer, line_end,
-    mark, skip_statement, syntax_error, wanted, without_mark, word,
+    FILE_NAME, Input, Parsed, Reason, SyntaxError, blank, comment, escape, file_name, found, identifier,
+    integer, line_end, mark, skip_statement, wanted, without_mark, word,
 };
 use crate::wording::{no_statement, shorten, with_usage, word_help};
 
@@ -59,7 +59,16 @@ pub(crate) struct RequestStatement {
 /// Parses the whole text. Errors are added to `findings`; parsing continues after them until there
 /// are too many.
 pub(crate) fn read<'t>(text: &'t [u8], options: &Options, findings: &mut Vec<Diagnostic>) -> Document<'t> {
-    let mut reader = Reader::new(text, options, findings);
+    let mut reader = Reader {
+        text,
+        document: Document { scopes: vec![Scope::for_text(text.len())], ..Document::default() },
+        open: vec![0],
+        options: *options,
+        line_has_statement: false,
+        names: Vec::new(),
+        findings,
+        error_count: 0,
+    };
     reader.run();
     reader.check_all_closed();
     reader.document
@@ -76,37 +85,26 @@ pub(crate) fn line_marks(text: &[u8]) -> Vec<LineMark> {
     read(text, &options, &mut Vec::new()).line_marks
 }
 
+/// The text behind a statement.
+type Rest<'t> = Result<Input<'t>, SyntaxError<'t>>;
+
 struct Reader<'t, 'f> {
-    grammar: Grammar<'t>,
+    text: &'t [u8],
     document: Document<'t>,
     /// The open scopes, from the file inwards.
     open: Vec<usize>,
     options: Options,
     /// A statement has ended on the current line.
     line_has_statement: bool,
-    /// The vertex references of the current statement.
-    references: References,
+    /// The names in the current statement.
+    names: Vec<(NameKind, Span)>,
     findings: &'f mut Vec<Diagnostic>,
     error_count: usize,
 }
 
-impl<'t, 'f> Reader<'t, 'f> {
-    fn new(text: &'t [u8], options: &Options, findings: &'f mut Vec<Diagnostic>) -> Self {
-        let file = Scope::for_text(text.len());
-        Self {
-            grammar: Grammar { text },
-            document: Document { scopes: vec![file], ..Document::default() },
-            open: vec![0],
-            options: *options,
-            line_has_statement: false,
-            references: References::default(),
-            findings,
-            error_count: 0,
-        }
-    }
-
+impl<'t> Reader<'t, '_> {
     fn run(&mut self) {
-        let mut input: Input<'t> = self.grammar.text;
+        let mut input: Input<'t> = self.text;
         while self.error_count < MAX_ERRORS {
             match self.between(input) {
                 Ok([]) => break,
@@ -120,7 +118,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     /// Skips white space and records comments up to the next statement.
-    fn between(&mut self, mut input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn between(&mut self, mut input: Input<'t>) -> Rest<'t> {
         loop {
             match input.first() {
                 Some(b'\n' | b'\r') => {
@@ -128,7 +126,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                     input = &input[1..];
                 }
                 Some(b'{') => {
-                    let (rest, text) = comment(input).map_err(syntax_error)?;
+                    let (rest, text) = comment(input)?;
                     self.push_comment(text, rest, self.line_has_statement);
                     input = rest;
                 }
@@ -140,19 +138,19 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     fn push_comment(&mut self, text: Input<'t>, rest: Input<'t>, trailing: bool) {
-        let end = self.grammar.position(rest) - 1;
+        let end = self.position(rest) - 1;
         let text = Span { start: end - text.len() as u32, end };
         self.document.comments.push(CommentSpan { text, trailing });
     }
 
     /// Parses one statement; returns the rest of the text, or where to continue after an error.
     fn statement(&mut self, input: Input<'t>) -> Input<'t> {
-        let start = self.grammar.position(input);
+        let start = self.position(input);
         let scope = &mut self.document.scopes[self.open[self.open.len() - 1]];
-        if let Some(end) = fast_path::statement(self.grammar.text, start as usize, scope) {
+        if let Some(end) = fast_path::statement(self.text, start as usize, scope) {
             self.document.first_statement.get_or_insert(start);
             self.line_has_statement = true;
-            return &self.grammar.text[end..];
+            return &self.text[end..];
         }
         match self.try_statement(input) {
             Ok(rest) => {
@@ -172,16 +170,13 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    fn try_statement(&mut self, input: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn try_statement(&mut self, input: Input<'t>) -> Rest<'t> {
         if let Some(rest) = input.strip_prefix(b";") {
             return Ok(rest);
         }
         if input.first() == Some(&b'(') {
-            let (rest, text) = escape(input).map_err(syntax_error)?;
-            let end = self.grammar.position(rest) - 1;
-            let text = Span { start: end - text.len() as u32, end };
-            let (source, span) = (self.grammar.text, self.span(input, rest));
-            self.scope_for(span).add_escape(source, span, text);
+            let rest = escape(input)?.0;
+            self.pass_on(input, rest);
             return Ok(rest);
         }
         let (body, keyword) =
@@ -202,23 +197,19 @@ impl<'t, 'f> Reader<'t, 'f> {
         }
     }
 
-    fn plain_statement(
-        &mut self,
-        input: Input<'t>,
-        keyword: Input<'t>,
-        body: Input<'t>,
-    ) -> Result<Input<'t>, SyntaxError<'t>> {
-        let Some(parsed) = self.grammar.statement(keyword, body, &mut self.references) else {
+    fn plain_statement(&mut self, input: Input<'t>, keyword: Input<'t>, body: Input<'t>) -> Rest<'t> {
+        let row = self.open[self.open.len() - 1];
+        self.names.clear();
+        let scope = &mut self.document.scopes[row];
+        let mut grammar = Grammar { text: self.text, scope, names: &mut self.names };
+        let Some(parsed) = grammar.statement(keyword, body) else {
             return self.unknown_statement(input, keyword, body);
         };
-        let (rest, statement) = parsed.map_err(syntax_error)?;
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
+        let (rest, statement) = parsed?;
+        let (rest, ()) = mark(b';', "`;`")(rest)?;
         let span = self.span(input, rest);
-        let row = self.open[self.open.len() - 1];
         let request = match &statement {
-            Statement::Texture(texture) => {
-                Some((RequestKind::Image, texture.file, None, texture.texture.image.row))
-            }
+            Statement::Texture(texture, file) => Some((RequestKind::Image, *file, None, texture.image.row)),
             Statement::Motion(motion) => match motion.path {
                 Some(PathStatement::File(file)) => Some((RequestKind::Path, file, Some(motion.name), None)),
                 _ => None,
@@ -229,18 +220,13 @@ impl<'t, 'f> Reader<'t, 'f> {
             self.document.requests.push(RequestStatement { kind, span, file, motion, row });
         }
         self.document.first_statement.get_or_insert(span.start);
-        self.document.scopes[row].add(self.grammar.text, span, statement, &self.references);
+        self.document.scopes[row].add(self.text, span, statement);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
 
     /// Passes on an unknown statement unchanged, or refuses it.
-    fn unknown_statement(
-        &mut self,
-        input: Input<'t>,
-        keyword: Input<'t>,
-        body: Input<'t>,
-    ) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn unknown_statement(&mut self, input: Input<'t>, keyword: Input<'t>, body: Input<'t>) -> Rest<'t> {
         if !self.options.lax {
             return Err(SyntaxError { at: input, reason: Reason::Expected("a statement") });
         }
@@ -249,7 +235,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             b"#" | b"#line" => &body[line_end(body)..],
             _ => skip_statement(body)?,
         };
-        let start = self.grammar.position(input);
+        let start = self.position(input);
         let span = Span { start, end: start + keyword.len() as u32 };
         let name = shorten(keyword);
         self.findings.push(
@@ -257,30 +243,16 @@ impl<'t, 'f> Reader<'t, 'f> {
                 .label("not known here")
                 .help("remove it if no program downstream reads it"),
         );
-        let (text, span) = (self.grammar.text, self.span(input, rest));
-        self.scope_for(span).add_unknown(text, span);
+        self.pass_on(input, rest);
         Ok(rest)
     }
 
     /// `include FILE ;` or `execute FILE ;`
-    fn request(
-        &mut self,
-        kind: RequestKind,
-        input: Input<'t>,
-        body: Input<'t>,
-    ) -> Result<Input<'t>, SyntaxError<'t>> {
-        let (rest, name) = file_name(body).map_err(syntax_error)?;
-        let quotes = usize::from(rest.len() + name.len() < body.len() && skip_blank(body).starts_with(b"\""));
-        let end = self.grammar.position(rest) - quotes as u32;
-        let file = Span { start: end - name.len() as u32, end };
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
-        self.document.requests.push(RequestStatement {
-            kind,
-            span: self.span(input, rest),
-            file,
-            motion: None,
-            row: None,
-        });
+    fn request(&mut self, kind: RequestKind, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
+        let (rest, FileStatement { name: file, .. }) = file(self.text, body, FILE_NAME)?;
+        let (rest, ()) = mark(b';', "`;`")(rest)?;
+        let span = self.span(input, rest);
+        self.document.requests.push(RequestStatement { kind, span, file, motion: None, row: None });
         Ok(rest)
     }
 
@@ -294,45 +266,41 @@ impl<'t, 'f> Reader<'t, 'f> {
             if rest.is_empty() { None } else { Some(file_name(rest).ok().filter(|_| rest[0] == b'"')?.1) };
         let behind = behind.strip_prefix(b"\r\n").unwrap_or(behind.get(1..).unwrap_or_default());
         let name = name.map(|name| String::from_utf8_lossy(name).into_owned());
-        Some((behind, LineMark { start: self.grammar.position(behind), line: line as usize, name }))
+        Some((behind, LineMark { start: self.position(behind), line: line as usize, name }))
     }
 
     /// `def ID ;`
     ///
     /// Opens a scope even if the line has an error, so that the `end` of the definition matches.
-    fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
+    fn begin_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
         let row = self.document.scopes.len();
         let outer = self.open[self.open.len() - 1];
-        let mut scope = Scope::new(Span::default(), Some(outer));
         let around = &self.document.scopes[outer];
-        scope.outer_default =
-            around.defaults.last().map(|default| (outer, default.color)).or(around.outer_default);
-        self.document.scopes.push(scope);
+        let last_default = around.defaults.last().map(|default| (outer, default.color));
+        let outer_default = last_default.or(around.outer_default);
+        self.document.scopes.push(Scope { parent: Some(outer), outer_default, ..Scope::default() });
         self.open.push(row);
         // The file is open, too. Only the first definition that is nested too deeply is reported.
         if self.open.len() as u64 == self.options.limits.get(Limit::Nesting) + 2 {
-            let start = self.grammar.position(input);
+            let start = self.position(input);
             let span = Span { start, end: start + found(input).len() as u32 };
-            self.report(Diagnostic::error(span, "definitions nest too deeply").label("here").limited(
-                &self.options.limits,
-                Limit::Nesting,
-                "use fewer",
-            ));
+            let error = Diagnostic::error(span, "definitions nest too deeply").label("here");
+            self.report(error.limited(&self.options.limits, Limit::Nesting, "use fewer"));
         }
-        let (rest, name) = wanted(identifier(body), NAME).map_err(syntax_error)?;
-        let end = self.grammar.position(rest);
+        let (rest, name) = wanted(identifier(body), NAME)?;
+        let end = self.position(rest);
         let name = Span { start: end - name.len() as u32, end };
-        let (rest, ()) = mark(b';', "`;`")(rest).map_err(syntax_error)?;
+        let (rest, ()) = mark(b';', "`;`")(rest)?;
         self.document.scopes[row].name = name;
-        self.document.first_statement.get_or_insert(self.grammar.position(input));
-        self.document.scopes[outer].add_definition(self.grammar.text, name, row);
+        self.document.first_statement.get_or_insert(self.position(input));
+        self.document.scopes[outer].add_definition(self.text, name, row);
         self.note_inner_comments(input, rest);
         Ok(rest)
     }
 
     /// `end ;`
-    fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Result<Input<'t>, SyntaxError<'t>> {
-        let (rest, ()) = mark(b';', "`;`")(body).map_err(syntax_error)?;
+    fn end_definition(&mut self, input: Input<'t>, body: Input<'t>) -> Rest<'t> {
+        let (rest, ()) = mark(b';', "`;`")(body)?;
         if self.open.len() == 1 {
             let reason = Reason::Impossible(
                 1,
@@ -346,15 +314,20 @@ impl<'t, 'f> Reader<'t, 'f> {
         Ok(rest)
     }
 
-    /// The current scope, for the statement at `span`.
-    fn scope_for(&mut self, span: Span) -> &mut Scope<'t> {
+    /// Passes on an escape or an unknown statement.
+    fn pass_on(&mut self, input: Input<'t>, rest: Input<'t>) {
+        let span = self.span(input, rest);
         self.document.first_statement.get_or_insert(span.start);
-        let row = self.open[self.open.len() - 1];
-        &mut self.document.scopes[row]
+        self.document.scopes[self.open[self.open.len() - 1]].pass_on(self.text, span);
+    }
+
+    /// Byte position at which `rest` begins.
+    fn position(&self, rest: Input<'_>) -> u32 {
+        (self.text.len() - rest.len()) as u32
     }
 
     fn span(&self, input: Input<'t>, rest: Input<'t>) -> Span {
-        Span { start: self.grammar.position(input), end: self.grammar.position(rest) }
+        Span { start: self.position(input), end: self.position(rest) }
     }
 
     /// Records the comments between the words of a statement.
@@ -374,15 +347,18 @@ impl<'t, 'f> Reader<'t, 'f> {
     fn next_statement(&self, input: Input<'t>, syntax_error: &SyntaxError<'t>) -> Option<Next<'t>> {
         let Reason::Expected(wanted) = syntax_error.reason else { return None };
         let limit = skip_blank(syntax_error.at);
+        let next = self.statement_within(input, |word| word.len() >= limit.len())?;
+        Some(if next.at.len() == limit.len() { Next { wanted, ..next } } else { next })
+    }
+
+    /// Finds a statement that begins on its own line behind the first word of `input`, while words
+    /// are `within`.
+    fn statement_within(&self, input: Input<'t>, within: impl Fn(Input<'t>) -> bool) -> Option<Next<'t>> {
         let mut words = Words { rest: input };
         let mut end = words.next()?.behind;
-        for word in words {
-            if word.at.len() < limit.len() {
-                return None;
-            }
+        for word in words.take_while(|word| within(word.at)) {
             if word.begins_line && self.reads_as_statement(word.at) {
-                let wanted = if word.at.len() == limit.len() { wanted } else { "`;`" };
-                return Some(Next { at: word.at, end, wanted });
+                return Some(Next { at: word.at, end, wanted: "`;`" });
             }
             end = word.behind;
         }
@@ -395,7 +371,7 @@ impl<'t, 'f> Reader<'t, 'f> {
         match keyword {
             b"def" => identifier(body).is_ok_and(|(rest, _)| semicolon(rest)),
             b"end" => semicolon(body),
-            _ => match self.grammar.statement(keyword, body, &mut References::default()) {
+            _ => match read_alone(self.text, keyword, body, &mut Vec::new()) {
                 // It may lack its own `;`. Before a parenthesis, however, it is part of a contour.
                 Some(Ok((rest, _))) => {
                     let in_contour = matches!(skip_blank(rest), [b'(' | b')', ..]);
@@ -407,7 +383,7 @@ impl<'t, 'f> Reader<'t, 'f> {
     }
 
     fn report_missing_end(&mut self, statement: Input<'t>, next: &Next<'t>) {
-        let place = self.grammar.position(next.end);
+        let place = self.position(next.end);
         let message = format!("expected {} before the next statement", next.wanted);
         let finding =
             Diagnostic::error(Span { start: place, end: place }, message).label("it is missing here");
@@ -416,7 +392,7 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     fn report_syntax_error(&mut self, syntax_error: &SyntaxError<'t>, statement: Option<Input<'t>>) {
         let at = skip_blank(syntax_error.at);
-        let start = self.grammar.position(at);
+        let start = self.position(at);
         let what = found(at);
         let span = Span { start, end: start + what.len() as u32 };
         let shown = format!("`{}`", shorten(what));
@@ -426,7 +402,7 @@ impl<'t, 'f> Reader<'t, 'f> {
                 let finding = if what.is_empty() {
                     let end =
                         statement.map_or(at, |input| Words { rest: input }.last().map_or(at, |w| w.behind));
-                    let start = self.grammar.position(end);
+                    let start = self.position(end);
                     let message = format!("expected {wanted}, found the end of the file");
                     Diagnostic::error(Span { start, end: start }, message).label("the text ends here")
                 } else {
@@ -448,14 +424,12 @@ impl<'t, 'f> Reader<'t, 'f> {
                     .help(format!("add `{close}`; {kind}s nest, so every one opened inside needs its own"))
             }
             Reason::OutOfRange(remedy) => {
-                Diagnostic::error(span, format!("the number {shown} is out of range"))
-                    .label("here")
-                    .help(remedy)
+                Diagnostic::here(span, format!("the number {shown} is out of range"), remedy)
             }
             Reason::Impossible(words, problem, remedy) => {
                 let behind = Words { rest: at }.take(words).last().map_or(at, |word| word.behind);
-                let span = Span { start, end: self.grammar.position(behind) };
-                Diagnostic::error(span, problem).label("here").help(remedy)
+                let span = Span { start, end: self.position(behind) };
+                Diagnostic::here(span, problem, remedy)
             }
         };
         self.report(finding);
@@ -476,7 +450,7 @@ impl<'t, 'f> Reader<'t, 'f> {
             return self.report_missing_end(statement, &next);
         }
         let name = self.document.scopes[row].name;
-        let shown = shorten(name.of(self.grammar.text));
+        let shown = shorten(name.of(self.text));
         self.report(
             Diagnostic::error(name, format!("definition `{shown}` is not closed"))
                 .label("begins here")
@@ -486,19 +460,32 @@ impl<'t, 'f> Reader<'t, 'f> {
 
     /// A statement without `;` may have parsed the `end` on the next line as the name of a colour.
     fn swallowed_end(&self, row: usize) -> Option<(Input<'t>, Next<'t>)> {
-        self.document.scopes[row].statements(self.grammar.text).into_iter().find_map(|span| {
-            let statement = &self.grammar.text[span.start as usize..];
-            let mut words = Words { rest: statement };
-            let mut end = words.next()?.behind;
-            for word in words.take_while(|word| self.grammar.position(word.at) < span.end) {
-                if word.begins_line && word.at.starts_with(b"end") && self.reads_as_statement(word.at) {
-                    return Some((statement, Next { at: word.at, end, wanted: "`;`" }));
-                }
-                end = word.behind;
-            }
-            None
+        self.document.scopes[row].statements(self.text).into_iter().find_map(|span| {
+            let statement = &self.text[span.start as usize..];
+            let is_within = |word: Input<'t>| self.position(word) < span.end;
+            let next = self.statement_within(statement, is_within)?;
+            next.at.starts_with(b"end").then_some((statement, next))
         })
     }
+}
+
+/// Parses a statement without adding it to a scope.
+fn read_alone<'t>(
+    text: &'t [u8],
+    keyword: Input<'t>,
+    body: Input<'t>,
+    names: &mut Vec<(NameKind, Span)>,
+) -> Option<Parsed<'t, Statement>> {
+    Grammar { text, scope: &mut Scope::default(), names }.statement(keyword, body)
+}
+
+/// The names in the statement at `span`, which has no syntax errors, in the order of the text.
+pub(crate) fn names_in(text: &[u8], span: Span) -> Vec<(NameKind, Span)> {
+    let mut names = Vec::new();
+    if let Ok((body, keyword)) = word(&text[span.start as usize..]) {
+        drop(read_alone(text, keyword, body, &mut names));
+    }
+    names
 }
 
 /// Skips white space and comments, except an unclosed comment.

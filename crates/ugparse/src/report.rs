@@ -1,6 +1,6 @@
 //! Diagnostics as text, each with the line it is about; only programs print it.
 
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use ugpipe::{is_printable, message, printable};
 
 #[cfg(feature = "cli")]
@@ -39,11 +39,7 @@ impl Diagnostic {
     }
 
     /// The lines to show: one snippet for each location.
-    fn snippets(
-        &self,
-        source: &Source,
-        marks: &[LineMark],
-    ) -> Vec<Snippet<'_, annotate_snippets::Annotation<'_>>> {
+    fn snippets(&self, source: &Source, marks: &[LineMark]) -> Vec<Snippet<'_, Annotation<'_>>> {
         let mut places = vec![(self.span, self.label.as_str(), AnnotationKind::Primary)];
         if let Some((span, label)) = &self.other {
             places.push((*span, label.as_str(), AnnotationKind::Context));

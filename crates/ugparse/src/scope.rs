@@ -10,20 +10,15 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{InertialFrame, Velocity, WorldLine};
 use ugscene::{
-    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, LightKind,
-    LightMotion, Mix, NameId, Names, RoundShape, Shading, ShadingId, SurfaceId, SurfaceProperties, Texture,
-    TextureImage, Tint, Vertex, VertexId, Wire,
+    Bodies, BodyId, Camera, Color, ColorId, ColorTable, ColorValue, Contours, Face, Light, Mix, NameId,
+    Names, RoundShape, Shading, ShadingId, SurfaceProperties, Texture, Vertex, VertexId, Wire,
 };
 
-use crate::named::Named;
+use crate::diagnostic::Diagnostic;
 use crate::numbered::{Name, NumberedNames};
-use crate::rows::Rows;
+use crate::rows::{Named, Rows};
 use crate::source::Span;
-use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, LightStatement, MixStatement,
-    MotionReference, MotionStatement, References, ShadingStatement, SkyStatement, Statement,
-    SurfaceStatement, TableStatement, TextureStatement, VertexStatement,
-};
+use crate::statement::{Call, Counts, MotionReference, MotionStatement, SkyStatement, Statement};
 use crate::token::{skip_statement, statement_start};
 
 /// Lengths of short statements in bytes, `v v123 1.25 2.5 1 ;` and `f (v1 v12 v123) ;`, and of a
@@ -62,8 +57,8 @@ pub(crate) struct Scope<'t> {
     pub lights: Rows<Light>,
     pub cameras: Rows<Camera>,
     pub skies: Rows<SkyStatement>,
-    pub escapes: Rows<String>,
-    pub unknown: Rows<String>,
+    /// Escapes and unknown statements.
+    pub passed_on: Rows<String>,
 
     /// Samples of spectra.
     pub samples: Vec<[f64; 2]>,
@@ -81,30 +76,10 @@ pub(crate) struct Scope<'t> {
     pub calls: Rows<Call>,
     /// Definitions in this scope, by name.
     pub definitions: FxHashMap<&'t [u8], (usize, Span)>,
-    /// Names defined twice.
-    pub duplicates: Vec<Duplicate>,
+    /// Errors for names that are defined twice.
+    pub duplicates: Vec<Diagnostic>,
     /// Number of statements other than calls.
     pub n_statements: u64,
-}
-
-/// An instance or array.
-pub(crate) struct Call {
-    pub statement: CallStatement,
-    /// Its colour, as the number of the colour's name.
-    pub color: Option<ColorId>,
-    /// The numbers of rows before it.
-    pub before: Counts,
-}
-
-/// Numbers of rows in the tables that are expanded in the order of the text.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Counts {
-    pub faces: usize,
-    pub wires: usize,
-    pub lights: usize,
-    pub cameras: usize,
-    pub escapes: usize,
-    pub unknown: usize,
 }
 
 /// A colour without a name.
@@ -123,19 +98,7 @@ pub(crate) struct PathCorner {
     pub name: Span,
 }
 
-/// A name defined twice.
-pub(crate) struct Duplicate {
-    pub kind: &'static str,
-    pub again: Span,
-    pub first: Span,
-}
-
 impl<'t> Scope<'t> {
-    /// The scope of a definition.
-    pub fn new(name: Span, parent: Option<usize>) -> Self {
-        Self { name, parent, ..Self::default() }
-    }
-
     /// The scope of the file, with capacity for as many rows as a text of this
     /// size usually has. Reserved memory that is not used costs nothing, but growing a table copies
     /// it.
@@ -149,56 +112,52 @@ impl<'t> Scope<'t> {
         }
     }
 
-    /// Adds the statement at `span`; its contours are in `references`.
-    pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement, references: &References) {
-        if let Statement::Call(statement) = statement {
-            return self.add_call(text, span, statement);
-        }
-        self.n_statements += 1;
+    /// Adds the statement at `span`.
+    pub fn add(&mut self, text: &'t [u8], span: Span, statement: Statement) {
+        self.n_statements += u64::from(!matches!(statement, Statement::Call(_)));
         match statement {
-            Statement::Vertex(vertex) => self.add_vertex(text, &vertex),
-            Statement::Face(face) => self.add_face(text, span, &face, references),
-            Statement::Wire(wire) => self.add_wire(text, span, &wire, references),
-            Statement::Color(color) => self.add_color(text, span, &color),
-            Statement::Mix(mix) => self.add_mix(text, span, &mix),
-            Statement::Table(table) => self.add_color_table(text, span, &table),
-            Statement::Texture(texture) => self.add_texture(text, span, texture),
-            Statement::Emission(names) => {
-                let color = |name: Span| ColorId::from_index(self.colors.names.enter(name.of(text)));
-                self.emissions.push(names.map(color), span);
+            Statement::Vertex(name, vertex) => self.push_vertex(Name::new(name.of(text)), name, vertex),
+            Statement::Face(face) => self.faces.push(face, span),
+            Statement::Wire(wire) => self.wires.push(wire, span),
+            Statement::Color(name, color) => self.add_color(text, span, name, color),
+            Statement::Mix(mix) => self.mixes.push(mix, span),
+            Statement::Table(name, table) => {
+                let value = ColorValue::Rgb([1.0; 3]);
+                let color = Color { name: NameId::from_index(0), value, translucency: 0.0 };
+                self.add_color(text, span, Some(name), color);
+                self.color_tables.push(table, span);
             }
-            Statement::Surface(surface) => self.add_surface(text, span, &surface),
-            Statement::Light(light) => self.add_light(text, span, &light),
-            Statement::Camera(camera) => self.add_camera(text, span, camera),
-            Statement::Motion(motion) => self.add_motion(text, span, *motion),
+            Statement::Texture(texture, _) => self.textures.push(texture, span),
+            Statement::Emission(colors) => self.emissions.push(colors, span),
+            Statement::Surface(name, surface) => {
+                let twice = self.surfaces.push(text, Some(name), surface, span);
+                self.note_duplicate("surface", name.of(text), twice);
+            }
+            Statement::Light(light) => self.lights.push(light, span),
+            Statement::Camera(camera) => self.cameras.push(camera, span),
+            Statement::Motion(motion) => {
+                // Also those that nothing moves with are in the scene. Carriers follow when all
+                // statements are read, so that what is written, with motions first, is read in the
+                // same order.
+                self.bodies.named(text, motion.name);
+                self.motions.push(*motion, span);
+            }
             Statement::Sky(sky) => self.skies.push(sky, span),
-            Statement::Call(_) => {}
+            Statement::Call(call) => self.calls.push(call, span),
         }
     }
 
-    pub fn add_escape(&mut self, text: &[u8], span: Span, inner: Span) {
+    /// Adds an escape or an unknown statement.
+    pub fn pass_on(&mut self, text: &[u8], span: Span) {
         self.n_statements += 1;
-        self.escapes.push(lossy(text, inner), span);
-    }
-
-    pub fn add_unknown(&mut self, text: &[u8], span: Span) {
-        self.n_statements += 1;
-        self.unknown.push(lossy(text, span), span);
+        self.passed_on.push(span.lossy(text), span);
     }
 
     /// Adds a definition, which has its own scope.
     pub fn add_definition(&mut self, text: &'t [u8], name: Span, scope: usize) {
         self.n_statements += 1;
-        if let Some((_, first)) = self.definitions.insert(name.of(text), (scope, name)) {
-            self.duplicates.push(Duplicate { kind: "definition", again: name, first });
-        }
-    }
-
-    fn add_vertex(&mut self, text: &'t [u8], vertex: &VertexStatement) {
-        let color = self.color(text, vertex.color);
-        let &VertexStatement { name, position, normal, uv, .. } = vertex;
-        let row = Vertex { normal, uv, ..Vertex::at(position, color) };
-        self.push_vertex(Name::new(name.of(text)), name, row);
+        let before = self.definitions.insert(name.of(text), (scope, name));
+        self.note_duplicate("definition", name.of(text), before.map(|(_, first)| [name, first]));
     }
 
     /// Adds a vertex. `name`, not that of `vertex`, is its name.
@@ -210,43 +169,16 @@ impl<'t> Scope<'t> {
         }
         let before = std::mem::replace(&mut self.vertex_rows[number], row);
         if before != NO_ROW {
-            let first = self.vertices.spans[before as usize];
-            self.duplicates.push(Duplicate { kind: "vertex", again: span, first });
+            let places = [span, self.vertices.spans[before as usize]];
+            self.note_duplicate("vertex", name.text, Some(places));
         }
         let name = self.add_name(name.text);
         self.vertices.push(Vertex { name, ..vertex }, span);
     }
 
-    fn add_face(&mut self, text: &'t [u8], span: Span, face: &FaceStatement, references: &References) {
-        let contours = match &face.round {
-            Some(round) => self.push_round(text, span, face.name, round),
-            None => self.push_contours(text, references),
-        };
-        let face = Face {
-            name: self.name(text, face.name),
-            contours,
-            color: self.color(text, face.color),
-            shading: face.shading.map(|shading| self.add_shading(text, shading)),
-            body: self.bodies.of_stated(text, face.motion),
-            shape: face.shape,
-        };
-        self.faces.push(face, span);
-    }
-
     /// Adds the vertices of a round face that is given by numbers, and its contours. Vertices are
-    /// named after the face and cannot be referred to.
-    fn push_round(
-        &mut self,
-        text: &'t [u8],
-        span: Span,
-        name: Option<Span>,
-        round: &RoundShape,
-    ) -> std::ops::Range<u32> {
-        let keyword = round.shape.keyword();
-        let behind_keyword = span.start + keyword.len() as u32;
-        // As of the name of a vertex, the statement is that around it.
-        let place = name.unwrap_or(Span { start: behind_keyword, end: behind_keyword });
-        let word = name.map_or(keyword, |name| as_str(name.of(text)));
+    /// named after the face, by `word`, and cannot be referred to. `place`: that of their names.
+    pub fn push_round(&mut self, word: &str, place: Span, round: &RoundShape) -> std::ops::Range<u32> {
         let mut corners = round.corners().into_iter().zip(1..);
         let first = self.contours.row_count();
         for &len in round.shape.corners_of_contours() {
@@ -263,13 +195,7 @@ impl<'t> Scope<'t> {
         first..self.contours.row_count()
     }
 
-    fn add_shading(&mut self, text: &'t [u8], shading: ShadingStatement) -> ShadingId {
-        let shading = match shading {
-            ShadingStatement::Level(level) => Shading::Level(level),
-            ShadingStatement::Surface(name) => {
-                Shading::Surface(SurfaceId::from_index(self.surfaces.names.enter(name.of(text))))
-            }
-        };
+    pub fn add_shading(&mut self, shading: Shading) -> ShadingId {
         // Consecutive faces often share one. -0 and 0 are equal, but written differently.
         let is_same = match (self.shadings.last(), shading) {
             (Some(Shading::Level(last)), Shading::Level(level)) => last.to_bits() == level.to_bits(),
@@ -281,124 +207,31 @@ impl<'t> Scope<'t> {
         ShadingId::from_index(self.shadings.len() - 1)
     }
 
-    fn add_wire(&mut self, text: &'t [u8], span: Span, wire: &FaceStatement, references: &References) {
-        let contours = self.push_contours(text, references);
-        let wire = Wire {
-            name: self.name(text, wire.name),
-            contours,
-            color: self.color(text, wire.color),
-            body: self.bodies.of_stated(text, wire.motion),
-            text: wire.text.map(|span| self.add_name(span.of(text))),
-        };
-        self.wires.push(wire, span);
+    /// Adds the samples of a colour.
+    pub fn add_spectrum(&mut self, reflects: bool, samples: &[[f64; 2]]) -> ColorValue {
+        let start = self.samples.len() as u32;
+        self.samples.extend_from_slice(samples);
+        ColorValue::Spectrum { reflects, start, end: self.samples.len() as u32 }
     }
 
-    fn push_contours(&mut self, text: &'t [u8], references: &References) -> std::ops::Range<u32> {
-        let Self { contours, vertex_names, .. } = self;
-        contours.push_all(references.contours().map(|names| {
-            let names = references.names[names].iter();
-            names.map(|name| VertexId(vertex_names.enter(Name::new(name.of(text))))).collect::<Vec<_>>()
-        }))
-    }
-
-    fn add_color(&mut self, text: &'t [u8], span: Span, color: &ColorStatement) {
-        if color.name.is_none() {
+    fn add_color(&mut self, text: &'t [u8], span: Span, name: Option<Span>, color: Color) {
+        if name.is_none() {
             self.defaults.push(DefaultColor {
                 color: self.colors.table.len() as u32,
                 first_face: self.faces.len(),
                 first_wire: self.wires.len(),
             });
         }
-        // The name is set when the colours of all scopes are joined.
-        let name = NameId::from_index(0);
-        let value = shifted(color.value, self.samples.len());
-        self.samples.extend_from_slice(&color.samples);
-        let row = Color { name, value, translucency: color.translucency };
-        let before = self.colors.push(text, color.name, row, span);
-        self.note_duplicate("colour", color.name, before);
+        let twice = self.colors.push(text, name, color, span);
+        self.note_duplicate("colour", name.unwrap_or_default().of(text), twice);
     }
 
-    fn add_mix(&mut self, text: &'t [u8], span: Span, mix: &MixStatement) {
-        let color = self.color_id(text, mix.color);
-        let parts = mix.parts.iter().map(|&(name, share)| (self.color_id(text, name), share)).collect();
-        let row = Mix { color, parts };
-        self.mixes.push(row, span);
-    }
-
-    /// The bytes of the picture are set when the colours of all scopes are joined.
-    fn add_texture(
-        &mut self,
-        text: &'t [u8],
-        span: Span,
-        TextureStatement { color, file, texture }: TextureStatement,
-    ) {
-        let color = self.color_id(text, color);
-        let image = TextureImage { file: Some(lossy(text, file.name)), ..texture.image };
-        self.textures.push(Texture { color, image, ..texture }, span);
-    }
-
-    /// Adds the colour as well; its own value is set when the colours of all scopes are joined.
-    fn add_color_table(&mut self, text: &'t [u8], span: Span, table: &TableStatement) {
-        let tint = Tint::Hue(0.0);
-        let value = ColorValue::Hsv { value: 1.0, tint, saturation: 0.0, factor: 1.0 };
-        let row = Color { name: NameId::from_index(0), value, translucency: 0.0 };
-        let before = self.colors.push(text, Some(table.color), row, span);
-        self.note_duplicate("colour", Some(table.color), before);
-        let row = ColorTable {
-            color: self.color_id(text, table.color),
-            rows: table.rows.iter().map(|&(time, name)| (time, self.color_id(text, name))).collect(),
-            is_stepped: table.is_stepped,
-            period: table.period,
-            shift: table.shift,
-        };
-        self.color_tables.push(row, span);
-    }
-
-    fn add_surface(&mut self, text: &'t [u8], span: Span, surface: &SurfaceStatement) {
-        // The name is set when the surfaces of all scopes are joined.
-        let row = SurfaceProperties { name: NameId::from_index(0), ..surface.surface };
-        let before = self.surfaces.push(text, Some(surface.name), row, span);
-        self.note_duplicate("surface", Some(surface.name), before);
-    }
-
-    fn note_duplicate(&mut self, kind: &'static str, again: Option<Span>, first: Option<Span>) {
-        if let (Some(again), Some(first)) = (again, first) {
-            self.duplicates.push(Duplicate { kind, again, first });
-        }
-    }
-
-    fn add_light(&mut self, text: &'t [u8], span: Span, light: &LightStatement) {
-        let light = Light {
-            name: self.name(text, light.name),
-            intensity: light.intensity,
-            kind: light.kind,
-            color: self.color(text, light.color),
-            motion: light.motion.map_or(LightMotion::WithWhatItLights, |motion| {
-                // A lamp with a velocity of its own is at its position at time 0.
-                let at =
-                    if let LightKind::Local { position, .. } = light.kind { position } else { DVec3::ZERO };
-                LightMotion::Body(self.bodies.of_reference(text, motion, at))
-            }),
-        };
-        self.lights.push(light, span);
-    }
-
-    fn add_camera(&mut self, text: &'t [u8], span: Span, statement: CameraStatement) {
-        let name = self.name(text, statement.name);
-        let carrier = statement.carrier.map(|name| self.bodies.named(text, name));
-        self.cameras.push(Camera { name, carrier, ..statement.camera }, span);
-    }
-
-    fn add_motion(&mut self, text: &'t [u8], span: Span, motion: MotionStatement) {
-        // Also those that nothing moves with are in the scene. Carriers follow when all statements
-        // are read, so that what is written, with motions first, is read in the same order.
-        self.bodies.named(text, motion.name);
-        self.motions.push(motion, span);
-    }
-
-    fn add_call(&mut self, text: &'t [u8], span: Span, statement: CallStatement) {
-        let color = self.color(text, statement.color);
-        self.calls.push(Call { statement, color, before: self.counts() }, span);
+    /// `places`: those of the name, if it is defined twice.
+    fn note_duplicate(&mut self, kind: &str, name: &[u8], places: Option<[Span; 2]>) {
+        self.duplicates.extend(places.map(|places| {
+            let message = format!("{kind} `{}` is defined twice", String::from_utf8_lossy(name));
+            Diagnostic::again(places, message, "give one of them another name")
+        }));
     }
 
     /// Numbers of rows in the tables that are expanded in the order of the text.
@@ -408,8 +241,7 @@ impl<'t> Scope<'t> {
             wires: self.wires.len(),
             lights: self.lights.len(),
             cameras: self.cameras.len(),
-            escapes: self.escapes.len(),
-            unknown: self.unknown.len(),
+            passed_on: self.passed_on.len(),
         }
     }
 
@@ -428,18 +260,6 @@ impl<'t> Scope<'t> {
     /// Adds a name to this scope's table.
     pub fn add_name(&mut self, name: &[u8]) -> NameId {
         self.names.add(as_str(name))
-    }
-
-    fn name(&mut self, text: &[u8], name: Option<Span>) -> Option<NameId> {
-        name.map(|name| self.add_name(name.of(text)))
-    }
-
-    fn color(&mut self, text: &'t [u8], name: Option<Span>) -> Option<ColorId> {
-        name.map(|name| self.color_id(text, name))
-    }
-
-    fn color_id(&mut self, text: &'t [u8], name: Span) -> ColorId {
-        ColorId::from_index(self.colors.names.enter(name.of(text)))
     }
 
     /// Can this name be the path of a vertex of an instance?
@@ -469,8 +289,8 @@ impl<'t> Scope<'t> {
 
     /// Removes the escapes of these rows, in order.
     pub fn remove_escapes(&mut self, rows: &[usize]) {
-        self.escapes.remove(rows);
-        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.escapes, rows));
+        self.passed_on.remove(rows);
+        self.calls.rows.iter_mut().for_each(|call| renumber(&mut call.before.passed_on, rows));
     }
 
     /// The whole statement of a vertex, from the span of its name.
@@ -496,8 +316,7 @@ impl<'t> Scope<'t> {
             &self.emissions.spans,
             &self.surfaces.table.spans,
             &self.calls.spans,
-            &self.escapes.spans,
-            &self.unknown.spans,
+            &self.passed_on.spans,
         ];
         let mut spans: Vec<Span> = vertices.chain(others.into_iter().flatten().copied()).collect();
         spans.sort();
@@ -527,10 +346,6 @@ pub(crate) fn as_str(name: &[u8]) -> &str {
     std::str::from_utf8(name).unwrap_or_default()
 }
 
-fn lossy(text: &[u8], span: Span) -> String {
-    String::from_utf8_lossy(span.of(text)).into_owned()
-}
-
 /// Bodies indexed by frame or name, each once.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct BodyTable<'t> {
@@ -548,11 +363,6 @@ pub(crate) struct BodyTable<'t> {
 type FrameBits = ([[u64; 3]; 4], [u64; 2]);
 
 impl<'t> BodyTable<'t> {
-    /// The body of a face or wire with this motion, if it has one.
-    pub fn of_stated(&mut self, text: &'t [u8], motion: Option<MotionReference>) -> BodyId {
-        motion.map_or(self.bodies.unstated(), |motion| self.of_reference(text, motion, DVec3::ZERO))
-    }
-
     /// The body with this motion; adds it if it is new. `at`: the reference point if none is
     /// stated.
     pub fn of_reference(&mut self, text: &'t [u8], motion: MotionReference, at: DVec3) -> BodyId {

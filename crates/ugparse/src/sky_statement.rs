@@ -17,22 +17,15 @@ pub(crate) fn take(
     let keyword = |span: &Span| Span { end: span.start + 3, ..*span };
     let (file, definitions) = document.scopes.split_first_mut()?;
     for span in definitions.iter().flat_map(|scope| &scope.skies.spans) {
-        findings.push(
-            Diagnostic::error(keyword(span), "a sky cannot stand in a definition")
-                .label("here")
-                .help("it is around the whole scene: move it out of the definition"),
-        );
+        let help = "it is around the whole scene: move it out of the definition";
+        findings.push(Diagnostic::here(keyword(span), "a sky cannot stand in a definition", help));
     }
     if let [first, again, ..] = &file.skies.spans[..] {
-        findings.push(
-            Diagnostic::error(keyword(again), "the scene has two skies")
-                .label("again here")
-                .other(keyword(first), "first here")
-                .help("remove one of them"),
-        );
+        let places = [again, first].map(keyword);
+        findings.push(Diagnostic::again(places, "the scene has two skies", "remove one of them"));
     }
     let statement = file.skies.rows.first()?;
-    let file = String::from_utf8_lossy(statement.file.of(text)).into_owned();
+    let file = statement.file.lossy(text);
     Some(StatedSky { file, turn: statement.turn })
 }
 

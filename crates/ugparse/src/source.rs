@@ -91,4 +91,9 @@ impl Span {
     pub(crate) fn of(self, text: &[u8]) -> &[u8] {
         &text[self.start as usize..self.end as usize]
     }
+
+    /// The same; what is not UTF-8 is replaced.
+    pub(crate) fn lossy(self, text: &[u8]) -> String {
+        String::from_utf8_lossy(self.of(text)).into_owned()
+    }
 }

@@ -30,34 +30,29 @@ const GEOMETRY: &str = "geometry";
 const COLORS: &str = "colors";
 const MIXTURES: &str = "mixtures";
 
-/// Is an escape, given with its parentheses, a stage statement?
+/// Is a text that is passed on a stage statement?
 pub(crate) fn is_stage(escape: &[u8]) -> bool {
-    escape.len() > 2 && first_word(escape, Span { start: 0, end: escape.len() as u32 }) == KEYWORD.as_bytes()
+    let first = || Words::new(escape, Span { start: 0, end: escape.len() as u32 }).next();
+    escape.starts_with(b"(") && first().is_some_and(|word| word.as_str() == KEYWORD)
 }
 
 /// Moves the stage statement of a document from its escapes to [`Document::stage`].
 pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<Diagnostic>) {
     for row in 0..document.scopes.len() {
         let scope = &mut document.scopes[row];
-        let spans = scope.escapes.spans.iter().copied();
-        let is_stage = |(_, span): &(usize, Span)| first_word(text, *span) == KEYWORD.as_bytes();
-        let statements: Vec<(usize, Span)> = spans.enumerate().filter(is_stage).collect();
+        let spans = scope.passed_on.spans.iter().copied().enumerate();
+        let statements: Vec<(usize, Span)> = spans.filter(|(_, span)| is_stage(span.of(text))).collect();
         scope.remove_escapes(&statements.iter().map(|(row, _)| *row).collect::<Vec<_>>());
         for (_, span) in statements {
             let keyword = keyword_span(text, span);
             if row > 0 {
-                findings.push(
-                    Diagnostic::error(keyword, "the stage of a scene cannot stand in a definition")
-                        .label("here")
-                        .help("it applies to the whole scene: move it before the first statement"),
-                );
+                let help = "it applies to the whole scene: move it before the first statement";
+                let message = "the stage of a scene cannot stand in a definition";
+                findings.push(Diagnostic::here(keyword, message, help));
             } else if let Some((_, first)) = &document.stage {
-                findings.push(
-                    Diagnostic::error(keyword, "the stage of the scene is stated twice")
-                        .label("again here")
-                        .other(keyword_span(text, *first), "first here")
-                        .help("a scene has one stage: scenes of different stages cannot be joined"),
-                );
+                let places = [keyword, keyword_span(text, *first)];
+                let help = "a scene has one stage: scenes of different stages cannot be joined";
+                findings.push(Diagnostic::again(places, "the stage of the scene is stated twice", help));
             } else {
                 match read(text, span) {
                     Ok(stage) => document.stage = Some((stage, span)),
@@ -71,10 +66,6 @@ pub(crate) fn take(text: &[u8], document: &mut Document<'_>, findings: &mut Vec<
 /// The text of an escape, without its parentheses.
 fn inner(span: Span) -> Span {
     Span { start: span.start + 1, end: span.end - 1 }
-}
-
-fn first_word(text: &[u8], span: Span) -> &[u8] {
-    Words::new(text, span).next().map_or(&[][..], |word| word.text)
 }
 
 fn keyword_span(text: &[u8], span: Span) -> Span {
@@ -245,10 +236,8 @@ impl<'t> Words<'t> {
     /// Refuses a repeated key word.
     fn once(&mut self, word: Word<'t>) -> Result<(), Diagnostic> {
         if let Some(first) = self.known.iter().find(|known| known.text == word.text) {
-            return Err(Diagnostic::error(word.span, format!("`{}` is given twice", word.as_str()))
-                .label("again here")
-                .other(first.span, "first here")
-                .help("remove one of them"));
+            let message = format!("`{}` is given twice", word.as_str());
+            return Err(Diagnostic::again([word.span, first.span], message, "remove one of them"));
         }
         self.known.push(word);
         Ok(())
@@ -289,9 +278,8 @@ impl<'t> Words<'t> {
             None
         };
         Velocity::from_stated(vector, gamma).map_err(|error| {
-            Diagnostic::error(word.span, error.to_string())
-                .label("here")
-                .help("give three numbers whose length is below 1")
+            let help = "give three numbers whose length is below 1";
+            Diagnostic::here(word.span, error.to_string(), help)
         })
     }
 

@@ -1,52 +1,44 @@
-//! Parsed statements with unresolved names, which are spans of the text.
-
-use std::ops::Range;
+//! Parsed statements: rows for the tables of a scope, where the name of a colour, surface or vertex
+//! is its number there. Other names are spans of the text.
 
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
-use ugscene::{Camera, FaceShape, LightKind, RoundShape, SurfaceProperties, Texture};
+use ugscene::{
+    Camera, Color, ColorId, ColorTable, Face, Light, Mix, SurfaceProperties, Texture, Vertex, Wire,
+};
 
 use crate::source::Span;
 use crate::transform::Transform;
 
-/// Vertex references of the contours of one statement.
-#[derive(Debug, Default)]
-pub(crate) struct References {
-    pub names: Vec<Span>,
-    /// End of each contour in `names`.
-    pub ends: Vec<usize>,
+/// What a name in a statement is the name of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum NameKind {
+    /// The statement itself.
+    Own,
+    Color,
+    Surface,
+    Vertex,
 }
 
-impl References {
-    pub fn clear(&mut self) {
-        self.names.clear();
-        self.ends.clear();
-    }
-
-    /// Ranges in [`References::names`], one per contour.
-    pub fn contours(&self) -> impl Iterator<Item = Range<usize>> {
-        let starts = std::iter::once(0).chain(self.ends.iter().copied());
-        starts.zip(&self.ends).map(|(start, &end)| start..end)
-    }
-}
-
+/// A statement; names in spans are not set in the row.
 #[derive(Debug)]
 pub(crate) enum Statement {
-    Vertex(VertexStatement),
-    Face(FaceStatement),
-    Wire(FaceStatement),
-    Color(ColorStatement),
-    Mix(MixStatement),
-    Table(TableStatement),
-    Texture(TextureStatement),
+    Vertex(Span, Vertex),
+    Face(Face),
+    Wire(Wire),
+    Color(Option<Span>, Color),
+    Mix(Mix),
+    /// A colour, too; its own value is set when the colours of all scopes are joined.
+    Table(Span, ColorTable),
+    Texture(Texture, FileStatement),
     /// A colour, and the one that it emits.
-    Emission([Span; 2]),
-    Surface(SurfaceStatement),
-    Light(LightStatement),
-    Camera(CameraStatement),
+    Emission([ColorId; 2]),
+    Surface(Span, SurfaceProperties),
+    Light(Light),
+    Camera(Camera),
     Motion(Box<MotionStatement>),
     Sky(SkyStatement),
-    Call(CallStatement),
+    Call(Call),
 }
 
 /// `<x y z …>`, a velocity, or `<NAME>`, a motion.
@@ -109,71 +101,6 @@ pub(crate) enum PathStatement {
     },
 }
 
-#[derive(Debug)]
-pub(crate) struct VertexStatement {
-    pub name: Span,
-    pub position: DVec3,
-    pub color: Option<Span>,
-    pub normal: Option<DVec3>,
-    pub uv: Option<[f32; 2]>,
-}
-
-/// A face, or a wire (which has no shading); its contours are in [`References`].
-#[derive(Debug, Default)]
-pub(crate) struct FaceStatement {
-    pub name: Option<Span>,
-    pub color: Option<Span>,
-    pub shading: Option<ShadingStatement>,
-    pub motion: Option<MotionReference>,
-    pub shape: FaceShape,
-    /// Centre, axis and radius of a round face that is given by numbers; such a face has no
-    /// contours.
-    pub round: Option<RoundShape>,
-    /// The text of a label, which is a wire with one vertex.
-    pub text: Option<Span>,
-}
-
-/// The light level or surface of a face.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum ShadingStatement {
-    Level(f64),
-    Surface(Span),
-}
-
-#[derive(Debug)]
-pub(crate) struct ColorStatement {
-    pub name: Option<Span>,
-    /// The rows of a spectrum refer to `samples`.
-    pub value: ugscene::ColorValue,
-    pub samples: Vec<[f64; 2]>,
-    pub translucency: f64,
-}
-
-/// The parts of a mixed colour: its name, and those of the parts with their shares.
-#[derive(Debug)]
-pub(crate) struct MixStatement {
-    pub color: Span,
-    pub parts: Vec<(Span, f64)>,
-}
-
-/// A colour that changes with own time, and its rows.
-#[derive(Debug)]
-pub(crate) struct TableStatement {
-    pub color: Span,
-    pub is_stepped: bool,
-    pub period: Option<f64>,
-    pub shift: f64,
-    pub rows: Vec<(f64, Span)>,
-}
-
-/// A colour that is a picture; colour and bytes in `texture` are not set.
-#[derive(Debug)]
-pub(crate) struct TextureStatement {
-    pub color: Span,
-    pub file: FileStatement,
-    pub texture: Texture,
-}
-
 /// The name of a file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FileStatement {
@@ -181,31 +108,6 @@ pub(crate) struct FileStatement {
     pub span: Span,
     /// The name without quotes.
     pub name: Span,
-}
-
-/// A surface; the name in `surface` is not set.
-#[derive(Debug)]
-pub(crate) struct SurfaceStatement {
-    pub name: Span,
-    pub surface: SurfaceProperties,
-}
-
-#[derive(Debug)]
-pub(crate) struct LightStatement {
-    pub name: Option<Span>,
-    pub intensity: f64,
-    pub kind: LightKind,
-    pub color: Option<Span>,
-    pub motion: Option<MotionReference>,
-}
-
-/// A camera; name and carrier in `camera` are not set.
-#[derive(Debug, Default)]
-pub(crate) struct CameraStatement {
-    pub name: Option<Span>,
-    pub camera: Camera,
-    /// The motion it moves with.
-    pub carrier: Option<Span>,
 }
 
 /// A sky.
@@ -219,13 +121,28 @@ pub(crate) struct SkyStatement {
 
 /// An instance, or an array of them.
 #[derive(Debug)]
-pub(crate) struct CallStatement {
+pub(crate) struct Call {
     pub name: Option<Span>,
     pub definition: Span,
-    pub color: Option<Span>,
+    pub color: Option<ColorId>,
     pub inner: Transform,
     pub repeat: Repeat,
     pub motion: Option<MotionReference>,
+    /// The numbers of rows before it.
+    pub before: Counts,
+    /// The scope of its definition, if that is defined, and its name in paths; after resolution.
+    pub target: Option<usize>,
+    pub label: String,
+}
+
+/// Numbers of rows in the tables that are expanded in the order of the text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub faces: usize,
+    pub wires: usize,
+    pub lights: usize,
+    pub cameras: usize,
+    pub passed_on: usize,
 }
 
 /// The number of copies of a definition.

@@ -4,7 +4,7 @@
 //! the order of statements and the comments within them.
 
 use crate::diagnostics::Diagnostics;
-use crate::grammar::KEYWORDS;
+use crate::grammar::is_keyword;
 use crate::number_text::push_number;
 use crate::reader;
 use crate::source::Source;
@@ -112,7 +112,7 @@ impl Layout {
             self.depth = self.depth.saturating_sub(1);
         }
         self.begin_line();
-        if is_known(keyword) {
+        if is_keyword(keyword) {
             let rest = self.words(input, keyword);
             self.depth += usize::from(keyword == b"def");
             return rest;
@@ -204,10 +204,6 @@ impl Layout {
             self.verbatim(text);
         }
     }
-}
-
-fn is_known(keyword: &[u8]) -> bool {
-    KEYWORDS.split(' ').any(|known| known.as_bytes() == keyword)
 }
 
 /// The input after its first comment, quoted file name, word or punctuation mark.

@@ -44,6 +44,16 @@ impl<'a> nom::error::ParseError<Input<'a>> for SyntaxError<'a> {
     }
 }
 
+impl<'a> From<Err<Self>> for SyntaxError<'a> {
+    /// The parsers have the whole text, so input is never incomplete.
+    fn from(error: Err<Self>) -> Self {
+        match error {
+            Err::Error(syntax_error) | Err::Failure(syntax_error) => syntax_error,
+            Err::Incomplete(_) => Self { at: &[], reason: Reason::Expected("more text") },
+        }
+    }
+}
+
 /// Recoverable failure: another parser may match.
 pub(crate) fn backtrack<T>(at: Input<'_>, reason: Reason) -> Parsed<'_, T> {
     Err(Err::Error(SyntaxError { at, reason }))
@@ -375,7 +385,7 @@ pub(crate) fn skip_statement(mut input: Input<'_>) -> Result<Input<'_>, SyntaxEr
         match memchr2(b';', b'{', input) {
             None => return Err(SyntaxError { at: &[], reason: Reason::Expected("`;`") }),
             Some(idx) if input[idx] == b';' => return Ok(&input[idx + 1..]),
-            Some(idx) => input = comment(&input[idx..]).map_err(syntax_error)?.0,
+            Some(idx) => input = comment(&input[idx..])?.0,
         }
     }
 }
@@ -395,12 +405,4 @@ pub(crate) fn statement_start(before: Input<'_>) -> usize {
         idx -= 1;
     }
     before[..idx].iter().rposition(|&byte| ends_word(byte)).map_or(0, |end| end + 1)
-}
-
-/// Extracts the error; the parsers have the whole text, so input is never incomplete.
-pub(crate) fn syntax_error(err: Err<SyntaxError<'_>>) -> SyntaxError<'_> {
-    match err {
-        Err::Error(syntax_error) | Err::Failure(syntax_error) => syntax_error,
-        Err::Incomplete(_) => SyntaxError { at: &[], reason: Reason::Expected("more text") },
-    }
 }

@@ -1,7 +1,7 @@
 //! The text of messages about single words and statements.
 
 use crate::diagnostic::{Diagnostic, Setting};
-use crate::grammar::{KEYWORDS, NAME};
+use crate::grammar::{KEYWORDS, NAME, is_keyword};
 use crate::source::Span;
 use crate::suggest::nearest;
 use crate::token::{Input, NAME_LETTERS, word};
@@ -10,7 +10,6 @@ use crate::token::{Input, NAME_LETTERS, word};
 pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     let finding = Diagnostic::error(span, format!("`{}` is not a statement", shorten(word)));
     let lower = word.to_ascii_lowercase();
-    let is_keyword = |word: &[u8]| KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word);
     match word {
         b"}" => finding.label("closes nothing").help("remove it, or open its comment with `{`"),
         [b'#', ..] => finding

@@ -36,45 +36,44 @@ pub fn write(scene: &Scene) -> Vec<u8> {
 /// # Errors
 /// Errors that `out` returns; it may have received a part of the text.
 pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
-    let color = |(row, color)| (color, scene.table_of(ColorId::from_index(row)));
-    let are_timed = !scene.color_tables.is_empty();
-    let colors: Vec<_> = scene.colors.iter().enumerate().filter(|_| are_timed).map(color).collect();
+    write_counted(scene, out).map(|_| ())
+}
+
+/// Like [`write_to`]; returns the number of bytes.
+pub(crate) fn write_counted(scene: &Scene, out: &mut dyn Write) -> io::Result<usize> {
+    let motions: Vec<BodyId> = scene.bodies.stated_by_name().collect();
     let comments = &scene.remarks.comments;
-    Tables { scene, colors: &colors, chunked_writer: ChunkedWriter::new(out), comments }.send()
+    Tables { scene, motions: &motions, chunked_writer: ChunkedWriter::new(out), comments }.send()
 }
 
 /// Writes the tables of a scene.
 struct Tables<'s, 'o> {
     scene: &'s Scene,
-    /// The colours and the tables of those that change with own time; empty if none does.
-    colors: &'s [(&'s Color, Option<&'s ColorTable>)],
+    /// The bodies whose motions have statements.
+    motions: &'s [BodyId],
     chunked_writer: ChunkedWriter<'o>,
     /// Comments not yet assigned to a block, sorted by statement.
     comments: &'s [Comment],
 }
 
 impl<'s> Tables<'s, '_> {
-    fn send(mut self) -> io::Result<()> {
+    fn send(mut self) -> io::Result<usize> {
         let scene = self.scene;
         for text in &scene.remarks.head {
             self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
-        self.stage();
-        if let Some(sky) = &scene.sky {
-            self.chunked_writer.append(|out| {
-                Writer::on(out, scene, &[], |w| {
-                    sky_statement::write(sky, &mut w.out, &mut w.numbers);
-                    w.out.push(b'\n');
-                });
-            });
-        }
-        self.rows(&scene.remarks.escapes, Item::Escape, |w, text| {
-            w.text("(");
-            w.text(text);
-            w.text(")");
+        let at_stage: fn(u32) -> Item = |_| Item::Stage;
+        let stage = if scene.stage.is_at_rest() { &[] } else { std::slice::from_ref(&scene.stage) };
+        self.rows(stage, at_stage, |w, stage| stage_statement::write(stage, &mut w.out, &mut w.numbers))?;
+        let sky = scene.sky.as_slice();
+        self.rows(sky, at_stage, |w, sky| sky_statement::write(sky, &mut w.out, &mut w.numbers))?;
+        self.rows(&scene.remarks.passed_on, Item::PassedOn, |w, text| w.text(text))?;
+        self.rows(&scene.colors, Item::Color, |w, color| {
+            match scene.table_of(ColorId::from_index(w.row as usize)) {
+                Some(table) => w.color_table(table),
+                None => w.color(color),
+            }
         })?;
-        self.rows(&scene.remarks.unknown, Item::Unknown, |w, text| w.text(text))?;
-        self.colors()?;
         self.rows(&scene.mixes, Item::Mix, |w, mix| {
             w.begin("c_mix", scene.colors[mix.color.index()].name);
             for &(part, share) in &mix.parts {
@@ -90,7 +89,13 @@ impl<'s> Tables<'s, '_> {
             w.text(";");
         })?;
         self.rows(&scene.surfaces, Item::Surface, Writer::surface)?;
-        self.motions();
+        let mut along = FxHashMap::default();
+        for &body in self.motions {
+            if let Some(MotionPath::Along(path)) = scene.bodies.statement(body).map(|motion| &motion.path) {
+                along.entry(path.address()).or_insert(body);
+            }
+        }
+        self.rows(self.motions, Item::Motion, |w, &body| w.motion(body, &along))?;
         self.rows(&scene.vertices, Item::Vertex, |w, vertex| {
             w.begin("v", vertex.name);
             w.point(vertex.position);
@@ -128,56 +133,8 @@ impl<'s> Tables<'s, '_> {
         let comments = self.comments;
         self.chunked_writer
             .append(|out| Writer::on(out, scene, comments, |w| w.comments_at(Item::End, false)));
-        self.chunked_writer.send()
-    }
-
-    fn colors(&mut self) -> io::Result<()> {
-        if self.colors.is_empty() {
-            return self.rows(&self.scene.colors, Item::Color, Writer::color);
-        }
-        self.rows(self.colors, Item::Color, |w, &(color, table)| match table {
-            Some(table) => w.color_table(table),
-            None => w.color(color),
-        })
-    }
-
-    /// The stage, if there is something to say of it, with its comments.
-    fn stage(&mut self) {
-        let stage = &self.scene.stage;
-        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|c| c.at <= Item::Stage));
-        self.comments = rest;
-        self.chunked_writer.append(|out| {
-            Writer::on(out, self.scene, comments, |w| {
-                if !stage.is_at_rest() {
-                    w.comments_at(Item::Stage, false);
-                    stage_statement::write(stage, &mut w.out, &mut w.numbers);
-                    w.comments_at(Item::Stage, true);
-                    w.out.push(b'\n');
-                }
-                w.comments.iter().for_each(|comment| w.comment_line(&comment.text));
-            });
-        });
-    }
-
-    /// The motions with a statement, with their comments.
-    fn motions(&mut self) {
-        let behind = self.comments.partition_point(|comment| comment.at < Item::Vertex(0));
-        let (comments, rest) = self.comments.split_at(behind);
-        self.comments = rest;
-        self.chunked_writer.append(|out| {
-            Writer::on(out, self.scene, comments, |w| {
-                let mut along = FxHashMap::default();
-                for (row, body) in w.scene.bodies.stated_by_name().enumerate() {
-                    // Bodies have 32-bit ids.
-                    let item = Item::Motion(row as u32);
-                    w.comments_at(item, false);
-                    w.motion(body, &mut along);
-                    w.comments_at(item, true);
-                    w.out.push(b'\n');
-                }
-                w.comments.iter().for_each(|comment| w.comment_line(&comment.text));
-            });
-        });
+        self.chunked_writer.send()?;
+        Ok(self.chunked_writer.n_sent)
     }
 
     /// Writes one line per row, in blocks on all threads.
@@ -208,8 +165,8 @@ impl<'s> Tables<'s, '_> {
 
     /// A block of rows with the comments that belong to them.
     fn take_block<T>(&mut self, first: usize, rows: &'s [T], item: fn(u32) -> Item) -> Block<'s, T> {
-        let behind = item((first + rows.len()) as u32);
-        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|c| c.at < behind));
+        let last = item((first + rows.len() - 1) as u32);
+        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|c| c.at <= last));
         self.comments = rest;
         Block { first, rows, comments }
     }
@@ -229,6 +186,8 @@ struct Writer<'s> {
     /// Comments not yet written, sorted by statement.
     comments: &'s [Comment],
     numbers: zmij::Buffer,
+    /// The row that is written.
+    row: u32,
     /// The body of the last row, and the text of its motion, because consecutive rows mostly share
     /// one.
     body: Option<BodyId>,
@@ -243,6 +202,7 @@ impl<'s> Writer<'s> {
             out: std::mem::take(out),
             comments,
             numbers: zmij::Buffer::new(),
+            row: 0,
             body: None,
             motion_text: Vec::new(),
         };
@@ -253,10 +213,11 @@ impl<'s> Writer<'s> {
     /// Writes one line per row, with the comments above and after it.
     fn block<T>(&mut self, block: &Block<'s, T>, item: fn(u32) -> Item, line: impl Fn(&mut Self, &'s T)) {
         for (row, idx) in block.rows.iter().zip(block.first..) {
+            self.row = idx as u32;
             if self.comments.is_empty() {
                 line(self, row);
             } else {
-                let item = item(idx as u32);
+                let item = item(self.row);
                 self.comments_at(item, false);
                 line(self, row);
                 self.comments_at(item, true);
@@ -516,7 +477,7 @@ impl<'s> Writer<'s> {
     }
 
     /// `along`: the first motion along each path.
-    fn motion(&mut self, body: BodyId, along: &mut FxHashMap<usize, BodyId>) {
+    fn motion(&mut self, body: BodyId, along: &FxHashMap<usize, BodyId>) {
         let bodies = &self.scene.bodies;
         let Some(motion) = bodies.statement(body) else { return };
         self.begin("motion", bodies[body].name);
@@ -536,12 +497,11 @@ impl<'s> Writer<'s> {
                 self.point(*axis);
                 self.number(*rate);
             }
-            MotionPath::Along(path) if along.contains_key(&path.address()) => {
+            MotionPath::Along(path) if along[&path.address()] != body => {
                 self.text(" -path");
                 push_motion_name(&mut self.out, self.scene, along[&path.address()]);
             }
             MotionPath::Along(path) => {
-                along.insert(path.address(), body);
                 self.text(" -path (");
                 let mut behind = "";
                 for Event { t, x } in path.events() {

@@ -1,9 +1,11 @@
-//! Area and normal of polygons.
+//! Area, normal and edges of polygons.
 
 use std::ops::Range;
 
 use glam::DVec3;
 use ugphysics::unit_or_zero;
+
+use crate::{Face, Scene, VertexId};
 
 /// Area-weighted normal of a polygon by Newell's method: right-handed, its
 /// length twice the area for a planar polygon, zero for a degenerate one.
@@ -32,4 +34,12 @@ pub fn unit_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
     let halves = corners.map(|corner| corner * 0.5 - origin * 0.5);
     let largest = halves.clone().map(|half| half.abs().max_element()).fold(0.0, f64::max);
     if largest > 0.0 { unit_or_zero(newell_normal(halves.map(|half| half / largest))) } else { DVec3::ZERO }
+}
+
+/// The edges of a face, contour by contour, each from one corner to the next.
+pub fn face_edges<'a>(scene: &'a Scene, face: &'a Face) -> impl Iterator<Item = [VertexId; 2]> {
+    scene.face_contours(face).flat_map(|contour| {
+        let next = contour.iter().cycle().skip(1);
+        contour.iter().zip(next).map(|(&a, &b)| [a, b])
+    })
 }

@@ -94,16 +94,14 @@ impl BodyBoxes {
         let most = n_parts.div_ceil(N_BOXES).max(1);
         let mut boxes = Vec::new();
         bodies.iter_mut().for_each(|parts| divide(parts, most, &mut boxes));
+        let camera = scene.camera().map(|camera| Camera { name: None, ..camera.clone() });
         let mut out = Scene {
             stage: scene.stage,
-            cameras: scene
-                .camera()
-                .map(|camera| Camera { name: None, ..camera.clone() })
-                .into_iter()
-                .collect(),
+            cameras: Vec::from_iter(camera),
+            bodies: scene.bodies.clone(),
             ..Scene::default()
         };
-        copy_bodies(scene, &mut out);
+        out.bodies.rename(|name| out.names.add(scene.names.get(name)));
         boxes.iter().for_each(|part| add_box(&mut out, part));
         let unused = scene.vertices.iter().zip(&is_used).filter(|(_, is_used)| !**is_used);
         let unused = unused.fold(Part::empty(scene.bodies.unstated()), |part, (vertex, _)| {
@@ -157,24 +155,6 @@ impl BodyBoxes {
         let stage = scene.stage.seen_geometry();
         let camera_speed = stage.map_or(0.0, |stage| stage.camera_velocity.beta().length());
         Ok(SeenBoxes { placed, rest, seen, n_boxes, camera_speed, view })
-    }
-}
-
-/// Copies the bodies of a scene, with the names of those whose motions have statements.
-fn copy_bodies(scene: &Scene, out: &mut Scene) {
-    let bodies = &scene.bodies;
-    if let (Some(_), Some(frame)) =
-        (bodies.stated_velocity(bodies.unstated()), bodies.motion(bodies.unstated()).inertial_frame())
-    {
-        out.bodies.set_frame(out.bodies.unstated(), *frame);
-    }
-    for body in bodies.ids().skip(1) {
-        let line = bodies.motion(body).clone();
-        let copy = out.bodies.push(None, line.clone());
-        if let (Some(statement), Some(name)) = (bodies.statement(body), bodies[body].name) {
-            let name = out.names.add(scene.names.get(name));
-            out.bodies.set_statement(copy, name, statement.clone(), line);
-        }
     }
 }
 

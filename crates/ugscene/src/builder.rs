@@ -1,15 +1,15 @@
 //! A scene from arrays, for callers that have no text.
 
-use std::fmt;
 use std::ops::Range;
 
 use glam::DVec3;
 use rustc_hash::FxHashSet;
 use ugphysics::Velocity;
 
+use crate::words::messages;
 use crate::{
-    BodyId, Camera, Color, ColorId, ColorValue, Face, FaceShape, Light, LightKind, Scene, Shading, ShadingId,
-    SurfaceId, SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
+    BodyId, Camera, Color, ColorId, ColorValue, Face, Light, LightKind, Scene, Shading, ShadingId, SurfaceId,
+    SurfaceProperties, Tint, Vertex, VertexId, unit_normal,
 };
 
 /// The most vertices, corners or rows of any other table: ids have 32 bits, and one is for nothing.
@@ -127,25 +127,15 @@ pub enum BuildError {
     TooMany,
 }
 
-impl fmt::Display for BuildError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Name { name } => write!(
-                f,
-                "`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit"
-            ),
-            Self::Repeated { name } => write!(f, "the name `{name}` is used twice"),
-            Self::OutOfRange { what, row, range } => write!(f, "{what} {row} is out of range: {range}"),
-            Self::Length { what, found, expected } => {
-                write!(f, "{found} rows of {what} instead of {expected}")
-            }
-            Self::NoRow { what, row, id, n_rows } => write!(f, "{what} {row} refers to row {id} of {n_rows}"),
-            Self::TooMany => f.write_str("the scene has too many rows; split it"),
-        }
-    }
-}
-
-impl std::error::Error for BuildError {}
+messages! { BuildError {
+    Self::Name { name } =>
+        "`{name}` is not a name of letters, digits, `:`, `_` and `#` that begins with no digit";
+    Self::Repeated { name } => "the name `{name}` is used twice";
+    Self::OutOfRange { what, row, range } => "{what} {row} is out of range: {range}";
+    Self::Length { what, found, expected } => "{found} rows of {what} instead of {expected}";
+    Self::NoRow { what, row, id, n_rows } => "{what} {row} refers to row {id} of {n_rows}";
+    Self::TooMany => "the scene has too many rows; split it";
+} }
 
 impl SceneBuilder {
     /// Adds a colour. `translucency`: 0 opaque … 1 invisible.
@@ -274,14 +264,8 @@ impl SceneBuilder {
             }
             let ids = corners.iter().map(|&corner| VertexId::from_index(first + corner as usize));
             let contours = self.scene.contours.push_all([ids]);
-            self.scene.faces.push(Face {
-                name,
-                contours,
-                color: mesh.color,
-                shading,
-                body,
-                shape: FaceShape::Polygon,
-            });
+            let face = Face { name, color: mesh.color, shading, ..Face::polygon(contours, body) };
+            self.scene.faces.push(face);
         }
         let faces = first_face..self.scene.faces.len();
         let n_degenerate = sizes.len() - faces.len();
@@ -301,35 +285,18 @@ impl SceneBuilder {
         if too_many(self.scene.vertices.len(), n_vertices) || corners.len() > MAX_ROWS {
             return Err(BuildError::TooMany);
         }
-        if let Some(row) = positions.iter().position(|position| !position.is_finite()) {
-            return Err(BuildError::OutOfRange { what: "position", row, range: "finite" });
-        }
-        if let Some(row) = normals.iter().position(|normal| !normal.is_finite() || *normal == DVec3::ZERO) {
-            return Err(BuildError::OutOfRange { what: "normal", row, range: "finite, and not 0" });
-        }
-        let no_row = |what, row, id: usize, n_rows| BuildError::NoRow { what, row, id, n_rows };
-        if let Some(row) = corners.iter().position(|&corner| corner as usize >= n_vertices) {
-            return Err(no_row("corner", row, corners[row] as usize, n_vertices));
-        }
-        let n_colors = self.scene.colors.len();
-        let of_vertices = colors.iter().enumerate().map(|(row, &color)| ("colour of vertex", row, color));
-        let of_faces = mesh.color.map(|color| ("colour of mesh", 0, color));
-        for (what, row, color) in of_vertices.chain(of_faces) {
-            if color.index() >= n_colors {
-                return Err(no_row(what, row, color.index(), n_colors));
-            }
-        }
-        if let Some(surface) = mesh.surface.filter(|surface| surface.index() >= self.scene.surfaces.len()) {
-            return Err(no_row("surface of mesh", 0, surface.index(), self.scene.surfaces.len()));
-        }
-        if let Some(body) = mesh.body.filter(|body| body.index() >= self.scene.bodies.len()) {
-            return Err(no_row("body of mesh", 0, body.index(), self.scene.bodies.len()));
-        }
+        require("position", positions, "finite", |position| position.is_finite())?;
+        let is_direction = |normal: &DVec3| normal.is_finite() && *normal != DVec3::ZERO;
+        require("normal", normals, "finite, and not 0", is_direction)?;
+        let Scene { colors: all_colors, surfaces, bodies, .. } = &self.scene;
+        require_rows("corner", 0, corners.iter().map(|&corner| corner as usize), n_vertices)?;
+        require_rows("colour of vertex", 0, colors.iter().map(|color| color.index()), all_colors.len())?;
+        require_rows("colour of mesh", 0, mesh.color.map(ColorId::index), all_colors.len())?;
+        require_rows("surface of mesh", 0, mesh.surface.map(SurfaceId::index), surfaces.len())?;
+        require_rows("body of mesh", 0, mesh.body.map(BodyId::index), bodies.len())?;
         let sizes =
             if mesh.sizes.is_empty() { vec![3; corners.len().div_ceil(3)] } else { mesh.sizes.to_vec() };
-        if let Some(row) = sizes.iter().position(|&size| size < 3) {
-            return Err(BuildError::OutOfRange { what: "size of face", row, range: "3 or more" });
-        }
+        require("size of face", &sizes, "3 or more", |size| *size >= 3)?;
         let expected = sizes.iter().map(|&size| size as usize).fold(0, usize::saturating_add);
         if expected != corners.len() {
             return Err(BuildError::Length { what: "corners", found: corners.len(), expected });
@@ -356,18 +323,8 @@ impl SceneBuilder {
             let range = "finite, a direction not 0, a radius 0 or more, a reference distance above 0";
             return Err(BuildError::OutOfRange { what: "light", row, range });
         }
-        let (colors, bodies) = (self.scene.colors.len(), self.scene.bodies.len());
-        if let Some(color) = light.color.filter(|color| color.index() >= colors) {
-            return Err(BuildError::NoRow {
-                what: "colour of light",
-                row,
-                id: color.index(),
-                n_rows: colors,
-            });
-        }
-        if let Some(body) = light.motion.body().filter(|body| body.index() >= bodies) {
-            return Err(BuildError::NoRow { what: "body of light", row, id: body.index(), n_rows: bodies });
-        }
+        require_rows("colour of light", row, light.color.map(ColorId::index), self.scene.colors.len())?;
+        require_rows("body of light", row, light.motion.body().map(BodyId::index), self.scene.bodies.len())?;
         self.scene.lights.push(Light { name: None, ..light });
         Ok(())
     }
@@ -396,6 +353,28 @@ impl SceneBuilder {
     pub fn finish(self) -> Scene {
         self.scene
     }
+}
+
+/// Checks the rows of an array.
+fn require<T>(
+    what: &'static str,
+    rows: &[T],
+    range: &'static str,
+    is_valid: impl Fn(&T) -> bool,
+) -> Result<(), BuildError> {
+    let wrong = rows.iter().position(|row| !is_valid(row));
+    wrong.map_or(Ok(()), |row| Err(BuildError::OutOfRange { what, row, range }))
+}
+
+/// Checks ids from row `first` on, which refer to a table of `n_rows` rows.
+fn require_rows(
+    what: &'static str,
+    first: usize,
+    ids: impl IntoIterator<Item = usize>,
+    n_rows: usize,
+) -> Result<(), BuildError> {
+    let wrong = (first..).zip(ids).find(|(_, id)| *id >= n_rows);
+    wrong.map_or(Ok(()), |(row, id)| Err(BuildError::NoRow { what, row, id, n_rows }))
 }
 
 /// Checks a name and adds it to those in use.

@@ -3,7 +3,6 @@
 use glam::DVec3;
 
 use crate::camera_options::{CameraError, CameraOptions, Film, right_of};
-use crate::half_space::HalfSpace;
 use crate::{Camera, DefaultCamera, Projection, Scene};
 
 /// The default hither distance, as a fraction of the distance to the view centre: points at the eye
@@ -40,6 +39,15 @@ pub struct Slab {
     pub near: f64,
     /// Largest distance.
     pub far: f64,
+}
+
+/// A half-space, relative to the eye: points p with p·normal + offset ≥ 0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HalfSpace {
+    /// Points inward; any length.
+    pub normal: DVec3,
+    /// See above.
+    pub offset: f64,
 }
 
 /// A camera set up for a picture.

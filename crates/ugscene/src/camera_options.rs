@@ -1,10 +1,9 @@
 //! Options of the camera, their errors, and the film.
 
-use std::fmt;
-
 use glam::DVec3;
 
-use crate::{Camera, words};
+use crate::Camera;
+use crate::words::{messages, point};
 
 /// Default view angle across the picture, degrees.
 pub(crate) const DEFAULT_VIEW_ANGLE: f64 = 40.0;
@@ -49,27 +48,15 @@ pub enum CameraError {
     Clip([f64; 2]),
 }
 
-impl fmt::Display for CameraError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoDirection { eye } => {
-                let eye = words::point(*eye);
-                write!(f, "the eye point {eye} is also the view centre, so there is no direction to look in")
-            }
-            Self::NoUp => f.write_str("the up direction 0 0 0 is no direction"),
-            Self::ViewAngle(angle) => {
-                write!(f, "a view angle of {angle} degrees cannot be projected on a flat picture")
-            }
-            Self::Film => f.write_str("the film size and the focal length of the camera must be positive"),
-            Self::FilmRectangle => f.write_str("the film rectangle of the camera has no area"),
-            Self::Clip([hither, yon]) => {
-                write!(f, "nothing lies between the clipping distances {hither} and {yon}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for CameraError {}
+messages! { CameraError {
+    Self::NoDirection { eye } =>
+        "the eye point {} is also the view centre, so there is no direction to look in", point(*eye);
+    Self::NoUp => "the up direction 0 0 0 is no direction";
+    Self::ViewAngle(angle) => "a view angle of {angle} degrees cannot be projected on a flat picture";
+    Self::Film => "the film size and the focal length of the camera must be positive";
+    Self::FilmRectangle => "the film rectangle of the camera has no area";
+    Self::Clip([hither, yon]) => "nothing lies between the clipping distances {hither} and {yon}";
+} }
 
 impl CameraOptions {
     /// # Errors

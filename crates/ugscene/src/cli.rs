@@ -266,22 +266,18 @@ fn point(numbers: &Option<Vec<f64>>) -> Option<DVec3> {
 
 fn anchor(words: &[String]) -> Result<Anchor, Failure> {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match words[..] {
-        ["eye"] => Ok(Anchor::Eye),
-        ["origin"] => Ok(Anchor::Origin),
-        ["center"] => Ok(Anchor::Center),
-        [x, y, z] => {
-            let numbers = [x, y, z].map(finite);
-            let [Ok(x), Ok(y), Ok(z)] = numbers else { return Err(bad_anchor(&words)) };
-            Ok(Anchor::Point(DVec3::new(x, y, z)))
-        }
-        _ => Err(bad_anchor(&words)),
-    }
-}
-
-fn bad_anchor(words: &[&str]) -> Failure {
-    Failure::Usage(format!(
-        "`{}` is not an anchor: -an takes eye, origin, center or three numbers",
-        words.join(" ")
-    ))
+    let anchor = match words[..] {
+        ["eye"] => Some(Anchor::Eye),
+        ["origin"] => Some(Anchor::Origin),
+        ["center"] => Some(Anchor::Center),
+        [x, y, z] => match [x, y, z].map(finite) {
+            [Ok(x), Ok(y), Ok(z)] => Some(Anchor::Point(DVec3::new(x, y, z))),
+            _ => None,
+        },
+        _ => None,
+    };
+    anchor.ok_or_else(|| {
+        let words = words.join(" ");
+        Failure::Usage(format!("`{words}` is not an anchor: -an takes eye, origin, center or three numbers"))
+    })
 }

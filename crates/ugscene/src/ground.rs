@@ -5,7 +5,7 @@ use core::f64::consts::TAU;
 use glam::DVec3;
 use ugphysics::WorldLine;
 
-use crate::{BodyId, Color, ColorId, ColorValue, Face, FaceShape, Scene, StatedMotion, Vertex};
+use crate::{BodyId, Color, ColorId, ColorValue, Face, Scene, StatedMotion, Vertex};
 
 /// Corners of the ground.
 const CORNERS: usize = 128;
@@ -20,13 +20,7 @@ const GREY: f64 = 0.6;
 /// Adds a level disc of grey below everything: at the lowest z of the vertices. It rests in the
 /// frame of the scene, whatever moves. A scene without vertices stays as it is.
 pub fn add_ground(scene: &mut Scene) {
-    let places = scene.vertices.iter().map(|vertex| vertex.position);
-    let Some((low, high)) = places.fold(None, |ends: Option<(DVec3, DVec3)>, at| {
-        let (low, high) = ends.unwrap_or((at, at));
-        Some((low.min(at), high.max(at)))
-    }) else {
-        return;
-    };
+    let Some((low, high)) = scene.bounds() else { return };
     let name = scene.names.add("ground");
     scene.colors.push(Color { name, value: ColorValue::Rgb([GREY; 3]), translucency: 0.0 });
     let color = Some(ColorId::from_index(scene.colors.len() - 1));
@@ -42,16 +36,9 @@ pub fn add_ground(scene: &mut Scene) {
     let corners: Vec<_> = (0..CORNERS)
         .map(|idx| {
             let name = scene.names.add_parts(&["ground:", &idx.to_string()]);
-            scene.add_vertex(Vertex { name, position: corner(idx), color: None, normal: None, uv: None })
+            scene.add_vertex(Vertex { name, ..Vertex::at(corner(idx), None) })
         })
         .collect();
     let contours = scene.contours.push_all([corners.into_iter()]);
-    scene.faces.push(Face {
-        name: Some(name),
-        contours,
-        color,
-        shading: None,
-        body,
-        shape: FaceShape::Polygon,
-    });
+    scene.faces.push(Face { name: Some(name), color, ..Face::polygon(contours, body) });
 }

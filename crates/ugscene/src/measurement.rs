@@ -56,13 +56,9 @@ impl Measurement {
 
     /// All numbers but the velocity.
     pub fn scalars(&self) -> [f64; 5] {
-        [
-            self.emission_time,
-            self.doppler,
-            self.distance,
-            self.emission_angle_deg,
-            self.rest_emission_angle_deg,
-        ]
+        let Self { distance, emission_time, doppler, emission_angle_deg, rest_emission_angle_deg, .. } =
+            *self;
+        [emission_time, doppler, distance, emission_angle_deg, rest_emission_angle_deg]
     }
 }
 

@@ -60,33 +60,17 @@ pub fn mixing_vertices(scene: &Scene) -> Vec<bool> {
     if scene.vertices.iter().all(|vertex| vertex.color.is_some()) || has_one_color() {
         return Vec::new();
     }
-    let mut colors: Vec<Meeting> = vec![Meeting::None; scene.vertices.len()];
+    let mut first_colors: Vec<Option<Option<ColorId>>> = vec![None; scene.vertices.len()];
+    let mut are_mixing = vec![false; scene.vertices.len()];
     for face in &scene.faces {
         for corner in scene.contours.corners(face.contours.clone()) {
-            let meeting = &mut colors[corner.index()];
-            *meeting = meeting.with(scene, face.color);
+            let row = corner.index();
+            let first = *first_colors[row].get_or_insert(face.color);
+            let is_mixed = || scene.vertices[row].color.is_none() && !looks_same(scene, first, face.color);
+            are_mixing[row] |= first != face.color && is_mixed();
         }
     }
-    let pairs = colors.iter().zip(&scene.vertices);
-    pairs.map(|(meeting, vertex)| matches!(meeting, Meeting::Different) && vertex.color.is_none()).collect()
-}
-
-/// The colours of the faces at a vertex.
-#[derive(Clone, Copy)]
-enum Meeting {
-    None,
-    One(Option<ColorId>),
-    Different,
-}
-
-impl Meeting {
-    fn with(self, scene: &Scene, color: Option<ColorId>) -> Self {
-        match self {
-            Self::None => Self::One(color),
-            Self::One(first) if first == color || looks_same(scene, first, color) => self,
-            _ => Self::Different,
-        }
-    }
+    are_mixing
 }
 
 /// Are two colours with different names equal?

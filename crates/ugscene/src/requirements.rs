@@ -1,12 +1,10 @@
 //! Checks that a scene is at the stage that a program requires: wrong orders of programs are
 //! refused.
 
-use std::fmt;
-
 use glam::DVec3;
 use ugphysics::{Hsv, hue_to_wavelength};
 
-use crate::words::point;
+use crate::words::{messages, point};
 use crate::{BodyId, ColorScale, ColorStage, ColorValue, HueScale, Scene, Tint};
 
 /// Why a scene cannot go through a program: its stage is not the one the program needs.
@@ -31,26 +29,18 @@ pub enum StageError {
     },
 }
 
-impl fmt::Display for StageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::GeometryAsSeen => "positions in this scene are as seen already, so its rest shapes are not known",
-            Self::ColorsAsSeen => "colours in this scene are as seen already",
-            Self::ColorsDeferred => "textures in this scene are shifted where they are drawn, by a ray for each sample",
-            Self::GeometryAtRest => "bodies in this scene move, and their positions are not as seen yet",
-            Self::NotWavelengths => "colours in this scene are as seen, and are not written as wavelengths",
-            Self::OtherEye { made_for, asked } => {
-                let [seen, asked] = [made_for, asked].map(|eye| point(*eye));
-                return write!(
-                    f,
-                    "positions in this scene are as seen from the eye point {seen}, and would be wrong from {asked}"
-                );
-            }
-        })
-    }
-}
-
-impl std::error::Error for StageError {}
+messages! { StageError {
+    Self::GeometryAsSeen =>
+        "positions in this scene are as seen already, so its rest shapes are not known";
+    Self::ColorsAsSeen => "colours in this scene are as seen already";
+    Self::ColorsDeferred =>
+        "textures in this scene are shifted where they are drawn, by a ray for each sample";
+    Self::GeometryAtRest => "bodies in this scene move, and their positions are not as seen yet";
+    Self::NotWavelengths => "colours in this scene are as seen, and are not written as wavelengths";
+    Self::OtherEye { made_for, asked } =>
+        "positions in this scene are as seen from the eye point {}, and would be wrong from {}",
+        point(*made_for), point(*asked);
+} }
 
 /// True if a face or wire moves.
 pub fn has_moving_bodies(scene: &Scene) -> bool {

@@ -4,6 +4,8 @@ use std::f64::consts::{PI, TAU};
 
 use glam::{DVec2, DVec3};
 
+use crate::split::vertex_names;
+use crate::words::messages;
 use crate::{
     Contours, Face, FaceShape, NameId, RelativeMotion, RestFrames, RoundShape, Scene, UniqueNames, Vertex,
     VertexId, rest_positions,
@@ -29,13 +31,9 @@ const LEAST_SEGMENTS: usize = 8;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooManyPolygons(pub usize);
 
-impl std::fmt::Display for TooManyPolygons {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "the round faces of the scene would become {} polygons, of {MOST_POLYGONS} at most", self.0)
-    }
-}
-
-impl std::error::Error for TooManyPolygons {}
+messages! { TooManyPolygons {
+    Self(n) => "the round faces of the scene would become {n} polygons, of {MOST_POLYGONS} at most";
+} }
 
 /// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
 /// returns the row of the first polygon of each face, and the number of all faces. In a scene as
@@ -86,8 +84,7 @@ pub fn cut_rounds(
     if n_polygons > MOST_POLYGONS {
         return Err(TooManyPolygons(n_polygons));
     }
-    let names = scene.vertices.iter().map(|vertex| scene.names.get(vertex.name));
-    let mut names: UniqueNames = names.collect();
+    let mut names = vertex_names(scene);
     let mut first_pieces = Vec::with_capacity(cuts.len() + 1);
     for (face, cut) in std::mem::take(&mut scene.faces).into_iter().zip(cuts) {
         first_pieces.push(scene.faces.len() as u32);

@@ -43,9 +43,10 @@ pub fn split_corners<K: Copy + Eq + Hash>(
                 continue;
             }
             let copy = *copies.entry((corner, kind)).or_insert_with(|| {
-                let taken = names.get_or_insert_with(|| vertex_names(scene));
                 originals.push(corner);
-                copy_vertex(scene, corner, taken)
+                let names = names.get_or_insert_with(|| vertex_names(scene));
+                let name = names.add_copy(scene.vertices[corner.index()].name, &mut scene.names);
+                scene.copy_vertex(corner, name)
             });
             scene.contours.corners_mut(rows.clone())[idx] = copy;
         }
@@ -53,11 +54,7 @@ pub fn split_corners<K: Copy + Eq + Hash>(
     originals
 }
 
-fn vertex_names(scene: &Scene) -> UniqueNames {
+/// The names of all vertices.
+pub(crate) fn vertex_names(scene: &Scene) -> UniqueNames {
     scene.vertices.iter().map(|vertex| scene.names.get(vertex.name)).collect()
-}
-
-fn copy_vertex(scene: &mut Scene, original: VertexId, taken: &mut UniqueNames) -> VertexId {
-    let name = taken.add_copy(scene.vertices[original.index()].name, &mut scene.names);
-    scene.copy_vertex(original, name)
 }

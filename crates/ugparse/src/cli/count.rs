@@ -4,7 +4,6 @@ use std::fmt::Write;
 
 use glam::DVec3;
 use serde_json::{Map, Value, json};
-use ugphysics::Velocity;
 use ugscene::Scene;
 
 use crate::cli::measure::{Edges, bodies, corner_count, thickest_face};
@@ -14,18 +13,17 @@ use crate::scope::Scope;
 use crate::statement::Repeat;
 use crate::{Options, Parsed, Source, stage_statement};
 
-/// All statistics.
-pub(crate) struct Counts {
+/// All statistics of a scene.
+pub(crate) struct Counts<'s> {
+    scene: &'s Scene,
     statements: Vec<Statements>,
     corners: usize,
     faces_with_holes: usize,
-    bounds: Option<(DVec3, DVec3)>,
     /// The least flat face, and its thickness divided by its size.
     thickest: Option<(FaceLocation, f64)>,
     edges: Edges,
     /// The face with most edges that a neighbour traverses in the same direction, and their number.
     turned: Option<(FaceLocation, u32)>,
-    bodies: Vec<Body>,
 }
 
 /// Numbers of statements of a kind.
@@ -42,14 +40,8 @@ struct FaceLocation {
     place: Location,
 }
 
-struct Body {
-    velocity: Option<Velocity>,
-    faces: usize,
-    wires: usize,
-}
-
-impl Counts {
-    pub fn new(source: &Source, parsed: &Parsed, options: &Options) -> Self {
+impl<'s> Counts<'s> {
+    pub fn new(source: &Source, parsed: &'s Parsed, options: &Options) -> Self {
         let Parsed { scene, origins, .. } = parsed;
         let marks = line_marks(&source.text);
         let face_place = |row: usize| FaceLocation {
@@ -58,21 +50,13 @@ impl Counts {
         };
         let edges = Edges::new(scene);
         Self {
+            scene,
             statements: statements(source, scene, options),
             corners: corner_count(scene),
             faces_with_holes: scene.faces.iter().filter(|face| face.contours.len() > 1).count(),
-            bounds: scene.bounds(),
             thickest: thickest_face(scene).map(|(row, thickness)| (face_place(row), thickness)),
             turned: edges.turned.map(|(row, n_edges)| (face_place(row), n_edges)),
             edges,
-            bodies: bodies(scene)
-                .into_iter()
-                .map(|(body, faces, wires)| Body {
-                    velocity: scene.bodies.stated_velocity(body),
-                    faces,
-                    wires,
-                })
-                .collect(),
         }
     }
 
@@ -89,7 +73,7 @@ impl Counts {
         }
         line("corners of faces", format!("{:>9} {:>9}", "", self.corners));
         line("faces with holes", format!("{:>9} {:>9}", "", self.faces_with_holes));
-        if let Some((low, high)) = self.bounds {
+        if let Some((low, high)) = self.scene.bounds() {
             line("box", format!("{} to {}", point(low), point(high)));
         }
         if let Some((face, thickness)) = &self.thickest {
@@ -103,33 +87,30 @@ impl Counts {
         if let Some((face, n_edges)) = &self.turned {
             line("turned face", format!("{}, at {n_edges} of its edges", face.text()));
         }
-        for (row, body) in self.bodies.iter().enumerate() {
-            let velocity =
-                body.velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v.beta())));
-            let label = if row == 0 { format!("bodies {:>10} ", self.bodies.len()) } else { String::new() };
-            line(&label, format!("{velocity}: {} faces, {} wires", body.faces, body.wires));
+        let bodies = bodies(self.scene);
+        for (row, (velocity, faces, wires)) in bodies.iter().enumerate() {
+            let velocity = velocity.map_or("no velocity".to_string(), |v| format!("<{}>", point(v.beta())));
+            let label = if row == 0 { format!("bodies {:>10} ", bodies.len()) } else { String::new() };
+            line(&label, format!("{velocity}: {faces} faces, {wires} wires"));
         }
         out
     }
 
     pub fn json(&self) -> Value {
-        let written: Map<String, Value> =
-            self.statements.iter().map(|row| (row.kind.to_string(), row.written.into())).collect();
-        let placed: Map<String, Value> = self
-            .statements
-            .iter()
-            .filter_map(|row| Some((row.kind.to_string(), row.placed?.into())))
-            .collect();
-        let bodies = self.bodies.iter().map(|body| {
-            let velocity = body.velocity.map(|velocity| velocity.beta().to_array());
-            json!({ "velocity": velocity, "faces": body.faces, "wires": body.wires })
+        let count = |of: fn(&Statements) -> Option<usize>| -> Map<String, Value> {
+            let rows = self.statements.iter();
+            rows.filter_map(|row| Some((row.kind.to_string(), of(row)?.into()))).collect()
+        };
+        let bodies = bodies(self.scene).into_iter().map(|(velocity, faces, wires)| {
+            let velocity = velocity.map(|velocity| velocity.beta().to_array());
+            json!({ "velocity": velocity, "faces": faces, "wires": wires })
         });
         json!({
-            "written": written,
-            "placed": placed,
+            "written": count(|row| Some(row.written)),
+            "placed": count(|row| row.placed),
             "corners": self.corners,
             "faces_with_holes": self.faces_with_holes,
-            "box": self.bounds.map(|(low, high)| [low.to_array(), high.to_array()]),
+            "box": self.scene.bounds().map(|(low, high)| [low.to_array(), high.to_array()]),
             "least_flat": self.thickest.as_ref().map(|(face, thickness)| {
                 json!({ "thickness_over_size": thickness, "face": face.json() })
             }),
@@ -173,6 +154,8 @@ fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statemen
     let row =
         |kind, count: fn(&Scope<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
     let n_labels = scene.labels().count();
+    let n_escapes = escape_count(&scene.remarks.passed_on);
+    let n_unknown = scene.remarks.passed_on.len() - n_escapes;
     vec![
         row("colours", |scope| scope.colors.table.len(), Some(scene.colors.len())),
         row("surfaces", |scope| scope.surfaces.table.len(), Some(scene.surfaces.len())),
@@ -182,8 +165,8 @@ fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statemen
         row("labels", label_count, Some(n_labels)),
         row("lights", |scope| scope.lights.len(), Some(scene.lights.len())),
         row("cameras", |scope| scope.cameras.len(), Some(scene.cameras.len())),
-        row("escapes", |scope| scope.escapes.len(), Some(scene.remarks.escapes.len())),
-        row("unknown", |scope| scope.unknown.len(), Some(scene.remarks.unknown.len())),
+        row("escapes", |scope| escape_count(&scope.passed_on.rows), Some(n_escapes)),
+        row("unknown", |scope| scope.passed_on.len() - escape_count(&scope.passed_on.rows), Some(n_unknown)),
         row("definitions", |scope| scope.definitions.len(), None),
         row("instances", |scope| scope.calls.len() - array_count(scope), None),
         row("arrays", array_count, None),
@@ -194,7 +177,11 @@ fn label_count(scope: &Scope<'_>) -> usize {
     scope.wires.rows.iter().filter(|wire| wire.text.is_some()).count()
 }
 
+fn escape_count(passed_on: &[String]) -> usize {
+    passed_on.iter().filter(|text| text.starts_with('(')).count()
+}
+
 fn array_count(scope: &Scope<'_>) -> usize {
     let is_array = |repeat: &Repeat| matches!(repeat, Repeat::Times(..));
-    scope.calls.rows.iter().filter(|call| is_array(&call.statement.repeat)).count()
+    scope.calls.rows.iter().filter(|call| is_array(&call.repeat)).count()
 }

@@ -2,7 +2,8 @@
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
-use ugscene::{BodyId, Face, Scene, VertexId, thickness, unit_normal};
+use ugphysics::Velocity;
+use ugscene::{Face, Scene, VertexId, thickness, unit_normal};
 
 /// Number of corners of all faces.
 pub(crate) fn corner_count(scene: &Scene) -> usize {
@@ -114,9 +115,10 @@ fn first_at_position(scene: &Scene) -> Vec<u32> {
     scene.vertices.iter().map(|vertex| vertex.position).enumerate().map(first).collect()
 }
 
-/// The bodies with faces or wires, and the numbers of these.
-pub(crate) fn bodies(scene: &Scene) -> Vec<(BodyId, usize, usize)> {
-    let mut bodies: Vec<_> = scene.bodies.ids().map(|body| (body, 0, 0)).collect();
+/// The stated velocities of the bodies with faces or wires, and the numbers of these.
+pub(crate) fn bodies(scene: &Scene) -> Vec<(Option<Velocity>, usize, usize)> {
+    let mut bodies: Vec<_> =
+        scene.bodies.ids().map(|body| (scene.bodies.stated_velocity(body), 0, 0)).collect();
     scene.faces.iter().for_each(|face| bodies[face.body.index()].1 += 1);
     let lines = scene.wires.iter().filter(|wire| wire.text.is_none());
     lines.for_each(|wire| bodies[wire.body.index()].2 += 1);

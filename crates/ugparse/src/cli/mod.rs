@@ -4,7 +4,6 @@ mod count;
 mod examples;
 mod measure;
 
-use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand, ValueEnum};
@@ -12,6 +11,7 @@ use serde_json::{Value, json};
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::pipe::{self, refused};
+use crate::writer::write_counted;
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
 
 /// Checks, formats, flattens and measures UniGrafix scenes
@@ -126,7 +126,7 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
         }
         Some(Command::Tidy(_)) => {
             let text = crate::tidy(&source, &options).map_err(refused)?;
-            context.write_with(|out| write_scene(out, |out| out.write_all(&text)))?;
+            context.write(if text.is_empty() { EMPTY } else { &text })?;
         }
         Some(Command::Flatten(_)) => {
             let (_, mut parsed) = read(source, &options, context).map_err(refused)?;
@@ -134,7 +134,10 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             if *hues {
                 ugscene::write_display_as_hues(&mut parsed.scene);
             }
-            context.write_with(|out| write_scene(out, |out| crate::write_to(&parsed.scene, out)))?;
+            context.write_with(|out| match write_counted(&parsed.scene, out)? {
+                0 => out.write_all(EMPTY),
+                _ => Ok(()),
+            })?;
         }
         Some(Command::Count(_)) => {
             let (source, parsed) = read(source, &options, context).map_err(refused)?;
@@ -150,31 +153,9 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
     Ok(true)
 }
 
-/// Writes the text of a scene. For an empty scene that is a line feed, because the next program in
-/// the pipe takes no input at all for a failure of this one.
-fn write_scene(out: &mut dyn Write, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
-    let mut counter = Counter { out, n_bytes: 0 };
-    fill(&mut counter)?;
-    if counter.n_bytes == 0 { out.write_all(b"\n") } else { Ok(()) }
-}
-
-/// Counts the bytes that are written.
-struct Counter<'o> {
-    out: &'o mut dyn Write,
-    n_bytes: usize,
-}
-
-impl Write for Counter<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let n_bytes = self.out.write(bytes)?;
-        self.n_bytes += n_bytes;
-        Ok(n_bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
-    }
-}
+/// Written for an empty scene, because the next program in the pipe takes no input at all for a
+/// failure of this one.
+const EMPTY: &[u8] = b"\n";
 
 fn read(source: Source, options: &Options, context: &Context) -> Result<(Source, Parsed), Diagnostics> {
     let source = pipe::follow(source, options, context)?;
@@ -229,10 +210,7 @@ fn findings_json(findings: &Diagnostics) -> Value {
             json!({ "file": place.file, "line": place.line, "column": place.column, "label": label })
         });
         json!({
-            "severity": match finding.severity {
-                Severity::Error => "error",
-                Severity::Warning => "warning",
-            },
+            "severity": if finding.severity == Severity::Error { "error" } else { "warning" },
             "message": finding.message,
             "file": place.file,
             "line": place.line,

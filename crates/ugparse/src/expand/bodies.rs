@@ -5,7 +5,6 @@ use ugscene::{BodyId, LightMotion};
 
 use super::Expander;
 use super::placement::Inherited;
-use crate::diagnostic::Diagnostic;
 use crate::scope::Scope;
 use crate::source::Span;
 
@@ -35,36 +34,37 @@ impl Expander<'_, '_> {
     /// displacement are turned here. `span`: the statement, for errors.
     pub(super) fn frame_in(&mut self, frame: InertialFrame, span: Span, inherited: &Inherited) -> BodyId {
         self.check_finite(span, frame.at);
-        let frame = match self.composed(frame, inherited) {
-            Ok(frame) => frame,
-            Err(Nesting::Collapsed) => self.fail(
-                span,
-                "this velocity has no direction where it is placed",
-                "place it without a scale of 0",
-            ),
-            Err(Nesting::OnWorldLine) => self.fail(
-                span,
-                "a velocity is stated on a body that accelerates or turns",
-                "give the part a `motion` with `-on`, which makes it a fixed point of that body",
-            ),
-            Err(Nesting::TooFast(error)) => {
-                self.fail(span, &format!("frames on frames move too fast: {error}"), "use smaller velocities")
-            }
-        };
+        let frame = self.composed(frame, inherited).unwrap_or_else(|(message, help)| {
+            self.fail(span, &message, help);
+            InertialFrame::REST
+        });
         self.bodies.moving_with(frame)
     }
 
-    fn composed(&self, frame: InertialFrame, inherited: &Inherited) -> Result<InertialFrame, Nesting> {
-        let turned = |vector| inherited.transform.turned(vector).ok_or(Nesting::Collapsed);
+    /// An error is a message with its remedy.
+    fn composed(
+        &self,
+        frame: InertialFrame,
+        inherited: &Inherited,
+    ) -> Result<InertialFrame, (String, &'static str)> {
+        let too_fast = |error: WorldLineError| {
+            (format!("frames on frames move too fast: {error}"), "use smaller velocities")
+        };
         let (vector, gamma) = frame.velocity.stated();
-        let velocity = Velocity::from_stated(turned(vector)?, gamma);
-        let velocity = velocity.map_err(|error| Nesting::TooFast(error.into()))?;
+        let turned = inherited.transform.turned(vector).ok_or_else(|| {
+            let message = "this velocity has no direction where it is placed".to_owned();
+            (message, "place it without a scale of 0")
+        })?;
+        let velocity = Velocity::from_stated(turned, gamma).map_err(|error| too_fast(error.into()))?;
         let mut shift = frame.shift;
         shift.x = inherited.transform.direction(shift.x);
         let frame = InertialFrame { velocity, shift, ..frame };
         let Some(carrier) = inherited.body else { return Ok(frame) };
-        let carrier = self.bodies.bodies.motion(carrier).inertial_frame().ok_or(Nesting::OnWorldLine)?;
-        carrier.carrying(&frame).map_err(Nesting::TooFast)
+        let carrier = self.bodies.bodies.motion(carrier).inertial_frame().ok_or_else(|| {
+            let message = "a velocity is stated on a body that accelerates or turns".to_owned();
+            (message, "give the part a `motion` with `-on`, which makes it a fixed point of that body")
+        })?;
+        carrier.carrying(&frame).map_err(too_fast)
     }
 
     /// A body with a name where `inherited` holds: it is one body, wherever its parts are placed, so
@@ -74,7 +74,7 @@ impl Expander<'_, '_> {
         let carriers = |&body: &BodyId| bodies.statement(body).and_then(|motion| motion.body());
         let rides_on = |carrier| std::iter::successors(Some(body), carriers).any(|body| body == carrier);
         if inherited.body.is_some_and(|carrier| bodies.is_moving(carrier) && !rides_on(carrier)) {
-            let shown = String::from_utf8_lossy(name.of(self.text)).into_owned();
+            let shown = name.lossy(self.text);
             self.fail(
                 name,
                 &format!("the body of motion `{shown}` is inside an instance that moves otherwise"),
@@ -83,19 +83,6 @@ impl Expander<'_, '_> {
         }
         body
     }
-
-    fn fail(&mut self, span: Span, message: &str, help: &str) -> InertialFrame {
-        let error = || Diagnostic::error(span, message).label("here").help(help);
-        self.error.get_or_insert_with(error);
-        InertialFrame::REST
-    }
-}
-
-/// Why a frame cannot be in another one.
-enum Nesting {
-    Collapsed,
-    OnWorldLine,
-    TooFast(WorldLineError),
 }
 
 /// The first statement of a scope that is part of a body.

@@ -1,8 +1,7 @@
 //! Cameras outside definitions take precedence over those inside.
 
-use ugscene::{Camera, Item};
-
 use super::Expander;
+use crate::cameras::reorder;
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::source::Span;
 
@@ -39,22 +38,8 @@ impl Expander<'_, '_> {
             .other(outer_span, "this one, outside definitions, is used")
             .help(format!("choose this one by its name `{name}`, or remove one of them"))
             .setting(Setting::Camera);
-        self.reorder_cameras(&[outer, nested].concat());
+        reorder(&mut self.scene, &mut self.origins.cameras, &[outer, nested].concat());
         Some(warning)
-    }
-
-    /// `order`: the old row of each camera.
-    fn reorder_cameras(&mut self, order: &[usize]) {
-        let cameras: Vec<Camera> = order.iter().map(|&row| self.scene.cameras[row].clone()).collect();
-        let spans: Vec<Span> = order.iter().map(|&row| self.origins.cameras[row]).collect();
-        (self.scene.cameras, self.origins.cameras) = (cameras, spans);
-        for comment in &mut self.scene.remarks.comments {
-            if let Item::Camera(row) = &mut comment.at {
-                let new = order.iter().position(|&old| old == *row as usize);
-                *row = new.map_or(*row, |new| new as u32);
-            }
-        }
-        self.scene.remarks.comments.sort_by_key(|comment| comment.at);
     }
 }
 

@@ -1,8 +1,9 @@
 //! Attaches comments to statements of the flat scene.
 
+use rustc_hash::FxHashSet;
 use ugscene::{Comment, Item};
 
-use super::Expander;
+use super::{Expander, Origins};
 use crate::reader::CommentSpan;
 use crate::scope::Scope;
 use crate::source::Span;
@@ -10,13 +11,11 @@ use crate::source::Span;
 impl Expander<'_, '_> {
     /// Records the spans of colours and surfaces.
     pub(super) fn note_definitions(&mut self, file: &Scope<'_>) {
-        let Some(emitted) = &mut self.emitted else { return };
-        let defined = self.scopes;
-        let scopes = || std::iter::once(file).chain(defined);
-        let colors = scopes().flat_map(|scope| &scope.colors.table.spans);
-        emitted.extend(colors.enumerate().map(|(row, &span)| (span, Item::Color(row as u32))));
-        let surfaces = scopes().flat_map(|scope| &scope.surfaces.table.spans);
-        emitted.extend(surfaces.enumerate().map(|(row, &span)| (span, Item::Surface(row as u32))));
+        let scopes = || std::iter::once(file).chain(self.scopes);
+        let colors: Vec<Span> = scopes().flat_map(|scope| &scope.colors.table.spans).copied().collect();
+        let surfaces: Vec<Span> = scopes().flat_map(|scope| &scope.surfaces.table.spans).copied().collect();
+        self.note(&colors, 0, Item::Color);
+        self.note(&surfaces, 0, Item::Surface);
     }
 
     /// Records the spans of statements whose rows begin at `first`.
@@ -26,13 +25,29 @@ impl Expander<'_, '_> {
         }
     }
 
+    /// All statements in the order of the text, if there are comments to attach, with the first rows
+    /// made from them.
+    fn statements(&mut self) -> Vec<(Span, Item)> {
+        let Some(mut all) = self.emitted.take() else { return Vec::new() };
+        let is_flat = self.scopes.len() == 1;
+        let Origins { vertices, faces, lights, cameras, wires, passed_on } = &self.origins;
+        let vertices = firsts(is_flat, vertices, Item::Vertex);
+        all.extend(vertices.map(|(name, item)| (Scope::vertex_statement(self.text, name), item)));
+        all.extend(firsts(is_flat, faces, Item::Face));
+        all.extend(firsts(is_flat, wires, Item::Wire));
+        all.extend(firsts(is_flat, lights, Item::Light));
+        all.extend(firsts(is_flat, cameras, Item::Camera));
+        all.extend(firsts(is_flat, passed_on, Item::PassedOn));
+        all.sort_by_key(|&(span, item)| (span.start, item));
+        all
+    }
+
     /// Comments before the first statement become head comments; others are attached to the row of
     /// their statement.
     pub(super) fn place_comments(&mut self, comments: &[CommentSpan], first_statement: u32) {
-        let mut emitted = self.emitted.take().unwrap_or_default();
-        emitted.sort_by_key(|&(span, item)| (span.start, item));
+        let emitted = self.statements();
         for comment in comments {
-            let text = String::from_utf8_lossy(comment.text.of(self.text)).into_owned();
+            let text = comment.text.lossy(self.text);
             if comment.text.start < first_statement {
                 self.scene.remarks.head.push(text);
                 continue;
@@ -43,6 +58,14 @@ impl Expander<'_, '_> {
         // The writer traverses rows and comments in parallel.
         self.scene.remarks.comments.sort_by_key(|comment| comment.at);
     }
+}
+
+/// Statements with the first row of each. `is_flat`: none has several.
+fn firsts<I: Fn(u32) -> Item>(is_flat: bool, spans: &[Span], item: I) -> impl Iterator<Item = (Span, Item)> {
+    let mut known = FxHashSet::default();
+    let rows = spans.iter().zip(0..);
+    rows.filter(move |(span, _)| is_flat || known.insert(span.start))
+        .map(move |(&span, row)| (span, item(row)))
 }
 
 /// The statement to which a comment belongs.

@@ -8,7 +8,6 @@ mod cameras;
 mod comments;
 mod labels;
 mod motions;
-mod names;
 mod paths;
 mod placement;
 mod queue;
@@ -25,10 +24,10 @@ use ugscene::{ColorId, Item, Scene, Vertex, VertexId};
 
 use crate::diagnostic::Diagnostic;
 use crate::reader::Document;
-use crate::resolve::{Link, Links};
-use crate::scope::{BodyTable, Call, Counts, Scope};
+use crate::resolve::Links;
+use crate::scope::{BodyTable, Scope};
 use crate::source::Span;
-use crate::statement::{MotionReference, Repeat, StatedFrame};
+use crate::statement::{Call, Counts, MotionReference, Repeat, StatedFrame};
 
 /// The spans of the text from which the rows of a flat scene originate.
 #[derive(Clone, Debug, Default)]
@@ -41,6 +40,8 @@ pub struct Origins {
     pub lights: Vec<Span>,
     /// For each camera, its statement.
     pub cameras: Vec<Span>,
+    pub(super) wires: Vec<Span>,
+    pub(super) passed_on: Vec<Span>,
 }
 
 /// The longest chain of nested instances for which the stack of any thread suffices.
@@ -93,7 +94,6 @@ fn expand_here<'t>(
         scene,
         origins: Origins::default(),
         emitted: has_comments.then(Vec::new),
-        expanded_before: vec![false; document.scopes.len()],
         next_vertex: 0,
         path_rows: FxHashMap::default(),
         has_linked_paths: false,
@@ -132,10 +132,8 @@ struct Expander<'d, 't> {
     links: &'d Links,
     scene: Scene,
     origins: Origins,
-    /// The span of each statement and the first row made from it, if there are comments to attach.
+    /// If there are comments to attach, the statements that are not in `origins`, and their rows.
     emitted: Option<Vec<(Span, Item)>>,
-    /// For each scope, whether its vertices have been expanded before.
-    expanded_before: Vec<bool>,
     /// The first vertex of the next scope, after all vertices have been expanded.
     next_vertex: usize,
     /// Expanded vertices by path, if the scene uses paths.
@@ -158,18 +156,13 @@ struct Expander<'d, 't> {
 impl<'t> Expander<'_, 't> {
     /// Moves the file's tables into the scene, and expands its calls between their rows.
     fn file(&mut self, mut file: Scope<'t>) {
-        if self.emitted.is_some() {
-            let names = file.vertices.spans.iter();
-            let spans: Vec<Span> = names.map(|&name| Scope::vertex_statement(self.text, name)).collect();
-            self.note(&spans, 0, Item::Vertex);
-        }
         self.scene.vertices = std::mem::take(&mut file.vertices.rows);
         self.origins.vertices = std::mem::take(&mut file.vertices.spans);
         // Faces may use later vertices, also those of instances, so vertices are expanded first.
         let inherited = Inherited::file();
         self.next_vertex = self.scene.vertices.len();
-        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
-            self.call(call, link, &inherited, Self::vertices);
+        for call in &file.calls.rows {
+            self.call(call, &inherited, Self::vertices);
         }
         self.enter_paths(&file);
         self.link_paths(&mut file);
@@ -182,12 +175,11 @@ impl<'t> Expander<'_, 't> {
             wires: Queue::new(file.wires),
             lights: Queue::new(file.lights),
             cameras: Queue::new(file.cameras),
-            escapes: Queue::new(file.escapes),
-            unknown: Queue::new(file.unknown),
+            passed_on: Queue::new(file.passed_on),
         };
-        for (call, link) in file.calls.rows.iter().zip(&self.links.calls[0]) {
+        for call in &file.calls.rows {
             self.move_rows(&mut queues, call.before);
-            self.call(call, link, &inherited, Self::scope);
+            self.call(call, &inherited, Self::scope);
         }
         self.move_rows(&mut queues, end);
     }
@@ -195,22 +187,17 @@ impl<'t> Expander<'_, 't> {
     /// Copies the vertices of a definition and of its instances.
     fn vertices(&mut self, row: usize, inherited: &Inherited) {
         let scope = &self.scopes[row];
-        let first_time = !std::mem::replace(&mut self.expanded_before[row], true);
         for (vertex, &span) in scope.vertices.rows.iter().zip(&scope.vertices.spans) {
             let position = inherited.transform.point(vertex.position);
             let normal = vertex.normal.map(|normal| inherited.transform.normal(normal));
             self.check_finite(span, position);
             normal.into_iter().for_each(|normal| self.check_length(span, normal));
             let name = self.name(scope, vertex.name, inherited);
-            if first_time && self.emitted.is_some() {
-                let row = self.scene.vertices.len();
-                self.note(&[Scope::vertex_statement(self.text, span)], row, Item::Vertex);
-            }
             self.scene.vertices.push(Vertex { name, position, normal, ..*vertex });
             self.origins.vertices.push(span);
         }
-        for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {
-            self.call(call, link, inherited, Self::vertices);
+        for call in &scope.calls.rows {
+            self.call(call, inherited, Self::vertices);
         }
     }
 
@@ -246,24 +233,17 @@ impl<'t> Expander<'_, 't> {
                 .map(|(outer, color)| ColorId::from_index(self.links.first_colors[outer] + color as usize)),
         };
         let mut done = Counts::default();
-        for (call, link) in scope.calls.rows.iter().zip(&self.links.calls[row]) {
+        for call in &scope.calls.rows {
             self.rows(&placement, done, call.before);
             done = call.before;
-            self.call(call, link, inherited, Self::scope);
+            self.call(call, inherited, Self::scope);
         }
         self.rows(&placement, done, scope.counts());
     }
 
     /// Calls `place` for every copy of an instance or array.
-    fn call(
-        &mut self,
-        call: &Call,
-        link: &Link,
-        inherited: &Inherited,
-        place: fn(&mut Self, usize, &Inherited),
-    ) {
-        let (Some(target), label) = (link.target, &link.label) else { return };
-        let Call { statement: call, color, .. } = call;
+    fn call(&mut self, call: &Call, inherited: &Inherited, place: fn(&mut Self, usize, &Inherited)) {
+        let (Some(target), label) = (call.target, &call.label) else { return };
         let transform = call.inner.then(&inherited.transform);
         let body = match call.motion {
             None => inherited.body,
@@ -281,7 +261,7 @@ impl<'t> Expander<'_, 't> {
         let mut inner = Inherited {
             transform,
             prefix: format!("{}{colon}{label}", inherited.prefix),
-            color: color.or(inherited.color),
+            color: call.color.or(inherited.color),
             body,
         };
         match &call.repeat {

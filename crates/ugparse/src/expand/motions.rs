@@ -45,55 +45,48 @@ impl Expander<'_, '_> {
         for (row, motion) in statements.rows.iter().enumerate() {
             let body = self.bodies.named(self.text, motion.name);
             if let Some(first) = motions.rows.insert(body, row) {
-                let shown = String::from_utf8_lossy(motion.name.of(self.text)).into_owned();
-                let error = Diagnostic::error(motion.name, format!("motion `{shown}` is defined twice"));
-                let first = statements.rows[first].name;
-                let error = error.label("again here").other(first, "first here");
-                findings.push(error.help("give one of them another name: each is a body of its own"));
-            }
-        }
-        let names = self.bodies.names();
-        findings.extend(self.undefined_motions(&motions, findings.is_empty()));
-        if findings.is_empty() {
-            findings.extend(self.too_many_pieces(&motions, &names));
-        }
-        if findings.is_empty() {
-            match self.paths(&motions) {
-                Ok(paths) => motions.paths = paths,
-                Err(error) => findings.push(error),
+                let shown = motion.name.lossy(self.text);
+                let places = [motion.name, statements.rows[first].name];
+                let help = "give one of them another name: each is a body of its own";
+                findings.push(Diagnostic::again(places, format!("motion `{shown}` is defined twice"), help));
             }
         }
         if findings.is_empty() {
-            let lines = names.iter().try_for_each(|&(body, name)| self.set_motion(&motions, body, name));
-            findings.extend(lines.err());
+            findings.extend(self.set_all(&mut motions).err());
         }
         (motions, findings)
     }
 
-    /// Names that no statement defines, and vertices that cannot move as their bodies do; after all
-    /// definitions are expanded. The bodies become those of the scene.
-    pub(super) fn finish_motions(&mut self, motions: &Motions<'_>, is_valid: bool) -> Vec<Diagnostic> {
-        let mut findings: Vec<Diagnostic> = self.undefined_motions(motions, is_valid).into_iter().collect();
-        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
-        if is_valid && findings.is_empty() {
-            findings.extend(self.check_points(motions).err());
-        }
-        self.note_motions(motions);
-        findings
+    fn set_all(&mut self, motions: &mut Motions<'_>) -> Result<(), Diagnostic> {
+        self.undefined_motions(motions)?;
+        let names = self.bodies.names();
+        self.too_many_pieces(motions, &names)?;
+        motions.paths = self.paths(motions)?;
+        names.iter().try_for_each(|&(body, name)| self.set_motion(motions, body, name))
     }
 
-    /// The first name that no statement defines, if no other error was found.
-    fn undefined_motions(&self, motions: &Motions<'_>, is_valid: bool) -> Option<Diagnostic> {
+    /// Names that no statement defines, and vertices that cannot move as their bodies do; after all
+    /// definitions are expanded. The bodies become those of the scene.
+    pub(super) fn finish_motions(&mut self, motions: &Motions<'_>, is_valid: bool) -> Option<Diagnostic> {
+        self.scene.bodies = std::mem::take(&mut self.bodies.bodies);
+        self.note_motions(motions);
+        let check = || self.undefined_motions(motions).and_then(|()| self.check_points(motions)).err();
+        if is_valid { check() } else { None }
+    }
+
+    /// An error for the first name that no statement defines.
+    fn undefined_motions(&self, motions: &Motions<'_>) -> Result<(), Diagnostic> {
         let names = self.bodies.names();
-        let undefined = names.iter().find(|(body, _)| is_valid && !motions.rows.contains_key(body));
-        let &(_, name) = undefined?;
+        let Some(&(_, name)) = names.iter().find(|(body, _)| !motions.rows.contains_key(body)) else {
+            return Ok(());
+        };
         let remedy = "define it with a `motion` statement";
         let defined = motions.statements.rows.iter().map(|motion| motion.name.of(self.text));
-        Some(undefined_like(self.text, "motion", name, remedy, defined, 0))
+        Err(undefined_like(self.text, "motion", name, remedy, defined, 0))
     }
 
     /// An error if motions take over more pieces than [`MAX_CARRIED_PIECES`]. Circles end it, too.
-    fn too_many_pieces(&mut self, motions: &Motions<'_>, names: &[(BodyId, Span)]) -> Option<Diagnostic> {
+    fn too_many_pieces(&mut self, motions: &Motions<'_>, names: &[(BodyId, Span)]) -> Result<(), Diagnostic> {
         let mut n_pieces = 0;
         for &(body, name) in names {
             let mut row = motions.rows[&body];
@@ -110,19 +103,19 @@ impl Expander<'_, '_> {
                     "all motions together may take over {MAX_CARRIED_PIECES} pieces of -acc and -spin from \
                      those they are on"
                 );
-                return Some(error.label("used here").help(help));
+                return Err(error.label("used here").help(help));
             }
         }
-        None
+        Ok(())
     }
 
     /// A motion is a body of the whole scene.
     fn inner_motions(&self) -> Vec<Diagnostic> {
         let inner = self.scopes.iter().flat_map(|scope| scope.motions.spans.first()).next();
         let error = |&span: &Span| {
-            Diagnostic::error(span, "a motion is inside a definition")
-                .label("here")
-                .help("state it outside: it is one body of the scene, however often the definition is placed")
+            let help =
+                "state it outside: it is one body of the scene, however often the definition is placed";
+            Diagnostic::here(span, "a motion is inside a definition", help)
         };
         inner.map(error).into_iter().collect()
     }
@@ -142,7 +135,7 @@ impl Expander<'_, '_> {
             let other = self.bodies.named(self.text, name);
             let path = motions.rows.get(&other).map(|&other| &statements[other].path);
             if !matches!(path, Some(Some(PathStatement::Events { .. }))) {
-                let shown = String::from_utf8_lossy(name.of(self.text)).into_owned();
+                let shown = name.lossy(self.text);
                 return Err(Diagnostic::error(name, format!("motion `{shown}` states no table of a path"))
                     .label("used here")
                     .help("name a motion that has `-path` with a file or with events"));
@@ -163,7 +156,7 @@ impl Expander<'_, '_> {
 
     fn set_motion(&mut self, motions: &Motions<'_>, body: BodyId, name: Span) -> Result<(), Diagnostic> {
         let (motion, line) = self.motion(motions, body, 0)?;
-        let name = String::from_utf8_lossy(name.of(self.text)).into_owned();
+        let name = name.lossy(self.text);
         let name = self.scene.names.add(&name);
         self.bodies.bodies.set_statement(body, name, motion, line);
         Ok(())

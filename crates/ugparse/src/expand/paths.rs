@@ -1,13 +1,47 @@
-//! Resolves vertices of instances by their paths.
+//! Names of expanded rows, which are paths, and vertices of instances by their paths.
 
-use ugscene::{Face, VertexId};
+use ugscene::{NameId, Names, Scene, UniqueNames, VertexId};
 
 use super::Expander;
-use crate::resolve::{degeneracy, is_short, omitted, short_wire, undefined};
+use super::placement::Inherited;
+use crate::resolve::{remove_degenerate, undefined};
 use crate::scope::{Scope, as_str};
 use crate::source::Span;
 
 impl Expander<'_, '_> {
+    pub(super) fn name(&mut self, scope: &Scope<'_>, name: NameId, inherited: &Inherited) -> NameId {
+        self.scene.names.add_parts(&[
+            &inherited.prefix,
+            if inherited.prefix.is_empty() { "" } else { ":" },
+            scope.names.get(name),
+        ])
+    }
+
+    pub(super) fn optional_name(
+        &mut self,
+        scope: &Scope<'_>,
+        name: Option<NameId>,
+        inherited: &Inherited,
+    ) -> Option<NameId> {
+        name.map(|name| self.name(scope, name, inherited))
+    }
+
+    /// A path, or the generated name of an unnamed colour, may equal a name in the text; the later
+    /// one in the table is renamed. `has_unnamed`: the file has colours without a name.
+    pub(super) fn make_names_unique(&mut self, has_unnamed: bool) {
+        let is_flat = self.scopes.len() == 1;
+        let Scene { names, vertices, faces, colors, surfaces, .. } = &mut self.scene;
+        // The names in a flat file are unique already, but not the generated ones: of unnamed
+        // colours, and of vertices of round faces.
+        if !is_flat || has_unnamed {
+            rename_duplicates(names, colors.iter_mut().map(|color| &mut color.name));
+            rename_duplicates(names, surfaces.iter_mut().map(|surface| &mut surface.name));
+        }
+        if !is_flat || faces.iter().any(|face| face.shape.is_round()) {
+            rename_duplicates(names, vertices.iter_mut().map(|vertex| &mut vertex.name));
+        }
+    }
+
     /// Indexes expanded vertices by path, if the scene uses paths.
     pub(super) fn enter_paths(&mut self, file: &Scope<'_>) {
         if file.paths.is_empty() && self.scopes.iter().all(|scope| scope.paths.is_empty()) {
@@ -43,22 +77,16 @@ impl Expander<'_, '_> {
         if !self.has_linked_paths || !self.undefined.is_empty() {
             return;
         }
-        let problem = |face: &Face| degeneracy(&file.contours, &self.scene.vertices, face);
-        let faces = file.faces.rows.iter().enumerate();
-        let flat: Vec<_> = faces.filter_map(|(row, face)| Some((row, problem(face)?))).collect();
-        for &(row, problem) in &flat {
-            let span = file.faces.spans[row];
-            let warning = omitted(self.text, span, "face", problem, "remove it, or correct its vertices");
-            self.degenerate.insert(span.start, warning);
+        let found = remove_degenerate(self.text, file, &self.scene.vertices, true);
+        self.degenerate.extend(found.into_iter().map(|warning| (warning.span.start, warning)));
+    }
+}
+
+fn rename_duplicates<'n>(names: &mut Names, ids: impl Iterator<Item = &'n mut NameId>) {
+    let mut taken = UniqueNames::default();
+    for id in ids {
+        if let Some(unique) = taken.fresh(names.get(*id)) {
+            *id = names.add(&unique);
         }
-        file.remove_faces(&flat.into_iter().map(|(row, _)| row).collect::<Vec<_>>());
-        let wires = file.wires.rows.iter().enumerate();
-        let short: Vec<usize> =
-            wires.filter(|(_, wire)| is_short(&file.contours, wire)).map(|(row, _)| row).collect();
-        for &row in &short {
-            let span = file.wires.spans[row];
-            self.degenerate.insert(span.start, short_wire(self.text, span));
-        }
-        file.remove_wires(&short);
     }
 }

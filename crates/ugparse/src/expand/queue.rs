@@ -1,40 +1,21 @@
 //! Moves rows of the file into the scene without copying them.
 
-use ugscene::{Camera, Face, Item, Light, Scene, Wire};
+use ugscene::{Camera, Face, Light, Wire};
 
 use super::Expander;
 use crate::rows::Rows;
-use crate::scope::Counts;
 use crate::source::Span;
+use crate::statement::Counts;
 
 impl Expander<'_, '_> {
     /// Moves rows of the file up to `end`.
     pub(super) fn move_rows(&mut self, queues: &mut Queues, end: Counts) {
-        let spans = self.move_some(&mut queues.faces, end.faces, |scene| &mut scene.faces, Item::Face);
-        append(&mut self.origins.faces, spans);
-        self.move_some(&mut queues.wires, end.wires, |scene| &mut scene.wires, Item::Wire);
-        let spans = self.move_some(&mut queues.lights, end.lights, |scene| &mut scene.lights, Item::Light);
-        append(&mut self.origins.lights, spans);
-        let spans =
-            self.move_some(&mut queues.cameras, end.cameras, |scene| &mut scene.cameras, Item::Camera);
-        append(&mut self.origins.cameras, spans);
-        self.move_some(&mut queues.escapes, end.escapes, |scene| &mut scene.remarks.escapes, Item::Escape);
-        self.move_some(&mut queues.unknown, end.unknown, |scene| &mut scene.remarks.unknown, Item::Unknown);
-    }
-
-    fn move_some<T>(
-        &mut self,
-        queue: &mut Queue<T>,
-        end: usize,
-        table: fn(&mut Scene) -> &mut Vec<T>,
-        item: fn(u32) -> Item,
-    ) -> Vec<Span> {
-        let (rows, spans) = queue.take_up_to(end);
-        let table = table(&mut self.scene);
-        let first = table.len();
-        append(table, rows);
-        self.note(&spans, first, item);
-        spans
+        let Self { scene, origins, .. } = self;
+        queues.faces.move_up_to(end.faces, &mut scene.faces, &mut origins.faces);
+        queues.wires.move_up_to(end.wires, &mut scene.wires, &mut origins.wires);
+        queues.lights.move_up_to(end.lights, &mut scene.lights, &mut origins.lights);
+        queues.cameras.move_up_to(end.cameras, &mut scene.cameras, &mut origins.cameras);
+        queues.passed_on.move_up_to(end.passed_on, &mut scene.remarks.passed_on, &mut origins.passed_on);
     }
 }
 
@@ -44,8 +25,7 @@ pub(super) struct Queues {
     pub wires: Queue<Wire>,
     pub lights: Queue<Light>,
     pub cameras: Queue<Camera>,
-    pub escapes: Queue<String>,
-    pub unknown: Queue<String>,
+    pub passed_on: Queue<String>,
 }
 
 pub(super) struct Queue<T> {
@@ -59,23 +39,18 @@ impl<T> Queue<T> {
         Self { rows: rows.rows.into_iter(), spans: rows.spans.into_iter(), n_taken: 0 }
     }
 
-    pub fn take_up_to(&mut self, end: usize) -> (Vec<T>, Vec<Span>) {
-        let count = end - self.n_taken;
-        self.n_taken = end;
-        if count >= self.rows.len() {
-            // A table that was not touched is moved as a whole.
-            let (rows, spans) = (std::mem::take(&mut self.rows), std::mem::take(&mut self.spans));
-            return (rows.collect(), spans.collect());
-        }
-        (self.rows.by_ref().take(count).collect(), self.spans.by_ref().take(count).collect())
+    fn move_up_to(&mut self, end: usize, rows: &mut Vec<T>, spans: &mut Vec<Span>) {
+        let count = end - std::mem::replace(&mut self.n_taken, end);
+        append(rows, &mut self.rows, count);
+        append(spans, &mut self.spans, count);
     }
 }
 
 /// Appends rows; moves the whole table if the destination is empty.
-fn append<T>(table: &mut Vec<T>, mut rows: Vec<T>) {
-    if table.is_empty() {
-        *table = rows;
+fn append<T>(table: &mut Vec<T>, rows: &mut std::vec::IntoIter<T>, count: usize) {
+    if table.is_empty() && count >= rows.len() {
+        *table = std::mem::take(rows).collect();
     } else {
-        table.append(&mut rows);
+        table.extend(rows.by_ref().take(count));
     }
 }

@@ -3,18 +3,15 @@
 use std::ops::Range;
 
 use glam::DVec3;
-use ugscene::{
-    Beam, Camera, Face, FaceShape, Item, Light, LightKind, LightMotion, RoundShape, ShadingId, VertexId,
-    Wire, newell_normal,
-};
+use ugscene::{Beam, Camera, Face, Light, LightKind, LightMotion, ShadingId, Wire};
 
 use super::Expander;
 use super::cameras::NestedCamera;
 use super::placement::Placement;
 use crate::diagnostic::Diagnostic;
-use crate::resolve::{face_name, has_three, is_short, short_wire};
-use crate::scope::Counts;
+use crate::resolve::{degeneracy, face_name, is_short, short_wire};
 use crate::source::Span;
+use crate::statement::Counts;
 
 impl Expander<'_, '_> {
     /// Expands everything except vertices and calls, from `start` up to `end`.
@@ -33,34 +30,36 @@ impl Expander<'_, '_> {
             self.camera(placement, row);
         }
         if placement.first_time {
-            let (escapes, unknown) = (start.escapes..end.escapes, start.unknown..end.unknown);
-            self.note(&scope.escapes.spans[escapes.clone()], self.scene.remarks.escapes.len(), Item::Escape);
-            self.scene.remarks.escapes.extend_from_slice(&scope.escapes.rows[escapes]);
-            self.note(&scope.unknown.spans[unknown.clone()], self.scene.remarks.unknown.len(), Item::Unknown);
-            self.scene.remarks.unknown.extend_from_slice(&scope.unknown.rows[unknown]);
-        }
-    }
-
-    fn note_first(&mut self, placement: &Placement<'_>, span: Span, row: usize, item: fn(u32) -> Item) {
-        if placement.first_time {
-            self.note(&[span], row, item);
+            let passed_on = start.passed_on..end.passed_on;
+            self.origins.passed_on.extend_from_slice(&scope.passed_on.spans[passed_on.clone()]);
+            self.scene.remarks.passed_on.extend_from_slice(&scope.passed_on.rows[passed_on]);
         }
     }
 
     fn face(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (face, span) = (&scope.faces.rows[row], scope.faces.spans[row]);
-        if !self.has_area(placement, face, span) {
+        let contours = self.contours(placement, face.contours.clone(), inherited.transform.mirrored);
+        let placed = Face { contours, ..face.clone() };
+        // Collapsed by `-sz 0`, too small relative to its distance, or with one vertex by several paths.
+        if degeneracy(&self.scene.contours, &self.scene.vertices, &placed).is_some() {
+            self.scene.contours.truncate(placed.contours.start as usize);
+            let text = self.text;
+            self.degenerate.entry(span.start).or_insert_with(|| {
+                let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
+                let kind = if face.shape.is_round() { face.shape.keyword() } else { "face" };
+                Diagnostic::warning(shown, format!("{kind} has no area where it is placed"))
+                    .label("omitted")
+                    .help("correct the transformations of its instance")
+            });
             return;
         }
-        self.note_first(placement, span, self.scene.faces.len(), Item::Face);
         let placed = Face {
             name: self.optional_name(scope, face.name, inherited),
-            contours: self.contours(placement, face.contours.clone(), inherited.transform.mirrored),
             color: placement.color(face.color, row, |default| default.first_face),
             shading: face.shading.map(|row| ShadingId::from_index(placement.first_shading + row.index())),
             body: placement.bodies[face.body.index()],
-            shape: face.shape,
+            ..placed
         };
         self.scene.faces.push(placed);
         self.origins.faces.push(span);
@@ -74,7 +73,6 @@ impl Expander<'_, '_> {
             self.degenerate.entry(span.start).or_insert_with(|| short_wire(self.text, span));
             return;
         }
-        self.note_first(placement, span, self.scene.wires.len(), Item::Wire);
         let placed = Wire {
             name: self.optional_name(scope, wire.name, inherited),
             contours: self.contours(placement, wire.contours.clone(), false),
@@ -83,6 +81,7 @@ impl Expander<'_, '_> {
             text: wire.text.map(|text| self.scene.names.add(scope.names.get(text))),
         };
         self.scene.wires.push(placed);
+        self.origins.wires.push(span);
     }
 
     /// Copies contours; mirroring reverses their direction but keeps the first vertex.
@@ -97,43 +96,9 @@ impl Expander<'_, '_> {
         }))
     }
 
-    /// Returns false and adds a warning if a face has no area after transformation: collapsed by
-    /// `-sz 0`, or too small relative to its distance.
-    fn has_area(&mut self, placement: &Placement<'_>, face: &Face, span: Span) -> bool {
-        let outline = placement.corners(face.contours.start);
-        let position = |corner: usize| self.scene.vertices[placement.corner(corner).index()].position;
-        // Several paths may refer to the same vertex.
-        let has_three = placement.paths.is_empty()
-            || face.contours.clone().all(|row| {
-                let corners: Vec<VertexId> =
-                    placement.corners(row).map(|idx| placement.corner(idx)).collect();
-                has_three(&corners)
-            });
-        let is_whole = match face.shape {
-            FaceShape::Polygon => newell_normal(outline.map(position)) != DVec3::ZERO,
-            shape => {
-                let corners = face.contours.clone().flat_map(|row| placement.corners(row)).map(position);
-                RoundShape::from_corners(shape, &corners.collect::<Vec<_>>()).is_some()
-            }
-        };
-        if has_three && is_whole {
-            return true;
-        }
-        let text = self.text;
-        self.degenerate.entry(span.start).or_insert_with(|| {
-            let shown = face_name(text, span).unwrap_or(Span { start: span.start, end: span.start + 1 });
-            let kind = if face.shape.is_round() { face.shape.keyword() } else { "face" };
-            Diagnostic::warning(shown, format!("{kind} has no area where it is placed"))
-                .label("omitted")
-                .help("correct the transformations of its instance")
-        });
-        false
-    }
-
     fn light(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (light, span) = (&scope.lights.rows[row], scope.lights.spans[row]);
-        self.note_first(placement, span, self.scene.lights.len(), Item::Light);
         let kind = match light.kind {
             LightKind::Ambient => LightKind::Ambient,
             LightKind::Directional(toward) => {
@@ -174,7 +139,6 @@ impl Expander<'_, '_> {
     fn camera(&mut self, placement: &Placement<'_>, row: usize) {
         let Placement { scope, inherited, .. } = placement;
         let (camera, span) = (&scope.cameras.rows[row], scope.cameras.spans[row]);
-        self.note_first(placement, span, self.scene.cameras.len(), Item::Camera);
         let placed = Camera {
             name: self.optional_name(scope, camera.name, inherited),
             center: camera.center.map(|point| inherited.transform.point(point)),
@@ -195,22 +159,15 @@ impl Expander<'_, '_> {
 
     pub(super) fn check_finite(&mut self, span: Span, position: DVec3) {
         if !position.is_finite() {
-            self.error.get_or_insert_with(|| {
-                Diagnostic::error(span, "coordinates overflow when this is placed")
-                    .label("here")
-                    .help("use smaller numbers")
-            });
+            self.fail(span, "coordinates overflow when this is placed", "use smaller numbers");
         }
     }
 
     /// Checks a normal or another direction.
     pub(super) fn check_length(&mut self, span: Span, direction: DVec3) {
         if !direction.is_finite() {
-            self.error.get_or_insert_with(|| {
-                Diagnostic::error(span, "this normal or direction becomes too long when it is placed")
-                    .label("here")
-                    .help("make it shorter; its length has no meaning")
-            });
+            let help = "make it shorter; its length has no meaning";
+            self.fail(span, "this normal or direction becomes too long when it is placed", help);
         }
     }
 
@@ -223,5 +180,9 @@ impl Expander<'_, '_> {
                     .help("place it without a scale of 0")
             });
         }
+    }
+
+    pub(super) fn fail(&mut self, span: Span, message: &str, help: &str) {
+        self.error.get_or_insert_with(|| Diagnostic::here(span, message, help));
     }
 }

@@ -5,7 +5,7 @@ use nom::Parser;
 use nom::combinator::opt;
 use ugscene::{Camera, Projection};
 
-use super::{numbers, zero_vector};
+use super::{numbers, store, zero_vector};
 use crate::token::{Input, Parsed, Reason, blank, fail, number, point, require};
 
 /// Parses the arguments of camera option `name`, which begins at `at`; `input` begins after it.
@@ -15,24 +15,15 @@ pub(super) fn camera_option<'a>(
     at: Input<'a>,
     input: Input<'a>,
 ) -> Parsed<'a, ()> {
-    fn store<'a, T>(slot: &mut Option<T>, parsed: Parsed<'a, T>) -> Parsed<'a, ()> {
-        let (rest, value) = require(parsed)?;
-        *slot = Some(value);
-        Ok((rest, ()))
-    }
     match name {
         b"vc" => store(&mut camera.center, point(input)),
         b"ep" => store(&mut camera.eye, point(input)),
-        b"ud" => {
-            let (rest, up) = require(point(input))?;
-            camera.up = Some(up);
-            if up == DVec3::ZERO { fail(blank(at)?.0, zero_vector(4)) } else { Ok((rest, ())) }
-        }
+        b"ud" if require(point(input))?.1 == DVec3::ZERO => fail(blank(at)?.0, zero_vector(4)),
+        b"ud" => store(&mut camera.up, point(input)),
         b"cl" => store(&mut camera.clip, numbers(input)),
         b"ph" => store(&mut camera.film, numbers(input)),
         b"va" => {
-            let (rest, across) = require(number(input))?;
-            let (rest, down) = opt(number).parse(rest)?;
+            let (rest, (across, down)) = require((number, opt(number)).parse(input))?;
             store(&mut camera.view_angle, Ok((rest, [across, down.unwrap_or(across)])))
         }
         b"fs" => store(&mut camera.film_size, numbers(input)),

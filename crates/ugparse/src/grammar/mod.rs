@@ -10,6 +10,8 @@ mod rounds;
 mod tables;
 mod transforms;
 
+use std::ops::Range;
+
 use cameras::camera_option;
 use glam::DVec3;
 use motions::frame_options;
@@ -18,14 +20,15 @@ use nom::combinator::opt;
 use transforms::transforms;
 use ugphysics::{Velocity, VelocityError};
 use ugscene::{
-    Beam, Camera, ColorValue, FaceShape, LightKind, RoundShape, SurfaceNumber, SurfaceProperties, Tint,
+    Beam, BodyId, Camera, Color, ColorId, ColorValue, Face, FaceShape, Light, LightKind, LightMotion, Mix,
+    NameId, Shading, ShadingId, SurfaceId, SurfaceNumber, SurfaceProperties, Tint, Vertex, VertexId, Wire,
 };
 
+use crate::numbered::Name;
+use crate::scope::Scope;
 use crate::source::Span;
 use crate::statement::{
-    CallStatement, CameraStatement, ColorStatement, FaceStatement, FileStatement, LightStatement,
-    MixStatement, MotionReference, References, Repeat, ShadingStatement, SkyStatement, StatedFrame,
-    Statement, SurfaceStatement, VertexStatement,
+    Call, FileStatement, MotionReference, NameKind, Repeat, SkyStatement, StatedFrame, Statement,
 };
 use crate::token::{
     FILE_NAME, Input, Parsed, Reason, backtrack, blank, fail, file_name, identifier, integer, label_text,
@@ -36,14 +39,23 @@ use crate::token::{
 pub(crate) const KEYWORDS: &str = "v w label f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex c_emit surf l cam \
                                    motion sky def end i a include execute";
 
-/// A parser of one text; the text's length gives the position of any rest of it.
-pub(crate) struct Grammar<'t> {
-    pub text: &'t [u8],
+/// Is this word the keyword of a statement?
+pub(crate) fn is_keyword(word: &[u8]) -> bool {
+    KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word)
 }
 
-impl<'t> Grammar<'t> {
+/// A parser of statements of one scope. The text's length gives the position of any rest of it.
+pub(crate) struct Grammar<'t, 's> {
+    pub text: &'t [u8],
+    /// Names, contours, samples and the vertices of round faces are added to it.
+    pub scope: &'s mut Scope<'t>,
+    /// The names in the statement, in the order of the text.
+    pub names: &'s mut Vec<(NameKind, Span)>,
+}
+
+impl<'t> Grammar<'t, '_> {
     /// Byte position at which `rest` begins.
-    pub fn position(&self, rest: Input<'_>) -> u32 {
+    fn position(&self, rest: Input<'_>) -> u32 {
         // `parse` refuses texts of 4 GiB and more.
         (self.text.len() - rest.len()) as u32
     }
@@ -54,31 +66,57 @@ impl<'t> Grammar<'t> {
         Span { start: end - word.len() as u32, end }
     }
 
-    fn name<'a>(&self, input: Input<'a>) -> Parsed<'a, Span> {
+    fn name(&self, input: Input<'t>) -> Parsed<'t, Span> {
         let (rest, name) = identifier(input)?;
         Ok((rest, self.span(name, rest)))
     }
 
-    fn optional_name<'a>(&self, input: Input<'a>) -> Parsed<'a, Option<Span>> {
+    fn optional_name(&self, input: Input<'t>) -> Parsed<'t, Option<Span>> {
         opt(|i| self.name(i)).parse(input)
     }
 
+    /// Adds the name of the statement itself.
+    fn own_name(&mut self, name: Option<Span>) -> Option<NameId> {
+        name.map(|name| {
+            self.names.push((NameKind::Own, name));
+            self.scope.add_name(name.of(self.text))
+        })
+    }
+
+    /// The number of the name of a colour.
+    fn color_id(&mut self, name: Span) -> ColorId {
+        self.names.push((NameKind::Color, name));
+        ColorId::from_index(self.scope.colors.names.enter(name.of(self.text)))
+    }
+
+    fn color_name(&mut self, input: Input<'t>) -> Parsed<'t, ColorId> {
+        self.name(input).map(|(rest, name)| (rest, self.color_id(name)))
+    }
+
+    fn optional_color(&mut self, input: Input<'t>) -> Parsed<'t, Option<ColorId>> {
+        opt(|i| self.color_name(i)).parse(input)
+    }
+
+    /// Adds a corner to a contour.
+    fn corner(&mut self, input: Input<'t>) -> Parsed<'t, ()> {
+        let (rest, name) = self.name(input)?;
+        self.names.push((NameKind::Vertex, name));
+        let number = self.scope.vertex_names.enter(Name::new(name.of(self.text)));
+        self.scope.contours.push_corner(VertexId(number));
+        Ok((rest, ()))
+    }
+
     /// Parses the body of a statement; `None` if the keyword is unknown.
-    pub fn statement<'a>(
-        &self,
-        keyword: &[u8],
-        input: Input<'a>,
-        references: &mut References,
-    ) -> Option<Parsed<'a, Statement>> {
+    pub fn statement(&mut self, keyword: &[u8], input: Input<'t>) -> Option<Parsed<'t, Statement>> {
         Some(match keyword {
             b"v" => self.vertex(input),
-            b"f" => self.face(input, references),
-            b"w" => self.wire(input, references),
-            b"label" => self.label(input, references),
-            b"sphere" => self.round(FaceShape::Sphere, input, references),
-            b"cylinder" => self.round(FaceShape::Cylinder, input, references),
-            b"tube" => self.round(FaceShape::Tube, input, references),
-            b"disc" => self.round(FaceShape::Disc, input, references),
+            b"f" => self.face(input),
+            b"w" => self.wire(input),
+            b"label" => self.label(input),
+            b"sphere" => self.round(FaceShape::Sphere, input),
+            b"cylinder" => self.round(FaceShape::Cylinder, input),
+            b"tube" => self.round(FaceShape::Tube, input),
+            b"disc" => self.round(FaceShape::Disc, input),
             b"c" => self.color(input),
             b"c_rgb" => self.rgb(input),
             b"c_xyz" => self.xyz(input),
@@ -101,7 +139,7 @@ impl<'t> Grammar<'t> {
     }
 
     /// `< x y z [-gamma γ] [-at x y z] [-turn x y z] [-shift t x y z] >` or `< NAME >`
-    fn motion_reference<'a>(&self, input: Input<'a>) -> Parsed<'a, MotionReference> {
+    fn motion_reference(&self, input: Input<'t>) -> Parsed<'t, MotionReference> {
         let (input, ()) = mark(b'<', "`<` and a velocity or the name of a motion")(input)?;
         let (input, motion) = match self.name(input) {
             Ok((rest, name)) => (rest, MotionReference::Named(name)),
@@ -115,134 +153,121 @@ impl<'t> Grammar<'t> {
         Ok((input, motion))
     }
 
-    /// A file name, for messages `what`.
-    fn file<'a>(&self, input: Input<'a>, what: &'static str) -> Parsed<'a, FileStatement> {
-        let at = blank(input)?.0;
-        let (rest, name) = wanted(file_name(input), what)?;
-        let span = Span { start: self.position(at), end: self.position(rest) };
-        let start = span.start + u32::from(at.starts_with(b"\""));
-        Ok((rest, FileStatement { span, name: Span { start, end: start + name.len() as u32 } }))
+    fn optional_motion(&self, input: Input<'t>) -> Parsed<'t, Option<MotionReference>> {
+        opt(|i| self.motion_reference(i)).parse(input)
+    }
+
+    /// `[< x y z >]` of a face or wire
+    fn body(&mut self, input: Input<'t>) -> Parsed<'t, BodyId> {
+        let (rest, motion) = self.optional_motion(input)?;
+        let (text, bodies) = (self.text, &mut self.scope.bodies);
+        let unstated = bodies.bodies.unstated();
+        Ok((rest, motion.map_or(unstated, |motion| bodies.of_reference(text, motion, DVec3::ZERO))))
     }
 
     /// `v ID x y z [color] [nx ny nz] [(u v)]`
-    fn vertex<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn vertex(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = wanted(self.name(input), NAME)?;
         let (input, position) = point(input)?;
-        let (input, color) = self.optional_name(input)?;
+        let (input, color) = self.optional_color(input)?;
         let (rest, normal) = opt(point).parse(input)?;
         if normal == Some(DVec3::ZERO) {
             return fail(blank(input)?.0, zero_vector(3));
         }
-        let (rest, uv) = match mark(b'(', "`(` and texture coordinates")(rest) {
-            Ok((inner, ())) => {
-                let (inner, u) = require(number32(inner))?;
-                let (inner, v) = require(number32(inner))?;
-                let (rest, ()) = require(mark(b')', "`)`")(inner))?;
-                (rest, Some([u, v]))
-            }
-            Err(nom::Err::Error(_)) => (rest, None),
-            Err(error) => return Err(error),
-        };
-        Ok((rest, Statement::Vertex(VertexStatement { name, position, color, normal, uv })))
+        let (mut rest, open) = opt(mark(b'(', "`(` and texture coordinates")).parse(rest)?;
+        let mut uv = None;
+        if open.is_some() {
+            let (behind, (u, v, ())) = require((number32, number32, mark(b')', "`)`")).parse(rest))?;
+            (rest, uv) = (behind, Some([u, v]));
+        }
+        Ok((rest, Statement::Vertex(name, Vertex { normal, uv, ..Vertex::at(position, color) })))
     }
 
     /// `f [ID] contours [color] [shading] [< x y z >]`
-    fn face<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
+    fn face(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, ()) = self.contours(input, references)?;
-        self.behind_shape(input, name, FaceShape::Polygon, None)
+        let (input, contours) = self.contours(input)?;
+        self.behind_shape(input, name, FaceShape::Polygon, contours)
     }
 
     /// `[color] [shading] [< x y z >]`
-    fn behind_shape<'a>(
-        &self,
-        input: Input<'a>,
+    fn behind_shape(
+        &mut self,
+        input: Input<'t>,
         name: Option<Span>,
         shape: FaceShape,
-        round: Option<RoundShape>,
-    ) -> Parsed<'a, Statement> {
-        let (input, color) = self.optional_name(input)?;
+        contours: Range<u32>,
+    ) -> Parsed<'t, Statement> {
+        let (input, color) = self.optional_color(input)?;
         let (input, shading) = self.shading(input)?;
-        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let face = FaceStatement { name, color, shading, motion, shape, round, ..FaceStatement::default() };
-        Ok((input, Statement::Face(face)))
+        let (input, body) = self.body(input)?;
+        let name = self.own_name(name);
+        Ok((input, Statement::Face(Face { name, contours, color, shading, body, shape })))
     }
 
     /// `number` or `surface`
-    fn shading<'a>(&self, input: Input<'a>) -> Parsed<'a, Option<ShadingStatement>> {
-        if let (rest, Some(surface)) = self.optional_name(input)? {
-            return Ok((rest, Some(ShadingStatement::Surface(surface))));
+    fn shading(&mut self, input: Input<'t>) -> Parsed<'t, Option<ShadingId>> {
+        let (rest, surface) = self.optional_name(input)?;
+        if let Some(name) = surface {
+            self.names.push((NameKind::Surface, name));
+            let number = self.scope.surfaces.names.enter(name.of(self.text));
+            return Ok((rest, Some(self.scope.add_shading(Shading::Surface(SurfaceId::from_index(number))))));
         }
         let (rest, level) = opt(number).parse(input)?;
-        Ok((rest, level.map(ShadingStatement::Level)))
+        Ok((rest, level.map(|level| self.scope.add_shading(Shading::Level(level)))))
     }
 
     /// `w [ID] contours [color] [< x y z >]`; the velocity is our extension, for flat scenes.
-    fn wire<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
+    fn wire(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, ()) = self.contours(input, references)?;
-        let (input, color) = self.optional_name(input)?;
-        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let wire = FaceStatement { name, color, motion, ..FaceStatement::default() };
-        Ok((input, Statement::Wire(wire)))
+        let (input, contours) = self.contours(input)?;
+        let (input, color) = self.optional_color(input)?;
+        let (input, body) = self.body(input)?;
+        let name = self.own_name(name);
+        Ok((input, Statement::Wire(Wire { name, contours, color, body, text: None })))
     }
 
     /// `label [ID] "text" vertex [< x y z >]`, our extension.
-    fn label<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, Statement> {
-        references.clear();
+    fn label(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (at, ()) = blank(input)?;
         let text = label_text(at)?.1;
-        let (input, vertex) = require(wanted(self.name(&at[text.len() + 2..]), "a vertex name"))?;
-        references.names.push(vertex);
-        references.ends.push(1);
-        let start = self.position(at) + 1;
-        let text = Some(Span { start, end: start + text.len() as u32 });
-        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        let wire = FaceStatement { name, motion, text, ..FaceStatement::default() };
-        Ok((input, Statement::Wire(wire)))
+        let first = self.scope.contours.row_count();
+        let (input, ()) = require(wanted(self.corner(&at[text.len() + 2..]), "a vertex name"))?;
+        self.scope.contours.end_contour();
+        let (input, body) = self.body(input)?;
+        let (name, text) = (self.own_name(name), Some(self.scope.add_name(text)));
+        Ok((input, Statement::Wire(Wire { name, contours: first..first + 1, color: None, body, text })))
     }
 
     /// One or more `( vertex … )`.
-    fn contours<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, ()> {
-        references.clear();
+    fn contours(&mut self, input: Input<'t>) -> Parsed<'t, Range<u32>> {
+        let first = self.scope.contours.row_count();
         let (mut input, ()) = mark(b'(', "`(` and vertex names")(input)?;
         loop {
-            input = self.contour(input, references)?.0;
-            references.ends.push(references.names.len());
-            match mark(b'(', "`(`")(input) {
-                Ok((rest, ())) => input = rest,
-                Err(nom::Err::Error(_)) => return Ok((input, ())),
-                Err(err) => return Err(err),
+            input = self.contour(input)?.0;
+            self.scope.contours.end_contour();
+            match opt(mark(b'(', "`(`")).parse(input)? {
+                (rest, Some(())) => input = rest,
+                (rest, None) => return Ok((rest, first..self.scope.contours.row_count())),
             }
         }
     }
 
     /// `vertex … )`
-    fn contour<'a>(&self, input: Input<'a>, references: &mut References) -> Parsed<'a, ()> {
-        let (mut input, first) = require(wanted(self.name(input), "a vertex name"))?;
-        references.names.push(first);
-        loop {
-            match self.name(input) {
-                Ok((rest, reference)) => {
-                    references.names.push(reference);
-                    input = rest;
-                }
-                Err(nom::Err::Error(_)) => {
-                    return require(mark(b')', "a vertex name or `)`")(input));
-                }
-                Err(err) => return Err(err),
-            }
+    fn contour(&mut self, input: Input<'t>) -> Parsed<'t, ()> {
+        let (mut input, ()) = require(wanted(self.corner(input), "a vertex name"))?;
+        while let (rest, Some(())) = opt(|i| self.corner(i)).parse(input)? {
+            input = rest;
         }
+        require(mark(b')', "a vertex name or `)`")(input))
     }
 
     /// `c [ID] lightness [hue [saturation [translucency [factor]]]]`
-    fn color<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn color(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, value) = number_from(0.0, f64::INFINITY, "a lightness is 0 or more")(input)?;
-        let (input, hue) = opt(number).parse(input)?;
-        let (input, saturation) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
-        let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
+        let (input, (hue, saturation, translucency)) = (opt(number), opt(share), opt(share)).parse(input)?;
         let (input, factor) = match translucency {
             Some(_) => opt(number_from(0.0, f64::INFINITY, "a factor is 0 or more")).parse(input)?,
             None => (input, None),
@@ -252,45 +277,34 @@ impl<'t> Grammar<'t> {
         // A hue until the stage is known, which may be stated further down.
         let tint = Tint::Hue(hue.unwrap_or(0.0));
         let value = ColorValue::Hsv { value, tint, saturation, factor: factor.unwrap_or(1.0) };
-        let translucency = translucency.unwrap_or(0.0);
-        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
+        Ok((input, color(name, value, translucency)))
     }
 
     /// `c_rgb [ID] r g b [translucency]`
-    fn rgb<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let share = number_from(0.0, 1.0, SHARE);
+    fn rgb(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, r) = share(input)?;
-        let (input, g) = share(input)?;
-        let (input, b) = share(input)?;
-        let (input, translucency) = opt(share).parse(input)?;
-        let value = ColorValue::Rgb([r, g, b]);
-        let translucency = translucency.unwrap_or(0.0);
-        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
+        let (input, (r, g, b, translucency)) = (share, share, share, opt(share)).parse(input)?;
+        Ok((input, color(name, ColorValue::Rgb([r, g, b]), translucency)))
     }
 
     /// `c_xyz [ID] X Y Z [translucency]`
-    fn xyz<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn xyz(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
-        let (input, xyz) = point(input)?;
-        let (input, translucency) = opt(number_from(0.0, 1.0, SHARE)).parse(input)?;
-        let (value, translucency) = (ColorValue::Xyz(xyz.to_array()), translucency.unwrap_or(0.0));
-        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency })))
+        let (input, (xyz, translucency)) = (point, opt(share)).parse(input)?;
+        Ok((input, color(name, ColorValue::Xyz(xyz.to_array()), translucency)))
     }
 
     /// `c_bb [ID] kelvin [scale]`
-    fn blackbody<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn blackbody(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, kelvin) =
             number_from(f64::MIN_POSITIVE, f64::INFINITY, "a temperature is above 0")(input)?;
         let (input, scale) = opt(number_from(0.0, f64::INFINITY, "a scale is 0 or more")).parse(input)?;
-        let value = ColorValue::Blackbody { kelvin, scale: scale.unwrap_or(1.0) };
-        Ok((input, Statement::Color(ColorStatement { name, value, samples: Vec::new(), translucency: 0.0 })))
+        Ok((input, color(name, ColorValue::Blackbody { kelvin, scale: scale.unwrap_or(1.0) }, None)))
     }
 
     /// `c_spd [ID] nm value …`, `c_refl [ID] nm value …`, or a known spectrum in place of samples
-    fn spectrum<'a>(&self, input: Input<'a>, reflects: bool) -> Parsed<'a, Statement> {
-        let whole = |end: usize| ColorValue::Spectrum { reflects, start: 0, end: end as u32 };
+    fn spectrum(&mut self, input: Input<'t>, reflects: bool) -> Parsed<'t, Statement> {
         let (behind_first, first) = opt(identifier).parse(input)?;
         let (behind_second, second) = opt(identifier).parse(behind_first)?;
         let name = first.map(|word| self.span(word, behind_first));
@@ -300,8 +314,7 @@ impl<'t> Grammar<'t> {
                 let at = if second.is_some() { behind_first } else { input };
                 return fail(blank(at)?.0, known_spectra::unknown(reflects));
             };
-            let color = ColorStatement { name, value: whole(samples.len()), samples, translucency: 0.0 };
-            return Ok((behind_second, Statement::Color(color)));
+            return Ok((behind_second, color(name, self.scope.add_spectrum(reflects, &samples), None)));
         }
         let mut least = f64::MIN_POSITIVE;
         let nanometres = |input| {
@@ -311,20 +324,19 @@ impl<'t> Grammar<'t> {
         let value = number_from(0.0, f64::INFINITY, "a value is 0 or more");
         let (input, samples) = pairs(behind_first, nanometres, value)?;
         let samples: Vec<[f64; 2]> = samples.into_iter().map(<[f64; 2]>::from).collect();
-        let value = whole(samples.len());
-        Ok((input, Statement::Color(ColorStatement { name, value, samples, translucency: 0.0 })))
+        Ok((input, color(name, self.scope.add_spectrum(reflects, &samples), None)))
     }
 
     /// `c_mix ID color share …`
-    fn mix<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (input, color) = wanted(self.name(input), NAME)?;
-        let part = |input| wanted(self.name(input), NAME);
-        let (input, parts) = pairs(input, part, number_from(0.0, 1.0, SHARE))?;
-        Ok((input, Statement::Mix(MixStatement { color, parts })))
+    fn mix(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
+        let (input, color) = wanted(self.color_name(input), NAME)?;
+        let part = |input| wanted(self.color_name(input), NAME);
+        let (input, parts) = pairs(input, part, share)?;
+        Ok((input, Statement::Mix(Mix { color, parts })))
     }
 
     /// `surf ID kd ks kt [n [exponent [absorption]]]`
-    fn surface<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn surface(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
         let mut surface = SurfaceProperties::default();
         for (idx, SurfaceNumber { of, range, rule }) in SurfaceProperties::NUMBERS.into_iter().enumerate() {
@@ -333,11 +345,11 @@ impl<'t> Grammar<'t> {
                 read => (input, *of(&mut surface)) = read?,
             }
         }
-        Ok((input, Statement::Surface(SurfaceStatement { name, surface })))
+        Ok((input, Statement::Surface(name, surface)))
     }
 
     /// `l [ID] intensity [x y z [radius [reference]]] [color] [< x y z >]`
-    fn light<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn light(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, intensity) = number_from(0.0, f64::INFINITY, "an intensity is 0 or more")(input)?;
         let at = blank(input)?.0;
@@ -355,32 +367,36 @@ impl<'t> Grammar<'t> {
         if kind == LightKind::Directional(DVec3::ZERO) {
             return fail(at, zero_vector(3));
         }
-        let (input, color) = self.optional_name(input)?;
+        let (input, color) = self.optional_color(input)?;
         let (input, ()) = beam(input, &mut kind)?;
-        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Light(LightStatement { name, intensity, kind, color, motion })))
+        let (input, motion) = self.optional_motion(input)?;
+        let motion = motion.map_or(LightMotion::WithWhatItLights, |motion| {
+            // A lamp with a velocity of its own is at its position at time 0.
+            let at = if let LightKind::Local { position, .. } = kind { position } else { DVec3::ZERO };
+            LightMotion::Body(self.scope.bodies.of_reference(self.text, motion, at))
+        });
+        Ok((input, Statement::Light(Light { name: self.own_name(name), intensity, kind, color, motion })))
     }
 
     /// `cam [ID] { -vc -ep -ud -cl -ph -og -ps -va -fs -fl } [< x y z >]`
-    fn camera<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    fn camera(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (mut input, name) = self.optional_name(input)?;
         let mut camera = Camera::default();
         while let (rest, Some(name)) = opt(option_word).parse(input)? {
             input = camera_option(&mut camera, name, input, rest)?.0;
         }
-        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
+        let (input, motion) = self.optional_motion(input)?;
         let (velocity, carrier) = match motion {
             Some(MotionReference::Frame(frame)) => (Some(frame.velocity), None),
-            Some(MotionReference::Named(name)) => (None, Some(name)),
+            Some(MotionReference::Named(name)) => (None, Some(self.scope.bodies.named(self.text, name))),
             None => (None, None),
         };
-        let camera = Camera { velocity, ..camera };
-        Ok((input, Statement::Camera(CameraStatement { name, camera, carrier })))
+        Ok((input, Statement::Camera(Camera { name: self.own_name(name), velocity, carrier, ..camera })))
     }
 
     /// `sky FILE [-ra x y z]`
-    fn sky<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (input, FileStatement { name: file, .. }) = self.file(input, FILE_NAME)?;
+    fn sky(&self, input: Input<'t>) -> Parsed<'t, Statement> {
+        let (input, FileStatement { name: file, .. }) = file(self.text, input, FILE_NAME)?;
         let (input, turn) = match opt(option_word).parse(input)? {
             (rest, Some(b"ra")) => require(numbers(rest))?,
             (_, Some(_)) => return fail(blank(input)?.0, Reason::Expected("`-ra` or `;`")),
@@ -391,11 +407,11 @@ impl<'t> Grammar<'t> {
 
     /// `i [ID] ( def [color] tforms ) [< x y z >]`,
     /// `a [ID] ( def [color] tforms ) size tforms [< x y z >]`
-    fn call<'a>(&self, input: Input<'a>, is_array: bool) -> Parsed<'a, Statement> {
+    fn call(&mut self, input: Input<'t>, is_array: bool) -> Parsed<'t, Statement> {
         let (input, name) = self.optional_name(input)?;
         let (input, ()) = mark(b'(', "`(` and the name of a definition")(input)?;
         let (input, definition) = wanted(self.name(input), "the name of a definition")?;
-        let (input, color) = self.optional_name(input)?;
+        let (input, color) = self.optional_color(input)?;
         let (input, inner) = transforms(input)?;
         let (input, ()) = mark(b')', "a transformation such as `-tx` or `)`")(input)?;
         let (input, repeat) = if is_array {
@@ -405,19 +421,39 @@ impl<'t> Grammar<'t> {
         } else {
             (input, Repeat::Once)
         };
-        let (input, motion) = opt(|i| self.motion_reference(i)).parse(input)?;
-        Ok((input, Statement::Call(CallStatement { name, definition, color, inner, repeat, motion })))
+        let (input, motion) = self.optional_motion(input)?;
+        let (before, target, label) = (self.scope.counts(), None, String::new());
+        let call = Call { name, definition, color, inner, repeat, motion, before, target, label };
+        Ok((input, Statement::Call(call)))
     }
 }
 
 /// The first characters of a name, for messages.
 pub(crate) const NAME: &str = "a name that begins with a letter, `:`, `_` or `#`";
 
-const SHARE: &str = "use a number from 0 to 1";
+fn share(input: Input<'_>) -> Parsed<'_, f64> {
+    number_from(0.0, 1.0, "use a number from 0 to 1")(input)
+}
 
 /// The vector in these words has no length.
 const fn zero_vector(words: usize) -> Reason {
     Reason::Impossible(words, "the vector is zero", "give a vector with a direction, such as `0 0 1`")
+}
+
+/// A file name, for messages `what`.
+pub(crate) fn file<'t>(text: &[u8], input: Input<'t>, what: &'static str) -> Parsed<'t, FileStatement> {
+    let position = |rest: Input<'_>| (text.len() - rest.len()) as u32;
+    let at = blank(input)?.0;
+    let (rest, name) = wanted(file_name(input), what)?;
+    let span = Span { start: position(at), end: position(rest) };
+    let start = span.start + u32::from(at.starts_with(b"\""));
+    Ok((rest, FileStatement { span, name: Span { start, end: start + name.len() as u32 } }))
+}
+
+/// A colour, whose name is set when the colours of all scopes are joined.
+fn color(name: Option<Span>, value: ColorValue, translucency: Option<f64>) -> Statement {
+    let translucency = translucency.unwrap_or(0.0);
+    Statement::Color(name, Color { name: NameId::from_index(0), value, translucency })
 }
 
 /// A number in a closed range.
@@ -473,6 +509,7 @@ fn option_word(input: Input<'_>) -> Parsed<'_, Input<'_>> {
 /// `-spot x y z angle edge` or `-area ux uy uz vx vy vz`
 fn beam<'a>(input: Input<'a>, kind: &mut LightKind) -> Parsed<'a, ()> {
     let at = blank(input)?.0;
+    let wrong = |remedy| fail(at, Reason::OutOfRange(remedy));
     let (input, stated) = match (opt(option_word).parse(input)?, &kind) {
         ((rest, Some(b"spot")), LightKind::Local { .. }) => {
             let (rest, [x, y, z, angle, edge]) = require(numbers(rest))?;
@@ -483,23 +520,20 @@ fn beam<'a>(input: Input<'a>, kind: &mut LightKind) -> Parsed<'a, ()> {
             (rest, Beam::Area([DVec3::new(x, y, z), DVec3::new(u, v, w)]))
         }
         ((_, Some(b"spot")), _) => {
-            return fail(
-                at,
-                Reason::OutOfRange("a spot has a position and a radius, such as `l 1  0 0 5 0`"),
-            );
+            return wrong("a spot has a position and a radius, such as `l 1  0 0 5 0`");
         }
         ((_, Some(b"area")), _) => {
-            let remedy =
-                "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`";
-            return fail(at, Reason::OutOfRange(remedy));
+            return wrong(
+                "an area has a position, a radius and a reference distance, such as `l 1  0 0 5 0 3`",
+            );
         }
         ((_, Some(_)), _) => return fail(at, Reason::Expected("`-spot`, `-area`, `<` or `;`")),
         ((_, None), _) => return Ok((input, ())),
     };
     if !stated.is_valid() {
-        let remedy =
-            "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area";
-        return fail(at, Reason::OutOfRange(remedy));
+        return wrong(
+            "an axis is not 0, an angle 0 to 180 degrees, an edge 0 to the angle; edges span an area",
+        );
     }
     if let LightKind::Local { beam, .. } = kind {
         *beam = stated;
@@ -507,11 +541,18 @@ fn beam<'a>(input: Input<'a>, kind: &mut LightKind) -> Parsed<'a, ()> {
     Ok((input, ()))
 }
 
+/// Puts the argument of an option into its place.
+fn store<'a, T>(place: &mut Option<T>, parsed: Parsed<'a, T>) -> Parsed<'a, ()> {
+    let (rest, value) = require(parsed)?;
+    *place = Some(value);
+    Ok((rest, ()))
+}
+
 /// Pairs, one or more, up to where `first` does not match.
 fn pairs<'a, A, B>(
     mut input: Input<'a>,
     mut first: impl FnMut(Input<'a>) -> Parsed<'a, A>,
-    second: impl Fn(Input<'a>) -> Parsed<'a, B>,
+    mut second: impl FnMut(Input<'a>) -> Parsed<'a, B>,
 ) -> Parsed<'a, Vec<(A, B)>> {
     let mut pairs = Vec::new();
     loop {

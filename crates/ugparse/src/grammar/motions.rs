@@ -5,14 +5,14 @@ use nom::Parser;
 use nom::combinator::opt;
 use ugphysics::{Event, Piece, SampledPath};
 
-use super::{Grammar, NAME, numbers, option_word, velocity, zero_vector};
+use super::{Grammar, NAME, file, numbers, option_word, store, velocity, zero_vector};
 use crate::source::Span;
 use crate::statement::{MotionReference, MotionStatement, PathStatement, StatedFrame, Statement};
 use crate::token::{Input, Parsed, Reason, blank, fail, mark, number, point, require, wanted};
 
-impl Grammar<'_> {
+impl<'t> Grammar<'t, '_> {
     /// `motion ID { -vel -at -acc -spin -orbit -path -on -shift }`
-    pub(super) fn motion<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
+    pub(super) fn motion(&self, input: Input<'t>) -> Parsed<'t, Statement> {
         let (mut input, name) = wanted(self.name(input), NAME)?;
         let mut motion = MotionStatement { name, ..MotionStatement::default() };
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
@@ -22,23 +22,20 @@ impl Grammar<'_> {
     }
 
     /// Parses the arguments of an option, which begins at `at`; `input` begins after it.
-    fn motion_option<'a>(
+    fn motion_option(
         &self,
         motion: &mut MotionStatement,
-        option: Input<'a>,
-        at: Input<'a>,
-        input: Input<'a>,
-    ) -> Parsed<'a, ()> {
+        option: Input<'t>,
+        at: Input<'t>,
+        input: Input<'t>,
+    ) -> Parsed<'t, ()> {
         let at = blank(at)?.0;
         let is_free = motion.velocity.is_some() || !motion.accelerations.is_empty();
         let (no_orbit, no_path) = (motion.orbit.is_none(), motion.path.is_none());
         let rest;
         match option {
-            b"vel" if no_orbit && no_path => {
-                let (behind, velocity) = velocity(input)?;
-                (rest, motion.velocity) = (behind, Some(velocity));
-            }
-            b"acc" if no_orbit && no_path => rest = piece(input, 0.0, &mut motion.accelerations)?.0,
+            b"vel" if no_orbit && no_path => return store(&mut motion.velocity, velocity(input)),
+            b"acc" if no_orbit && no_path => return piece(input, 0.0, &mut motion.accelerations),
             b"orbit" if !is_free && no_path => {
                 let (behind, center) = require(point(input))?;
                 let axis_at = blank(behind)?.0;
@@ -49,10 +46,7 @@ impl Grammar<'_> {
                 let (behind, rate) = require(number(behind))?;
                 (rest, motion.orbit) = (behind, Some((center, axis, rate)));
             }
-            b"path" if !is_free && no_orbit => {
-                let (behind, path) = self.path(input)?;
-                (rest, motion.path) = (behind, Some(path));
-            }
+            b"path" if !is_free && no_orbit => return store(&mut motion.path, self.path(input)),
             b"vel" | b"acc" | b"orbit" | b"path" => {
                 let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-path`";
                 return fail(at, Reason::Impossible(1, "the motion has another path already", remedy));
@@ -60,11 +54,10 @@ impl Grammar<'_> {
             b"on" => {
                 let name = || self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
                 let on = name().or_else(|_| self.motion_reference(input));
-                let (behind, on) = on.or_else(|_| require(wanted(name(), "the name of a motion")))?;
-                (rest, motion.on) = (behind, Some(on));
+                return store(&mut motion.on, on.or_else(|_| wanted(name(), "the name of a motion")));
             }
             b"at" => (rest, motion.at) = require(point(input))?,
-            b"spin" => rest = piece(input, f64::NEG_INFINITY, &mut motion.spins)?.0,
+            b"spin" => return piece(input, f64::NEG_INFINITY, &mut motion.spins),
             b"shift" => (rest, motion.shift) = shift(input)?,
             _ => {
                 let expected = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
@@ -75,13 +68,13 @@ impl Grammar<'_> {
     }
 
     /// `FILE`, `(t x y z …)` or `< NAME >`, the path of another motion
-    fn path<'a>(&self, input: Input<'a>) -> Parsed<'a, PathStatement> {
+    fn path(&self, input: Input<'t>) -> Parsed<'t, PathStatement> {
         if let Ok((rest, ())) = mark(b'<', "`<`")(input) {
             let (rest, name) = require(wanted(self.name(rest), "the name of a motion with a path"))?;
             return Ok((require(mark(b'>', "`>`")(rest))?.0, PathStatement::Of(name)));
         }
         let Ok((list, ())) = mark(b'(', "`(`")(input) else {
-            let (rest, file) = require(self.file(input, "a file name, or `(` and a list of events"))?;
+            let (rest, file) = require(file(self.text, input, "a file name, or `(` and a list of events"))?;
             return Ok((rest, PathStatement::File(file)));
         };
         let (mut input, mut events) = (list, Vec::new());
@@ -104,10 +97,7 @@ impl Grammar<'_> {
 pub(super) fn frame_options(mut input: Input<'_>, mut frame: StatedFrame) -> Parsed<'_, StatedFrame> {
     while let (rest, Some(word)) = opt(option_word).parse(input)? {
         match word {
-            b"at" => {
-                let (behind, at) = require(point(rest))?;
-                (input, frame.at) = (behind, Some(at));
-            }
+            b"at" => input = store(&mut frame.at, point(rest))?.0,
             b"turn" => (input, frame.turn) = require(point(rest))?,
             b"shift" => (input, frame.shift) = shift(rest)?,
             _ => return fail(blank(input)?.0, Reason::Expected("`>` or an option (-at -turn -shift)")),

@@ -4,29 +4,26 @@ use glam::{DMat3, DVec3};
 use ugscene::{FaceShape, RoundShape};
 
 use super::{Grammar, number_from, zero_vector};
-use crate::statement::{References, Statement};
+use crate::scope::as_str;
+use crate::source::Span;
+use crate::statement::Statement;
 use crate::token::{Input, Parsed, Reason, blank, fail, point, require};
 
-impl Grammar<'_> {
+impl<'t> Grammar<'t, '_> {
     /// `sphere [ID] x y z radius …`, `cylinder [ID] x y z x y z radius …` and `tube` alike,
     /// `disc [ID] x y z nx ny nz radius …`; or with contours in place of the numbers
-    pub(super) fn round<'a>(
-        &self,
-        shape: FaceShape,
-        input: Input<'a>,
-        references: &mut References,
-    ) -> Parsed<'a, Statement> {
+    pub(super) fn round(&mut self, shape: FaceShape, input: Input<'t>) -> Parsed<'t, Statement> {
+        let behind_keyword = self.position(input);
         let (input, name) = self.optional_name(input)?;
         let at = blank(input)?.0;
         if at.starts_with(b"(") {
-            let (rest, ()) = self.contours(input, references)?;
-            let numbers = references.contours().map(|contour| contour.len());
+            let (rest, contours) = self.contours(input)?;
+            let numbers = self.scope.contours.iter(contours.clone()).map(<[_]>::len);
             if !numbers.eq(shape.corners_of_contours().iter().copied()) {
                 return fail(at, Reason::Impossible(1, "this is not the number of vertices", CONTOURS));
             }
-            return self.behind_shape(rest, name, shape, None);
+            return self.behind_shape(rest, name, shape, contours);
         }
-        references.clear();
         let (input, origin) = require(point(input))?;
         let end = blank(input)?.0;
         let (input, second) = match shape {
@@ -57,7 +54,11 @@ impl Grammar<'_> {
         if !placed.is_some_and(is_kept) {
             return fail(radius_at, OUT_OF_RANGE);
         }
-        self.behind_shape(input, name, shape, Some(round))
+        // As of the name of a vertex, the statement is that around it.
+        let place = name.unwrap_or(Span { start: behind_keyword, end: behind_keyword });
+        let word = name.map_or(shape.keyword(), |name| as_str(name.of(self.text)));
+        let contours = self.scope.push_round(word, place, &round);
+        self.behind_shape(input, name, shape, contours)
     }
 }
 

@@ -3,18 +3,19 @@
 use nom::Parser;
 use nom::combinator::opt;
 
-use ugscene::{AlphaMode, ColorId, Texture, TextureImage, Wrap};
+use ugscene::{AlphaMode, ColorTable, Texture, TextureImage, Wrap};
 
-use super::{Grammar, NAME, number_from, option_word, pairs};
-use crate::statement::{Statement, TableStatement, TextureStatement};
+use super::{Grammar, NAME, file, number_from, option_word, pairs};
+use crate::statement::Statement;
 use crate::token::{
     Input, Parsed, Reason, backtrack, blank, fail, integer, number, number32, require, wanted, word,
 };
 
-impl Grammar<'_> {
+impl<'t> Grammar<'t, '_> {
     /// `c_time ID [-step] [-period T] [-shift T] { time color }`
-    pub(super) fn table<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (mut input, color) = wanted(self.name(input), NAME)?;
+    pub(super) fn table(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
+        let (mut input, name) = wanted(self.name(input), NAME)?;
+        let color = self.color_id(name);
         let (mut is_stepped, mut period, mut shift) = (false, None, 0.0);
         let mut period_at = input;
         while let (rest, Some(word)) = opt(option_word).parse(input)? {
@@ -38,20 +39,22 @@ impl Grammar<'_> {
             let read = number_from(least, f64::INFINITY, "own times rise from row to row")(input);
             wanted(read.inspect(|(_, time)| least = time.next_up()), "an own time")
         };
-        let (input, rows) = pairs(input, time, |input| wanted(self.name(input), NAME))?;
+        let (input, rows) = pairs(input, time, |input| wanted(self.color_name(input), NAME))?;
         let span = rows.last().map_or(0.0, |last| last.0) - rows.first().map_or(0.0, |first| first.0);
         if period.is_some_and(|period| period <= span) {
             let remedy = "give a longer one: after it the first row follows the last";
             return fail(period_at, Reason::Impossible(1, "the period is not longer than its rows", remedy));
         }
-        Ok((input, Statement::Table(TableStatement { color, is_stepped, period, shift, rows })))
+        Ok((input, Statement::Table(name, ColorTable { color, rows, is_stepped, period, shift })))
     }
 
     /// `c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend]`
-    pub(super) fn texture<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (input, color) = wanted(self.name(input), NAME)?;
-        let (mut input, file) = require(self.file(input, "the file of a picture"))?;
-        let mut texture = Texture::new(ColorId::from_index(0), TextureImage::default());
+    pub(super) fn texture(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
+        let (input, color) = wanted(self.color_name(input), NAME)?;
+        let (mut input, file) = require(file(self.text, input, "the file of a picture"))?;
+        // The bytes of the picture are set when the colours of all scopes are joined.
+        let image = TextureImage { file: Some(file.name.lossy(self.text)), ..TextureImage::default() };
+        let mut texture = Texture::new(color, image);
         while let (rest, Some(option)) = opt(option_word).parse(input)? {
             match option {
                 b"wrap" => {
@@ -84,13 +87,13 @@ impl Grammar<'_> {
                 }
             }
         }
-        Ok((input, Statement::Texture(TextureStatement { color, file, texture })))
+        Ok((input, Statement::Texture(texture, file)))
     }
 
     /// `c_emit ID color`
-    pub(super) fn emission<'a>(&self, input: Input<'a>) -> Parsed<'a, Statement> {
-        let (input, color) = wanted(self.name(input), NAME)?;
-        let (input, emitted) = wanted(self.name(input), NAME)?;
+    pub(super) fn emission(&mut self, input: Input<'t>) -> Parsed<'t, Statement> {
+        let (input, color) = wanted(self.color_name(input), NAME)?;
+        let (input, emitted) = wanted(self.color_name(input), NAME)?;
         Ok((input, Statement::Emission([color, emitted])))
     }
 }

@@ -41,57 +41,37 @@ fn transform<'a>(name: Input<'a>, at: Input<'a>, input: Input<'a>) -> Parsed<'a,
         b'z' => Some(DVec3::Z),
         _ => None,
     };
+    fn with<'a, T>(
+        parsed: Parsed<'a, T>,
+        make: impl FnOnce(T) -> Option<Transform>,
+    ) -> Parsed<'a, Option<Transform>> {
+        let (rest, argument) = require(parsed)?;
+        Ok((rest, make(argument)))
+    }
     let along_vector = |make: fn(DVec3, f64) -> Option<Transform>| {
-        let (rest, [x, y, z, amount]) = numbers(input)?;
-        Ok((rest, make(DVec3::new(x, y, z), amount)))
+        with((point, number).parse(input), |(vector, amount)| make(vector, amount))
     };
     let (rest, map) = match (kind, on, axis) {
-        (b's', _, Some(axis)) => {
-            let (rest, factor) = require(number(input))?;
-            (
-                rest,
-                Some(Transform::scale(DVec3::select(
-                    axis.cmpeq(DVec3::ONE),
-                    DVec3::splat(factor),
-                    DVec3::ONE,
-                ))),
-            )
-        }
-        (b's', b'a', _) => {
-            let (rest, factor) = require(number(input))?;
-            (rest, Some(Transform::scale(DVec3::splat(factor))))
-        }
+        (b's', _, Some(axis)) => with(number(input), |factor| {
+            let factors = DVec3::select(axis.cmpeq(DVec3::ONE), DVec3::splat(factor), DVec3::ONE);
+            Some(Transform::scale(factors))
+        })?,
+        (b's', b'a', _) => with(number(input), |factor| Some(Transform::scale(DVec3::splat(factor))))?,
         (b's', b'v', _) => along_vector(Transform::scale_along)?,
-        (b't', _, Some(axis)) => {
-            let (rest, amount) = require(number(input))?;
-            (rest, Some(Transform::translate(axis * amount)))
-        }
-        (b't', b'a', _) => {
-            let (rest, offset) = require(point(input))?;
-            (rest, Some(Transform::translate(offset)))
-        }
+        (b't', _, Some(axis)) => with(number(input), |amount| Some(Transform::translate(axis * amount)))?,
+        (b't', b'a', _) => with(point(input), |offset| Some(Transform::translate(offset)))?,
         (b't', b'v', _) => along_vector(Transform::translate_along)?,
-        (b'r', _, Some(axis)) => {
-            let (rest, degrees) = require(number(input))?;
-            (rest, Transform::rotate(axis, degrees))
-        }
-        (b'r', b'a', _) => {
-            let (rest, degrees) = numbers::<3>(input)?;
+        (b'r', _, Some(axis)) => with(number(input), |degrees| Transform::rotate(axis, degrees))?,
+        (b'r', b'a', _) => with(numbers::<3>(input), |degrees| {
             let mut turns = DVec3::AXES.into_iter().zip(degrees);
             let then = |sum: Transform, (axis, angle)| Some(sum.then(&Transform::rotate(axis, angle)?));
-            (rest, turns.try_fold(Transform::IDENTITY, then))
-        }
+            turns.try_fold(Transform::IDENTITY, then)
+        })?,
         (b'r', b'v', _) => along_vector(Transform::rotate)?,
         (b'm', _, Some(axis)) => (input, Some(Transform::mirror(DVec3::ONE - axis * 2.0))),
         (b'm', b'a', _) => (input, Some(Transform::mirror(DVec3::NEG_ONE))),
-        (b'm', b'v', _) => {
-            let (rest, vector) = require(point(input))?;
-            (rest, Transform::mirror_across(vector))
-        }
-        (b'M', b'3', _) => {
-            let (rest, m) = numbers::<9>(input)?;
-            (rest, Some(Transform::rows3(&m)))
-        }
+        (b'm', b'v', _) => with(point(input), Transform::mirror_across)?,
+        (b'M', b'3', _) => with(numbers::<9>(input), |m| Some(Transform::rows3(&m)))?,
         (b'M', b'4', _) => {
             let (rest, m) = numbers::<16>(input)?;
             return Transform::rows4(&m).map_or_else(|| fail(at, NOT_AFFINE), |map| Ok((rest, map)));

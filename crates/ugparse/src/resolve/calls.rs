@@ -1,23 +1,19 @@
 //! Resolves the definitions of instances and arrays, and their labels in paths.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
+use ugscene::UniqueNames;
 
-use super::undefined::{show, undefined_like};
-use super::{Link, enclosing};
+use super::enclosing;
+use super::undefined::undefined_like;
 use crate::diagnostic::Diagnostic;
-use crate::scope::{Call, Scope};
-use crate::statement::Repeat;
+use crate::scope::Scope;
+use crate::statement::{Call, Repeat};
 
-/// Resolves the calls of a scope.
-pub(super) fn link_calls(
-    text: &[u8],
-    scopes: &[Scope<'_>],
-    row: usize,
-    findings: &mut Vec<Diagnostic>,
-) -> Vec<Link> {
+/// Resolves the calls of a scope, and labels them.
+pub(super) fn link_calls(text: &[u8], scopes: &mut [Scope<'_>], row: usize, findings: &mut Vec<Diagnostic>) {
     let calls = &scopes[row].calls.rows;
     let labels = labels(text, calls);
-    let links = calls.iter().zip(labels).map(|(Call { statement: call, .. }, label)| {
+    let target = |call: &Call| {
         let name = call.definition.of(text);
         let target = enclosing(scopes, row).find_map(|scope| scopes[scope].definitions.get(name));
         if target.is_none() {
@@ -29,36 +25,25 @@ pub(super) fn link_calls(
             let found = undefined_like(text, "definition", call.definition, remedy, names, findings.len());
             findings.push(found);
         }
-        let target = target.map(|&(scope, _)| scope);
-        Link { target, label }
-    });
-    links.collect()
+        target.map(|&(scope, _)| scope)
+    };
+    let targets: Vec<_> = calls.iter().map(target).collect();
+    for (call, link) in scopes[row].calls.rows.iter_mut().zip(targets.into_iter().zip(labels)) {
+        (call.target, call.label) = link;
+    }
 }
 
 /// The unique label of each call in a scope: its name, else its definition's name; empty for an
 /// unnamed array that is the only call, because its element number is enough.
 fn labels(text: &[u8], calls: &[Call]) -> Vec<String> {
-    let wanted = |Call { statement: call, .. }: &Call| match call.name {
+    let wanted = |call: &Call| match call.name {
         None if calls.len() == 1 && matches!(call.repeat, Repeat::Times(..)) => String::new(),
-        name => show(text, name.unwrap_or(call.definition)),
+        name => name.unwrap_or(call.definition).lossy(text),
     };
     let wanted: Vec<String> = calls.iter().map(wanted).collect();
     // Labels in the text are never used for other calls.
-    let mut taken: FxHashSet<String> = wanted.iter().cloned().collect();
-    let mut uses: FxHashMap<&str, u64> = FxHashMap::default();
-    let mut labels = Vec::with_capacity(wanted.len());
-    for wanted in &wanted {
-        let uses = uses.entry(wanted).or_default();
-        *uses += 1;
-        let mut label = wanted.clone();
-        while *uses > 1 {
-            label = format!("{wanted}_{uses}");
-            if taken.insert(label.clone()) {
-                break;
-            }
-            *uses += 1;
-        }
-        labels.push(label);
-    }
-    labels
+    let mut taken: UniqueNames = wanted.iter().map(String::as_str).collect();
+    let mut known = FxHashSet::default();
+    let again = wanted.iter().map(|label| if known.insert(label) { None } else { taken.fresh(label) });
+    again.zip(&wanted).map(|(again, label)| again.unwrap_or_else(|| label.clone())).collect()
 }

@@ -3,10 +3,9 @@
 use rayon::prelude::*;
 use ugscene::VertexId;
 
-use super::undefined::read_again;
+use crate::reader::names_in;
 use crate::scope::{NO_ROW, PathCorner, Scope};
-use crate::source::Span;
-use crate::statement::References;
+use crate::statement::NameKind;
 
 /// The least number of rows per thread.
 pub(super) const LEAST_ROWS: usize = 1 << 15;
@@ -38,21 +37,19 @@ pub(super) fn path_corners(text: &[u8], scope: &Scope<'_>) -> Vec<PathCorner> {
     let mut paths = Vec::new();
     let faces = scope.faces.rows.iter().map(|face| &face.contours).zip(&scope.faces.spans);
     let wires = scope.wires.rows.iter().map(|wire| &wire.contours).zip(&scope.wires.spans);
-    let mut references = References::default();
     for (contours, &span) in faces.chain(wires) {
         let corners = scope.contours.corners(contours.clone());
         if is_linked(corners) {
             continue;
         }
-        read_again(text, span, &mut references);
-        let first = scope.contours.first_corner(contours.start);
-        let places = (first..).zip(corners.iter().zip(&references.names));
-        let of_instances = |name: &Span| scope.may_be_path(name.of(text));
-        paths.extend(
-            places
-                .filter(|(_, (corner, name))| corner.0 == NO_ROW && of_instances(name))
-                .map(|(corner, (_, &name))| PathCorner { corner, name }),
-        );
+        let names = names_in(text, span).into_iter().filter(|(kind, _)| *kind == NameKind::Vertex);
+        for ((corner, vertex), (_, name)) in
+            (scope.contours.first_corner(contours.start)..).zip(corners).zip(names)
+        {
+            if vertex.0 == NO_ROW && scope.may_be_path(name.of(text)) {
+                paths.push(PathCorner { corner, name });
+            }
+        }
     }
     paths
 }

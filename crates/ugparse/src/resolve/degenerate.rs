@@ -1,50 +1,43 @@
 //! Removes degenerate faces and wires, which would draw nothing.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 use ugscene::{Contours, Face, RoundShape, Vertex, VertexId, Wire, newell_normal};
 
 use super::corners::{LEAST_ROWS, is_linked};
-use super::undefined::{read_again, show};
 use crate::diagnostic::Diagnostic;
+use crate::reader::names_in;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{References, Statement};
+use crate::statement::NameKind;
 
-/// Removes faces with fewer than three different vertices in a contour, or without area, with a
-/// warning for each.
-pub(super) fn remove_degenerate_faces(
+/// Removes faces with fewer than three different vertices in a contour, or without area, and wires
+/// of fewer than two vertices. Returns a warning for each. `vertices`: those of the scope, with
+/// others behind. `has_corners`: every corner is a row of them.
+pub(crate) fn remove_degenerate(
     text: &[u8],
     scope: &mut Scope<'_>,
+    vertices: &[Vertex],
     has_corners: bool,
-    findings: &mut Vec<Diagnostic>,
-) {
-    let is_whole = |face: &Face| has_corners || is_linked(scope.contours.corners(face.contours.clone()));
-    let problem = |face: &Face| degeneracy(&scope.contours, &scope.vertices.rows, face);
-    let faces = &scope.faces.rows;
-    let is_degenerate = |&row: &usize| is_whole(&faces[row]) && problem(&faces[row]).is_some();
-    let rows = (0..faces.len()).into_par_iter().with_min_len(LEAST_ROWS);
-    let degenerate: Vec<usize> = rows.filter(is_degenerate).collect();
-    for &row in &degenerate {
-        let problem = problem(&scope.faces.rows[row]).unwrap_or_default();
-        let span = scope.faces.spans[row];
-        findings.push(omitted(text, span, "face", problem, "remove it, or correct its vertices"));
-    }
-    scope.remove_faces(&degenerate);
-}
-
-pub(super) fn remove_short_wires(
-    text: &[u8],
-    scope: &mut Scope<'_>,
-    has_corners: bool,
-    findings: &mut Vec<Diagnostic>,
-) {
-    let wires = &scope.wires.rows;
-    let is_whole = |wire: &Wire| has_corners || is_linked(scope.contours.corners(wire.contours.clone()));
-    let is_short = |&row: &usize| is_whole(&wires[row]) && is_short(&scope.contours, &wires[row]);
-    let rows = (0..wires.len()).into_par_iter().with_min_len(LEAST_ROWS);
-    let short: Vec<usize> = rows.filter(is_short).collect();
-    findings.extend(short.iter().map(|&row| short_wire(text, scope.wires.spans[row])));
+) -> Vec<Diagnostic> {
+    let Scope { faces, wires, contours, .. } = &*scope;
+    let is_whole = |rows: &Range<u32>| has_corners || is_linked(contours.corners(rows.clone()));
+    let problem =
+        |face: &Face| is_whole(&face.contours).then(|| degeneracy(contours, vertices, face)).flatten();
+    let is_short = |wire: &Wire| is_whole(&wire.contours) && is_short(contours, wire);
+    let rows = |n: usize| (0..n).into_par_iter().with_min_len(LEAST_ROWS);
+    let flat: Vec<usize> = rows(faces.len()).filter(|&row| problem(&faces.rows[row]).is_some()).collect();
+    let short: Vec<usize> = rows(wires.len()).filter(|&row| is_short(&wires.rows[row])).collect();
+    let of_face = |&row: &usize| {
+        let problem = problem(&faces.rows[row]).unwrap_or_default();
+        omitted(text, faces.spans[row], "face", problem, "remove it, or correct its vertices")
+    };
+    let of_wire = |&row: &usize| short_wire(text, wires.spans[row]);
+    let found = flat.iter().map(of_face).chain(short.iter().map(of_wire)).collect();
+    scope.remove_faces(&flat);
     scope.remove_wires(&short);
+    found
 }
 
 /// Why a face is degenerate, if it is.
@@ -63,7 +56,7 @@ pub(crate) fn degeneracy(contours: &Contours, vertices: &[Vertex], face: &Face) 
 }
 
 /// Does a contour have three different vertices?
-pub(crate) fn has_three(corners: &[VertexId]) -> bool {
+fn has_three(corners: &[VertexId]) -> bool {
     let Some((&a, rest)) = corners.split_first() else { return false };
     let Some(&b) = rest.iter().find(|&&c| c != a) else { return false };
     rest.iter().any(|&c| c != a && c != b)
@@ -79,17 +72,14 @@ pub(crate) fn short_wire(text: &[u8], span: Span) -> Diagnostic {
     omitted(text, span, "wire", "has a contour of fewer than 2 vertices", "remove it, or add a vertex")
 }
 
-pub(crate) fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
+fn omitted(text: &[u8], span: Span, kind: &str, problem: &str, remedy: &str) -> Diagnostic {
     let name = face_name(text, span);
-    let shown = name.map_or(String::new(), |name| format!(" `{}`", show(text, name)));
+    let shown = name.map_or(String::new(), |name| format!(" `{}`", name.lossy(text)));
     let span = name.unwrap_or(Span { start: span.start, end: span.start + 1 });
     Diagnostic::warning(span, format!("{kind}{shown} {problem}")).label("omitted").help(remedy)
 }
 
 /// The span of the name of the face or wire at `span`.
 pub(crate) fn face_name(text: &[u8], span: Span) -> Option<Span> {
-    match read_again(text, span, &mut References::default()) {
-        Some(Statement::Face(face) | Statement::Wire(face)) => face.name,
-        _ => None,
-    }
+    names_in(text, span).into_iter().find(|(kind, _)| *kind == NameKind::Own).map(|(_, name)| name)
 }

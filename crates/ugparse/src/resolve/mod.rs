@@ -16,36 +16,22 @@ use crate::options::Limits;
 use crate::scope::Scope;
 use crate::source::Images;
 
-pub(crate) use degenerate::{degeneracy, face_name, has_three, is_short, omitted, short_wire};
+pub(crate) use degenerate::{degeneracy, face_name, is_short, remove_degenerate, short_wire};
 pub(crate) use undefined::{undefined, undefined_like};
 
 use calls::link_calls;
 use corners::{link_corners, path_corners};
-use degenerate::{remove_degenerate_faces, remove_short_wires};
-use named::{
-    apply_default_colors, gather_emissions, gather_mixes, gather_named, gather_textures, name_surfaces,
-    paint, visible,
-};
+use named::{apply_default_colors, gather_named, gather_of_colors, name_surfaces, paint, visible};
 use sizes::Sizes;
-use undefined::{UndefinedNames, show};
+use undefined::UndefinedNames;
 
-/// The resolved calls.
+/// What expansion needs besides the scopes.
 #[derive(Default)]
 pub(crate) struct Links {
-    /// For each scope, the links of its calls.
-    pub calls: Vec<Vec<Link>>,
     /// For each scope, the row of its first colour in the scene.
     pub first_colors: Vec<usize>,
     /// Length of the longest chain of nested instances.
     pub levels: usize,
-}
-
-/// A resolved call.
-pub(crate) struct Link {
-    /// The scope of its definition; `None` if it is not defined.
-    pub target: Option<usize>,
-    /// Its name in paths.
-    pub label: String,
 }
 
 /// Resolves all names of `scopes`, and moves their colours and surfaces to `scene`.
@@ -56,15 +42,7 @@ pub(crate) fn resolve(
     limits: &Limits,
     findings: &mut Vec<Diagnostic>,
 ) -> Links {
-    for scope in scopes.iter() {
-        findings.extend(scope.duplicates.iter().map(|duplicate| {
-            let shown = show(text, duplicate.again);
-            Diagnostic::error(duplicate.again, format!("{} `{shown}` is defined twice", duplicate.kind))
-                .label("again here")
-                .other(duplicate.first, "first here")
-                .help("give one of them another name")
-        }));
-    }
+    findings.extend(scopes.iter_mut().flat_map(|scope| scope.duplicates.drain(..)));
     let own_sizes = scopes.iter().map(Scope::own_size).collect();
     // The names of the file come first, so that their ids do not change.
     scene.names = std::mem::take(&mut scopes[0].names);
@@ -81,10 +59,7 @@ pub(crate) fn resolve(
         let scope = &mut scopes[row];
         let has_colors = paint(scope, &colors);
         if has_colors {
-            findings.extend(gather_mixes(scope, &colors, scene));
-            findings.extend(gather_textures(scope, &colors, images, scene));
-            findings.extend(gather_emissions(scope, &colors, scene));
-            tables::gather(scope, &colors, scene);
+            findings.extend(gather_of_colors(scope, images, scene));
         }
         let has_surfaces = name_surfaces(scope, &surfaces);
         let has_corners = link_corners(scope);
@@ -93,17 +68,18 @@ pub(crate) fn resolve(
             scopes[row].paths = path_corners(text, &scopes[row]);
         }
         let scope = &mut scopes[row];
-        remove_degenerate_faces(text, scope, has_corners, findings);
-        remove_short_wires(text, scope, has_corners, findings);
+        let vertices = std::mem::take(&mut scope.vertices.rows);
+        findings.extend(remove_degenerate(text, scope, &vertices, has_corners));
+        scope.vertices.rows = vertices;
     }
     scene.mixes.sort_by_key(|mix| mix.color);
     scene.textures.sort_by_key(|texture| texture.color);
     scene.emissions.sort();
-    tables::check(text, (scopes, &firsts.colors), scene, findings);
+    tables::check(text, scopes, scene, findings);
     apply_default_colors(&mut scopes[0]);
-    let calls = (0..scopes.len()).map(|row| link_calls(text, scopes, row, findings)).collect();
-    let mut links = Links { calls, first_colors: firsts.colors, levels: 0 };
-    match (Sizes { text, scopes, own_sizes, links: &links, limits }).check_calls() {
+    (0..scopes.len()).for_each(|row| link_calls(text, scopes, row, findings));
+    let mut links = Links { first_colors: firsts.colors, levels: 0 };
+    match (Sizes { text, scopes, own_sizes, limits }).check_calls() {
         Ok(levels) => links.levels = levels,
         Err(finding) => findings.push(finding),
     }

@@ -1,14 +1,13 @@
 //! Moves colours and surfaces from the scopes to the scene, and resolves their names.
 
 use rayon::prelude::*;
-use ugscene::{Color, ColorId, Mix, NameId, Names, Scene, Shading, SurfaceId, SurfaceProperties};
+use ugscene::{Color, ColorId, ColorTable, Mix, NameId, Names, Scene, Shading, SurfaceId, SurfaceProperties};
 
 use super::corners::LEAST_ROWS;
 use super::enclosing;
-use super::undefined::show;
 use crate::diagnostic::Diagnostic;
-use crate::named::Named;
 use crate::options::{Limit, Limits};
+use crate::rows::{Named, Rows};
 use crate::scope::{Scope, shifted};
 use crate::source::{Images, Span};
 
@@ -51,7 +50,7 @@ pub(super) fn gather_named(
         let colors = std::mem::take(&mut scope.colors.table.rows).into_iter();
         for ((color, &span), own) in colors.zip(&scope.colors.table.spans).zip(&scope.colors.spans) {
             let own = match own {
-                Some(own) => show(text, *own),
+                Some(own) => own.lossy(text),
                 None => format!("unnamed#{}", scene.colors.len()),
             };
             let name = name(&mut scene.names, &own, span)?;
@@ -62,7 +61,7 @@ pub(super) fn gather_named(
         for ((surface, &span), own) in
             surfaces.zip(&scope.surfaces.table.spans).zip(scope.surfaces.spans.iter().flatten())
         {
-            let name = name(&mut scene.names, &show(text, *own), span)?;
+            let name = name(&mut scene.names, &own.lossy(text), span)?;
             scene.surfaces.push(SurfaceProperties { name, ..surface });
         }
     }
@@ -84,7 +83,7 @@ fn long_names(span: Span, limits: &Limits) -> Diagnostic {
 fn scope_prefix(text: &[u8], scopes: &[Scope<'_>], row: usize) -> String {
     enclosing(scopes, row)
         .filter(|&scope| scopes[scope].parent.is_some())
-        .fold(String::new(), |inner, scope| format!("{}:{inner}", show(text, scopes[scope].name)))
+        .fold(String::new(), |inner, scope| format!("{}:{inner}", scopes[scope].name.lossy(text)))
 }
 
 /// For each name of a kind in a scope, the row in the scene to which it refers.
@@ -100,81 +99,71 @@ pub(super) fn visible<'g, T: 'g>(
     kind(&scopes[row]).names.list.iter().map(find).collect()
 }
 
+/// The row of a colour that is not defined; no table has as many.
+const UNDEFINED: usize = u32::MAX as usize - 1;
+
 /// Replaces names of colours by rows; returns false if one is not defined.
 pub(super) fn paint(scope: &mut Scope<'_>, colors: &[Option<usize>]) -> bool {
     if colors.iter().enumerate().all(|(row, color)| *color == Some(row)) {
         return true;
     }
-    let colors: Vec<_> = colors.iter().map(|color| color.map(ColorId::from_index)).collect();
-    let paint = |color: &mut Option<ColorId>| *color = color.and_then(|name| colors[name.index()]);
+    let rows: Vec<_> = colors.iter().map(|row| ColorId::from_index(row.unwrap_or(UNDEFINED))).collect();
+    let paint = |color: &mut ColorId| *color = rows[color.index()];
     let vertices = scope.vertices.rows.par_iter_mut().with_min_len(LEAST_ROWS);
-    vertices.for_each(|vertex| paint(&mut vertex.color));
+    vertices.for_each(|vertex| vertex.color.iter_mut().for_each(paint));
     let faces = scope.faces.rows.par_iter_mut().with_min_len(LEAST_ROWS);
-    faces.for_each(|face| paint(&mut face.color));
-    scope.wires.rows.iter_mut().for_each(|wire| paint(&mut wire.color));
-    scope.lights.rows.iter_mut().for_each(|light| paint(&mut light.color));
-    scope.calls.rows.iter_mut().for_each(|call| paint(&mut call.color));
+    faces.for_each(|face| face.color.iter_mut().for_each(paint));
+    scope.wires.rows.iter_mut().flat_map(|wire| &mut wire.color).for_each(paint);
+    scope.lights.rows.iter_mut().flat_map(|light| &mut light.color).for_each(paint);
+    scope.calls.rows.iter_mut().flat_map(|call| &mut call.color).for_each(paint);
+    scope.emissions.rows.iter_mut().flatten().for_each(paint);
+    scope.textures.rows.iter_mut().for_each(|texture| paint(&mut texture.color));
+    for Mix { color, parts } in &mut scope.mixes.rows {
+        parts.iter_mut().map(|part| &mut part.0).chain([color]).for_each(paint);
+    }
+    for ColorTable { color, rows, .. } in &mut scope.color_tables.rows {
+        rows.iter_mut().map(|row| &mut row.1).chain([color]).for_each(paint);
+    }
     colors.iter().all(Option::is_some)
 }
 
-/// Moves the textures of a scope to the scene. Returns an error if it has two of one colour.
-pub(super) fn gather_textures(
+/// Moves what a scope states of its colours to the scene. Returns errors where it is stated twice
+/// of one colour.
+pub(super) fn gather_of_colors(
     scope: &mut Scope<'_>,
-    colors: &[Option<usize>],
     images: &Images,
     scene: &mut Scene,
-) -> Option<Diagnostic> {
-    let first = scene.textures.len();
-    for mut texture in std::mem::take(&mut scope.textures.rows) {
-        texture.color = ColorId::from_index(colors[texture.color.index()]?);
-        let key = (texture.image.file.clone().unwrap_or_default(), texture.image.row);
-        texture.image.bytes = images.get(&key).cloned().unwrap_or_default();
-        scene.textures.push(texture);
+) -> impl Iterator<Item = Diagnostic> + use<> {
+    let Scope { mixes, textures, emissions, color_tables, .. } = scope;
+    for image in textures.rows.iter_mut().map(|texture| &mut texture.image) {
+        let key = (image.file.clone().unwrap_or_default(), image.row);
+        image.bytes = images.get(&key).cloned().unwrap_or_default();
     }
-    let colors: Vec<ColorId> = scene.textures[first..].iter().map(|texture| texture.color).collect();
-    stated_twice(&colors, &scope.textures.spans, "has two pictures", scene)
+    let twice = [
+        stated_twice(mixes, |mix| mix.color, "is mixed twice", scene),
+        stated_twice(textures, |texture| texture.color, "has two pictures", scene),
+        stated_twice(emissions, |emission| emission[0], "emits two colours", scene),
+    ];
+    scene.mixes.extend_from_slice(&mixes.rows);
+    scene.textures.append(&mut textures.rows);
+    scene.emissions.append(&mut emissions.rows);
+    scene.color_tables.extend_from_slice(&color_tables.rows);
+    twice.into_iter().flatten()
 }
 
-/// Moves the emissions of a scope to the scene. Returns an error if it has two of one colour.
-pub(super) fn gather_emissions(
-    scope: &Scope<'_>,
-    colors: &[Option<usize>],
-    scene: &mut Scene,
+/// The error of the first colour that is stated twice in rows of a scope.
+fn stated_twice<T>(
+    Rows { rows, spans }: &Rows<T>,
+    color: impl Fn(&T) -> ColorId,
+    what: &str,
+    scene: &Scene,
 ) -> Option<Diagnostic> {
-    let row = |name: &ColorId| colors[name.index()].map(ColorId::from_index);
-    let resolved = |[color, emitted]: &[ColorId; 2]| Some([row(color)?, row(emitted)?]);
-    let rows: Vec<[ColorId; 2]> = scope.emissions.rows.iter().filter_map(resolved).collect();
-    let colors: Vec<ColorId> = rows.iter().map(|row| row[0]).collect();
-    scene.emissions.extend(rows);
-    stated_twice(&colors, &scope.emissions.spans, "emits two colours", scene)
-}
-
-/// The error of the first colour that is stated twice, in rows of a scope.
-fn stated_twice(colors: &[ColorId], spans: &[Span], what: &str, scene: &Scene) -> Option<Diagnostic> {
-    let mut order: Vec<usize> = (0..colors.len()).collect();
-    order.sort_by_key(|&row| colors[row]);
-    let twice = order.windows(2).find(|pair| colors[pair[0]] == colors[pair[1]])?;
-    let color = &scene.colors[colors[twice[0]].index()];
-    let message = format!("colour `{}` {what}", scene.names.get(color.name));
-    let error = Diagnostic::error(spans[twice[1]], message).label("again here");
-    Some(error.other(spans[twice[0]], "first here").help("remove one of them"))
-}
-
-/// Moves the mixtures of a scope to the scene. Returns an error if it has two of one colour.
-pub(super) fn gather_mixes(
-    scope: &Scope<'_>,
-    colors: &[Option<usize>],
-    scene: &mut Scene,
-) -> Option<Diagnostic> {
-    let first = scene.mixes.len();
-    let row = |name: ColorId| colors[name.index()].map(ColorId::from_index);
-    let resolved = |mix: &Mix| {
-        let parts = mix.parts.iter().map(|&(name, share)| Some((row(name)?, share)));
-        Some(Mix { color: row(mix.color)?, parts: parts.collect::<Option<_>>()? })
-    };
-    scene.mixes.extend(scope.mixes.rows.iter().filter_map(resolved));
-    let colors: Vec<ColorId> = scene.mixes[first..].iter().map(|mix| mix.color).collect();
-    stated_twice(&colors, &scope.mixes.spans, "is mixed twice", scene)
+    let mut order: Vec<usize> = (0..rows.len()).collect();
+    order.sort_by_key(|&row| color(&rows[row]));
+    let twice = order.windows(2).find(|pair| color(&rows[pair[0]]) == color(&rows[pair[1]]))?;
+    let name = scene.names.get(scene.colors[color(&rows[twice[0]]).index()].name);
+    let places = [spans[twice[1]], spans[twice[0]]];
+    Some(Diagnostic::again(places, format!("colour `{name}` {what}"), "remove one of them"))
 }
 
 /// Replaces names of surfaces by rows; returns false if one is not defined.

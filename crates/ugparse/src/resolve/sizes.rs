@@ -4,13 +4,11 @@ use rustc_hash::FxHashSet;
 use ugphysics::SampledPath;
 use ugscene::Body;
 
-use super::Links;
-use super::undefined::show;
 use crate::diagnostic::Diagnostic;
 use crate::options::{Limit, Limits};
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{CallStatement, MotionStatement, PathStatement, Repeat};
+use crate::statement::{Call, MotionStatement, PathStatement, Repeat};
 
 /// Memory for an entry of a hash table of names, without their text: the string with the overhead
 /// of its allocation, and the free places of the table.
@@ -21,7 +19,6 @@ pub(super) struct Sizes<'g, 't> {
     pub text: &'t [u8],
     pub scopes: &'g [Scope<'t>],
     pub own_sizes: Vec<Size>,
-    pub links: &'g Links,
     pub limits: &'g Limits,
 }
 
@@ -60,14 +57,13 @@ impl Sizes<'_, '_> {
         while let Some(&mut (row, ref mut next)) = path.last_mut() {
             let idx = *next;
             *next += 1;
-            let Some(link) = self.links.calls[row].get(idx) else {
+            let Some(call) = self.scopes[row].calls.rows.get(idx) else {
                 sizes[row] = Some(self.size(row, sizes));
                 on_path.remove(&row);
                 path.pop();
                 continue;
             };
-            let Some(target) = link.target else { continue };
-            let call = &self.scopes[row].calls.rows[idx].statement;
+            let Some(target) = call.target else { continue };
             if on_path.contains(&target) {
                 return Err(self.recursion(call));
             }
@@ -88,13 +84,13 @@ impl Sizes<'_, '_> {
     fn size(&self, row: usize, sizes: &[Option<Size>]) -> Size {
         let mut total = self.own_sizes[row];
         let mut largest = 0;
-        for (call, link) in self.scopes[row].calls.rows.iter().zip(&self.links.calls[row]) {
-            let Some(target) = link.target else { continue };
+        for call in &self.scopes[row].calls.rows {
+            let Some(target) = call.target else { continue };
             let each = sizes[target].unwrap_or_default();
-            let own = each.placed(copies(&call.statement), link.label.len());
+            let own = each.placed(call);
             if own.statements > largest {
                 largest = own.statements;
-                total.largest_call = Some(call.statement.definition);
+                total.largest_call = Some(call.definition);
             }
             total.add(&own);
         }
@@ -102,8 +98,8 @@ impl Sizes<'_, '_> {
         total
     }
 
-    fn recursion(&self, call: &CallStatement) -> Diagnostic {
-        let shown = show(self.text, call.definition);
+    fn recursion(&self, call: &Call) -> Diagnostic {
+        let shown = call.definition.lossy(self.text);
         Diagnostic::error(call.definition, format!("definition `{shown}` contains itself"))
             .label("placed here, inside itself")
             .help("a definition must not place itself, directly or through others")
@@ -131,12 +127,9 @@ impl Sizes<'_, '_> {
         })
     }
 
-    fn too_long(&self, call: &CallStatement) -> Diagnostic {
-        Diagnostic::error(call.definition, "the chain of nested instances is too long").label("here").limited(
-            self.limits,
-            Limit::Chain,
-            "use fewer",
-        )
+    fn too_long(&self, call: &Call) -> Diagnostic {
+        let error = Diagnostic::error(call.definition, "the chain of nested instances is too long");
+        error.label("here").limited(self.limits, Limit::Chain, "use fewer")
     }
 }
 
@@ -156,18 +149,22 @@ pub(super) struct Size {
 }
 
 impl Size {
-    /// The size of several copies; `label` is the length of their label in paths.
-    fn placed(&self, copies: u64, label: usize) -> Self {
+    /// The size of all copies that a call makes.
+    fn placed(&self, call: &Call) -> Self {
+        let copies = match call.repeat {
+            Repeat::Once => 1,
+            Repeat::Times(copies, _) => copies,
+        };
         // The colon, and the number of a copy in an array.
-        let added = label as u64 + 1 + if copies > 1 { 9 } else { 2 };
+        let added = call.label.len() as u64 + 1 + if copies > 1 { 9 } else { 2 };
+        let body = call.motion.map_or(0, |_| size_of::<Body>() as u64);
         let name_bytes = self.name_bytes.saturating_add(self.names.saturating_mul(added));
         Self {
             statements: copies.saturating_mul(self.statements.saturating_add(1)),
             corners: copies.saturating_mul(self.corners),
             names: copies.saturating_mul(self.names),
             name_bytes: copies.saturating_mul(name_bytes),
-            // A call with a velocity makes a body.
-            bytes: copies.saturating_mul(self.bytes).saturating_add(size_of::<Body>() as u64),
+            bytes: copies.saturating_mul(self.bytes).saturating_add(body),
             ..*self
         }
     }
@@ -194,12 +191,5 @@ impl Scope<'_> {
         let paths = self.motions.rows.iter().map(n_events).sum::<usize>() * SampledPath::BYTES_PER_EVENT;
         let bytes = (self.table_bytes() + paths) as u64;
         Size { statements: self.n_statements, corners, names, name_bytes, bytes, ..Size::default() }
-    }
-}
-
-fn copies(call: &CallStatement) -> u64 {
-    match call.repeat {
-        Repeat::Once => 1,
-        Repeat::Times(copies, _) => copies,
     }
 }

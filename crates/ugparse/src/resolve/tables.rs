@@ -2,35 +2,14 @@
 
 use ugscene::{ColorId, ColorTable, LightKind, LightMotion, Scene};
 
-use super::named::visible;
-use super::undefined::{read_again, show};
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
+use crate::reader::names_in;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{References, Statement};
-
-/// Moves the tables of a scope to the scene.
-pub(super) fn gather(scope: &mut Scope<'_>, colors: &[Option<usize>], scene: &mut Scene) {
-    let row = |name: ColorId| colors.get(name.index()).copied().flatten().map(ColorId::from_index);
-    for table in &mut scope.color_tables.rows {
-        let mut rows = std::mem::take(&mut table.rows);
-        rows.iter_mut().for_each(|(_, color)| *color = row(*color).unwrap_or(*color));
-        if let Some(color) = row(table.color) {
-            table.color = color;
-            scene.color_tables.push(ColorTable { rows, ..table.clone() });
-        }
-    }
-}
+use crate::statement::NameKind;
 
 /// Reports colours that change where none may change; gives the others their colour at own time 0.
-///
-/// `firsts`: for each scope the row of its first colour in the scene.
-pub(super) fn check(
-    text: &[u8],
-    (scopes, firsts): (&[Scope<'_>], &[usize]),
-    scene: &mut Scene,
-    findings: &mut Vec<Diagnostic>,
-) {
+pub(super) fn check(text: &[u8], scopes: &[Scope<'_>], scene: &mut Scene, findings: &mut Vec<Diagnostic>) {
     if scene.color_tables.is_empty() {
         return;
     }
@@ -38,9 +17,7 @@ pub(super) fn check(
     let mut is_timed = vec![false; scene.colors.len()];
     scene.color_tables.iter().for_each(|table| is_timed[table.color.index()] = true);
     let mut check = Check { text, scene, is_timed, findings };
-    for (row, scope) in scopes.iter().enumerate() {
-        check.scope(scope, &visible(scopes, row, |scope| &scope.colors, firsts));
-    }
+    scopes.iter().for_each(|scope| check.scope(scope));
     for row in 0..scene.color_tables.len() {
         let table = &scene.color_tables[row];
         let [(now, _), _] = table.at(0.0).parts;
@@ -64,21 +41,18 @@ impl Check<'_> {
         self.is_timed.get(color.index()).copied().unwrap_or_default()
     }
 
-    /// `colors`: of each name the row in the scene.
-    fn scope(&mut self, scope: &Scope<'_>, colors: &[Option<usize>]) {
+    fn scope(&mut self, scope: &Scope<'_>) {
         for (table, &span) in scope.color_tables.rows.iter().zip(&scope.color_tables.spans) {
             self.table(table, span);
         }
-        let row = |name: ColorId| colors.get(name.index()).copied().flatten().map(ColorId::from_index);
         for (mix, &span) in scope.mixes.rows.iter().zip(&scope.mixes.spans) {
             let mut names = std::iter::once(mix.color).chain(mix.parts.iter().map(|part| part.0));
-            if let Some(at) = names.position(|name| row(name).is_some_and(|color| self.is_timed(color))) {
-                let mut references = References::default();
-                let Some(Statement::Mix(mix)) = read_again(self.text, span, &mut references) else {
-                    continue;
-                };
-                let name = at.checked_sub(1).map_or(mix.color, |part| mix.parts[part].0);
-                self.refuse(name, "is in a mixture", "mix the colours of its rows");
+            if let Some(at) = names.position(|color| self.is_timed(color)) {
+                self.refuse(
+                    names_in(self.text, span)[at].1,
+                    "is in a mixture",
+                    "mix the colours of its rows",
+                );
             }
         }
         for (row, vertex) in scope.vertices.rows.iter().enumerate() {
@@ -103,7 +77,6 @@ impl Check<'_> {
         }
     }
 
-    /// The rows of a table are in `scene`, since those of the scope were moved there.
     fn table(&mut self, table: &ColorTable, span: Span) {
         let Some(table) = self.scene.table_of(table.color) else { return };
         let translucency = |color: ColorId| self.scene.colors[color.index()].translucency;
@@ -111,34 +84,28 @@ impl Check<'_> {
         let wrong = |&(_, color): &(f64, ColorId)| self.is_timed(color) || translucency(color) != first;
         let Some(row) = table.rows.iter().position(wrong) else { return };
         let nested = self.is_timed(table.rows[row].1);
-        let mut references = References::default();
-        let Some(Statement::Table(statement)) = read_again(self.text, span, &mut references) else { return };
-        let Some(&(_, name)) = statement.rows.get(row) else { return };
+        // Its own name is the first.
+        let name = names_in(self.text, span)[row + 1].1;
         if nested {
             self.refuse(name, "is in a table of times", "write its rows there");
         } else if self.findings.len() < MAX_ERRORS {
             let message =
-                format!("colour `{}` has another translucency than the first row", show(self.text, name));
-            let error = Diagnostic::error(name, message).label("here");
-            self.findings.push(error.help("give all colours of a table the same translucency"));
+                format!("colour `{}` has another translucency than the first row", name.lossy(self.text));
+            let help = "give all colours of a table the same translucency";
+            self.findings.push(Diagnostic::here(name, message, help));
         }
     }
 
     /// Reports the colour of the vertex or light in a statement.
     fn refuse_in(&mut self, span: Span, what: &str, help: &str) {
-        let mut references = References::default();
-        let name = match read_again(self.text, span, &mut references) {
-            Some(Statement::Vertex(vertex)) => vertex.color,
-            Some(Statement::Light(light)) => light.color,
-            _ => None,
-        };
-        self.refuse(name.unwrap_or(span), what, help);
+        let color = names_in(self.text, span).into_iter().find(|(kind, _)| *kind == NameKind::Color);
+        self.refuse(color.map_or(span, |(_, name)| name), what, help);
     }
 
     fn refuse(&mut self, name: Span, what: &str, help: &str) {
         if self.findings.len() < MAX_ERRORS {
-            let message = format!("colour `{}` changes with time and {what}", show(self.text, name));
-            self.findings.push(Diagnostic::error(name, message).label("here").help(help));
+            let message = format!("colour `{}` changes with time and {what}", name.lossy(self.text));
+            self.findings.push(Diagnostic::here(name, message, help));
         }
     }
 }

@@ -2,13 +2,11 @@
 
 use super::enclosing;
 use crate::diagnostic::{Diagnostic, MAX_ERRORS};
-use crate::grammar::Grammar;
-use crate::named::Named;
+use crate::reader::names_in;
 use crate::scope::Scope;
 use crate::source::Span;
-use crate::statement::{References, ShadingStatement, Statement};
+use crate::statement::NameKind;
 use crate::suggest::nearest;
-use crate::token::word;
 
 /// Parses the statements of a scope again, and reports every undefined name.
 pub(super) struct UndefinedNames<'g, 't, 'f> {
@@ -20,96 +18,52 @@ pub(super) struct UndefinedNames<'g, 't, 'f> {
 
 impl UndefinedNames<'_, '_, '_> {
     pub(super) fn report_all(&mut self) {
-        let mut references = References::default();
         for span in self.scopes[self.row].statements(self.text) {
-            match read_again(self.text, span, &mut references) {
-                Some(Statement::Vertex(vertex)) => self.check_color(vertex.color),
-                Some(Statement::Light(light)) => self.check_color(light.color),
-                Some(Statement::Mix(mix)) => {
-                    self.check_color(Some(mix.color));
-                    mix.parts.iter().for_each(|&(part, _)| self.check_color(Some(part)));
-                }
-                Some(Statement::Texture(texture)) => self.check_color(Some(texture.color)),
-                Some(Statement::Emission(names)) => {
-                    names.into_iter().for_each(|name| self.check_color(Some(name)));
-                }
-                Some(Statement::Table(table)) => {
-                    table.rows.iter().for_each(|&(_, color)| self.check_color(Some(color)));
-                }
-                Some(Statement::Call(call)) => self.check_color(call.color),
-                Some(Statement::Face(face) | Statement::Wire(face)) => {
-                    self.check_color(face.color);
-                    if let Some(ShadingStatement::Surface(name)) = face.shading {
-                        self.check_surface(name);
-                    }
-                    references.names.iter().for_each(|&name| self.check_vertex(name));
-                }
-                _ => {}
+            for (kind, name) in names_in(self.text, span) {
+                self.check(kind, name);
             }
         }
     }
 
-    fn check_color(&mut self, name: Option<Span>) {
-        let remedies = [
-            "define it with a `c` or `c_rgb` statement",
-            "there is a surface of that name; on a face it follows the colour, so add one",
-        ];
-        name.into_iter()
-            .for_each(|name| self.check("colour", name, remedies, |scope| &scope.colors, |s| &s.surfaces));
-    }
-
-    fn check_surface(&mut self, name: Span) {
-        let remedies = [
-            "define it with a `surf` statement",
-            "there is a colour of that name; a face has one colour, followed by a surface",
-        ];
-        self.check("surface", name, remedies, |scope| &scope.surfaces, |scope| &scope.colors);
-    }
-
-    /// Reports a name that is not visible in the scope. `remedies`: if nothing has this name, and
-    /// if something of the other kind has it.
-    fn check<T, O>(
-        &mut self,
-        kind: &str,
-        name: Span,
-        remedies: [&str; 2],
-        of_kind: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, T>,
-        of_other: for<'g> fn(&'g Scope<'_>) -> &'g Named<'g, O>,
-    ) {
-        let (scopes, own) = (self.scopes, name.of(self.text));
-        let mut around = enclosing(scopes, self.row);
-        if around.any(|scope| of_kind(&scopes[scope]).row(own).is_some()) {
-            return;
-        }
-        let mut around = enclosing(scopes, self.row);
-        let is_other = around.any(|scope| of_other(&scopes[scope]).row(own).is_some());
-        let spans = enclosing(scopes, self.row).flat_map(|scope| &of_kind(&scopes[scope]).spans);
-        let names = spans.flatten().map(|span| span.of(self.text));
-        let remedy = remedies[usize::from(is_other)];
-        let found = undefined_like(self.text, kind, name, remedy, names, self.findings.len());
-        self.findings.push(found);
-    }
-
-    fn check_vertex(&mut self, name: Span) {
-        let own = name.of(self.text);
-        if self.scopes[self.row].has_vertex(own) || self.scopes[self.row].may_be_path(own) {
-            return;
-        }
-        let remedy = if own.contains(&b':') {
-            "define it with a `v` statement: this scope has no instance or array with such a vertex"
-        } else if self.row == 0 {
-            "define it with a `v` statement"
-        } else {
-            "define it with a `v` statement in the same `def`: vertices of enclosing scopes are not visible here"
+    /// Reports a name that is not visible in the scope.
+    fn check(&mut self, kind: NameKind, name: Span) {
+        let (text, own, scope) = (self.text, name.of(self.text), &self.scopes[self.row]);
+        let around = || enclosing(self.scopes, self.row).map(|scope| &self.scopes[scope]);
+        let is_color = || around().any(|scope| scope.colors.row(own).is_some());
+        let is_surface = || around().any(|scope| scope.surfaces.row(own).is_some());
+        let names: Box<dyn Iterator<Item = &Span>>;
+        let (kind, remedy) = match kind {
+            NameKind::Color if !is_color() => {
+                names = Box::new(around().flat_map(|scope| scope.colors.spans.iter().flatten()));
+                let remedy = "there is a surface of that name; on a face it follows the colour, so add one";
+                ("colour", if is_surface() { remedy } else { "define it with a `c` or `c_rgb` statement" })
+            }
+            NameKind::Surface if !is_surface() => {
+                names = Box::new(around().flat_map(|scope| scope.surfaces.spans.iter().flatten()));
+                let remedy = "there is a colour of that name; a face has one colour, followed by a surface";
+                ("surface", if is_color() { remedy } else { "define it with a `surf` statement" })
+            }
+            NameKind::Vertex if !scope.has_vertex(own) && !scope.may_be_path(own) => {
+                names = Box::new(scope.vertices.spans.iter());
+                let remedy = if own.contains(&b':') {
+                    "define it with a `v` statement: this scope has no instance or array with such a vertex"
+                } else if self.row == 0 {
+                    "define it with a `v` statement"
+                } else {
+                    "define it with a `v` statement in the same `def`: vertices of enclosing scopes are not visible here"
+                };
+                ("vertex", remedy)
+            }
+            _ => return,
         };
-        let names = self.scopes[self.row].vertices.spans.iter().map(|span| span.of(self.text));
-        let found = undefined_like(self.text, "vertex", name, remedy, names, self.findings.len());
+        let names = names.map(|span| span.of(text));
+        let found = undefined_like(text, kind, name, remedy, names, self.findings.len());
         self.findings.push(found);
     }
 }
 
 pub(crate) fn undefined(text: &[u8], kind: &str, name: Span, remedy: &str) -> Diagnostic {
-    Diagnostic::error(name, format!("{kind} `{}` is not defined", show(text, name)))
+    Diagnostic::error(name, format!("{kind} `{}` is not defined", name.lossy(text)))
         .label("used here")
         .help(remedy)
 }
@@ -129,15 +83,4 @@ pub(crate) fn undefined_like<'n>(
         Some(guess) => undefined(text, kind, name, &format!("did you mean `{guess}`? if not, {remedy}")),
         None => undefined(text, kind, name, remedy),
     }
-}
-
-/// Parses the statement at `span` again, which has no syntax errors.
-pub(super) fn read_again(text: &[u8], span: Span, references: &mut References) -> Option<Statement> {
-    let (body, keyword) = word(&text[span.start as usize..]).ok()?;
-    let (_, statement) = Grammar { text }.statement(keyword, body, references)?.ok()?;
-    Some(statement)
-}
-
-pub(super) fn show(text: &[u8], name: Span) -> String {
-    String::from_utf8_lossy(name.of(text)).into_owned()
 }

@@ -7,20 +7,18 @@ use ugphysics::{InertialFrame, Velocity, WorldLine};
 use super::ids::{BodyId, NameId};
 use super::motion::StatedMotion;
 
-/// Row of the motions in [`Bodies`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct MotionId(u32);
-
 /// A part of the scene that moves as one.
 ///
 /// Its name tells it from others that move alike. Bodies without a name are told apart by what the
 /// text states of them: velocity and reference point.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Its name, if it has one.
     pub name: Option<NameId>,
-    /// How it moves, see [`Bodies::motion`].
-    motion: MotionId,
+    /// How it moves.
+    line: WorldLine,
+    /// The statement that gives its motion, if it has one.
+    statement: Option<StatedMotion>,
     /// True if the text states its motion. If not, it rests in the frame of the scene, unless a
     /// program is given another default (`-vel`).
     is_stated: bool,
@@ -30,30 +28,19 @@ pub struct Body {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bodies {
     rows: Vec<Body>,
-    motions: Vec<BodyMotion>,
-}
-
-/// A world line, and the statement that gives it, if it has one.
-#[derive(Clone, Debug, PartialEq)]
-struct BodyMotion {
-    line: WorldLine,
-    statement: Option<StatedMotion>,
 }
 
 impl Default for Bodies {
     /// One body, of all faces and wires whose motion is not stated.
     fn default() -> Self {
-        let body = Body { name: None, motion: MotionId(0), is_stated: false };
-        Self { rows: vec![body], motions: vec![BodyMotion { line: WorldLine::REST, statement: None }] }
+        Self { rows: vec![Body { name: None, line: WorldLine::REST, statement: None, is_stated: false }] }
     }
 }
 
 impl Bodies {
     /// Adds a body whose motion is stated.
     pub fn push(&mut self, name: Option<NameId>, motion: WorldLine) -> BodyId {
-        let row = u32::try_from(self.motions.len()).expect("tables have fewer than 2^32 rows");
-        self.motions.push(BodyMotion { line: motion, statement: None });
-        self.rows.push(Body { name, motion: MotionId(row), is_stated: true });
+        self.rows.push(Body { name, line: motion, statement: None, is_stated: true });
         BodyId::from_index(self.rows.len() - 1)
     }
 
@@ -75,15 +62,20 @@ impl Bodies {
         }
     }
 
+    /// Replaces the names of all bodies that have one.
+    pub(crate) fn rename(&mut self, mut name: impl FnMut(NameId) -> NameId) {
+        self.rows.iter_mut().flat_map(|body| &mut body.name).for_each(|own| *own = name(*own));
+    }
+
     /// The motion of a body in the frame of the scene.
     pub fn motion(&self, id: BodyId) -> &WorldLine {
-        &self.motions[self[id].motion.0 as usize].line
+        &self[id].line
     }
 
     /// The statement that gives the motion of a body with a name; `None` if the text gives its
     /// faces a velocity instead.
     pub fn statement(&self, id: BodyId) -> Option<&StatedMotion> {
-        self.motions[self[id].motion.0 as usize].statement.as_ref()
+        self[id].statement.as_ref()
     }
 
     /// A body, the one that it is part of, the one that this is part of, and so on.
@@ -93,10 +85,8 @@ impl Bodies {
 
     /// Gives a body a name and a motion with a statement, whose world line is `line`.
     pub fn set_statement(&mut self, id: BodyId, name: NameId, statement: StatedMotion, line: WorldLine) {
-        let body = &mut self.rows[id.index()];
-        body.name = Some(name);
-        body.is_stated = true;
-        self.motions[body.motion.0 as usize] = BodyMotion { line, statement: Some(statement) };
+        let statement = Some(statement);
+        self.rows[id.index()] = Body { name: Some(name), line, statement, is_stated: true };
     }
 
     /// The bodies whose motions have statements, in the order in which they are written.
@@ -129,12 +119,10 @@ impl Bodies {
     /// Makes a body inertial, with this motion in the text.
     pub fn set_frame(&mut self, id: BodyId, frame: InertialFrame) {
         let body = &mut self.rows[id.index()];
-        body.is_stated = true;
-        let motion = &mut self.motions[body.motion.0 as usize];
-        motion.line = WorldLine::inertial(frame);
+        (body.line, body.is_stated) = (WorldLine::inertial(frame), true);
         let statement =
             |_| StatedMotion { at: frame.at, shift: frame.shift, ..StatedMotion::inertial(frame.velocity) };
-        motion.statement = motion.statement.take().map(statement);
+        body.statement = body.statement.take().map(statement);
     }
 
     /// True if any body moves in the frame of the scene.

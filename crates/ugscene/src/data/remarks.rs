@@ -14,10 +14,9 @@ pub struct Remarks {
     pub origin: Option<String>,
     /// All other comments, sorted by statement.
     pub comments: Vec<Comment>,
-    /// Escapes `( … )`: text for other programs, without its outer parentheses.
-    pub escapes: Vec<String>,
-    /// Unknown statements, if they are accepted, including their `;`.
-    pub unknown: Vec<String>,
+    /// Text for other programs: escapes `( … )` with their parentheses, and unknown statements, if
+    /// they are accepted, with their `;`.
+    pub passed_on: Vec<String>,
 }
 
 impl Remarks {
@@ -50,10 +49,8 @@ pub struct Comment {
 pub enum Item {
     /// [`Scene::stage`].
     Stage,
-    /// Row of [`Remarks::escapes`].
-    Escape(u32),
-    /// Row of [`Remarks::unknown`].
-    Unknown(u32),
+    /// Row of [`Remarks::passed_on`].
+    PassedOn(u32),
     /// Row of [`Scene::colors`].
     Color(u32),
     /// Row of [`Scene::mixes`].

@@ -233,6 +233,13 @@ pub struct Face {
     pub shape: FaceShape,
 }
 
+impl Face {
+    /// A polygon without name, colour and shading.
+    pub fn polygon(contours: Range<u32>, body: BodyId) -> Self {
+        Self { name: None, contours, color: None, shading: None, body, shape: FaceShape::Polygon }
+    }
+}
+
 /// The light level or surface of a face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Shading {
@@ -452,28 +459,22 @@ impl Scene {
 
     /// The parts of a colour that is a mixture where colours are spectra; else nothing.
     pub fn mix_of(&self, color: ColorId) -> &[(ColorId, f64)] {
-        match self.mixes.binary_search_by_key(&color, |mix| mix.color) {
-            Ok(row) => &self.mixes[row].parts,
-            Err(_) => &[],
-        }
+        of_color(&self.mixes, color, |mix| mix.color).map_or(&[], |mix| &mix.parts)
     }
 
     /// The table of a colour that changes with own time.
     pub fn table_of(&self, color: ColorId) -> Option<&ColorTable> {
-        let row = self.color_tables.binary_search_by_key(&color, |table| table.color).ok()?;
-        Some(&self.color_tables[row])
+        of_color(&self.color_tables, color, |table| table.color)
     }
 
     /// The picture that a colour is.
     pub fn texture_of(&self, color: ColorId) -> Option<&Texture> {
-        let row = self.textures.binary_search_by_key(&color, |texture| texture.color).ok()?;
-        Some(&self.textures[row])
+        of_color(&self.textures, color, |texture| texture.color)
     }
 
     /// The colour that faces of this colour emit.
     pub fn emitted_by(&self, color: ColorId) -> Option<ColorId> {
-        let row = self.emissions.binary_search_by_key(&color, |emission| emission[0]).ok()?;
-        Some(self.emissions[row][1])
+        of_color(&self.emissions, color, |emission| emission[0]).map(|emission| emission[1])
     }
 
     /// The name of the first colour of a face that is a picture, which was read, or emits light.
@@ -557,4 +558,9 @@ impl Scene {
             (low.min(vertex.position), high.max(vertex.position))
         }))
     }
+}
+
+/// The row of a colour in a table in the order of its colours.
+fn of_color<T>(rows: &[T], color: ColorId, key: impl Fn(&T) -> ColorId) -> Option<&T> {
+    rows.binary_search_by_key(&color, key).ok().map(|row| &rows[row])
 }

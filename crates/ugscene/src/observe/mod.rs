@@ -2,39 +2,33 @@
 //! for the vertices of a scene as seen the columns of rest positions and own times.
 
 mod camera_frame;
-mod camera_motion;
 mod clocks;
 mod eye;
 mod observer;
 mod placement;
-mod position;
 mod relative_motion;
 mod rest_frames;
-mod seen_event;
 mod seen_vertices;
 mod shown_effects;
 mod view_ahead;
 mod world_lines;
 
-use std::fmt;
-
 use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Velocity, VelocityError, WorldLineError};
 
-pub use camera_motion::{axes_from_scene, camera_velocity};
-pub use eye::{eye, vertex_at_eye};
-pub use position::{RestPosition, SeenPosition};
+pub use camera_frame::{axes_from_scene, camera_velocity};
+pub use eye::{eye, seen_event, vertex_at_eye};
 pub use relative_motion::RelativeMotion;
 pub use rest_frames::{RestFrames, is_one_body, separate_bodies, vertex_bodies};
-pub use seen_event::seen_event;
 pub use seen_vertices::{SeenVertices, rest_positions};
-pub use shown_effects::ShownEffects;
+pub use shown_effects::{RestPosition, SeenPosition, ShownEffects};
 
 use observer::Observer;
 use placement::Placement;
 
 use crate::camera_options::half_side;
+use crate::words::messages;
 use crate::{
     BodyId, Camera, CameraError, CameraOptions, DefaultCamera, GeometryStage, Projection, Scene,
     SeenGeometry, StageError,
@@ -129,36 +123,23 @@ pub struct ShownPoint {
     pub own_time: f64,
 }
 
-impl fmt::Display for MotionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Stage(error) => error.fmt(f),
-            Self::Velocity(error) => write!(f, "velocity of the bodies: {error}"),
-            Self::CameraVelocity(error) => write!(f, "velocity of the camera: {error}"),
-            Self::TooFast { beta: DVec3 { x, y, z } } => write!(
-                f,
-                "the body with velocity {x} {y} {z} in the scene moves too close to the speed of light \
-                 relative to the camera"
-            ),
-            Self::Camera(error) => error.fmt(f),
-            Self::Eye { error } => write!(f, "the eye cannot move with the motion of the camera: {error}"),
-            Self::WorldLine { name, error } => write!(f, "motion `{name}`: {error}"),
-            Self::Rounded { name, error } => write!(
-                f,
-                "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of \
-                 its size"
-            ),
-            Self::PartialGeometry => f.write_str(
-                "bodies that accelerate or turn are seen with contraction and flight time together",
-            ),
-            Self::PartialTimes => f.write_str(
-                "colours that change with time are seen with contraction and flight time together",
-            ),
-        }
-    }
-}
-
-impl std::error::Error for MotionError {}
+messages! { MotionError {
+    Self::Stage(error) => "{error}";
+    Self::Velocity(error) => "velocity of the bodies: {error}";
+    Self::CameraVelocity(error) => "velocity of the camera: {error}";
+    Self::TooFast { beta: DVec3 { x, y, z } } =>
+        "the body with velocity {x} {y} {z} in the scene moves too close to the speed of light relative to \
+         the camera";
+    Self::Camera(error) => "{error}";
+    Self::Eye { error } => "the eye cannot move with the motion of the camera: {error}";
+    Self::WorldLine { name, error } => "motion `{name}`: {error}";
+    Self::Rounded { name, error } =>
+        "motion `{name}`: rounding moves it by {error:.0e} in the picture, more than a thousandth of its size";
+    Self::PartialGeometry =>
+        "bodies that accelerate or turn are seen with contraction and flight time together";
+    Self::PartialTimes =>
+        "colours that change with time are seen with contraction and flight time together";
+} }
 
 /// Where the bodies of a scene are relative to the camera.
 #[derive(Clone, Debug)]
@@ -213,8 +194,7 @@ impl PlacedBodies {
             let motion = (!scene.bodies.is_on_world_line(body)).then(|| motions[body.index()].clone());
             motion.into_iter().collect()
         };
-        let default_camera = DefaultCamera::new(scene, camera, size, fitted);
-        let default_camera = default_camera.map_err(MotionError::Camera)?;
+        let default_camera = DefaultCamera::new(scene, camera, size, fitted).map_err(MotionError::Camera)?;
         let eye = default_camera.map_or_else(|| eye(scene, camera.eye), |camera| camera.eye);
         let placement = Placement::new(scene, &bodies, options, (eye, observer), overridden);
         world_lines::release_parts_of_inertial_bodies(scene)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, RestFrame, Velocity, WorldLine};
 
-use super::seen_event::world_line;
+use super::eye::world_line;
 use crate::{
     BodyId, FaceOrWire, RelativeMotion, Scene, ShownEffects, axes_from_scene, camera_velocity, split_vertices,
 };

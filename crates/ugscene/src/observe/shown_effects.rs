@@ -3,7 +3,18 @@
 use glam::DVec3;
 use ugphysics::{Velocity, contracted, elongated, flight_time, rest_position, seen_position};
 
-use crate::{RestPosition, Scene, SeenPosition};
+use crate::Scene;
+
+/// Where a point is seen: relative to the eye, in the frame of the camera. p of (P3).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SeenPosition(pub DVec3);
+
+/// Where a point rests: relative to the eye, in the rest frame of its body, with the axes of a
+/// single boost to the frame of the camera. p' of (P3).
+///
+/// [`ugphysics::RestFrame::scene_from_boosted`] turns it into the axes of the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestPosition(pub DVec3);
 
 /// Which of the two effects are included in the seen positions of a scene: both, unless its stage
 /// says otherwise.

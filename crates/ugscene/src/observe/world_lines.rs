@@ -4,8 +4,8 @@
 use glam::DVec3;
 use ugphysics::{Event, Lorentz, Velocity, WorldLine};
 
+use super::eye::eye_event;
 use super::placement::Placement;
-use super::seen_event::eye_event;
 use super::{MOST_ROUNDED, MotionError};
 use crate::{BodyId, Carrier, RelativeMotion, Scene, StatedMotion};
 

@@ -125,7 +125,7 @@ fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
         scene.lights.iter().map(|light| (light.intensity, light.kind, light.color)).collect()
     };
     prop_assert_eq!(kinds(a), kinds(b));
-    prop_assert_eq!((&a.remarks.escapes, &a.remarks.unknown), (&b.remarks.escapes, &b.remarks.unknown));
+    prop_assert_eq!(&a.remarks.passed_on, &b.remarks.passed_on);
     let n_comments = |scene: &Scene| scene.remarks.head.len() + scene.remarks.comments.len();
     prop_assert_eq!(n_comments(a), n_comments(b));
     let colors = |scene: &Scene| -> Vec<_> { scene.colors.iter().map(|color| color.translucency).collect() };

@@ -1,19 +1,20 @@
-//! Warns of faces that are not flat.
+//! Warnings about faces: those that are not flat, and those that move and are drawn with their
+//! shapes at rest.
 
-use ugscene::BentFace;
+use ugscene::{BentFace, require_seen_geometry};
 
-use crate::Source;
 use crate::diagnostic::Diagnostic;
 use crate::expand::Origins;
 use crate::resolve::face_name;
 use crate::source::Span;
+use crate::{Parsed, Source};
 
 /// A face that is less flat than this causes a warning. Coordinates are rounded in files, so
 /// smaller deviations are common.
 pub const FLAT: f64 = 1e-3;
 
 /// A single warning for all that are not flat.
-pub(crate) fn warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> Option<Diagnostic> {
+pub(crate) fn bent_warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> Option<Diagnostic> {
     let mut warned = bent.iter().filter(|face| face.thickness > FLAT);
     let first = warned.next()?;
     let span = origins.faces[first.row];
@@ -28,4 +29,20 @@ pub(crate) fn warning(source: &Source, origins: &Origins, bent: &[BentFace]) -> 
     let label = format!("a corner is off by {:.1e} of its size", first.thickness);
     let help = "cut it into triangles: it is drawn as triangles, perhaps not as those that are meant";
     Some(Diagnostic::warning(place, format!("face{shown}{others} not flat")).label(label).help(help))
+}
+
+/// The warning for bodies that move and are drawn with their shapes at rest; `None` if there are
+/// none.
+pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
+    let Parsed { scene, origins, .. } = parsed;
+    require_seen_geometry(scene).err()?;
+    let mut faces = scene.faces.iter();
+    let moving = faces.position(|face| scene.bodies.is_moving(face.body));
+    let span = moving.and_then(|row| origins.faces.get(row).copied());
+    let message = "bodies in this scene move, and are drawn with their shapes at rest";
+    let finding = Diagnostic::warning(span.unwrap_or_default(), message);
+    let finding = finding.label("moves");
+    #[cfg(feature = "report")]
+    let finding = finding.help(ugpipe::remedies::DRAW_AS_SEEN);
+    Some(finding)
 }
