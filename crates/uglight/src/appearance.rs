@@ -91,13 +91,6 @@ impl Appearance {
         Self { palette, surface, hue_shift, hues, spectra, ceiling: f64::INFINITY }
     }
 
-    /// The same with the coloured lamps of the scene for [`Appearance::seen_light`].
-    #[must_use]
-    pub fn with_lamps(mut self, scene: &Scene, eye: DVec3) -> Self {
-        self.spectra = self.spectra.map(|spectra| spectra.with_lamps(scene, eye));
-        self
-    }
-
     /// The same with tables for the light of that many lamps; see [`Appearance::light`].
     #[must_use]
     pub fn with_tables(mut self, n_lamps: usize) -> Self {
@@ -158,11 +151,6 @@ impl Appearance {
         seen.form.lit(level).unwrap_or_else(hue)
     }
 
-    /// True if colours are spectra, under lamps whose spectra differ from daylight.
-    pub fn has_lit_spectra(&self) -> bool {
-        self.spectra.as_ref().is_some_and(Spectra::has_colored_lamps)
-    }
-
     /// The wavelength that a tint stands for, as [`Appearance::seen`] requires it.
     #[inline]
     pub fn wavelength_nm(&self, tint: f64) -> f64 {
@@ -209,15 +197,19 @@ impl Appearance {
     }
 
     /// [`Appearance::seen`] under lamps, which may be coloured: the colour contains their light.
-    /// Under a law that names a quantity it is given as light, since the light of lamps adds
-    /// up.  Eq. (P14)
-    pub fn seen_lit(&self, rest: &Swatch, stretch: f64, light: &[Irradiance], lamps: &[Lamp]) -> Swatch {
-        let doppler = 1.0 / stretch;
-        if self.hue_shift.law.acts_on_light() {
-            return Swatch {
-                form: ColorForm::Light(self.light_of_lamps(rest, doppler, light, lamps)),
-                ..*rest
-            };
+    /// Where colours are spectra, and under a law that names a quantity, it is given as light,
+    /// since the light of lamps adds up.  Eq. (P14)
+    pub fn seen_lit(
+        &self,
+        color: &SurfaceColor,
+        stretch: f64,
+        light: &[Irradiance],
+        lamps: &Lamps,
+    ) -> Swatch {
+        let (rest, doppler) = (&color.swatch, 1.0 / stretch);
+        if self.is_spectral() || self.hue_shift.law.acts_on_light() {
+            let light = self.light(color, doppler, Illumination::Lamps(light, lamps), &[]);
+            return Swatch { form: ColorForm::Light(light), ..*rest };
         }
         let seen = self.hue_shift.seen_lit(self.hue_color(rest), doppler, light, lamps);
         let tint = match self.palette.interpolation {
@@ -302,18 +294,12 @@ impl Appearance {
     /// Linear red, green and blue of a weighted mean of spectra, where wavelengths are stretched by
     /// `stretch` = 1/D. White unless colours are spectra.
     ///
-    /// `parts`: rows of spectra with their weights. `place`: for the light of coloured lamps at
-    /// rest with the surface, point, normal and shift of lamps as for [`crate::Lighting::level`].
-    pub fn seen_light(
-        &self,
-        parts: impl IntoIterator<Item = (u32, f64)>,
-        stretch: f64,
-        place: Option<[DVec3; 3]>,
-    ) -> DVec3 {
+    /// `parts`: rows of spectra with their weights.
+    pub fn seen_light(&self, parts: impl IntoIterator<Item = (u32, f64)>, stretch: f64) -> DVec3 {
         let Some(spectra) = &self.spectra else { return DVec3::ONE };
         let ln_doppler = -libm::log(stretch);
         let parts = parts.into_iter().filter(|&(_, weight)| weight != 0.0);
-        parts.map(|(row, weight)| weight * spectra.light(row, ln_doppler, place)).sum()
+        parts.map(|(row, weight)| weight * spectra.light(row, ln_doppler)).sum()
     }
 }
 
@@ -337,7 +323,7 @@ fn spectral_light(
     };
     if let (Some(level), []) = (of_daylight, filters) {
         let ln_doppler = libm::log(doppler);
-        return level * mean(color.rows, |row| spectra.light(row, ln_doppler, None));
+        return level * mean(color.rows, |row| spectra.light(row, ln_doppler));
     }
     let filter = |filter: &ColorFilter| SpectralFilter {
         color: strongest(spectra, filter.color.rows),

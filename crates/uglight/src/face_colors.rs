@@ -64,6 +64,13 @@ impl Appearance {
         FaceColors { mixing: if keeps_light { colors.mixing } else { Mixing::Hue }, ..colors }
     }
 
+    /// What the corners of each face have in common, see [`Appearance::face_colors_in_motion`].
+    pub fn all_face_colors(&self, scene: &Scene) -> Vec<FaceColors> {
+        let is_moving = |face: &Face| self.surface.frames().is_moving(face.body);
+        let colors = |face: &Face| self.face_colors_in_motion(scene, face, is_moving(face));
+        scene.faces.par_iter().map(colors).collect()
+    }
+
     /// Whether faces are drawn as hues, and whether faces are drawn as light.
     pub fn draws_light(&self, scene: &Scene) -> [bool; 2] {
         if !(self.palette.has_light || self.palette.has_display && self.surface.has_display()) {

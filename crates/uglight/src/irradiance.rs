@@ -204,7 +204,8 @@ impl SurfaceElement {
 
     /// For lamps that rest with whatever they light: a body on a world line is lit as it stands in
     /// the scene if it only turned.
-    fn standing(&self, frames: &RestFrames) -> Self {
+    #[must_use]
+    pub fn standing(&self, frames: &RestFrames) -> Self {
         match (frames.world_line(self.body), self.time) {
             (Some(line), ScatteringTime::Own(own_time)) => {
                 let (point, turn) = line.standing(self.point, own_time);

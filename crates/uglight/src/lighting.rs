@@ -4,7 +4,7 @@ use glam::DVec3;
 use ugphysics::Brightness;
 use ugscene::{LightKind, Scene};
 
-use crate::{Irradiance, Lamp, LampPlace, Lamps, light_names};
+use crate::{Irradiance, Lamp, LampPlace, Lamps, has_colored_lamps, light_names};
 
 /// The lights of a scene, each at rest with the face it lights: the rule of 1988.
 ///
@@ -21,7 +21,7 @@ pub struct Lighting {
     ambient: Lamp,
     /// All others.
     lamps: Vec<Lamp>,
-    /// All lamps, if one is neither white nor grey.
+    /// All lamps, if one is neither white nor grey, or has a spectrum other than that of daylight.
     colored: Option<Lamps>,
     /// Levels multiply linear light, of hues as well: the law of the picture names a quantity, see
     /// [`Brightness::acts_on_light`].
@@ -32,41 +32,41 @@ impl Lighting {
     /// The lights of the scene, or the default ones, see [`Lamps::or_default`].
     ///
     /// `eye`: in scene coordinates. `forward`: unit vector along the view. `law`: the brightness
-    /// law of hues, which determines whether levels multiply their linear light.
-    pub fn new(scene: &Scene, eye: DVec3, forward: DVec3, law: Brightness) -> Self {
-        let all = Lamps::or_default(scene, eye, forward, false);
+    /// law of hues, which determines whether levels multiply their linear light. `is_spectral`:
+    /// colours are spectra.
+    pub fn new(scene: &Scene, eye: DVec3, forward: DVec3, law: Brightness, is_spectral: bool) -> Self {
+        let all = Lamps::or_default(scene, eye, forward, is_spectral);
         let (ambient, lamps): (Vec<Lamp>, Vec<Lamp>) =
             all.iter().cloned().partition(|lamp| lamp.place == LampPlace::Everywhere);
         let mut sum = Lamp::white(LampPlace::Everywhere, 0.0);
         sum.color = ambient.iter().map(|lamp| lamp.color).sum();
         sum.linear = ambient.iter().map(|lamp| lamp.linear).sum();
-        let colored = all.is_colored.then_some(all);
+        let is_colored = if is_spectral { has_colored_lamps(scene) } else { all.is_colored };
+        let colored = is_colored.then_some(all);
         Self { ambient: sum, lamps, colored, acts_on_light: law.acts_on_light() }
     }
 
     /// True if a light is neither white nor grey, so that levels differ between red, green and
-    /// blue.
+    /// blue; or, where colours are spectra, if a light has a spectrum other than that of daylight.
     #[inline]
     pub fn is_colored(&self) -> bool {
         self.colored.is_some()
     }
 
-    /// The lamps of a scene in which a light is neither white nor grey; none in other scenes.
+    /// The lamps of a scene with a [coloured](Self::is_colored) light.
     #[inline]
-    pub fn colored_lamps(&self) -> &[Lamp] {
-        self.colored.as_deref().unwrap_or_default()
+    pub fn colored_lamps(&self) -> Option<&Lamps> {
+        self.colored.as_ref()
     }
 
-    /// The contributions of the [coloured lamps](Self::colored_lamps). The arguments: as of
-    /// [`Lighting::level`].
-    pub fn irradiances(&self, point: DVec3, normal: DVec3, shift: DVec3) -> Vec<Irradiance> {
+    /// The contributions of lamps. The other arguments: as of [`Lighting::level`].
+    pub fn irradiances(lamps: &Lamps, point: DVec3, normal: DVec3, shift: DVec3) -> Vec<Irradiance> {
         let irradiance = |(row, lamp): (usize, &Lamp)| Irradiance {
             lamp: row as u32,
             level: lamp.level_at_rest(point, normal, shift),
             doppler: 1.0,
         };
-        let all = self.colored_lamps().iter().enumerate().map(irradiance);
-        all.filter(|part| part.level > 0.0).collect()
+        lamps.iter().enumerate().map(irradiance).filter(|part| part.level > 0.0).collect()
     }
 
     /// True if the level depends on the position and normal of a face.

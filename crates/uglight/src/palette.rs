@@ -1,10 +1,12 @@
 //! The colours of a scene, converted for interpolation.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use ugphysics::{
     Brightness, Hsv, attenuation, hue_to_wavelength, srgb_decode, srgb_encode, wavelength_to_hue,
 };
-use ugscene::{ColorId, ColorValue, Scene, Tint};
+use ugscene::{ColorId, ColorValue, HueScale, Scene, StageError, Tint};
 
 use crate::color::shown_light;
 use crate::{ColorForm, Mixing};
@@ -18,6 +20,21 @@ pub enum Interpolation {
     Hue,
     /// The wavelength.
     Wavelength,
+}
+
+impl Interpolation {
+    /// Reads the hue fields of a scene in this scale, unless the scene states one, and returns the
+    /// interpolated quantity: that of wavelengths is the wavelength.
+    ///
+    /// # Errors
+    /// The scene states another scale.
+    pub fn of_scene(self, scene: &mut Cow<'_, Scene>, scale: HueScale) -> Result<Self, StageError> {
+        let scale = ugscene::hue_scale(scene, scale)?;
+        if scale != scene.stage.hue_scale() {
+            ugscene::read_tints_in(scene.to_mut(), scale);
+        }
+        Ok(if scale == HueScale::Wavelengths { Self::Wavelength } else { self })
+    }
 }
 
 /// A colour ready for interpolation.

@@ -9,7 +9,7 @@ use ugphysics::xyz_to_linear_srgb;
 use ugscene::{ColorId, ColorMix, Scene};
 
 use crate::color_lattice::{N_CORNERS, corner, mixture};
-use crate::{Irradiance, Lamp, Lamps, SpectralColor, SpectralFilter, SpectralShift};
+use crate::{Irradiance, Lamp, SpectralColor, SpectralFilter, SpectralShift};
 
 /// Rows of spectra with their weights: of the corners of a face, or of the mixture of a texel.
 pub type SpectralRows = [(u32, f64); 4];
@@ -24,8 +24,6 @@ pub struct Spectra {
     colors: Vec<SpectralColor>,
     /// |ln D| up to which the spectra are tabulated.
     reach: f64,
-    /// The lamps of the scene; `None` if all of these are daylight.
-    lamps: Option<Lamps>,
     /// The corners of the lattice, behind the colours; made at first use, since a texture has few
     /// of all colours. Empty without textures.
     lattice: Vec<OnceLock<SpectralColor>>,
@@ -49,17 +47,7 @@ impl Spectra {
             .collect();
         let n_corners = if scene.textures.is_empty() { 0 } else { N_CORNERS };
         let lattice = std::iter::repeat_with(OnceLock::new).take(n_corners).collect();
-        Self { shift, grid, rows, colors, reach, lamps: None, lattice, lit: Vec::new(), n_lamps: 0 }
-    }
-
-    /// The same, with the lamps of the scene for [`Spectra::light`]. `eye`: in scene coordinates.
-    pub fn with_lamps(self, scene: &Scene, eye: DVec3) -> Self {
-        if !crate::has_colored_lamps(scene) {
-            return self;
-        }
-        let lamps = Lamps::new(scene, eye, true);
-        let n_lamps = lamps.len();
-        Self { lamps: Some(lamps), ..self.with_tables(n_lamps) }
+        Self { shift, grid, rows, colors, reach, lattice, lit: Vec::new(), n_lamps: 0 }
     }
 
     /// The same with tables for the light of that many lamps: without them [`Spectra::lit`]
@@ -70,17 +58,8 @@ impl Spectra {
         Self { lit, n_lamps, ..self }
     }
 
-    /// True if the scene has coloured lamps.
-    pub fn has_colored_lamps(&self) -> bool {
-        self.lamps.is_some()
-    }
-
-    /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P14), (P19)
-    ///
-    /// `place`: under the [coloured lamps](Self::with_lamps), if the row is to be seen in their
-    /// light: point, normal and shift of lamps as for [`crate::Lighting::level`], and ln D is then
-    /// within the reach. Black bodies and samples are not lit.
-    pub fn light(&self, row: u32, ln_doppler: f64, place: Option<[DVec3; 3]>) -> DVec3 {
+    /// Linear red, green and blue of a row at a given ln D.  Eq. (P12), (P19)
+    pub fn light(&self, row: u32, ln_doppler: f64) -> DVec3 {
         // Rounding may exceed the rapidity slightly.
         let is_near = ln_doppler.abs() <= self.reach + 1e-9;
         let (ln_shift, gain) = (self.shift.ln_shift(ln_doppler), self.shift.ln_gain(ln_doppler));
@@ -91,33 +70,11 @@ impl Spectra {
                 return libm::exp(gain)
                     * DVec3::from(sampled_nm.map(|nm| color.radiance(f64::from(nm) * own)));
             }
-            if let (Some(lamps), Some(place), true) = (&self.lamps, place, color.spectrum().is_surface()) {
-                return libm::exp(gain) * self.xyz_under(lamps, row, ln_shift, place);
-            }
             if is_near {
                 return DVec3::from_array(color.seen(&self.grid, ln_doppler, self.shift));
             }
             libm::exp(gain) * DVec3::from_array(color.spectrum().shifted(libm::exp(ln_shift)))
         })
-    }
-
-    /// X, Y, Z of a surface under the lamps of the scene, at rest with it, without the factor D⁵.
-    /// `row`: of its colour.
-    fn xyz_under(
-        &self,
-        lamps: &Lamps,
-        row: usize,
-        ln_shift: f64,
-        [point, normal, shift]: [DVec3; 3],
-    ) -> DVec3 {
-        let mut sum = DVec3::ZERO;
-        for (at, lamp) in lamps.iter().enumerate() {
-            let level = lamp.intensity * lamp.level_at_rest(point, normal, shift);
-            if level > 0.0 {
-                sum += level * self.xyz_under_lamp(row, ln_shift, at, lamp);
-            }
-        }
-        sum
     }
 
     /// X, Y, Z of a surface under a lamp with level 1, from its table.

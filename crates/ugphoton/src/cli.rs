@@ -6,11 +6,11 @@ use std::path::Path;
 
 use clap::builder::Resettable;
 use clap::{ArgAction, Parser};
-use uglight::{ColorShift, Interpolation};
+use uglight::Interpolation;
 use ugparse::pipe;
 use ugpicture::Output;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, kinds, picture_format, pixel,
+    AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, color_shift, kinds, picture_format, pixel,
     refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, number, one_of, whole};
@@ -241,7 +241,7 @@ impl Args {
         picture.camera.is_ahead = self.motion.is_ahead();
         Ok(Config {
             motion: self.motion.options()?,
-            shift: self.color_shift(),
+            shift: color_shift(&self.shift),
             picture,
             rays: RayOptions {
                 depth: self.rd,
@@ -264,11 +264,6 @@ impl Args {
             radiances: self.radiances,
             reading: pipe::options(&self.common)?,
         })
-    }
-
-    fn color_shift(&self) -> ColorShift {
-        let ShiftArgs { br, sp, no_doppler, no_flux, infrared_rule } = self.shift;
-        ColorShift::new(sp, !no_doppler, !no_flux, br).with_infrared(infrared_rule.unwrap_or_default())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use ugimage::PanoramaArea;
 use uglight::{ColorShift, Interpolation};
-use ugpicture::{Canvas, Exposure, PictureOptions};
+use ugpicture::{Canvas, Exposure, PictureOptions, refuse};
 use ugscene::{HueScale, MotionOptions};
 use ugskybox::SceneSky;
 
@@ -70,15 +70,13 @@ impl Config {
         let fits = |start: u32, length: u32, side: u32| {
             length > 0 && start.checked_add(length).is_some_and(|end| end <= side)
         };
-        if !(fits(left, width, self.picture.size[0]) && fits(top, height, self.picture.size[1])) {
-            return Err(Error::Crop { crop: [left, top, width, height], size: self.picture.size });
-        }
-        if self.picture.annotations.is_any() {
-            return Err(Error::AnnotatedPart);
-        }
-        if self.picture.exposure == Some(Exposure::Auto) {
-            return Err(Error::ExposedPart);
-        }
+        let PictureOptions { size, ref annotations, exposure, .. } = self.picture;
+        let is_part = fits(left, width, size[0]) && fits(top, height, size[1]);
+        refuse([
+            (!is_part, Error::Crop { crop: [left, top, width, height], size }),
+            (annotations.is_any(), Error::AnnotatedPart),
+            (exposure == Some(Exposure::Auto), Error::ExposedPart),
+        ])?;
         Ok(Canvas::new(&PictureOptions { size: [width, height], ..self.picture.clone() })?)
     }
 
@@ -98,30 +96,16 @@ impl Config {
 
     fn check_lens(&self) -> Result<(), Error> {
         let annotations = &self.picture.annotations;
-        if self.lens == Lens::Cube && self.stereo.is_some() {
-            return Err(Error::StereoCube);
-        }
-        let [width, height] = self.picture.size;
-        if self.lens == Lens::Cube && u64::from(width) != 6 * u64::from(height) {
-            return Err(Error::CubeSize);
-        }
-        let [across, down] = self.frames();
-        if width % across != 0 || height % down != 0 {
-            return Err(Error::StereoSize);
-        }
-        if [across, down] != [1, 1] && annotations.is_any() {
-            return Err(Error::AnnotatedViews);
-        }
-        if self.lens == Lens::Pinhole {
-            return Ok(());
-        }
-        if annotations.outline || annotations.grid {
-            return Err(Error::BentLines);
-        }
-        if self.rays.shutter != Shutter::Pinhole {
-            return Err(Error::FilmShutter);
-        }
-        Ok(())
+        let ([width, height], [across, down]) = (self.picture.size, self.frames());
+        let (is_cube, is_pinhole) = (self.lens == Lens::Cube, self.lens == Lens::Pinhole);
+        refuse([
+            (is_cube && self.stereo.is_some(), Error::StereoCube),
+            (is_cube && u64::from(width) != 6 * u64::from(height), Error::CubeSize),
+            (width % across != 0 || height % down != 0, Error::StereoSize),
+            ([across, down] != [1, 1] && annotations.is_any(), Error::AnnotatedViews),
+            (!is_pinhole && (annotations.outline || annotations.grid), Error::BentLines),
+            (!is_pinhole && self.rays.shutter != Shutter::Pinhole, Error::FilmShutter),
+        ])
     }
 
     /// The frames of which the picture consists, across and down.

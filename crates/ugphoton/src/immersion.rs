@@ -4,11 +4,10 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use ugphysics::Event;
-use ugscene::{Scene, Shading};
+use ugscene::Scene;
 
 use crate::media::{Media, Solid};
-use ugpicture::rays::PastRay;
-use ugpicture::rays::{Faces, Intersection, World};
+use ugpicture::rays::{Faces, Intersection, PastRay, World};
 
 /// Rays from a point inside a closed surface leave it once more than they enter it, in every
 /// direction. Surfaces that are not closed, such as a single pane, are told apart by the
@@ -133,8 +132,6 @@ fn crossings(world: &World, faces: Faces<'_>, event: Event, direction: DVec3) ->
 
 /// The transparent solid that a face of a part belongs to.
 pub fn transparent_solid(scene: &Scene, part: usize, face: u32) -> Option<Solid> {
-    let Shading::Surface(surface) = scene.shadings[scene.faces[face as usize].shading?.index()] else {
-        return None;
-    };
+    let surface = scene.surface_id(&scene.faces[face as usize])?;
     (scene.surfaces[surface.index()].transmitted > 0.0).then_some(Solid { part, surface })
 }

@@ -15,7 +15,8 @@
 //!
 //! # Modules
 //!
-//! What rays meet is found by [`ugpicture::outlines`] and [`ugpicture::rays`]. Each line imports
+//! What rays meet is found by [`ugpicture::outlines`] and [`ugpicture::rays`], with places, normals
+//! and colours. Each line imports
 //! only from the lines above it:
 //!
 //! ```text
@@ -23,7 +24,7 @@
 //! sampling  media                           places on lamps; the media that rays are in
 //! immersion                                 the transparent solids that the eye is in
 //! scenery                                   a scene prepared for rays
-//! surface_point  shade  tracer              what a ray sees of a face; lamps; mirrors and glass
+//! neighbours  shade  tracer                 the sizes of samples; lamps; mirrors and glass
 //! pixel_centers  pixels  notes  render  explain  from samples to a picture; one pixel
 //! cli                                       the command line
 //! ```
@@ -56,6 +57,7 @@ mod error;
 pub mod explain;
 mod immersion;
 mod media;
+mod neighbours;
 mod notes;
 mod open_solids;
 mod pixel_centers;
@@ -64,7 +66,6 @@ mod render;
 mod sampling;
 mod scenery;
 mod shade;
-mod surface_point;
 #[cfg(test)]
 mod tests;
 mod tracer;

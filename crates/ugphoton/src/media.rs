@@ -23,10 +23,7 @@ impl Media {
 
     /// After the ray entered a solid.
     pub fn with(&self, solid: Solid) -> Self {
-        let mut media = Vec::with_capacity(self.0.len() + 1);
-        media.extend_from_slice(&self.0);
-        media.push(solid);
-        Self(media)
+        Self([&self.0[..], &[solid]].concat())
     }
 
     /// After the ray left a solid; `None` if it was not in it.

@@ -2,22 +2,11 @@
 
 use rayon::prelude::*;
 use ugphysics::{RestFrame, Velocity};
-use ugpicture::{Emission, FoundItems, MediumLight, SeenItem};
+use ugpicture::{Emission, MediumLight, SeenItem};
 use ugscene::BodyId;
 
 use crate::scenery::Scenery;
 use ugpicture::rays::{PastRay, along};
-
-/// Calls a function with the surfaces at the middles of the pixels of a picture.
-pub fn find_items(
-    scenery: &Scenery<'_>,
-    size: [u32; 2],
-    samples: u32,
-    found: &mut dyn FnMut(&FoundItems<'_>),
-) {
-    let centers = PixelCenters::new(scenery, [0, 0, size[0], size[1]], samples);
-    found(&|idx| centers.item(idx));
-}
 
 /// The surfaces at the centres of the pixels of a part of a picture.
 pub struct PixelCenters<'a> {
@@ -37,11 +26,6 @@ impl<'a> PixelCenters<'a> {
         let mut centers = Self { scenery, area: [left, top, width], samples, surfaces: Vec::new() };
         centers.surfaces = (0..n_pixels).into_par_iter().map(|idx| centers.surface(idx)).collect();
         centers
-    }
-
-    /// Number of pixels.
-    pub fn len(&self) -> usize {
-        self.surfaces.len()
     }
 
     /// The ray through the sample nearest to the centre of a pixel; ties go to the lower-right one.

@@ -6,18 +6,17 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugimage::{Filter, LinearFrame};
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
-use ugpicture::{Backdrop, PictureOptions, channel_planes};
+use ugpicture::{Backdrop, PictureOptions, push_channels};
 use ugpipe::Progress;
 use ugskybox::drawn_on;
 
 use crate::config::Config;
 use crate::lens::frame_around;
+use crate::neighbours::PictureSample;
 use crate::pixel_centers::PixelCenters;
 use crate::scenery::Scenery;
-use crate::surface_point::PictureSample;
 use crate::tracer::{Arriving, Tracer, Visit};
-use ugpicture::rays::PastRay;
-use ugpicture::rays::{Intersection, PacketMemory};
+use ugpicture::rays::{Intersection, PacketMemory, PastRay};
 
 /// Pixels along a side of a tile, which one task computes.
 const TILE: u32 = 16;
@@ -99,10 +98,7 @@ pub fn light(scenery: &Scenery<'_>, config: &Config, progress: &dyn Progress) ->
     let PictureOptions { channels, samples, .. } = &config.picture;
     if !channels.is_empty() {
         let seen = PixelCenters::new(scenery, [left, top, width, height], *samples);
-        for &channel in channels {
-            let planes = channel_planes(channel, seen.len(), scenery.view.eye, &|idx| seen.item(idx));
-            planes.into_iter().for_each(|plane| frame.push_plane(plane));
-        }
+        push_channels(&mut frame, channels, scenery.view.eye, &|idx| seen.item(idx));
     }
     (frame, statistics)
 }

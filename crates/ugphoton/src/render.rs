@@ -17,8 +17,9 @@ use crate::config::Config;
 use crate::error::Error;
 use crate::lens::Lens;
 use crate::notes::notes;
+use crate::pixel_centers::PixelCenters;
 use crate::scenery::Scenery;
-use crate::{pixel_centers, pixels, wires};
+use crate::{pixels, wires};
 
 /// This program, without a command line, for the history of what it makes.
 pub const PROVENANCE: Provenance<'static> =
@@ -223,12 +224,13 @@ impl PreparedScene {
         let Self { config, canvas, scenery, metadata, .. } = self;
         let picture = &config.picture;
         let items = |each_sample: bool, found: &mut dyn FnMut(&FoundItems<'_>)| {
-            let (size, samples) = if each_sample {
+            let ([width, height], samples) = if each_sample {
                 (picture.size.map(|side| side * picture.samples), 1)
             } else {
                 (picture.size, picture.samples)
             };
-            pixel_centers::find_items(scenery, size, samples, found);
+            let centers = PixelCenters::new(scenery, [0, 0, width, height], samples);
+            found(&|idx| centers.item(idx));
             Ok(())
         };
         let is_single = config.lens == Lens::Pinhole && config.stereo.is_none() && config.crop.is_none();

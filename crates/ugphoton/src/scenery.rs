@@ -4,14 +4,11 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use glam::DVec3;
-use rayon::prelude::*;
-use uglight::{Appearance, ColorShift, FaceColors, Interpolation, LampPlace, Lamps};
+use uglight::{Appearance, ColorShift, FaceColors, LampPlace, Lamps};
 use ugphysics::{Event, Medium};
-use ugpicture::PictureOptions;
 use ugpicture::outlines::{NearestFaces, Outlines, Tiles};
-use ugscene::{
-    BodyId, Face, HueScale, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View,
-};
+use ugpicture::{PictureOptions, Surfaces};
+use ugscene::{BodyId, Face, LightMotion, RestFrames, Scene, ShownEffects, SurfaceProperties, View};
 use ugskybox::{SkyAround, SkyLamps};
 
 use crate::config::{Config, RayOptions, Shutter};
@@ -19,8 +16,7 @@ use crate::error::{Error, MOST_LIGHTINGS};
 use crate::immersion::Immersion;
 use crate::lens::{Film, Sight};
 use crate::media::{Media, Solid};
-use ugpicture::rays::PastRay;
-use ugpicture::rays::{Faces, Intersection, PacketMemory, World};
+use ugpicture::rays::{Faces, Intersection, PacketMemory, PastRay, World};
 use ugpicture::textures::Textures;
 
 /// Changes of D by mirrors that are fast to compute, as a multiple of the greatest rapidity: two
@@ -123,15 +119,8 @@ impl<'a> Scenery<'a> {
         if (n_lights as u64).saturating_mul(n_samples) > MOST_LIGHTINGS {
             return Err(Error::TooManyLights { n_lights, n_samples });
         }
-        let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
         let mut scene = scene;
-        if hue_scale != scene.stage.hue_scale() {
-            ugscene::read_tints_in(scene.to_mut(), hue_scale);
-        }
-        let interpolation = match hue_scale {
-            HueScale::Degrees => config.interpolation,
-            HueScale::Wavelengths => Interpolation::Wavelength,
-        };
+        let interpolation = config.interpolation.of_scene(&mut scene, config.hue_scale)?;
         let shift = config.shift;
         let sky_lamps = if config.rays.sky_light { config.sky.lamps(sky_sets(*samples))? } else { None };
         let sky_motion = sky_lamps.as_ref().map(|_| {
@@ -150,9 +139,7 @@ impl<'a> Scenery<'a> {
             let name = scene.bodies[body].name.map_or("", |name| scene.names.get(name));
             return Err(Error::MovingMedium { name: name.to_string() });
         }
-        let is_moving = |face: &Face| surface.frames().is_moving(face.body);
-        let colors = |face: &Face| appearance.face_colors_in_motion(&scene, face, is_moving(face));
-        let face_colors = scene.faces.par_iter().map(colors).collect();
+        let face_colors = appearance.all_face_colors(&scene);
         let textures = Textures::new(&scene, |color| uglight::RestColor::new(&scene, Some(color)).linear())
             .map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
@@ -256,6 +243,12 @@ impl<'a> Scenery<'a> {
     /// The faces.
     pub fn faces(&self) -> Faces<'_> {
         Faces { scene: &self.scene, rest: self.appearance.surface.all_rest() }
+    }
+
+    /// The faces with all that decides how they look at rest.
+    pub fn surfaces(&self) -> Surfaces<'_> {
+        let Self { scene, world, appearance, face_colors, textures, .. } = self;
+        Surfaces { scene, world, appearance, face_colors, textures }
     }
 
     /// The ray through the middle of a sample; `None` where the lens shows nothing. Its parameter

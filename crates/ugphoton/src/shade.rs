@@ -10,9 +10,8 @@ use crate::immersion::Crossing;
 use crate::media::{Media, Solid};
 use crate::sampling::{disk_point, square_point};
 use crate::scenery::Scenery;
-use crate::surface_point::SurfacePoint;
-use ugpicture::rays::Corridor;
-use ugpicture::rays::{Intersection, PastRay, Start};
+use ugpicture::SurfacePoint;
+use ugpicture::rays::{Corridor, Intersection, PastRay, Start};
 
 /// Shades points of surfaces; it owns the memory it needs for that.
 pub struct Shader<'a> {
@@ -83,7 +82,7 @@ impl<'a> Shader<'a> {
                 filters,
             );
         }
-        let surface = point.surface(scenery).map(|surface| scenery.properties(surface));
+        let surface = point.surface(&scenery.scene).map(|surface| scenery.properties(surface));
         let (diffuse, specular) = surface.map_or((1.0, 0.0), |surface| (surface.diffuse, surface.specular));
         let exponent = (specular > 0.0).then(|| surface.map_or(0.0, |surface| surface.exponent));
         self.receive(point, medium, exponent, sample);
@@ -112,7 +111,7 @@ impl<'a> Shader<'a> {
         self.diffuse.clear();
         self.highlights.clear();
         let scenery = self.scenery;
-        let element = point.lit(scenery);
+        let element = point.lit(&scenery.scene);
         let (diffuse, highlights, received) = (&mut self.diffuse, &mut self.highlights, &mut self.received);
         let corridors = &mut self.corridors;
         let toward_eye = point.toward_eye();
@@ -177,11 +176,10 @@ impl<'a> Shader<'a> {
 /// it lights.
 fn seen_from(scenery: &Scenery<'_>, point: &SurfacePoint, lamp: usize) -> DVec3 {
     let frames = scenery.appearance.surface.frames();
-    match (scenery.lamps[lamp].motion.body(), point.world_line(scenery)) {
+    match scenery.lamps[lamp].motion.body() {
         // Where its light came from on a world line decides only how its disk is turned.
-        (Some(body), _) => frames.point_at(body, point.event).unwrap_or(point.place),
-        (None, Some((line, own_time))) => line.standing(point.place, own_time).0,
-        (None, None) => point.place,
+        Some(body) => frames.point_at(body, point.event).unwrap_or(point.place),
+        None => point.lit(&scenery.scene).standing(frames).point,
     }
 }
 
@@ -204,9 +202,9 @@ impl LampWay {
         (toward, distance): (DVec3, f64),
         index: f64,
     ) -> Self {
-        let frame = point.frame(scenery);
+        let frame = point.frame(&scenery.world);
         let rests_with_surface = scenery.lamps[lamp as usize].motion.body().is_none();
-        match point.world_line(scenery).filter(|_| rests_with_surface) {
+        match point.world_line(&scenery.world).filter(|_| rests_with_surface) {
             // Such a lamp is in the frame of the body's reference point.
             Some((line, own_time)) => {
                 let step = line.pose(own_time).scene_from_axes.apply(Event { t: -1.0, x: toward });
@@ -226,7 +224,7 @@ fn unshadowed(
     &LampWay { step, distance, .. }: &LampWay,
     corridor: &mut Corridor,
 ) -> f64 {
-    let frame = point.frame(scenery);
+    let frame = point.frame(&scenery.world);
     // Beneath a smooth surface, faces in its light may be turned away from the lamp. The shadow
     // ray starts above them, so the limit of the light is as smooth as the normals.
     let lift = frame.camera_from_rest(Event { t: 0.0, x: point.lift });

@@ -6,11 +6,11 @@ use uglight::{ColorFilter, ColorForm};
 use ugphysics::{Event, Medium, WaveVector, compose, reflectance};
 
 use crate::media::{Media, Solid};
+use crate::neighbours::{Neighbours, PictureSample};
 use crate::scenery::Scenery;
 use crate::shade::{LampLight, Shader, absorption};
-use crate::surface_point::{Neighbours, PictureSample, SurfacePoint};
-use ugpicture::rays::Intersection;
-use ugpicture::rays::{PastRay, Start};
+use ugpicture::rays::{Intersection, PastRay, Start};
+use ugpicture::{SurfacePoint, Surfaces};
 use ugskybox::{SkyAround, SkyRays};
 
 /// Light that arrives along a ray.
@@ -34,6 +34,7 @@ impl Arriving {
 /// Follows rays through a scene.
 pub struct Tracer<'a> {
     scenery: &'a Scenery<'a>,
+    surfaces: Surfaces<'a>,
     shader: Shader<'a>,
     sky: Option<SkyRays<'a>>,
     /// Filters on the path so far.
@@ -125,6 +126,7 @@ impl<'a> Tracer<'a> {
     pub fn new(scenery: &'a Scenery<'a>) -> Self {
         Self {
             scenery,
+            surfaces: scenery.surfaces(),
             shader: Shader::new(scenery),
             sky: scenery.sky.as_ref().map(SkyAround::rays),
             filters: Vec::new(),
@@ -186,7 +188,7 @@ impl<'a> Tracer<'a> {
         while let Some(found) = next {
             let left = if path.absorption > 0.0 { libm::exp(-path.absorption * found.s) } else { 1.0 };
             if !self.scenery.is_translucent(found.triangle.face) {
-                let point = SurfacePoint::new(self.scenery, path.ray, &found, path.neighbours);
+                let point = self.point(path, &found);
                 let part = passing * left;
                 let on = Path { weight: path.weight * part, ..*path };
                 let own = self.light_of(&on, (&point, &found), left);
@@ -198,7 +200,7 @@ impl<'a> Tracer<'a> {
             self.scenery.world.coincident(self.scenery.faces(), path.ray, &found, &mut layers);
             let mut end = found.s;
             for layer in &layers {
-                let point = SurfacePoint::new(self.scenery, path.ray, layer, path.neighbours);
+                let point = self.point(path, layer);
                 let weight = passing * left * (1.0 - point.color.swatch.translucency);
                 if weight > 0.0 {
                     let on = Path { weight: path.weight * weight, ..*path };
@@ -230,6 +232,11 @@ impl<'a> Tracer<'a> {
         sum
     }
 
+    fn point(&self, path: &Path<'_>, found: &Intersection) -> SurfacePoint {
+        let neighbours = || path.neighbours.and_then(|neighbours| neighbours.rays(self.scenery));
+        SurfacePoint::new(&self.surfaces, path.ray, found, neighbours)
+    }
+
     /// The light from a surface: of lamps, mirrored, and transmitted. `left`: the part of it that
     /// the medium before the surface does not absorb.
     fn light_of(
@@ -241,7 +248,7 @@ impl<'a> Tracer<'a> {
         let light = self.shader.light(point, path.media.innermost(), &self.filters, path.sample);
         let visit = self.visit(path, point, light, left);
         let mut sum = Arriving { light, background: DVec3::ZERO };
-        let Some(id) = point.surface(self.scenery) else { return sum };
+        let Some(id) = point.surface(&self.scenery.scene) else { return sum };
         let surface = self.scenery.properties(id);
         if path.depth >= self.scenery.rays.depth {
             let followed = path.weight * (surface.specular + surface.transmitted);
@@ -327,7 +334,7 @@ impl<'a> Tracer<'a> {
             self.is_cut_short = true;
             return Arriving::NOTHING;
         }
-        let frame = point.frame(self.scenery);
+        let frame = point.frame(&self.scenery.world);
         let medium = medium(self.scenery, media.innermost(), point);
         let ray_from = |origin: Event, place: DVec3, wave: WaveVector| {
             let forward = medium.step(wave);
@@ -337,7 +344,7 @@ impl<'a> Tracer<'a> {
         };
         let ray = ray_from(point.event, point.place, wave);
         let bent = |neighbour: PastRay| {
-            let (event, place, normal) = point.beside(self.scenery, found, &neighbour);
+            let (event, place, normal) = point.beside(&self.surfaces, found, &neighbour);
             let wave = frame.wave_to_rest(neighbour.wave);
             Some(ray_from(event, place, bent(medium, wave, side, [normal, point.plane_normal])?))
         };
@@ -429,7 +436,7 @@ fn medium(scenery: &Scenery<'_>, solid: Option<Solid>, point: &SurfacePoint) -> 
     if solid.part == point.part {
         return Medium { index, velocity: ugphysics::Velocity::ZERO };
     }
-    let (of_solid, here) = (&scenery.world.parts[solid.part].frame, point.frame(scenery));
+    let (of_solid, here) = (&scenery.world.parts[solid.part].frame, point.frame(&scenery.world));
     let velocity = here.turned_velocity(compose(of_solid.velocity(), -here.velocity()));
     Medium { index, velocity }
 }

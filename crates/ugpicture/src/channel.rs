@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugimage::{Plane, Samples};
+use ugimage::{LinearFrame, Plane, Samples};
 use ugphysics::{length, unit_or_zero};
 
 use crate::emission::{Emission, SeenItem};
@@ -58,9 +58,22 @@ impl Channel {
     }
 }
 
-/// The planes of a channel in a picture of `n_pixels`. `eye`: in scene coordinates; `seen`: what is
-/// seen at a pixel, counted row after row.
-pub fn channel_planes(
+/// Adds channels to a picture. `eye`: in scene coordinates; `seen`: what is seen at a pixel, counted
+/// row after row.
+pub fn push_channels(
+    frame: &mut LinearFrame,
+    channels: &[Channel],
+    eye: DVec3,
+    seen: &(impl Fn(usize) -> Option<SeenItem> + Sync),
+) {
+    for &channel in channels {
+        let planes = planes(channel, frame.pixels().len(), eye, seen);
+        planes.into_iter().for_each(|plane| frame.push_plane(plane));
+    }
+}
+
+/// The planes of a channel in a picture of `n_pixels`.
+fn planes(
     channel: Channel,
     n_pixels: usize,
     eye: DVec3,

@@ -10,10 +10,11 @@ use std::path::Path;
 use clap::{ArgAction, ArgMatches, Args};
 use ugimage::label::TextForm;
 use ugimage::{Filter, Format, Tone, spelled_color};
+use uglight::ColorShift;
 use ugparse::Diagnostics;
 use ugphysics::Hsv;
 use ugpipe::{Context, Failure, PIXELS_PER_INCH, Preset, Side, Words, finite, number, one_of, whole};
-use ugscene::cli::CameraArgs;
+use ugscene::cli::{CameraArgs, ShiftArgs};
 
 use crate::background::Background;
 use crate::channel::Channel;
@@ -250,16 +251,16 @@ pub struct AnnotationArgs {
     /// the camera. The scale ends at LOW and HIGH, or at the least and greatest value that is seen.
     /// That of D is logarithmic, from red over white at 1 to blue.
     #[arg(long, num_args = 1..=3, value_names = ["QUANTITY", "LOW", "HIGH"], action = ArgAction::Set,
-          value_parser = quantity_word, help_heading = ANNOTATIONS)]
-    map: Option<Vec<QuantityWord>>,
+          help_heading = ANNOTATIONS)]
+    map: Option<Vec<String>>,
 
     /// Lines of equal values of a quantity over the picture: D, time, distance, speed, z
     ///
     /// The quantities are those of -map; without values they are round numbers. Lines are where the
     /// middles of neighbouring pixels show one surface.
     #[arg(long, num_args = 1..=33, value_names = ["QUANTITY", "VALUE"], action = ArgAction::Set,
-          value_parser = quantity_word, help_heading = ANNOTATIONS)]
-    iso: Option<Vec<QuantityWord>>,
+          help_heading = ANNOTATIONS)]
+    iso: Option<Vec<String>>,
 
     /// Size of text in pixels, 4 to 200 [default: 1/40 of the geometric mean of -sz]
     ///
@@ -288,42 +289,21 @@ fn text_size(pixels: f64) -> Result<f64, String> {
     if (4.0..=200.0).contains(&pixels) { Ok(pixels) } else { Err("text is 4 to 200 pixels large".to_owned()) }
 }
 
-/// A word of -map or -iso.
-#[derive(Clone, Copy, Debug)]
-enum QuantityWord {
-    Quantity(Quantity),
-    Number(f64),
-}
-
-fn quantity_word(word: &str) -> Result<QuantityWord, String> {
-    match Quantity::NAMES.into_iter().find(|(name, _)| *name == word) {
-        Some((_, quantity)) => Ok(QuantityWord::Quantity(quantity)),
-        None => finite(word)
-            .map(QuantityWord::Number)
-            .map_err(|_| format!("neither a number nor one of {}", quantity_names())),
-    }
-}
-
-fn quantity_names() -> String {
-    Quantity::NAMES.map(|(name, _)| name).join(", ")
-}
-
 /// The quantity and the numbers of -map or -iso.
-fn quantity_numbers(option: &str, words: &[QuantityWord]) -> Result<(Quantity, Vec<f64>), Failure> {
-    let number = |word: &QuantityWord| match word {
-        QuantityWord::Number(number) => Some(*number),
-        QuantityWord::Quantity(_) => None,
+fn quantity_numbers(option: &str, words: &[String]) -> Result<(Quantity, Vec<f64>), Failure> {
+    let names = Quantity::NAMES.map(|(name, _)| name).join(", ");
+    let quantity = |word: &String| Quantity::NAMES.into_iter().find(|(name, _)| name == word);
+    let unknown =
+        |word: &str| Failure::usage(format!("{option}: `{word}` is neither a number nor one of {names}"));
+    let number = |word: &String| finite(word).map_err(|_| unknown(word));
+    let Some((_, quantity)) = words.first().and_then(quantity) else {
+        return Err(Failure::usage(format!("{option} has one quantity first, then numbers: one of {names}")));
     };
-    let quantity_first = || {
-        let names = quantity_names();
-        Failure::usage(format!("{option} has one quantity first, then numbers: one of {names}"))
-    };
-    let [QuantityWord::Quantity(quantity), numbers @ ..] = words else { return Err(quantity_first()) };
-    let numbers = numbers.iter().map(number).collect::<Option<Vec<f64>>>().ok_or_else(quantity_first)?;
-    if *quantity == Quantity::Doppler && numbers.iter().any(|number| *number <= 0.0) {
+    let numbers = words[1..].iter().map(number).collect::<Result<Vec<f64>, Failure>>()?;
+    if quantity == Quantity::Doppler && numbers.iter().any(|number| *number <= 0.0) {
         return Err(Failure::usage(format!("the Doppler factors of {option} must be above 0")));
     }
-    Ok((*quantity, numbers))
+    Ok((quantity, numbers))
 }
 
 impl AnnotationArgs {
@@ -332,7 +312,7 @@ impl AnnotationArgs {
     /// # Errors
     /// The words of -map or -iso are no quantity with its numbers.
     pub fn options(&self) -> Result<AnnotationOptions, Failure> {
-        let map = |words: &Vec<QuantityWord>| {
+        let map = |words: &Vec<String>| {
             let (quantity, numbers) = quantity_numbers("-map", words)?;
             let range = match numbers[..] {
                 [] => None,
@@ -341,7 +321,7 @@ impl AnnotationArgs {
             };
             Ok::<_, Failure>(MapOptions { quantity, range })
         };
-        let iso = |words: &Vec<QuantityWord>| {
+        let iso = |words: &Vec<String>| {
             let (quantity, values) = quantity_numbers("-iso", words)?;
             Ok::<_, Failure>(IsoOptions { quantity, values })
         };
@@ -359,6 +339,11 @@ impl AnnotationArgs {
                 .map_err(|error| Failure::usage(format!("-unit or -c: {error}")))?,
         })
     }
+}
+
+/// The shift of colours that these arguments define.
+pub fn color_shift(&ShiftArgs { br, sp, no_doppler, no_flux, infrared_rule }: &ShiftArgs) -> ColorShift {
+    ColorShift::new(sp, !no_doppler, !no_flux, br).with_infrared(infrared_rule.unwrap_or_default())
 }
 
 /// The command line to be recorded. A format that follows from the ending of -fo is part of it, so

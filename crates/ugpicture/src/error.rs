@@ -19,7 +19,7 @@ pub enum Error {
     )]
     Size([u32; 2]),
     /// The samples along a side of a pixel are not 1…[`MAX_SAMPLES`].
-    #[error("{0} x {0} samples a pixel cannot be taken: the limit is {MAX_SAMPLES}")]
+    #[error("{0} x {0} samples a pixel cannot be taken, only 1 to {MAX_SAMPLES} along a side")]
     Samples(u32),
     /// The system has less memory than the picture needs: its size, and bytes.
     #[error(
@@ -87,4 +87,12 @@ pub enum Error {
     /// The caller stopped the computation.
     #[error(transparent)]
     Stopped(#[from] Stopped),
+}
+
+/// Refuses options that exclude each other.
+///
+/// # Errors
+/// The first error whose condition holds.
+pub fn refuse<E>(refused: impl IntoIterator<Item = (bool, E)>) -> Result<(), E> {
+    refused.into_iter().find(|(is_refused, _)| *is_refused).map_or(Ok(()), |(_, error)| Err(error))
 }

@@ -10,7 +10,7 @@ use ugscene::CameraOptions;
 
 use crate::background::Background;
 use crate::channel::Channel;
-use crate::error::Error;
+use crate::error::{Error, refuse};
 use crate::exposure::Exposure;
 use crate::limits::{MAX_PIXELS, MAX_SAMPLES, MAX_SIDE, MAX_VECTOR_SIDE};
 use crate::output::Output;
@@ -159,13 +159,10 @@ impl PictureOptions {
     pub fn check_size(&self) -> Result<(), Error> {
         let [width, height] = self.size;
         let fits = (1..=MAX_SIDE).contains(&width) && (1..=MAX_SIDE).contains(&height);
-        if !fits || u64::from(width) * u64::from(height) > MAX_PIXELS {
-            return Err(Error::Size(self.size));
-        }
-        if !(1..=MAX_SAMPLES).contains(&self.samples) {
-            return Err(Error::Samples(self.samples));
-        }
-        Ok(())
+        refuse([
+            (!fits || u64::from(width) * u64::from(height) > MAX_PIXELS, Error::Size(self.size)),
+            (!(1..=MAX_SAMPLES).contains(&self.samples), Error::Samples(self.samples)),
+        ])
     }
 
     /// Refuses options that the format does not support.
@@ -175,7 +172,7 @@ impl PictureOptions {
         let is_png = matches!(self.output, Output::Color(Format::Png | Format::Png16));
         let is_developed = self.exposure.is_some() || self.tone != Tone::Clip;
         let is_transparent = self.background == Background::Transparent;
-        let refused = [
+        refuse([
             (is_vector && self.annotations.map.is_some(), Error::MapVectors),
             (is_vector && !format.has_vectors(), Error::NoVectors),
             (is_vector && self.filter != Filter::Box, Error::NoSamples),
@@ -184,8 +181,7 @@ impl PictureOptions {
             (!self.channels.is_empty() && format != Format::Exr, Error::NotExr),
             (format.is_linear() && is_developed, Error::NotDeveloped),
             (is_transparent && !format.has_alpha(), Error::NotTransparent),
-        ];
-        refused.into_iter().find(|row| row.0).map_or(Ok(()), |(_, error)| Err(error))
+        ])
     }
 }
 

@@ -5,12 +5,12 @@ mod words;
 use std::path::Path;
 
 use clap::{Arg, ArgAction, ArgMatches, Parser};
-use uglight::{ColorShift, Interpolation};
+use uglight::Interpolation;
 use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::cli::{
-    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, kinds, picture_format, pixel, refuse_terminal,
-    report_format, with_format, write_picture, write_report,
+    AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_shift, kinds, picture_format, pixel,
+    refuse_terminal, report_format, with_format, write_picture, write_report,
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
@@ -244,16 +244,11 @@ impl Args {
             wireframe: self.wireframe()?,
             line_width: self.lw,
             depth_cue: self.depth_cue()?,
-            exact: self.xc.then(|| self.color_shift()),
+            exact: self.xc.then(|| color_shift(&self.shift)),
             cull: self.cb,
             sky: self.sky.sky(),
             repeat: self.repeat.repeats(),
         })
-    }
-
-    fn color_shift(&self) -> ColorShift {
-        let ShiftArgs { br, sp, no_doppler, no_flux, infrared_rule } = self.shift;
-        ColorShift::new(sp, !no_doppler, !no_flux, br).with_infrared(infrared_rule.unwrap_or_default())
     }
 
     fn wireframe(&self) -> Result<Option<Wireframe>, Failure> {

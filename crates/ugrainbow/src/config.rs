@@ -56,14 +56,6 @@ impl Default for Config {
 }
 
 impl Config {
-    /// The interpolation that hues of this scale require.
-    pub(crate) fn interpolated(&self, scale: HueScale) -> Interpolation {
-        match scale {
-            HueScale::Degrees => self.interpolation,
-            HueScale::Wavelengths => Interpolation::Wavelength,
-        }
-    }
-
     /// The brightness law of hues: that of the rays, or the one by which the scene was coloured.
     pub(crate) fn law(&self, scene: &Scene) -> Brightness {
         match self.exact {
@@ -79,7 +71,7 @@ impl Config {
     pub(crate) fn with_textures(&self, scene: &Scene) -> Self {
         let camera = scene.camera().and_then(|camera| camera.projection);
         let is_orthographic = self.picture.camera.is_orthographic || camera == Some(Projection::Orthographic);
-        let may_be_exact = self.draw_mode().has_faces()
+        let may_be_exact = self.has_faces()
             && !(self.cull || is_orthographic)
             && matches!(self.picture.output, Output::Color(_))
             && scene.stage.seen_colors().is_none()
@@ -99,9 +91,9 @@ impl Config {
         }
     }
 
-    /// The options that decide how faces and lines are drawn.
-    pub(crate) fn draw_mode(&self) -> DrawMode {
-        DrawMode { exact: self.exact, wireframe: self.wireframe, line_width: self.line_width }
+    /// False if faces only occlude lines.
+    pub(crate) fn has_faces(&self) -> bool {
+        self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
     }
 }
 
@@ -167,23 +159,5 @@ impl DepthCue {
     /// Depth cueing between two depths.
     pub(crate) fn between(self, [near, far]: [f64; 2]) -> DepthFade {
         DepthFade { near, far, least: self.least }
-    }
-}
-
-/// The options that decide how faces and lines are drawn, besides camera and colours.
-#[derive(Clone, Copy, Debug)]
-pub struct DrawMode {
-    /// Intersect faces with rays; otherwise rasterize them.
-    pub exact: Option<ColorShift>,
-    /// Draw edges of faces.
-    pub wireframe: Option<Wireframe>,
-    /// Width of lines in pixels.
-    pub line_width: f64,
-}
-
-impl DrawMode {
-    /// False if faces only occlude lines.
-    pub fn has_faces(&self) -> bool {
-        self.wireframe.is_none_or(|wireframe| wireframe.has_faces)
     }
 }

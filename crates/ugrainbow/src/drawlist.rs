@@ -66,15 +66,17 @@ impl<const N: usize> CornerTable<N> for Corners<'_, N> {
 }
 
 /// A face, and what its corners have in common.
-struct FaceLook<'a> {
+pub struct FaceLook<'a> {
     painter: &'a Painter<'a>,
     face: &'a Face,
-    normal: DVec3,
+    /// The rest normal on its visible side.
+    pub normal: DVec3,
     colors: FaceColors,
 }
 
 impl<'a> FaceLook<'a> {
-    fn new(painter: &'a Painter<'a>, face: &'a Face) -> Self {
+    /// The look of a face.
+    pub fn new(painter: &'a Painter<'a>, face: &'a Face) -> Self {
         let colors = painter.appearance.face_colors(painter.scene, face);
         Self { painter, face, normal: painter.seen_normal(face), colors }
     }
@@ -83,12 +85,19 @@ impl<'a> FaceLook<'a> {
         pack(&self.swatch(vertex), self.level(vertex))
     }
 
-    fn swatch(&self, vertex: VertexId) -> Swatch {
+    /// The colour of a corner.
+    pub fn swatch(&self, vertex: VertexId) -> Swatch {
         self.painter.swatch(vertex, &self.colors)
     }
 
-    fn level(&self, vertex: VertexId) -> DVec3 {
-        self.painter.level(self.face, vertex, self.normal, self.colors.mixing == Mixing::Light)
+    /// The light level at a corner.
+    pub fn level(&self, vertex: VertexId) -> DVec3 {
+        self.painter.level(self.face, vertex, self.normal, self.is_light())
+    }
+
+    /// True if its colours are given as light.
+    pub fn is_light(&self) -> bool {
+        self.colors.mixing == Mixing::Light
     }
 }
 

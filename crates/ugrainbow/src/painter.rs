@@ -82,8 +82,8 @@ impl Painter<'_> {
         self.appearance.is_translucent(self.scene, face) || self.textures.is_translucent(face.color)
     }
 
-    /// The colours of the ends of a wire. `keeps_light`: see
-    /// [`crate::lines::LineShape::keeps_light`].
+    /// The colours of the ends of a wire. `keeps_light`: colours given as light need no hue, since
+    /// they are not shifted as hues.
     pub fn wire_swatch(&self, wire: &Wire, keeps_light: bool) -> impl Fn(VertexId) -> Swatch {
         let palette = &self.appearance.palette;
         let own = |color: Option<ColorId>| color.map_or(palette.white(), |color| palette.get(color));

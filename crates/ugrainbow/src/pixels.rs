@@ -5,7 +5,7 @@ use fearless_simd::prelude::*;
 use fearless_simd::{Level, Simd, dispatch, f32x16, i32x16};
 use ugimage::{Filter, Frame, LinearFrame, Quantizer, ROUNDING_OFFSET, display_pixel};
 use ugpicture::lens::Lens;
-use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample, channel_planes};
+use ugpicture::{Backdrop, DrawnContent, Emissions, PictureOptions, SurfaceSample};
 use ugpipe::Progress;
 use ugraster::{Center, Encoding, Keep, PixelSamples, RUN, Resolve, ResolveSingle, SampleStats};
 use ugscene::View;
@@ -218,11 +218,7 @@ fn push_channels(
     let emissions = Emissions::new(setup.scene(), &setup.view, setup.appearance.surface.frames());
     let grid = [setup.grid.width, setup.grid.samples];
     let at = |idx| emissions.at_pixel(grid, seen, idx);
-    for &channel in &config.picture.channels {
-        channel_planes(channel, seen.len(), setup.view.eye, &at)
-            .into_iter()
-            .for_each(|plane| frame.push_plane(plane));
-    }
+    ugpicture::push_channels(frame, &config.picture.channels, setup.view.eye, &at);
 }
 
 /// The background of a picture.

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use ugpicture::{DepthPoint, Filter};
+use ugpicture::{DepthPoint, Filter, visible_parts};
 use ugpipe::Progress;
 use ugraster::{
     BandProgress, Corner, FragmentTarget, FragmentWriter, Keep, NoTriangles, OpaqueLayer, PolygonLayer,
@@ -13,10 +13,10 @@ use ugraster::{
 use ugscene::Face;
 
 use crate::clip::ClipCounts;
-use crate::config::{Config, DrawMode, HiddenLines};
+use crate::config::{Config, HiddenLines};
 use crate::drawlist::DrawList;
-use crate::exact::{CurvedLines, Faces};
-use crate::lines::{LineShape, Occluders, StraightLines, Stroke, Visibility, lines, pieces, strips, strokes};
+use crate::exact::Faces;
+use crate::lines::{Occluders, Stroke, Visibility, lines, pieces, strips, strokes};
 use crate::packing::{Layout, Pack, pack_hue, pack_light, pack_transparent, pack_white};
 use crate::painter::Painter;
 use crate::setup::Setup;
@@ -60,8 +60,8 @@ pub enum Solid<'a> {
 macro_rules! with_layers {
     ($solid:expr, |$layers:ident| $body:expr) => {
         match $solid {
-            Solid::Few($layers) => $body,
-            Solid::Many($layers) => $body,
+            $crate::render_layers::Solid::Few($layers) => $body,
+            $crate::render_layers::Solid::Many($layers) => $body,
         }
     };
 }
@@ -71,19 +71,13 @@ macro_rules! with_layers {
 macro_rules! with_rasterizer {
     ($all:expr, |$rasterizer:ident| $body:expr) => {{
         let (grid, transparent) = ($all.grid, $all.transparent());
-        match &$all.solid {
-            $crate::render_layers::Solid::Few(opaque) => {
-                let $rasterizer = ugraster::Rasterizer { grid, opaque, transparent };
-                $body
-            }
-            $crate::render_layers::Solid::Many(opaque) => {
-                let $rasterizer = ugraster::Rasterizer { grid, opaque, transparent };
-                $body
-            }
-        }
+        $crate::render_layers::with_layers!(&$all.solid, |opaque| {
+            let $rasterizer = ugraster::Rasterizer { grid, opaque, transparent };
+            $body
+        })
     }};
 }
-pub(crate) use with_rasterizer;
+pub(crate) use {with_layers, with_rasterizer};
 
 /// Faces.
 pub struct Layers<'a, const N: usize> {
@@ -104,16 +98,16 @@ impl<'a, const N: usize> Layers<'a, N> {
     fn new(
         painter: Painter<'a>,
         planes: &Arc<[u32]>,
-        mode: &DrawMode,
+        config: &Config,
         is_transparent: bool,
         pack: Pack<N>,
     ) -> Self {
         let is_one = |face: &Face| painter.is_transparent(face) == is_transparent;
-        let surfaces = match mode.exact {
+        let surfaces = match config.exact {
             None => Surfaces::Polygons(DrawList::new(painter, is_one, pack)),
             Some(_) => Surfaces::Rays(Box::new(Faces::new(painter, planes, is_one, pack))),
         };
-        Self { surfaces, is_drawn: mode.has_faces(), planes: planes.clone() }
+        Self { surfaces, is_drawn: config.has_faces(), planes: planes.clone() }
     }
 
     fn clip_counts(&self) -> ClipCounts {
@@ -131,12 +125,14 @@ impl<'a, const N: usize> Layers<'a, N> {
         match &self.surfaces {
             Surfaces::Rays(faces) => {
                 let is_hidden = |[x, y, key]: DepthPoint| faces.hides([x, y], key);
-                strokes(all, &Visibility::by_rays(&is_hidden, size, margin), hidden, width)
+                let visible = |ends, within| visible_parts(ends, within, is_hidden);
+                strokes(all, &Visibility::new(&visible, size, margin), hidden, width)
             }
             Surfaces::Polygons(list) => {
                 let boxes = all.iter().map(Stroke::bounds);
                 let occluders = Occluders::new(list.outlines(), boxes, size, margin);
-                strokes(all, &Visibility::behind(occluders, size, margin), hidden, width)
+                let visible = |ends, within| occluders.visible(ends, within);
+                strokes(all, &Visibility::new(&visible, size, margin), hidden, width)
             }
         }
     }
@@ -207,11 +203,11 @@ impl TransparentLayer for ClearLayers<'_> {
 impl<'a> RenderLayers<'a> {
     /// All faces and wires.
     pub fn new(setup: &'a Setup<'_>, config: &Config) -> Self {
-        let (painter, mode) = (setup.painter(), &config.draw_mode());
+        let painter = setup.painter();
         let surface = &painter.appearance.surface;
         let planes = ugscene::shared_planes(painter.scene, surface.all_rest(), surface.frames()).into();
-        let few = |pack| Solid::Few(Layers::new(painter, &planes, mode, false, pack));
-        let many = |pack| Solid::Many(Layers::new(painter, &planes, mode, false, pack));
+        let few = |pack| Solid::Few(Layers::new(painter, &planes, config, false, pack));
+        let many = |pack| Solid::Many(Layers::new(painter, &planes, config, false, pack));
         let solid = match setup.layout {
             Layout::Hues => few(pack_hue),
             Layout::Light => few(pack_light),
@@ -220,21 +216,18 @@ impl<'a> RenderLayers<'a> {
         };
         let has_translucency =
             painter.appearance.palette.has_translucency || painter.textures.has_translucency();
-        let faces = has_translucency.then(|| Layers::new(painter, &planes, mode, true, pack_transparent));
-        let shape: Box<dyn LineShape> = match mode.exact {
-            Some(_) => Box::new(CurvedLines::new(painter)),
-            None => Box::new(StraightLines::new(painter)),
-        };
-        let lines = lines(&painter, mode.wireframe, &*shape);
-        let (pieces, mut clip_counts) = pieces(&painter, &lines, &*shape);
-        let width = mode.line_width * f64::from(painter.grid.samples);
+        let faces = has_translucency.then(|| Layers::new(painter, &planes, config, true, pack_transparent));
+        let is_exact = config.exact.is_some();
+        let lines = lines(&painter, config.wireframe, is_exact);
+        let (pieces, mut clip_counts) = pieces(&painter, &lines, is_exact);
+        let width = config.line_width * f64::from(painter.grid.samples);
         let strokes = if pieces.is_empty() {
             Vec::new()
         } else {
-            let hidden = mode.wireframe.map_or(HiddenLines::Omitted, |wireframe| wireframe.hidden);
+            let hidden = config.wireframe.map_or(HiddenLines::Omitted, |wireframe| wireframe.hidden);
             with_layers!(&solid, |layers| layers.shown(&painter, &pieces, hidden, width))
         };
-        if mode.has_faces() {
+        if config.has_faces() {
             clip_counts = clip_counts.merge(with_layers!(&solid, |layers| layers.clip_counts()));
             clip_counts = faces.iter().fold(clip_counts, |all, faces| all.merge(faces.clip_counts()));
         }
@@ -245,7 +238,7 @@ impl<'a> RenderLayers<'a> {
             shader,
             solid,
             clear: ClearLayers { shader, faces, strokes, lines },
-            has_faces: mode.has_faces(),
+            has_faces: config.has_faces(),
             clip_counts,
             progress: &(),
         }

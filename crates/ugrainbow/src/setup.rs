@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use uglight::{Appearance, ColorShift, Lighting};
 use ugpicture::textures::Textures;
-use ugpicture::{Background, Output, PictureOptions};
+use ugpicture::{Background, Output, PictureOptions, refuse};
 use ugraster::{SampleGrid, TileShape};
 use ugscene::{Scene, ShownEffects, View};
 use ugskybox::SkyError;
@@ -54,6 +54,7 @@ impl<'a> Setup<'a> {
         }
         if !scene.color_tables.is_empty() {
             uglight::freeze_colors_at_zero(scene.to_mut());
+            scene.to_mut().color_tables.clear();
         }
         if config.repeat {
             ugscene::repeat_vertices(scene.to_mut(), true);
@@ -70,15 +71,12 @@ impl<'a> Setup<'a> {
         let is_perspective = view.is_perspective;
         let tiles = if config.exact.is_some() { TileShape::Wide } else { TileShape::Tall };
         let grid = SampleGrid { width, height, samples, is_perspective, fade, tiles };
-        let hue_scale = ugscene::hue_scale(&scene, config.hue_scale)?;
-        if hue_scale != scene.stage.hue_scale() {
-            // With -wi, numbers in the text of a scene at rest are wavelengths.
-            ugscene::read_tints_in(scene.to_mut(), hue_scale);
-        }
-        let appearance = Appearance::new(&scene, view.eye, config.interpolated(hue_scale), shift, 1.0);
-        let appearance = appearance.with_lamps(&scene, view.eye);
+        // With -wi, numbers in the text of a scene at rest are wavelengths.
+        let interpolation = config.interpolation.of_scene(&mut scene, config.hue_scale)?;
+        let appearance = Appearance::new(&scene, view.eye, interpolation, shift, 1.0);
         let law = config.law(&scene);
-        let lighting = Lighting::new(&scene, view.eye, view.forward, law);
+        let lighting = Lighting::new(&scene, view.eye, view.forward, law, shift.is_spectral());
+        let appearance = appearance.with_tables(lighting.colored_lamps().map_or(0, |lamps| lamps.len()));
         let palette = &appearance.palette;
         let keeps_highlights = palette.has_light || config.picture.keeps_light();
         if let Some(shift) = config.exact {
@@ -141,33 +139,22 @@ impl<'a> Setup<'a> {
 /// Refuses orthographic projection and scenes whose colours would be shifted twice.
 fn check_exact(scene: &Scene, view: &View, shift: ColorShift) -> Result<(), Error> {
     let deferred = scene.stage.deferred_colors().map(ColorShift::of_stage);
-    if scene.stage.seen_colors().is_some() || deferred.is_some_and(|deferred| deferred != shift) {
-        return Err(Error::ExactSeenColors);
-    }
-    if ShownEffects::of(scene) != ShownEffects::default() {
-        return Err(Error::ExactPartialGeometry);
-    }
-    if !view.is_perspective {
-        return Err(Error::ExactOrthographic);
-    }
-    Ok(())
+    let are_seen = scene.stage.seen_colors().is_some() || deferred.is_some_and(|deferred| deferred != shift);
+    refuse([
+        (are_seen, Error::ExactSeenColors),
+        (ShownEffects::of(scene) != ShownEffects::default(), Error::ExactPartialGeometry),
+        (!view.is_perspective, Error::ExactOrthographic),
+    ])
 }
 
 /// Refuses a sky that cannot be seen so.
 fn check_sky(scene: &Scene, view: &View, config: &Config) -> Result<(), SkyError> {
-    if let Output::Vector(_) = config.picture.output {
-        return Err(SkyError::Vectors);
-    }
-    if config.picture.background == Background::Transparent {
-        return Err(SkyError::Transparent);
-    }
-    if !view.is_perspective {
-        return Err(SkyError::Orthographic);
-    }
-    if ShownEffects::of(scene) != ShownEffects::default() {
-        return Err(SkyError::PartialGeometry);
-    }
-    Ok(())
+    refuse([
+        (matches!(config.picture.output, Output::Vector(_)), SkyError::Vectors),
+        (config.picture.background == Background::Transparent, SkyError::Transparent),
+        (!view.is_perspective, SkyError::Orthographic),
+        (ShownEffects::of(scene) != ShownEffects::default(), SkyError::PartialGeometry),
+    ])
 }
 
 /// The scene with vertices of one body each; copied only if a vertex belongs to several bodies.

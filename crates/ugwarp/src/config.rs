@@ -6,7 +6,7 @@ use ugimage::PanoramaArea;
 use uglight::ColorShift;
 use ugphysics::Velocity;
 use ugpicture::lens::Lens;
-use ugpicture::{Channel, PictureOptions};
+use ugpicture::{Channel, PictureOptions, refuse};
 use ugscene::{Camera, MotionOptions, Projection, Scene};
 use ugsky::{ALL_NM, Basis, StarOptions};
 
@@ -86,32 +86,21 @@ impl Config {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let picture = &self.picture;
         let is_orthographic = self.camera.projection == Some(Projection::Orthographic);
-        if picture.camera.is_orthographic || is_orthographic {
-            return Err(Error::Orthographic);
-        }
-        if picture.camera.name.is_some() {
-            return Err(Error::NamedCamera);
-        }
-        if picture.annotations.outline || picture.annotations.grid {
-            return Err(Error::OutlineOrGrid);
-        }
         let is_of_sky =
             |channel: &Channel| matches!(channel, Channel::Doppler | Channel::Direction | Channel::Velocity);
-        if !picture.channels.iter().all(is_of_sky) {
-            return Err(Error::Channels);
-        }
-        if !(0.5..=50.0).contains(&self.stars.width) || !(-60.0..=60.0).contains(&self.stars.white) {
-            return Err(Error::Stars);
-        }
-        let [width, height] = picture.size;
-        if self.lens == Lens::Cube {
-            if u64::from(width) != 6 * u64::from(height) {
-                return Err(Error::CubeSize);
-            }
-            if picture.annotations.is_any() {
-                return Err(Error::AnnotatedCube);
-            }
-        }
+        let are_stars =
+            (0.5..=50.0).contains(&self.stars.width) && (-60.0..=60.0).contains(&self.stars.white);
+        let ([width, height], annotations) = (picture.size, &picture.annotations);
+        let is_cube = self.lens == Lens::Cube;
+        refuse([
+            (picture.camera.is_orthographic || is_orthographic, Error::Orthographic),
+            (picture.camera.name.is_some(), Error::NamedCamera),
+            (annotations.outline || annotations.grid, Error::OutlineOrGrid),
+            (!picture.channels.iter().all(is_of_sky), Error::Channels),
+            (!are_stars, Error::Stars),
+            (is_cube && u64::from(width) != 6 * u64::from(height), Error::CubeSize),
+            (is_cube && annotations.is_any(), Error::AnnotatedCube),
+        ])?;
         Ok(picture.check()?)
     }
 }

@@ -7,12 +7,9 @@ use ugimage::{LinearFrame, Metadata};
 use uglight::ColorShift;
 use ugparse::{Diagnostics, Source};
 use ugpicture::lens::Film;
-use ugpicture::{
-    Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject, channel_planes,
-};
+use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject};
 use ugpipe::Progress;
-use ugscene::{CameraError, CameraOptions, View};
-use ugscene::{Provenance, Remarks, Scene};
+use ugscene::{CameraError, CameraOptions, Provenance, Remarks, Scene, View};
 use ugsky::{Basis, Layer, Sky};
 use ugskybox::{Opened, SkyPicture, StarField, Statistics, Warp, sky_colors};
 
@@ -113,11 +110,7 @@ fn sky_picture(config: &Config) -> Result<(SkyPicture, bool), CameraError> {
 
 /// Adds the channels that the options ask for.
 fn push_channels(frame: &mut LinearFrame, warp: &Warp<'_>, config: &Config) {
-    for &channel in &config.picture.channels {
-        let n_pixels = frame.pixels().len();
-        let planes = channel_planes(channel, n_pixels, DVec3::ZERO, &|idx| warp.seen_item(idx));
-        planes.into_iter().for_each(|plane| frame.push_plane(plane));
-    }
+    ugpicture::push_channels(frame, &config.picture.channels, DVec3::ZERO, &|idx| warp.seen_item(idx));
 }
 
 /// This program, without a command line, for the history of what it makes.

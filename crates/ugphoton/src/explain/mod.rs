@@ -7,12 +7,12 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 use serde::Serialize;
-use uglight::{ColorForm, ColorShift, Interpolation, light_names};
+use uglight::{ColorForm, ColorShift, light_names};
 use ugparse::{Diagnostics, Parsed, Source};
 use ugphysics::Velocity;
+use ugpicture::SurfacePoint;
 use ugpicture::explain::{
-    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, PixelSteps, SampleColor,
-    covers, nearest,
+    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, PixelSteps, SampleColor, covers, nearest,
 };
 use ugscene::{HueScale, SeenColors};
 use ugskybox::SkyError;
@@ -24,7 +24,6 @@ use crate::pixels::{self, ExplainedRay};
 use crate::render::as_seen;
 use crate::scenery::Scenery;
 use crate::shade::LampLight;
-use crate::surface_point::SurfacePoint;
 use crate::tracer::{Visit, Way};
 
 /// The explanation of a sample.
@@ -199,7 +198,7 @@ impl Teller<'_> {
 
     fn surface(&self, sample: &ExplainedRay, visit: &Visit) -> ExplainedSurface {
         let point = &visit.point;
-        let frame = point.frame(self.scenery);
+        let frame = point.frame(&self.scenery.world);
         let velocity: Velocity = frame.velocity();
         let at_rest = frame.rest_from_camera(point.event);
         // A body that is not inertial has coordinates of its own; this is the frame in which its
@@ -258,19 +257,12 @@ impl Teller<'_> {
         if scenery.appearance.is_spectral() || point.color.swatch.form != ColorForm::Hue {
             return SampleColor::of_light(visit.light.to_array(), self.is_lit(point));
         }
-        let base = scenery.appearance.hue_color(&point.color.swatch);
-        let is_hue = scenery.appearance.palette.interpolation == Interpolation::Hue;
-        let wavelength = (!point.color.swatch.is_grey()).then(|| {
-            let seen_nm = scenery.appearance.hue_shift.wavelength_nm(base.wavelength_nm, point.doppler());
-            HueWavelength::new(base.wavelength_nm, seen_nm, is_hue.then_some(base.hue))
-        });
-        SampleColor::Hue {
-            hue: base.hue,
-            saturation: base.saturation,
-            value: base.value,
-            light_level: Some(self.level(visit)),
-            wavelength,
-        }
+        let (appearance, swatch) = (&scenery.appearance, &point.color.swatch);
+        let rest_nm = appearance.wavelength_nm(swatch.tint);
+        let seen_nm = appearance.hue_shift.wavelength_nm(rest_nm, point.doppler());
+        let palette = &appearance.palette;
+        let level = Some(self.level(visit));
+        SampleColor::of_hue(palette.hsv(swatch), palette.interpolation, [rest_nm, seen_nm], level)
     }
 
     /// False for surfaces that emit their light.

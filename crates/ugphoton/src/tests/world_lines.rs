@@ -12,9 +12,8 @@ use super::ray;
 use crate::Config;
 use crate::render::as_seen;
 use crate::scenery::Scenery;
-use crate::surface_point::SurfacePoint;
-use ugpicture::rays::Intersection;
-use ugpicture::rays::{PastRay, Start};
+use ugpicture::SurfacePoint;
+use ugpicture::rays::{Intersection, PastRay, Start};
 
 fn scenery_at(text: &str, time: f64) -> Scenery<'static> {
     let source = ugparse::Source::new("test.ug", text);
@@ -182,9 +181,10 @@ fn hits_are_those_of_emission_events() {
             let first = scenery.closest(&ray, 0.0..f64::INFINITY);
             assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
             if let (Some(first), 0) = (first, idx % 2) {
-                let seen = SurfacePoint::new(&scenery, &PastRay::from_eye(direction), &first, None);
+                let seen =
+                    SurfacePoint::new(&scenery.surfaces(), &PastRay::from_eye(direction), &first, || None);
                 let light = line.emission(seen.place, origin).unwrap();
-                let beta = seen.frame(&scenery).velocity().beta();
+                let beta = seen.frame(&scenery.world).velocity().beta();
                 assert!((first.own_time - light.own_time).abs() < 1e-8, "{text}\n{first:?} {light:?}");
                 assert!((light.event.x - first.s * direction).length() < 1e-8, "{text}\n{first:?} {light:?}");
                 assert!((beta - light.velocity.beta()).length() < 1e-8, "{text}\n{beta} {light:?}");

@@ -78,7 +78,7 @@ fn mistakes_have_answers() {
         ("-cube -pan", "-pan"),
         ("-cube -stereo 1", "-stereo"),
         ("-stereo -1", "a distance is 0 or more"),
-        ("-stereo .1 -lg", "leave them out, or -cube and -stereo"),
+        ("-stereo .1 -lg", "or -cube and -stereo"),
         ("-fish 400", "at most 360 degrees"),
         ("-crop 0 0 9999 1", "is not in the picture of 1024 x 768 pixels"),
     ] {

@@ -437,10 +437,10 @@ fn messages() {
     // Light is not exposed; the picture is.
     assert!(light(scene(ROOM), &auto).is_ok());
     let found = render(scene(ROOM), &auto).unwrap_err().words();
-    assert!(found.contains("-ex auto would differ"), "{found}");
+    assert!(found.contains("with -crop give the exposure"), "{found}");
     let shutter = Shutter::Film { distance: 1.0 };
     let rays = RayOptions { shutter, ..RayOptions::default() };
-    check(Config { lens: Lens::Panorama, rays, ..config.clone() }, "--film-shutter is for pinhole cameras");
+    check(Config { lens: Lens::Panorama, rays, ..config.clone() }, "is for pinhole cameras");
     check(Config { lens: Lens::Cube, ..config.clone() }, "such as -sz 3072 512");
     let both = Config { lens: Lens::Cube, stereo: Some(0.1), ..picture([60, 10]) };
     check(both, "leave out -stereo, or give -pan instead of -cube");
@@ -450,7 +450,7 @@ fn messages() {
         config.picture.annotations.caption = "Caption".to_owned();
         config
     };
-    let single = "annotations (-cap, -lg, -dl, -gr) are for pictures of a single view";
+    let single = "annotations are for pictures of a single view: leave out -cap, -lg";
     check(annotated(Config { stereo: Some(0.1), ..config.clone() }), single);
     check(annotated(Config { lens: Lens::Cube, ..picture([60, 10]) }), single);
     // Captions and legends are below a picture of any lens; lines over it are straight.
@@ -458,7 +458,7 @@ fn messages() {
     legend.picture.annotations.legend = true;
     assert!(render(scene(ROOM), &legend).is_ok());
     legend.picture.annotations.grid = true;
-    check(legend, "outline and grid (-dl, -gr) are straight lines of pinhole cameras");
+    check(legend, "outline and grid are straight lines of pinhole cameras: leave out -dl");
     let mut orthographic = config.clone();
     orthographic.picture.camera.is_orthographic = true;
     check(orthographic, "leave out -og");

@@ -7,23 +7,19 @@
 //! drawn: edges between front and back faces, borders, and creases. They are wires of the scene at
 //! rest, so its faces occlude them, and those of the picture do not.
 
-use std::collections::HashMap;
-
 use glam::{DQuat, DVec3};
 use ugimage::label::Drawing;
-use ugscene::{BodyId, Scene, VertexId, View, face_edges, rest_positions, unit_normal, vertex_bodies};
+use ugscene::{BodyId, Face, Scene, rest_positions, unit_normal, vertex_bodies};
 
 use super::seen::SeenScene;
 use super::style::Style;
 use crate::error::Error;
 use crate::note::Note;
+use crate::shared_edges::{FaceEdge, Fold, shared_edges};
 use crate::spots::spots;
 
 /// Cosine of the angle, 35 degrees, below which adjacent faces count as one curved surface.
 const CREASE: f64 = 0.819;
-
-/// Cosine of the angle below which faces count as coplanar.
-const COPLANAR: f64 = 0.9999;
 
 /// Corners closer than this many pixels, where the bodies are nearest to the eye, are at the same
 /// place: vertices are repeated for other colours, and parts of a body meet up to the digits in its
@@ -40,10 +36,7 @@ pub fn draw<E: From<Error>>(
         return Ok(Some(Note::NoOutline));
     }
     let places = ideal_places(seen);
-    let faces = Faces { scene: seen.scene, places: &places, view: &seen.view };
-    let shown = edges(seen, &places).into_iter().filter(|edge| edge.is_shown(&faces));
-    let lines: Vec<[DVec3; 2]> = shown.map(|edge| edge.ends.map(|end| places[end.index()])).collect();
-    let visible = seen.visible(ideal_scene(seen.scene, seen.view.eye, &places), &lines)?;
+    let visible = seen.visible(ideal_scene(seen.scene, seen.view.eye, &places), &edges(seen, &places))?;
     let width = style.hairline;
     drawing.lines(visible.clone(), 3.0 * width, style.background);
     drawing.lines(visible, width, style.ink);
@@ -89,80 +82,34 @@ fn ideal_scene(scene: &Scene, eye: DVec3, places: &[DVec3]) -> Scene {
     ideal
 }
 
-/// The faces of the scene at rest.
-struct Faces<'a> {
-    scene: &'a Scene,
-    places: &'a [DVec3],
-    view: &'a View,
-}
-
-impl Faces<'_> {
-    /// The normal of a face, and whether the eye is on its side.
-    fn normal(&self, face: usize) -> (DVec3, bool) {
-        let Some(outline) = self.scene.face_contours(&self.scene.faces[face]).next() else {
-            return (DVec3::ZERO, false);
-        };
-        let corners = outline.iter().map(|vertex| self.places[vertex.index()]);
-        let normal = unit_normal(corners);
-        let toward =
-            if self.view.is_perspective { -self.places[outline[0].index()] } else { -self.view.forward };
-        (normal, normal.dot(toward) > 0.0)
-    }
-}
-
-/// An edge of faces, stored once.
-struct Edge {
-    ends: [VertexId; 2],
-    /// The faces that share it, and whether they run from the first end to the second.
-    faces: Vec<(usize, bool)>,
-}
-
-/// Edges of moving bodies, in the order of the scene. `places`: of the vertices at rest.
-fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<Edge> {
-    let scene = seen.scene;
-    let moving = scene.faces.iter().filter(|face| seen.frames.is_moving(face.body));
+/// The edges of moving bodies that are drawn where they are not occluded. `places`: of the vertices
+/// at rest.
+fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<[DVec3; 2]> {
+    let SeenScene { scene, view, frames, .. } = seen;
+    let is_moving = |face: &Face| frames.is_moving(face.body);
+    let moving = scene.faces.iter().filter(|face| is_moving(face));
     let corners = moving.flat_map(|face| scene.contours.corners(face.contours.clone()));
     let nearest = corners.map(|corner| places[corner.index()].length()).fold(f64::INFINITY, f64::min);
-    let [left, right] = [[0.0, 0.0], [1.0, 0.0]].map(|place| seen.view.point(place, nearest));
+    let [left, right] = [[0.0, 0.0], [1.0, 0.0]].map(|place| view.point(place, nearest));
     let spots = spots(places, SAME_PLACE * (right - left).length());
-    let spot = |vertex: VertexId| spots[vertex.index()];
-    let mut edges: Vec<Edge> = Vec::new();
-    // Only looked up, so its order does not matter.
-    let mut known = HashMap::new();
-    for (idx, face) in scene.faces.iter().enumerate().filter(|(_, face)| seen.frames.is_moving(face.body)) {
-        for [a, b] in face_edges(scene, face) {
-            let (from, to) = (spot(a), spot(b));
-            if from == to {
-                continue;
-            }
-            let key = (from.min(to), from.max(to), face.body);
-            let edge = *known.entry(key).or_insert_with(|| {
-                edges.push(Edge { ends: [a, b], faces: Vec::new() });
-                edges.len() - 1
-            });
-            let is_forth = spot(edges[edge].ends[0]) == from;
-            edges[edge].faces.push((idx, is_forth));
-        }
-    }
-    edges
-}
-
-impl Edge {
-    /// True if the edge is drawn where it is not occluded.
-    fn is_shown(&self, faces: &Faces<'_>) -> bool {
-        let &[(one, one_forth), (other, other_forth)] = self.faces.as_slice() else { return true };
-        let ((normal, is_front), (other_normal, other_is_front)) = (faces.normal(one), faces.normal(other));
+    // The normal of a face, and whether the eye is on its side.
+    let facing = |edge: &FaceEdge| {
+        let outline = scene.contours.get(scene.faces[edge.face as usize].contours.start);
+        let corners = outline.iter().map(|vertex| places[vertex.index()]);
+        let normal = unit_normal(corners);
+        let toward = if view.is_perspective { -places[outline[0].index()] } else { -view.forward };
+        (normal, normal.dot(toward) > 0.0)
+    };
+    let shown = |edges: &[&FaceEdge]| {
+        let ends = edges[0].ends.map(|end| places[end.index()]);
+        let &[one, other] = edges else { return Some(ends) };
+        let [(normal, is_front), (other_normal, other_is_front)] = [one, other].map(facing);
+        let fold = Fold::new([one, other], [Some(normal), Some(other_normal)]);
         // Faces of one surface run opposite ways along their edge; else one of them is turned.
-        let is_turned = one_forth == other_forth;
-        // Or one lies in a hole of the other.
-        if is_turned && normal.dot(other_normal) > COPLANAR {
-            return false;
-        }
-        if is_front != (other_is_front != is_turned) {
-            return true;
-        }
-        let is_smooth = self.ends.iter().all(|end| faces.scene.vertices[end.index()].normal.is_some());
-        let cosine = normal.dot(other_normal) * if is_turned { -1.0 } else { 1.0 };
-        cosine < CREASE && !is_smooth
-    }
+        let is_silhouette = is_front != (other_is_front != fold.is_turned);
+        let is_smooth = one.ends.iter().all(|end| scene.vertices[end.index()].normal.is_some());
+        let is_crease = fold.cosine < CREASE && !is_smooth;
+        (!fold.is_in_hole && (is_silhouette || is_crease)).then_some(ends)
+    };
+    shared_edges(scene, &spots, is_moving, shown)
 }

@@ -3,16 +3,13 @@
 use ugpipe::{Words, remedies};
 use ugscene::CameraError;
 
-use crate::limits::{MAX_SAMPLES, MAX_VECTOR_SIDE};
 use crate::{Error, Note};
 
 impl Words for Error {
     fn words(&self) -> String {
         let words = match self {
             Self::Size(_) | Self::Memory(..) => "{}; give a smaller -sz",
-            Self::Samples(n) => {
-                return format!("{n} x {n} samples a pixel cannot be taken; give -aa 1 to {MAX_SAMPLES}");
-            }
+            Self::Samples(_) => "{}: give another -aa",
             Self::NotPng => "{}: leave out -pz, or write -dt png or png16",
             Self::NotExr => "{}: with -ch write -dt exr",
             Self::NotDeveloped => "{}: leave out -ex and -tc, or write -dt png16",
@@ -23,20 +20,11 @@ impl Words for Error {
             Self::NoSurfaces => "{}: leave out -map and -iso, or -cube",
             Self::NotTransparent => "{}: leave out -tb, or write -dt exr",
             Self::NoVectors => "{}: with -vec write -dt eps, ps, pdf or svg",
-            Self::NoSamples => "vector graphics (-vec) have no samples to filter: leave out -fl or -vec",
-            Self::VectorSize => {
-                return format!(
-                    "vector graphics (-vec) are at most {MAX_VECTOR_SIDE} points along a side: give a smaller -sz"
-                );
-            }
+            Self::NoSamples => "{}: leave out -fl or -vec",
+            Self::VectorSize => "{}: give a smaller -sz, or leave out -vec",
             Self::TooNarrow => "{}: give a wider -sz, a smaller -ts, or leave out -title, -cap, -lg and -map",
             Self::NoRoom => "{}: give a larger -sz, a smaller -ts, or a shorter -title and -cap",
-            Self::Pixel { pixel: [x, y], size: [width, height] } => {
-                return format!(
-                    "pixel {x},{y} is not in the picture of {width} x {height} pixels; \
-                     count columns and rows from 0 at the upper left, or give -sz"
-                );
-            }
+            Self::Pixel { .. } => "{}; give -sz for a larger one",
             Self::Texture(_) => {
                 "{}; save it again as PNG or JPEG, or remove its `c_tex`, and its faces have their plain colour"
             }

@@ -7,8 +7,9 @@ pub mod text;
 
 use serde::Serialize;
 use ugimage::{Filter, LinearFrame, Quantizer, display_pixel};
+use uglight::Interpolation;
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
-use ugphysics::{attenuation, linear_srgb_to_xyz};
+use ugphysics::{Hsv, attenuation, linear_srgb_to_xyz};
 use ugscene::{Scene, SeenColors};
 
 use crate::{Backdrop, Background, PictureOptions};
@@ -295,17 +296,23 @@ impl SampleColor {
         let chromaticity = (sum > 0.0).then(|| [xyz[0] / sum, xyz[1] / sum]);
         Self::Light { xyz, chromaticity, is_lit }
     }
-}
 
-impl HueWavelength {
-    /// Wavelengths at rest and as seen in nm. `hue`: in degrees; `None` if its wavelength was
-    /// given.
-    pub fn new(rest_wavelength_nm: f64, seen_wavelength_nm: f64, hue: Option<f64>) -> Self {
-        Self {
-            rest_wavelength_nm,
-            seen_wavelength_nm,
-            is_at_end_of_range: hue.is_some_and(|hue| !(-60.0 < hue && hue < 300.0)),
-            attenuation: attenuation(seen_wavelength_nm),
-        }
+    /// A hue, and its wavelengths at rest and as seen in nm, which were given unless hues are
+    /// interpolated.
+    pub fn of_hue(
+        color: Hsv,
+        interpolation: Interpolation,
+        [rest_nm, seen_nm]: [f64; 2],
+        light_level: Option<[f64; 3]>,
+    ) -> Self {
+        let Hsv { hue, saturation, value } = color;
+        let is_end = interpolation == Interpolation::Hue && !(-60.0 < hue && hue < 300.0);
+        let wavelength = (saturation != 0.0).then(|| HueWavelength {
+            rest_wavelength_nm: rest_nm,
+            seen_wavelength_nm: seen_nm,
+            is_at_end_of_range: is_end,
+            attenuation: attenuation(seen_nm),
+        });
+        Self::Hue { hue, saturation, value, light_level, wavelength }
     }
 }

@@ -19,8 +19,6 @@ pub struct PictureRays {
     pub scene_from_aligned: DMat3,
     /// Displacement of lamps for the body, see [`ugscene::RestFrames::lamp_shift`].
     pub lamp_shift: DVec3,
-    /// Rotates apparent coordinates to the axes of the camera's frame.
-    camera_from_aligned: DMat3,
     /// From apparent coordinates to samples: x and y times the depth, and the depth.
     samples_from_seen: DMat3,
     /// The ray through the corner of the picture, and its change per sample across and down; depth
@@ -59,7 +57,6 @@ impl PictureRays {
             velocity,
             scene_from_aligned: scene_from_boosted * camera_from_aligned,
             lamp_shift: frames.lamp_shift(body),
-            camera_from_aligned,
             samples_from_seen: DMat3::from_cols(place(along), place(e1), place(e2)),
             rays: view.rays().map(|ray| aligned_from_camera * ray),
             exp_minus_rapidity: 1.0 / (velocity.gamma() + velocity.proper_speed()),
@@ -169,11 +166,6 @@ impl PictureRays {
     /// Rotates rest coordinates from the axes of the scene to those of this frame.
     pub fn aligned_from_scene(&self, rest: DVec3) -> DVec3 {
         self.scene_from_aligned.transpose() * rest
-    }
-
-    /// Rotates apparent coordinates to the axes of the camera's frame.
-    pub fn to_camera(&self, seen: DVec3) -> DVec3 {
-        self.camera_from_aligned * seen
     }
 
     /// Projects an apparent position: its sample coordinates times the depth, and the depth.

@@ -124,67 +124,28 @@ impl Part {
         Self { frame, motion, bvh, triangles, rounds, bounds, clearance: CLEARANCE * reach, outline }
     }
 
-    /// The nearest hit on a body on a world line.
-    pub(super) fn closest_on_line(
-        &self,
-        faces: Faces<'_>,
-        row: usize,
-        ray: &PastRay,
-        range: Range<f64>,
-    ) -> Option<Intersection> {
-        let mut best: Option<Intersection> = None;
-        self.motion.as_ref()?.visit(&self.bvh, ray, range, self.clearance_on_line(ray), |hit| {
-            let found = self.intersection_on_line(row, hit);
-            if found.triangle.is_loose && !self.is_inside(faces, &found) {
-                return Next::Everything;
-            }
-            if best.is_none_or(|best| (found.s, found.row) < (best.s, best.row)) {
-                best = Some(found);
-            }
-            Next::Nearer
-        });
-        best
-    }
-
-    /// Visits the faces of a body on a world line that a ray crosses, in any order, until `visit`
-    /// breaks.
+    /// Visits the faces of a body on a world line that a ray crosses, in any order. `visit` returns
+    /// which hits are wanted after one.
     pub(super) fn visit_on_line(
         &self,
         faces: Faces<'_>,
         row: usize,
         ray: &PastRay,
         range: Range<f64>,
-        visit: &mut impl FnMut(Intersection) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let Some(motion) = &self.motion else { return ControlFlow::Continue(()) };
-        let mut flow = ControlFlow::Continue(());
-        motion.visit(&self.bvh, ray, range, self.clearance_on_line(ray), |hit| {
-            let found = self.intersection_on_line(row, hit);
-            if flow.is_continue() && (!found.triangle.is_loose || self.is_inside(faces, &found)) {
-                flow = visit(found);
-            }
-            if flow.is_continue() { Next::Everything } else { Next::Nothing }
-        });
-        flow
-    }
-
-    /// The own time in which a ray leaves the surface at its origin.
-    pub(super) fn clearance_on_line(&self, ray: &PastRay) -> f64 {
-        match ray.start {
-            Start::Surface { .. } => {
-                let reach = ray.origin.x.length() - ray.origin.t;
-                self.clearance + CLEARANCE * self.frame.velocity().gamma() * reach
-            }
-            _ => self.clearance,
+        mut visit: impl FnMut(Intersection) -> Next,
+    ) {
+        let Some(motion) = &self.motion else { return };
+        // The own time in which the ray leaves the surface at its origin.
+        let mut clearance = self.clearance;
+        if let Start::Surface { .. } = ray.start {
+            let reach = ray.origin.x.length() - ray.origin.t;
+            clearance += CLEARANCE * self.frame.velocity().gamma() * reach;
         }
-    }
-
-    pub(super) fn intersection_on_line(
-        &self,
-        part: usize,
-        CurveHit { s, own_time, hit }: CurveHit,
-    ) -> Intersection {
-        Intersection { s, own_time, ..self.intersection(part, hit) }
+        motion.visit(&self.bvh, ray, range, clearance, |CurveHit { s, own_time, hit }| {
+            let found = Intersection { s, own_time, ..self.intersection(row, hit) };
+            let is_hit = !found.triangle.is_loose || self.is_inside(faces, &found);
+            if is_hit { visit(found) } else { Next::Everything }
+        });
     }
 
     /// True if a straight way at rest crosses a face for which `blocks` holds.

@@ -12,6 +12,7 @@ use super::corridor::Corridor;
 use super::moving_boxes::{MovingBoxes, Rays};
 use super::part::{FaceTriangle, Faces, Intersection, Part};
 use super::path::PastRay;
+use super::world_line_part::Next;
 
 /// Faces whose distances differ by no more than this part are at the same place: rounding decides
 /// which of coplanar faces is nearer.
@@ -282,8 +283,15 @@ impl World {
         mut best: Option<Intersection>,
     ) -> Option<Intersection> {
         for row in self.n_inertial..self.parts.len() {
-            let end = best.map_or(range.end, |best| best.s);
-            best = self.parts[row].closest_on_line(faces, row, ray, range.start..end).or(best);
+            let range = range.start..best.map_or(range.end, |best| best.s);
+            let mut nearest: Option<Intersection> = None;
+            self.parts[row].visit_on_line(faces, row, ray, range, |found| {
+                if nearest.is_none_or(|nearest| (found.s, found.row) < (nearest.s, nearest.row)) {
+                    nearest = Some(found);
+                }
+                Next::Nearer
+            });
+            best = nearest.or(best);
         }
         best
     }
@@ -435,8 +443,16 @@ impl World {
             }
         };
         inertial?;
-        (self.n_inertial..self.parts.len())
-            .try_for_each(|row| self.parts[row].visit_on_line(faces, row, ray, range.clone(), visit_any))
+        (self.n_inertial..self.parts.len()).try_for_each(|row| {
+            let mut flow = ControlFlow::Continue(());
+            self.parts[row].visit_on_line(faces, row, ray, range.clone(), |found| {
+                if flow.is_continue() {
+                    flow = visit_any(found);
+                }
+                if flow.is_continue() { Next::Everything } else { Next::Nothing }
+            });
+            flow
+        })
     }
 }
 

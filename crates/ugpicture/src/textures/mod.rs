@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use thiserror::Error;
 use ugimage::{PictureLimits, read_picture};
+use uglight::{Appearance, SurfaceColor};
 use ugscene::{AlphaMode, ColorId, Scene, Texture, VertexId};
 
 pub use footprint::SurfaceElementPlane;
@@ -145,21 +146,27 @@ impl Textures {
         map.texel(Some(&self.tints), scene, corners, weights, steps)
     }
 
-    /// The colour that a face of this colour emits, and its texel where it is a picture, which
-    /// colours of vertices do not tint. `at`, `steps`: see [`Textures::texel`].
-    pub fn emitted(
+    /// The colour at rest of a face of this colour where it has a texture, and the colour that it
+    /// emits there: that of a texel where it is a picture, which colours of vertices do not tint.
+    /// `at`, `steps`: see [`Textures::texel`].
+    pub fn colors(
         &self,
-        scene: &Scene,
+        (scene, appearance): (&Scene, &Appearance),
         color: Option<ColorId>,
         at: Option<([VertexId; 3], [f64; 3])>,
-        steps: impl FnOnce() -> [[f64; 2]; 2],
-    ) -> Option<(ColorId, Option<Texel>)> {
-        let emitted = scene.emitted_by(color?)?;
-        let map = self.of(Some(emitted)).zip(at);
-        Some((
-            emitted,
-            map.and_then(|(map, (corners, weights))| map.texel(None, scene, corners, weights, steps)),
-        ))
+        is_moving: bool,
+        steps: impl Fn() -> [[f64; 2]; 2],
+    ) -> [Option<SurfaceColor>; 2] {
+        let texel = |color: Option<ColorId>, tints: Option<&[DVec3]>| {
+            let (map, (corners, weights)) = self.of(color).zip(at)?;
+            map.texel(tints, scene, corners, weights, &steps)
+        };
+        let own = texel(color, Some(&self.tints));
+        let emitted = color.and_then(|color| scene.emitted_by(color)).map(|emitted| {
+            let light = texel(Some(emitted), None).map(|texel| texel.light);
+            appearance.emitted(emitted, light, is_moving)
+        });
+        [own.map(|own| appearance.texel(own.light, own.translucency, is_moving)), emitted]
     }
 }
 

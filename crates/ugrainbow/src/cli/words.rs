@@ -14,17 +14,11 @@ impl Words for Error {
             Self::ExplainExact => remedies::EXPLAIN_EXACT,
             Self::ExactSeenColors => remedies::EXACT_SEEN_COLORS,
             Self::ExactPartialGeometry => remedies::EXACT_PARTIAL_GEOMETRY,
-            Self::ExactOrthographic => {
-                "-xc follows rays to the eye, and in orthographic projection they do not meet there: \
-                 leave out -xc, or -og (in the scene, too)"
-            }
+            Self::ExactOrthographic => "{}: leave out -xc, or -og (in the scene, too)",
             Self::ExactMovingSpectrum => {
-                "-xc shifts hues, and a black body or spectrum of this scene moves: give -sp to shift all colours as \
-                 spectra, or --no-doppler --no-flux to see the shape"
+                "{}: give -sp to shift all colours as spectra, or --no-doppler --no-flux to see the shape"
             }
-            Self::FigureBackground => {
-                "vector graphics (-vec) with translucent faces need a background: give -bg 1, for paper, in place of -tb"
-            }
+            Self::FigureBackground => "{}: give -bg 1, for paper, in place of -tb",
             Self::FigureFaces | Self::FigureOverlaps => "{}: leave out -vec, and give a larger -sz for print",
         };
         words.replacen("{}", &self.to_string(), 1)

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::DVec3;
 use rayon::prelude::*;
 use uglight::Swatch;
-use ugpicture::outlines::{OutlinedFace, Outlines, PictureRays, RestFaces, RestRay, Run, Tiles};
+use ugpicture::outlines::{OutlinedFace, Outlines, PictureRays, RestFaces, RestRay, Tiles};
 use ugpicture::rays::{Intersection, PastRay};
 use ugraster::{Area, FragmentWriter, ShapeTarget, TRANSPARENT_VALUES, Tile};
 use ugscene::{Face, VertexId};
@@ -66,7 +66,8 @@ impl<'a, const N: usize> Faces<'a, N> {
         self.outlines.hides(place, key) || self.moving.as_ref().and_then(nearest).is_some_and(is_before)
     }
 
-    /// Draws the opaque faces of a band into one of its tiles.
+    /// Draws the opaque faces of a band into one of its tiles: the nearest at each sample, so no
+    /// hidden sample is shaded.
     pub fn draw(&self, band: usize, tile: &mut Tile<N>) {
         if self.painter.appearance.is_spectral() {
             self.draw_nearest::<true>(band, tile);
@@ -75,31 +76,44 @@ impl<'a, const N: usize> Faces<'a, N> {
         }
     }
 
-    /// Draws the nearest face at each sample: no hidden sample is shaded.
     fn draw_nearest<const SPECTRAL: bool>(&self, band: usize, tile: &mut Tile<N>) {
         self.outlines.with_nearest([0, band as u32], samples(tile.area()), |found| {
             for run in found.runs() {
-                let shape = &self.outlines.shapes()[run.face as usize];
-                let frame = self.outlines.frame(shape);
-                let rays = frame.row_of_samples(run.row);
+                let frame = self.outlines.frame(&self.outlines.shapes()[run.face as usize]);
                 let (keys, lengths) = found.of_run(&run);
-                let Run { row, columns, face } = run;
-                let first = columns.start;
-                if self.looks[face as usize].n_together > 1 {
-                    let mut of_pixel = self.of_pixels::<SPECTRAL>(face, row, columns.clone());
-                    tile.draw_each(row, columns, shape.item, |column, _| {
-                        Some((keys[(column - first) as usize] as f32, of_pixel(column)))
-                    });
-                    continue;
-                }
-                tile.draw_each(row, columns, shape.item, |column, _| {
+                let (rays, first) = (frame.row_of_samples(run.row), run.columns.start);
+                self.draw_run::<SPECTRAL>(tile, (run.face, run.row, run.columns), |column| {
                     let at = (column - first) as usize;
-                    let ray = frame.ray_of_length(rays, column, lengths[at]);
-                    Some((keys[at] as f32, self.values::<SPECTRAL>(face, shape, frame, (&ray, 1))))
+                    (frame.ray_of_length(rays, column, lengths[at]), keys[at])
                 });
             }
         });
         self.draw_moving::<SPECTRAL, _>(tile, |moving, ray| moving.nearest(ray));
+    }
+
+    /// Draws a shape on columns of a row of samples, where it is in front of the nearest occluder.
+    /// `ray`: at a column, with the depth key of the shape.
+    #[inline(always)] // Otherwise the ray is passed in memory.
+    fn draw_run<const SPECTRAL: bool>(
+        &self,
+        target: &mut impl ShapeTarget<N>,
+        (number, row, columns): (u32, u32, Range<u32>),
+        ray: impl Fn(u32) -> (RestRay, f64),
+    ) {
+        let shape = &self.outlines.shapes()[number as usize];
+        let frame = self.outlines.frame(shape);
+        if self.looks[number as usize].n_together > 1 {
+            let mut of_pixel = self.of_pixels::<SPECTRAL>(number, row, columns.clone());
+            return target.draw_each(row, columns, shape.item, |column, occluder_key| {
+                let key = ray(column).1 as f32;
+                (key > occluder_key).then(|| (key, of_pixel(column)))
+            });
+        }
+        target.draw_each(row, columns, shape.item, |column, occluder_key| {
+            let (ray, key) = ray(column);
+            let key = key as f32;
+            (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(number, shape, frame, (&ray, 1))))
+        });
     }
 
     /// Draws faces of bodies that accelerate or turn, where a ray hits them.
@@ -167,7 +181,8 @@ impl<'a, const N: usize> Faces<'a, N> {
 }
 
 impl Faces<'_, TRANSPARENT_VALUES> {
-    /// Draws the faces of a band as transparent fragments.
+    /// Draws the faces of a band as transparent fragments, wherever they are in front of the nearest
+    /// occluder.
     pub fn draw_transparent(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
         if self.painter.appearance.is_spectral() {
             self.draw_all::<true>(band, writer);
@@ -176,25 +191,9 @@ impl Faces<'_, TRANSPARENT_VALUES> {
         }
     }
 
-    /// Writes a fragment of every face wherever it is in front of the nearest occluder.
     fn draw_all<const SPECTRAL: bool>(&self, band: usize, writer: &mut FragmentWriter<'_, '_>) {
-        let area = samples(writer.area());
-        self.outlines.for_each_run([0, band as u32], area, |number, row, columns, ray| {
-            let shape = &self.outlines.shapes()[number as usize];
-            let frame = self.outlines.frame(shape);
-            if self.looks[number as usize].n_together > 1 {
-                let mut of_pixel = self.of_pixels::<SPECTRAL>(number, row, columns.clone());
-                writer.draw_each(row, columns, shape.item, |column, occluder_key| {
-                    let key = ray(column).1 as f32;
-                    (key > occluder_key).then(|| (key, of_pixel(column)))
-                });
-                return;
-            }
-            writer.draw_each(row, columns, shape.item, |column, occluder_key| {
-                let (ray, key) = ray(column);
-                let key = key as f32;
-                (key > occluder_key).then(|| (key, self.values::<SPECTRAL>(number, shape, frame, (&ray, 1))))
-            });
+        self.outlines.for_each_run([0, band as u32], samples(writer.area()), |number, row, columns, ray| {
+            self.draw_run::<SPECTRAL>(writer, (number, row, columns), ray);
         });
         self.draw_moving::<SPECTRAL, _>(writer, |moving, ray| moving.all(ray));
     }

@@ -1,7 +1,7 @@
 //! Colour and light of a face at its points at rest.
 
 use glam::DVec3;
-use uglight::{ColorForm, FaceColors, Illumination, Mixing, SpectralRows, SurfaceColor, Swatch};
+use uglight::{ColorForm, FaceColors, Illumination, Lighting, Mixing, SpectralRows, SurfaceColor, Swatch};
 use ugpicture::outlines::{PictureRays, RestRay};
 use ugscene::{ColorId, Face, VertexId};
 
@@ -11,17 +11,15 @@ use crate::painter::Painter;
 #[derive(Clone, Debug)]
 pub struct Look {
     /// What its corners have in common.
-    pub colors: FaceColors,
+    colors: FaceColors,
     /// Normal of the face on its visible side, in the axes of the scene.
     normal: DVec3,
     /// The light level, if it is the same everywhere.
     level: Option<DVec3>,
     /// The light level depends on the position.
     needs_place: bool,
-    /// Spectra of lamps multiply those of the face.
-    is_lit_by_spectra: bool,
-    /// Coloured lamps, whose light changes the hue.
-    is_lit_by_hues: bool,
+    /// Coloured lamps, whose spectra multiply those of the face, or change its hue.
+    is_lit_by_color: bool,
     has_colors: bool,
     has_tints: bool,
     has_normals: bool,
@@ -30,10 +28,8 @@ pub struct Look {
     wavelength_nm: f64,
     /// Index of its spectrum.
     row: u32,
-    /// The colour of the face, if it is a picture.
-    texture: Option<ColorId>,
-    /// The colour of the face, if it emits light.
-    emits: Option<ColorId>,
+    /// The colour of the face, if it is a picture or emits light.
+    picture: Option<ColorId>,
     /// Samples in a row of a pixel, for which a texel is found once.
     pub n_together: u32,
     /// Triangles between the corners, if colours or normals differ between these, or for a picture.
@@ -58,7 +54,7 @@ struct Triangle {
 
 /// The weighted mean.
 #[inline]
-pub fn mean(weights: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
+fn mean(weights: [f64; 3], [a, b, c]: [DVec3; 3]) -> DVec3 {
     weights[0] * a + weights[1] * b + weights[2] * c
 }
 
@@ -108,14 +104,14 @@ impl Look {
             None => appearance.surface.frames().is_moving(face.body),
         };
         let mut colors = appearance.face_colors_in_motion(painter.scene, face, is_moving);
-        let texture = face.color.filter(|_| painter.textures.has(face.color));
-        if texture.is_some() && !appearance.is_spectral() {
+        let has_texture = painter.textures.has(face.color);
+        if has_texture && !appearance.is_spectral() {
             // Texels are drawn as colours of a display.
             let keeps_light = appearance.keeps_light() || !is_moving;
             colors.mixing = if keeps_light { Mixing::Display } else { Mixing::Hue };
         }
-        let emits = face.color.filter(|&color| painter.scene.emitted_by(color).is_some());
-        let is_picture = texture.is_some() || emits.is_some();
+        let emits = face.color.is_some_and(|color| painter.scene.emitted_by(color).is_some());
+        let is_picture = has_texture || emits;
         let normal = painter.seen_normal(face);
         let vertices = painter.scene.contours.corners(face.contours.clone());
         let corner = |&vertex: &VertexId| {
@@ -132,14 +128,13 @@ impl Look {
             corners.iter().any(|corner| corner.0 != first.0 || (is_spectral && corner.1 != first.1));
         let has_normals = corners.iter().any(|corner| corner.2 != first.2);
         let has_level = painter.scene.light_level(face).is_some();
-        let is_lit_by_spectra = !has_level && appearance.has_lit_spectra();
-        let (keeps_light, is_light) = (colors.mixing != Mixing::Hue, colors.mixing == Mixing::Light);
-        let is_lit_by_hues = !has_level && !is_spectral && !keeps_light && lighting.is_colored();
+        let is_hue = !is_spectral && colors.mixing == Mixing::Hue;
+        let is_lit_by_color = !has_level && lighting.is_colored() && (is_spectral || is_hue);
+        let is_light = colors.mixing == Mixing::Light;
         // A body on a world line turns, and a round face has all normals.
         let has_directions = (has_normals || frame.is_none()) && lighting.needs_geometry();
         let is_even = has_level || !(lighting.needs_places() || has_directions);
-        let level = (is_even && !is_lit_by_spectra && !is_lit_by_hues)
-            .then(|| painter.level(face, vertices[0], normal, is_light));
+        let level = (is_even && !is_lit_by_color).then(|| painter.level(face, vertices[0], normal, is_light));
         let has_normals = has_normals && level.is_none();
         let triangles = match frame {
             Some(frame) if has_colors || has_normals || is_picture => {
@@ -152,12 +147,10 @@ impl Look {
             normal: first.2,
             level,
             needs_place: lighting.needs_places(),
-            is_lit_by_spectra,
-            is_lit_by_hues,
+            is_lit_by_color,
             has_colors,
-            has_tints: texture.is_some() || corners.iter().any(|corner| corner.0.tint != first.0.tint),
-            texture,
-            emits,
+            has_tints: has_texture || corners.iter().any(|corner| corner.0.tint != first.0.tint),
+            picture: face.color.filter(|_| is_picture),
             n_together: if is_picture { painter.grid.samples } else { 1 },
             has_normals,
             color: first.0,
@@ -180,10 +173,9 @@ impl Look {
     ) -> (Swatch, DVec3) {
         let spot = (!self.triangles.is_empty()).then(|| self.spot(ray.rest));
         let mixed = spot.filter(|_| self.has_colors);
-        let texel = if self.texture.is_some() {
-            self.texel(painter, frame, (ray.rest, n_samples), spot)
-        } else {
-            None
+        let [texel, emitted] = match self.picture {
+            Some(_) => self.pictures(painter, frame, (ray.rest, n_samples), spot),
+            None => [None; 2],
         };
         let color = match &texel {
             Some(texel) => Some(texel.swatch),
@@ -206,49 +198,25 @@ impl Look {
             };
             [if self.needs_place { place() } else { DVec3::ZERO }, normal, frame.lamp_shift]
         });
-        if self.emits.is_none() {
-            return seen;
+        match emitted {
+            Some(emitted) => with_emitted(painter, seen, ray.stretch, &emitted),
+            None => seen,
         }
-        let steps = || spot.map_or([[0.0; 2]; 2], |spot| steps(frame, (ray.rest, n_samples), spot.0));
-        let at = spot.map(|(triangle, weights)| (triangle.corners, weights));
-        self.with_emitted(painter, seen, (ray.stretch, !frame.velocity.is_zero()), at, steps)
     }
 
-    /// A colour as seen with its level of light, and the light that the face emits.
+    /// The colour of a texture where a ray meets the face, and the colour that it emits.
     #[inline(never)] // Keeps the code of other faces small.
-    pub fn with_emitted(
-        &self,
-        painter: &Painter<'_>,
-        (seen, level): (Swatch, DVec3),
-        (stretch, is_moving): (f64, bool),
-        at: Option<([VertexId; 3], [f64; 3])>,
-        steps: impl FnOnce() -> [[f64; 2]; 2],
-    ) -> (Swatch, DVec3) {
-        let Painter { scene, appearance, textures, .. } = painter;
-        let Some((color, texel)) = textures.emitted(scene, self.emits, at, steps) else {
-            return (seen, level);
-        };
-        let color = appearance.emitted(color, texel.map(|texel| texel.light), is_moving);
-        let emitted = appearance.light(&color, 1.0 / stretch, Illumination::Level(1.0), &[]);
-        let form = ColorForm::Light(appearance.drawn_light(&seen, level) + emitted);
-        (Swatch { form, ..seen }, DVec3::ONE)
-    }
-
-    /// The colour of a texture where a ray meets the face.
-    #[inline(never)] // Keeps the code of other faces small.
-    fn texel(
+    fn pictures(
         &self,
         painter: &Painter<'_>,
         frame: &PictureRays,
         (ray, n_samples): (DVec3, u32),
         spot: Option<(&Triangle, [f64; 3])>,
-    ) -> Option<SurfaceColor> {
-        let (triangle, weights) = spot?;
-        let steps = || steps(frame, (ray, n_samples), triangle);
-        let texel =
-            painter.textures.texel(painter.scene, self.texture, (triangle.corners, weights), steps)?;
-        let is_moving = !frame.velocity.is_zero();
-        Some(painter.appearance.texel(texel.light, texel.translucency, is_moving))
+    ) -> [Option<SurfaceColor>; 2] {
+        let Painter { scene, appearance, textures, .. } = painter;
+        let steps = || spot.map_or([[0.0; 2]; 2], |spot| steps(frame, (ray, n_samples), spot.0));
+        let at = spot.map(|(triangle, weights)| (triangle.corners, weights));
+        textures.colors((scene, appearance), self.picture, at, !frame.velocity.is_zero(), steps)
     }
 
     /// Apparent colour and light level of a point of the face. `mixed`: its colour at rest, if the
@@ -264,28 +232,21 @@ impl Look {
     ) -> (Swatch, DVec3) {
         let appearance = painter.appearance;
         let rest = mixed.as_ref().unwrap_or(&self.color);
-        if !SPECTRAL && self.is_lit_by_hues {
-            let [point, normal, shift] = lit();
-            let light = painter.lighting.irradiances(point, normal, shift);
-            let lamps = painter.lighting.colored_lamps();
-            return (appearance.seen_lit(rest, stretch, &light, lamps), DVec3::ONE);
+        let rows = || rows().unwrap_or_else(|| SurfaceColor::even(*rest, self.row).rows);
+        if self.is_lit_by_color {
+            return (
+                lit_by_color(painter, SurfaceColor { swatch: *rest, rows: rows() }, stretch, lit()),
+                DVec3::ONE,
+            );
         }
         let color = if SPECTRAL {
             // Between corners, the apparent colours of spectra are mixed.
-            let place = self.is_lit_by_spectra.then(&lit);
-            let light = match rows() {
-                Some(rows) => appearance.seen_light(rows, stretch, place),
-                None => appearance.seen_light([(self.row, 1.0)], stretch, place),
-            };
-            Swatch { form: ColorForm::Light(light), ..*rest }
+            Swatch { form: ColorForm::Light(appearance.seen_light(rows(), stretch)), ..*rest }
         } else {
             let has_own = mixed.is_some() && self.has_tints && stretch != 1.0;
             let rest_nm = if has_own { appearance.wavelength_nm(rest.tint) } else { self.wavelength_nm };
             appearance.seen(rest, rest_nm, stretch)
         };
-        if SPECTRAL && self.is_lit_by_spectra {
-            return (color, DVec3::ONE);
-        }
         let color = painter.lit_as_written(color);
         if let Some(level) = self.level {
             return (color, level);
@@ -315,6 +276,33 @@ impl Look {
         let sum: f64 = weights.iter().sum();
         (triangle, weights.map(|weight| weight / sum))
     }
+}
+
+/// A colour as seen under coloured lamps. `lit`: see [`Look::shaded`].
+#[inline(never)] // Keeps the code of other faces small.
+fn lit_by_color(
+    painter: &Painter<'_>,
+    color: SurfaceColor,
+    stretch: f64,
+    [point, normal, shift]: [DVec3; 3],
+) -> Swatch {
+    let Some(lamps) = painter.lighting.colored_lamps() else { return color.swatch };
+    let light = Lighting::irradiances(lamps, point, normal, shift);
+    painter.appearance.seen_lit(&color, stretch, &light, lamps)
+}
+
+/// A colour as seen with its level of light, and with light of the colour that the face emits.
+#[inline(never)] // Keeps the code of other faces small.
+pub fn with_emitted(
+    painter: &Painter<'_>,
+    (seen, level): (Swatch, DVec3),
+    stretch: f64,
+    emitted: &SurfaceColor,
+) -> (Swatch, DVec3) {
+    let appearance = painter.appearance;
+    let emitted = appearance.light(emitted, 1.0 / stretch, Illumination::Level(1.0), &[]);
+    let form = ColorForm::Light(appearance.drawn_light(&seen, level) + emitted);
+    (Swatch { form, ..seen }, DVec3::ONE)
 }
 
 /// The changes of the weights of corners from a ray in the middle of samples to the next ones.

@@ -7,13 +7,10 @@
 //! 1. [`look`]: colour and light at a point of a face at rest, for visible points alone;
 //! 2. [`faces`]: all faces of a scene as a layer for the rasterizer: the nearest alone, or all as
 //!    transparent fragments;
-//! 3. [`moving`]: faces of bodies that accelerate or turn, within this layer;
-//! 4. [`wires`]: lines as polylines fine enough for the picture.
+//! 3. [`moving`]: faces of bodies that accelerate or turn, within this layer.
 
 mod faces;
 mod look;
 mod moving;
-mod wires;
 
 pub use faces::Faces;
-pub use wires::CurvedLines;

@@ -5,20 +5,20 @@ use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};
 
 use glam::DVec3;
-use uglight::Swatch;
-use ugphysics::RestFrame;
-use ugpicture::rays::{Faces, Intersection, PastRay, World, along};
-use ugpicture::textures::SurfaceElementPlane;
+use uglight::{FaceColors, Swatch};
+use ugpicture::rays::{Faces, Intersection, PastRay, World};
+use ugpicture::{SurfacePoint, Surfaces};
 use ugraster::Bounds;
-use ugscene::{Face, VertexId, shading_normal};
+use ugscene::{Face, VertexId};
 
-use super::look::{Look, mean};
+use super::look::{Look, with_emitted};
 use crate::painter::Painter;
 
 /// The faces of a scene that are round or on world lines.
 pub struct MovingFaces<'a> {
     painter: Painter<'a>,
     world: World,
+    face_colors: Vec<FaceColors>,
     /// By row of the face.
     looks: BTreeMap<u32, Look>,
 }
@@ -43,7 +43,7 @@ impl<'a> MovingFaces<'a> {
             planes.to_vec(),
             is_traced,
         );
-        Some(Self { painter, world, looks })
+        Some(Self { painter, world, face_colors: painter.appearance.all_face_colors(scene), looks })
     }
 
     /// The number of faces in the picture.
@@ -96,64 +96,21 @@ impl<'a> MovingFaces<'a> {
         found: &Intersection,
         [x, y]: [f64; 2],
     ) -> (Swatch, DVec3) {
-        let Painter { scene, appearance, .. } = self.painter;
-        let face = found.triangle.face;
-        let Some(line) = appearance.surface.frames().world_line(scene.faces[face as usize].body) else {
-            return self.round_shaded::<SPECTRAL>(ray, found);
-        };
-        let (corners, weights, own_time) = (found.triangle.corners, found.weights(), found.own_time);
-        let place = mean(weights, corners.map(|corner| appearance.surface.rest(corner)));
-        let element = line.element(place, own_time);
-        let frame = RestFrame::new(element.velocity);
-        let stretch = frame.wave_to_rest(ray.wave).frequency;
-        let look = &self.looks[&face];
-        let outside = self.world.outside[face as usize];
-        let steps = || {
-            let plane = SurfaceElementPlane {
-                frame: &frame,
-                normal: element.normal(outside),
-                event: along(ray.origin, ray.step, found.s),
-                places: corners.map(|corner| appearance.surface.rest(corner)),
-            };
-            // Exact unless the body spins.
-            let to_body =
-                |step: DVec3| DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)));
-            plane.steps([self.ray([x + 1.0, y]), self.ray([x, y + 1.0])], to_body)
-        };
-        let color = scene.faces[face as usize].color;
-        let texel = self.painter.textures.texel(scene, color, (corners, weights), steps);
-        let color = match texel {
-            Some(texel) => appearance.texel(texel.light, texel.translucency, true),
-            None => appearance.color_at(&look.colors, corners, weights),
-        };
-        let color = (Some(color.swatch), || Some(color.rows));
+        let Painter { scene, appearance, textures, .. } = self.painter;
+        let Self { world, face_colors, .. } = self;
+        let surfaces = Surfaces { scene, world, appearance, face_colors, textures };
+        let neighbours = || Some([self.ray([x + 1.0, y]), self.ray([x, y + 1.0])]);
+        let point = SurfacePoint::new(&surfaces, ray, found, neighbours);
+        let (look, stretch) = (&self.looks[&point.face], point.wave.frequency);
+        let color = (Some(point.color.swatch), || Some(point.color.rows));
         let seen = look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
-            let step = frame.rest_from_camera(ray.step).x;
-            let seen = if element.normal(outside).dot(step) <= 0.0 { outside } else { -outside };
-            let own = corners.map(|corner| shading_normal(scene.vertices[corner.index()].normal, seen));
-            let normal = if own == [seen; 3] { seen } else { mean(weights, own).normalize_or_zero() };
-            // It is lit as it stands in the scene if it only turned.
-            let (place, turn) = line.standing(place, own_time);
-            [place, turn * normal, DVec3::ZERO]
+            let frames = appearance.surface.frames();
+            let lit = point.lit(scene).standing(frames);
+            [lit.point, lit.normal, frames.lamp_shift(lit.body)]
         });
-        look.with_emitted(&self.painter, seen, (stretch, true), Some((corners, weights)), steps)
-    }
-
-    /// The same on a round face of an inertial body.
-    fn round_shaded<const SPECTRAL: bool>(&self, ray: &PastRay, found: &Intersection) -> (Swatch, DVec3) {
-        let face = found.triangle.face;
-        let frame = &self.world.parts[found.part].frame;
-        let at = ray.in_part(found.part, frame);
-        let Some((place, outside)) = self.world.parts[found.part].round_surface(found, at) else {
-            return (Swatch::WHITE, DVec3::ZERO);
-        };
-        let stretch = frame.wave_to_rest(ray.wave).frequency;
-        let look = &self.looks[&face];
-        let seen = look.shaded::<SPECTRAL>(&self.painter, (None, || None), stretch, || {
-            let seen = if outside.dot(at.1) <= 0.0 { outside } else { -outside };
-            let body = self.painter.scene.faces[face as usize].body;
-            [place, seen, self.painter.appearance.surface.frames().lamp_shift(body)]
-        });
-        look.with_emitted(&self.painter, seen, (stretch, stretch != 1.0), None, || [[0.0; 2]; 2])
+        match &point.emitted {
+            Some(emitted) => with_emitted(&self.painter, seen, stretch, emitted),
+            None => seen,
+        }
     }
 }

@@ -4,12 +4,11 @@ mod text;
 
 use glam::DVec3;
 use serde::Serialize;
-use uglight::{Interpolation, Mixing, Swatch};
+use uglight::Swatch;
 use ugparse::{Diagnostics, Parsed, Source};
-use ugphysics::{doppler_at, srgb_decode, srgb_encode, wavelength_to_hue};
+use ugphysics::{doppler_at, srgb_decode, srgb_encode};
 use ugpicture::explain::{
-    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWavelength, PixelSteps, SampleColor,
-    covers, nearest,
+    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, PixelSteps, SampleColor, covers, nearest,
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
@@ -19,6 +18,7 @@ use ugskybox::SkyError;
 use crate::center_surface::{of_fragment, of_surface};
 use crate::config::Config;
 use crate::depth_cue::prepare;
+use crate::drawlist::FaceLook;
 use crate::error::Error;
 use crate::packing::Layout;
 use crate::pixels::{self, backdrop, mean};
@@ -264,18 +264,11 @@ impl Teller<'_> {
         let has_levels = self.setup.layout == Layout::Mixed { has_levels: true };
         let light_level = has_levels.then(|| [3, 4, 5].map(|i| f64::from(values[i])));
         let swatch = Swatch { tint, saturation, value, ..Swatch::WHITE };
-        let interpolation = self.setup.appearance.palette.interpolation;
-        let hue = match interpolation {
-            Interpolation::Hue => tint,
-            Interpolation::Wavelength => wavelength_to_hue(tint),
-        };
+        let palette = &self.setup.appearance.palette;
         let is_shifted = self.setup.scene().stage.seen_colors().is_some_and(|seen| seen.doppler);
-        let wavelength = (!swatch.is_grey()).then(|| {
-            let seen_nm = self.setup.appearance.palette.wavelength_nm(&swatch);
-            let rest_nm = if is_shifted { seen_nm * doppler } else { seen_nm };
-            HueWavelength::new(rest_nm, seen_nm, (interpolation == Interpolation::Hue).then_some(hue))
-        });
-        SampleColor::Hue { hue, saturation, value, light_level, wavelength }
+        let seen_nm = palette.wavelength_nm(&swatch);
+        let rest_nm = if is_shifted { seen_nm * doppler } else { seen_nm };
+        SampleColor::of_hue(palette.hsv(&swatch), palette.interpolation, [rest_nm, seen_nm], light_level)
     }
 
     /// False for faces that shine by themselves: with a light level of their own, and in spectra as
@@ -294,19 +287,15 @@ impl Teller<'_> {
         let scene = painter.scene;
         let vertices = |rows: &std::ops::Range<u32>| scene.contours.corners(rows.clone()).to_vec();
         if let Some(face) = scene.faces.get(item as usize) {
-            let normal = painter.seen_normal(face);
-            let colors = painter.appearance.face_colors(scene, face);
-            let is_light = colors.mixing == Mixing::Light;
+            let look = FaceLook::new(&painter, face);
             let corner = |vertex: VertexId| {
-                let swatch = painter.swatch(vertex, &colors);
-                let level = painter.level(face, vertex, normal, is_light);
                 let lights = if scene.light_level(face).is_some() {
                     Vec::new()
                 } else {
-                    let [point, normal, shift] = painter.lit_point(face, vertex, normal);
-                    painter.lighting.parts(scene, point, normal, shift, is_light)
+                    let [point, normal, shift] = painter.lit_point(face, vertex, look.normal);
+                    painter.lighting.parts(scene, point, normal, shift, look.is_light())
                 };
-                self.corner(vertex, &swatch, level, lights)
+                self.corner(vertex, &look.swatch(vertex), look.level(vertex), lights)
             };
             return vertices(&face.contours).into_iter().map(corner).collect();
         }

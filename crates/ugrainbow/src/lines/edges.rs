@@ -2,64 +2,36 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugpicture::spots;
-use ugscene::{BodyId, Face, VertexId, face_edges, unit_normal};
+use ugpicture::{FaceEdge, Fold, shared_edges, spots};
+use ugscene::{Face, VertexId, unit_normal};
 
 use crate::config::EdgeKind;
 use crate::painter::Painter;
 
-/// Cosine of the greatest angle between the planes of faces that count as coplanar; its sine is
-/// 0.01.
-const FLAT: f64 = 0.999_95;
-
-/// An edge of a face.
+/// An edge that is drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct Edge {
     /// From where to where.
     pub ends: [VertexId; 2],
     /// Row of the face, or of the first of several.
     pub face: u32,
-    /// Its ends, the same for all vertices at one place, in ascending order.
+    /// Its ends, the same for all vertices at one place.
     pub places: [usize; 2],
     /// On which side of a silhouette, seen from its first end to the other, the body is not: 1 if
     /// on the right, −1 on the left, 0 for other edges.
     pub outward: f64,
-    body: BodyId,
-    /// The face has its ends in this order, too.
-    is_forward: bool,
 }
 
 /// The edges of all faces that are of this kind, each once. Edges at the same place of a body at
 /// rest are one, also of faces without common vertices.
 pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
-    let scene = painter.scene;
     let places = places(painter.appearance.surface.all_rest());
-    let of_face = |(row, face): (usize, &Face)| {
-        let edge = |ends: [VertexId; 2]| {
-            let [a, b] = ends.map(|end| places[end.index()]);
-            let is_forward = a < b;
-            let (ends, places) = if is_forward { (ends, [a, b]) } else { ([ends[1], ends[0]], [b, a]) };
-            // The text of a scene is below 4 GiB, so row numbers fit.
-            Edge { ends, face: row as u32, places, outward: 0.0, body: face.body, is_forward }
-        };
-        let edges = face_edges(scene, face).map(edge);
-        edges.filter(|edge| edge.places[0] != edge.places[1]).collect::<Vec<_>>()
+    let drawn = |edges: &[&FaceEdge]| {
+        let outward = if let &[one, other] = edges { outward(painter, [one, other], kind)? } else { 0.0 };
+        let &FaceEdge { ends, face, places, .. } = edges[0];
+        Some(Edge { ends, face, places, outward })
     };
-    let mut edges: Vec<Edge> = scene.faces.par_iter().enumerate().flat_map_iter(of_face).collect();
-    edges.par_sort_unstable_by_key(|edge| (edge.places, edge.body, edge.face, edge.is_forward));
-    let is_one = |one: &Edge, other: &Edge| (one.places, one.body) == (other.places, other.body);
-    let shared: Vec<&[Edge]> = edges.chunk_by(is_one).collect();
-    let drawn = |shared: &[Edge]| {
-        // A sliver between vertices at one place runs there and back.
-        let of_faces = shared.chunk_by(|one, other| one.face == other.face);
-        let of_faces: Vec<&Edge> = of_faces.filter(|same| same.len() == 1).flatten().collect();
-        match of_faces[..] {
-            [] => None,
-            [one, other] => between(painter, [one, other], kind),
-            [first, ..] => Some(*first),
-        }
-    };
-    shared.into_par_iter().filter_map(drawn).collect()
+    shared_edges(painter.scene, &places, |_| true, drawn)
 }
 
 /// For each vertex the row of one at its place. Turned copies of a part meet only up to the digits
@@ -72,22 +44,16 @@ fn places(rest: &[DVec3]) -> Vec<usize> {
     spots(rest, SAME * (high - low).max_element())
 }
 
-/// The edge between two faces, if it is drawn.
-fn between(painter: &Painter<'_>, edges: [&Edge; 2], kind: EdgeKind) -> Option<Edge> {
+/// [`Edge::outward`] of the edge between two faces, if it is drawn.
+fn outward(painter: &Painter<'_>, edges: [&FaceEdge; 2], kind: EdgeKind) -> Option<f64> {
     let faces = edges.map(|edge| &painter.scene.faces[edge.face as usize]);
-    let [one, other] = faces.map(|face| normal(painter, face));
-    // A degenerate piece is coplanar with every face.
-    let cosine = one.zip(other).map_or(1.0, |(one, other)| one.dot(other));
-    // If both run along the edge alike, one of them is inside out, or lies in a hole of the other.
-    let is_alike = edges[0].is_forward == edges[1].is_forward;
-    let is_in_hole = is_alike && cosine > FLAT;
-    let cosine = if is_alike && !is_in_hole { -cosine } else { cosine };
+    let fold = Fold::new(edges, faces.map(|face| normal(painter, face)));
     let least_cosine = match kind {
-        EdgeKind::All => FLAT,
+        EdgeKind::All => Fold::FLAT,
         EdgeKind::Creases { angle } => libm::cos(angle),
         EdgeKind::Silhouette => f64::NEG_INFINITY,
     };
-    let has_silhouette = kind != EdgeKind::All && !is_in_hole;
+    let has_silhouette = kind != EdgeKind::All && !fold.is_in_hole;
     let [one, other] = edges.map(|edge| has_silhouette && is_on_left(painter, edge));
     let outward = match (has_silhouette && one == other, one) {
         (false, _) => 0.0,
@@ -95,11 +61,11 @@ fn between(painter: &Painter<'_>, edges: [&Edge; 2], kind: EdgeKind) -> Option<E
         (true, false) => -1.0,
     };
     let is_border = kind != EdgeKind::Silhouette && faces[0].color != faces[1].color;
-    (outward != 0.0 || is_border || cosine < least_cosine).then_some(Edge { outward, ..*edges[0] })
+    (outward != 0.0 || is_border || fold.cosine < least_cosine).then_some(outward)
 }
 
 /// True if the face of an edge is seen on its left, from the first end to the other.
-fn is_on_left(painter: &Painter<'_>, edge: &Edge) -> bool {
+fn is_on_left(painter: &Painter<'_>, edge: &FaceEdge) -> bool {
     is_turned_away(painter, &painter.scene.faces[edge.face as usize]) != edge.is_forward
 }
 

@@ -1,40 +1,29 @@
 //! The visible parts of lines.
 
-use ugpicture::visible_parts;
-
 use crate::planar::{BoxIndex, Convex, DepthPoint, clipped_to_picture, convex_parts};
 
 /// Decides which parts of a line are visible.
 pub struct Visibility<'a> {
-    occlusion: Occlusion<'a>,
+    /// The parts of a segment, within a range of parameters, that nothing hides.
+    visible: &'a VisibleParts<'a>,
     /// The picture with a margin, beyond which lines are not drawn.
     picture: Option<Convex>,
 }
 
-enum Occlusion<'a> {
-    Polygons(Occluders),
-    Rays(&'a (dyn Fn(DepthPoint) -> bool + Sync)),
-}
+/// See [`Visibility`].
+pub type VisibleParts<'a> = dyn Fn([DepthPoint; 2], [f64; 2]) -> Vec<[f64; 2]> + Sync + 'a;
 
 impl<'a> Visibility<'a> {
-    /// Occlusion by polygons. `size`: of the picture, in samples; `margin`: half the width of
-    /// lines.
-    pub fn behind(occluders: Occluders, size: [u32; 2], margin: f64) -> Self {
-        Self { occlusion: Occlusion::Polygons(occluders), picture: picture(size, margin) }
-    }
-
-    /// Occlusion by rays. `is_hidden`: true if a point of the picture is occluded at a depth key.
-    pub fn by_rays(is_hidden: &'a (dyn Fn(DepthPoint) -> bool + Sync), size: [u32; 2], margin: f64) -> Self {
-        Self { occlusion: Occlusion::Rays(is_hidden), picture: picture(size, margin) }
+    /// `size`: of the picture, in samples; `margin`: half the width of lines.
+    pub fn new(visible: &'a VisibleParts<'a>, size: [u32; 2], margin: f64) -> Self {
+        let [low, right, bottom] = [-margin, f64::from(size[0]) + margin, f64::from(size[1]) + margin];
+        let corners = vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]];
+        Self { visible, picture: Convex::new(corners) }
     }
 
     /// The parts of the segment from `a` to `b` that are in the picture and not hidden.
     pub fn parts(&self, a: DepthPoint, b: DepthPoint) -> Vec<[f64; 2]> {
-        let Some(within) = self.within(a, b) else { return Vec::new() };
-        match &self.occlusion {
-            Occlusion::Polygons(occluders) => occluders.visible(a, b, within),
-            Occlusion::Rays(is_hidden) => visible_parts([a, b], within, is_hidden),
-        }
+        self.within(a, b).map_or_else(Vec::new, |within| (self.visible)([a, b], within))
     }
 
     /// The parts of the segment from `a` to `b` that are in the picture and hidden: between those
@@ -49,11 +38,6 @@ impl<'a> Visibility<'a> {
     fn within(&self, a: DepthPoint, b: DepthPoint) -> Option<[f64; 2]> {
         self.picture.as_ref()?.over(a, b)
     }
-}
-
-fn picture(size: [u32; 2], margin: f64) -> Option<Convex> {
-    let [low, right, bottom] = [-margin, f64::from(size[0]) + margin, f64::from(size[1]) + margin];
-    Convex::new(vec![[low, low, 0.0], [right, low, 0.0], [right, bottom, 0.0], [low, bottom, 0.0]])
 }
 
 fn along(a: DepthPoint, b: DepthPoint, part: f64) -> DepthPoint {
@@ -93,7 +77,7 @@ impl Occluders {
     }
 
     /// The parts of the segment from `a` to `b`, within `[start, end]`, that no face hides.
-    fn visible(&self, a: DepthPoint, b: DepthPoint, [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
+    pub fn visible(&self, [a, b]: [DepthPoint; 2], [start, end]: [f64; 2]) -> Vec<[f64; 2]> {
         let (from, to) = (along(a, b, start), along(a, b, end));
         let low = [0, 1].map(|axis| from[axis].min(to[axis]));
         let high = [0, 1].map(|axis| from[axis].max(to[axis]));

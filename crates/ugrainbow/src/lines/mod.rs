@@ -1,16 +1,18 @@
 //! Lines of the picture: wires, and edges of faces.
 //!
 //! 1. [`edges`]: which edges of faces are drawn;
-//! 2. here: lines with their colours, projected; curved under `-xc` ([`LineShape`]);
+//! 2. here: lines with their colours, projected; curved under `-xc` ([`curved`]);
 //! 3. [`hidden`]: their visible parts, computed and not sampled;
 //! 4. these parts as strips for the rasterizer, or unchanged for figures.
 //!
 //! Visibility is decided along the centre line alone. So a line has its full width everywhere, also
 //! along the edge of a face at a grazing angle, and on a silhouette.
 
+mod curved;
 mod edges;
 mod hidden;
 
+use curved::{curved, keeps_light};
 use edges::{Edge, chained, edges};
 use glam::DVec3;
 use rayon::prelude::*;
@@ -57,16 +59,6 @@ pub struct Line {
     outward: f64,
 }
 
-/// The apparent shape of lines that are straight at rest.
-pub trait LineShape: Sync {
-    /// A polyline that is straight in the picture between its joints.
-    fn joints(&self, line: &Line) -> Vec<Joint>;
-
-    /// False if colours on this body are Doppler shifted as hues, so that colours given as light
-    /// have to be converted to hues.
-    fn keeps_light(&self, body: BodyId) -> bool;
-}
-
 /// A corner of a polyline.
 #[derive(Clone, Copy, Debug)]
 pub struct Joint {
@@ -74,33 +66,6 @@ pub struct Joint {
     pub seen: DVec3,
     /// Its apparent colour.
     pub color: Swatch,
-}
-
-/// Lines that are drawn straight between the apparent positions of their vertices.
-pub struct StraightLines<'a> {
-    painter: Painter<'a>,
-}
-
-impl<'a> StraightLines<'a> {
-    /// The lines of a scene.
-    pub fn new(painter: Painter<'a>) -> Self {
-        Self { painter }
-    }
-}
-
-impl LineShape for StraightLines<'_> {
-    fn joints(&self, line: &Line) -> Vec<Joint> {
-        let Painter { scene, view, .. } = self.painter;
-        let joint = |idx: usize| {
-            let seen = scene.vertices[line.ends[idx].index()].position - view.eye;
-            Joint { seen, color: line.colors[idx] }
-        };
-        [0, 1].map(joint).to_vec()
-    }
-
-    fn keeps_light(&self, _: BodyId) -> bool {
-        true
-    }
 }
 
 /// A visible straight part of a line in the picture, in samples.
@@ -123,13 +88,15 @@ pub struct Stroke {
     from: f64,
 }
 
-/// Wires, and the edges that `wireframe` requests.
-pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn LineShape) -> Vec<Line> {
+/// Wires, and the edges that `wireframe` requests. `is_exact`: colours are shifted along them.
+pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, is_exact: bool) -> Vec<Line> {
     let n_faces = painter.scene.faces.len();
+    // Colours given as light on a body whose hues are shifted are drawn as hues.
+    let keeps_light = |body: BodyId| !is_exact || keeps_light(painter, body);
     let mut lines = Vec::new();
     for (row, wire) in painter.scene.wires.iter().enumerate() {
         // The text of a scene is below 4 GiB, so row numbers fit.
-        push_wire(painter, (n_faces + row) as u32, wire, shape, &mut lines);
+        push_wire(painter, (n_faces + row) as u32, wire, keeps_light(wire.body), &mut lines);
     }
     if let Some(wireframe) = wireframe {
         let edges = edges(painter, wireframe.edges);
@@ -139,14 +106,14 @@ pub fn lines(painter: &Painter<'_>, wireframe: Option<Wireframe>, shape: &dyn Li
         };
         lines.extend(edges.iter().map(|(edge, continues)| Line {
             continues: *continues,
-            ..edge_line(painter, edge, wireframe, shape)
+            ..edge_line(painter, edge, wireframe, &keeps_light)
         }));
     }
     lines
 }
 
-fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShape, lines: &mut Vec<Line>) {
-    let end = painter.wire_swatch(wire, shape.keeps_light(wire.body));
+fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, keeps_light: bool, lines: &mut Vec<Line>) {
+    let end = painter.wire_swatch(wire, keeps_light);
     for contour in painter.scene.wire_contours(wire) {
         for (row, ends) in contour.windows(2).enumerate() {
             let ends = [ends[0], ends[1]];
@@ -165,12 +132,17 @@ fn push_wire(painter: &Painter<'_>, item: u32, wire: &Wire, shape: &dyn LineShap
 }
 
 /// An edge as a line: unlit, in the colour of its face or of `wireframe`.
-fn edge_line(painter: &Painter<'_>, edge: &Edge, wireframe: Wireframe, shape: &dyn LineShape) -> Line {
+fn edge_line(
+    painter: &Painter<'_>,
+    edge: &Edge,
+    wireframe: Wireframe,
+    keeps_light: &impl Fn(BodyId) -> bool,
+) -> Line {
     let face = &painter.scene.faces[edge.face as usize];
     let colors = match wireframe.color {
         Some(color) => [plain(color); 2],
         None => {
-            let is_moving = !shape.keeps_light(face.body);
+            let is_moving = !keeps_light(face.body);
             let colors = painter.appearance.face_colors_in_motion(painter.scene, face, is_moving);
             edge.ends.map(|end| Swatch { translucency: 0.0, ..painter.appearance.swatch(end, &colors) })
         }
@@ -193,10 +165,16 @@ fn plain(color: Hsv) -> Swatch {
 }
 
 /// Straight pieces of lines in the picture, hidden or not, and how many were clipped.
-pub fn pieces(painter: &Painter<'_>, lines: &[Line], shape: &dyn LineShape) -> (Vec<Stroke>, ClipCounts) {
+/// `is_exact`: lines of moving bodies are seen as curves.
+pub fn pieces(painter: &Painter<'_>, lines: &[Line], is_exact: bool) -> (Vec<Stroke>, ClipCounts) {
+    let straight = |line: &Line| {
+        let seen = |end: VertexId| painter.scene.vertices[end.index()].position - painter.view.eye;
+        [0, 1].map(|end| Joint { seen: seen(line.ends[end]), color: line.colors[end] }).to_vec()
+    };
     let of = |line: &Line| {
         let joint = |joint: &Joint| vertex(painter.view.place(joint.seen), &joint.color);
-        let joints: Vec<_> = shape.joints(line).iter().map(joint).collect();
+        let joints = if is_exact { curved(painter, line) } else { straight(line) };
+        let joints: Vec<_> = joints.iter().map(joint).collect();
         let piece = |(row, ends): (usize, &[Vertex<TRANSPARENT_VALUES>])| {
             piece(painter, line, [ends[0], ends[1]], line.continues || row > 0)
         };

@@ -9,8 +9,7 @@ use std::collections::{HashMap, HashSet};
 use ugimage::figure::{Point, Rgb, SnappedEdge, edges, snapped};
 
 use super::transparency::PaintedArea;
-use crate::planar::BoxIndex;
-use crate::planar::{Convex, doubled_area};
+use crate::planar::{BoxIndex, Convex, doubled_area};
 
 /// Overlap in square pixels up to which areas count as disjoint.
 const LEAST_OVERLAP: f64 = 0.005;

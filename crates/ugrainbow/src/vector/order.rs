@@ -9,8 +9,7 @@
 use super::patch::Patch;
 use super::work::Work;
 use crate::error::Error;
-use crate::planar::BoxIndex;
-use crate::planar::{Convex, DepthOrder};
+use crate::planar::{BoxIndex, Convex, DepthOrder};
 
 /// Most work for the order, which took about five seconds.
 pub const MOST_WORK: u64 = 1 << 27;

@@ -104,7 +104,7 @@ fn bad_usage_ends_with_2() {
     check("-sz 0 8", "must be a whole number, 1 or more");
     check("-sz 8", "takes two values, not one");
     check("-fl gauss", "none of the filters box, triangle, spline");
-    let no_samples = "vector graphics (-vec) have no samples to filter: leave out -fl or -vec";
+    let no_samples = "vector graphics have no samples to filter: leave out -fl or -vec";
     check("-vec -dt pdf -fl spline", no_samples);
     check("-aa 17", "must be a whole number from 1 to 16");
     check("-aa 0", "must be a whole number from 1 to 16");

@@ -501,12 +501,17 @@ impl Scene {
         }
     }
 
-    /// The reflection properties of a face, if it has any.
-    pub fn surface(&self, face: &Face) -> Option<&SurfaceProperties> {
+    /// The surface of a face, if it has one.
+    pub fn surface_id(&self, face: &Face) -> Option<SurfaceId> {
         match self.shadings[face.shading?.index()] {
             Shading::Level(_) => None,
-            Shading::Surface(surface) => Some(&self.surfaces[surface.index()]),
+            Shading::Surface(surface) => Some(surface),
         }
+    }
+
+    /// The reflection properties of a face, if it has any.
+    pub fn surface(&self, face: &Face) -> Option<&SurfaceProperties> {
+        self.surface_id(face).map(|surface| &self.surfaces[surface.index()])
     }
 
     /// Adds a vertex.

@@ -28,26 +28,16 @@ impl Words for Error {
                      others one; a list of stars is added with --stars FILE"
                 );
             }
-            Self::Orthographic => {
-                "light from all directions meets at one point, so there is no -og: leave it out"
-            }
+            Self::Orthographic => "{}: leave out -og",
             Self::NamedCamera => {
                 "{}: leave out -cam and give -vc and -va, or name the scene of the camera with --scene"
             }
-            Self::OutlineOrGrid => "outline and grid (-dl, -gr) are for scenes: leave them out",
-            Self::Channels => {
-                "a sky has no time, distance, Z or id (-ch): the channels of a panorama are D, direction and velocity"
-            }
-            Self::Stars => {
-                "stars (--star-width, --white) are 0.5 to 50 pixels wide, and white has a magnitude from -60 to 60"
-            }
+            Self::OutlineOrGrid => "{}: leave out -dl and -gr",
+            Self::Channels => "{} (-ch)",
+            Self::Stars => "{} (--star-width, --white)",
             Self::Open(_) | Self::Basis(_) => "{}",
-            Self::CubeSize => {
-                "a cube map (-cube) is six squares side by side: give -sz W H with W = 6 H, such as -sz 3072 512"
-            }
-            Self::AnnotatedCube => {
-                "annotations (-cap, -lg) are for pictures of a single view: leave out -cube"
-            }
+            Self::CubeSize => "{}: give -sz W H with W = 6 H, such as -sz 3072 512",
+            Self::AnnotatedCube => "{}: leave out -cap and -lg, or -cube",
         };
         words.replacen("{}", &self.to_string(), 1)
     }

@@ -62,7 +62,7 @@ fn mistakes_have_answers() {
     let check = |args: &str, status: i32, expected: &str| UGWARP.refuses(args, sky(), status, expected);
     check("-vel 1 0 0", 2, "it must be below 1");
     check("-vel .1 0 0 -cv .1 0 0", 2, "-cv");
-    check("-og", 2, "there is no -og");
+    check("-og", 2, "leave out -og");
     check("-gr", 2, "are for scenes");
     check("-cube", 2, "give -sz W H with W = 6 H");
     check("-dt exr -ch time", 2, "the channels of a panorama are D, direction");
@@ -193,7 +193,7 @@ fn cameras_come_from_scenes() {
     ugwarp.refuses("-ti 2", sky(), 2, "--scene");
     ugwarp.refuses("-cam ahead", sky(), 2, "name the scene of the camera with --scene");
     ugwarp.refuses("--scene flight.ug --allow-outside -cam astern", sky(), 1, "astern");
-    ugwarp.refuses("--scene flight.ug --allow-outside -og", sky(), 2, "leave it out");
+    ugwarp.refuses("--scene flight.ug --allow-outside -og", sky(), 2, "leave out -og");
     ugwarp.refuses("--scene bare.ug", sky(), 1, "the scene has no camera: add a `cam` statement");
     ugwarp.refuses("--scene broken.ug", sky(), 1, "broken.ug:1");
 }

@@ -37,8 +37,8 @@ fn sizes_that_do_not_fit_are_refused() {
         "a picture of 4294967295 x 1 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 \
          along a side; give a smaller -sz",
     );
-    check([8, 8], 17, "17 x 17 samples a pixel cannot be taken; give -aa 1 to 16");
-    check([8, 8], 0, "0 x 0 samples a pixel cannot be taken; give -aa 1 to 16");
+    check([8, 8], 17, "17 x 17 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa");
+    check([8, 8], 0, "0 x 0 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa");
 }
 
 #[test]

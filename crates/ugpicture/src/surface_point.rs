@@ -1,14 +1,27 @@
 //! The point of a face that a ray meets: place, normals, colour, Doppler factor.
 
 use glam::DVec3;
-use uglight::{ScatteringTime, SurfaceColor, SurfaceElement};
-use ugphysics::{Event, RestFrame, WaveVector, WorldLine, unit_or_zero};
-use ugscene::{SurfaceId, VertexId};
+use uglight::{Appearance, FaceColors, ScatteringTime, SurfaceColor, SurfaceElement};
+use ugphysics::{ElementFrame, Event, RestFrame, WaveVector, WorldLine, unit_or_zero};
+use ugscene::{ColorId, Scene, SurfaceId, VertexId};
 
-use crate::scenery::Scenery;
-use ugpicture::rays::Intersection;
-use ugpicture::rays::{PastRay, Start, along};
-use ugpicture::textures::SurfaceElementPlane;
+use crate::rays::{Intersection, PastRay, Start, World, along};
+use crate::textures::{SurfaceElementPlane, Textures};
+
+/// The faces of a scene with all that decides how they look at rest.
+#[derive(Clone, Copy)]
+pub struct Surfaces<'a> {
+    /// The scene, each of whose vertices is part of one body.
+    pub scene: &'a Scene,
+    /// Its faces, by rest frame.
+    pub world: &'a World,
+    /// Its colours.
+    pub appearance: &'a Appearance,
+    /// What the colours of the corners of each face have in common.
+    pub face_colors: &'a [FaceColors],
+    /// The pictures that colours of faces are.
+    pub textures: &'a Textures,
+}
 
 /// A point of a face that a ray sees, in the rest frame of the face and the axes of the scene; on a
 /// world line, in the rest frame of the surface element and the axes of a single boost.
@@ -23,7 +36,7 @@ pub struct SurfacePoint {
     /// Place, relative to the eye; on a world line, in the coordinates of the body.
     pub place: DVec3,
     /// The surface element of a body on a world line. Boxed, since points are moved often.
-    pub element: Option<Box<Element>>,
+    pub element: Option<Box<WorldLineElement>>,
     /// How much later the light leaves than where the eye sees the place directly; see
     /// [`SurfaceElement::delay`](uglight::SurfaceElement::delay).
     pub delay: f64,
@@ -45,7 +58,7 @@ pub struct SurfacePoint {
 
 /// A surface element of a body on a world line.
 #[derive(Clone, Copy, Debug)]
-pub struct Element {
+pub struct WorldLineElement {
     /// The rest frame of the element, with the axes of a single boost.
     pub frame: RestFrame,
     /// The own time of the body.
@@ -55,29 +68,34 @@ pub struct Element {
 }
 
 impl SurfacePoint {
-    /// Where a ray meets a face. `neighbours`: of the ray, for the footprints of textures.
+    /// Where a ray meets a face. `neighbours`: of the ray across and down, for the footprints of
+    /// textures.
     pub fn new(
-        scenery: &Scenery<'_>,
+        surfaces: &Surfaces<'_>,
         ray: &PastRay,
         found: &Intersection,
-        neighbours: Option<&Neighbours>,
+        neighbours: impl Fn() -> Option<[PastRay; 2]>,
     ) -> Self {
-        let part = &scenery.world.parts[found.part];
+        let part = &surfaces.world.parts[found.part];
         if let Some(motion) = &part.motion {
-            return Self::on_line(scenery, (ray, neighbours), found, &motion.line);
+            return Self::on_line(surfaces, ray, found, &motion.line, neighbours);
         }
-        let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
+        let places = surfaces.places(found);
         let wave = part.frame.wave_to_rest(ray.wave);
         let (origin, step) = ray.in_part(found.part, &part.frame);
         let round = part.round_surface(found, (origin, step));
-        let (place, outside) = round.unwrap_or_else(|| {
-            (mean(places, found.weights()), scenery.world.outside[found.triangle.face as usize])
-        });
+        let (place, outside) =
+            round.unwrap_or_else(|| (mean(places, found.weights()), surfaces.outside(found)));
         let is_outside = outside.dot(step) <= 0.0;
         let plane_normal = if is_outside { outside } else { -outside };
         let (normal, lift) = match round {
             Some(_) => (plane_normal, DVec3::ZERO),
-            None => smooth(scenery, (found.triangle.corners, found.weights()), (places, place), plane_normal),
+            None => smooth(
+                surfaces.scene,
+                (found.triangle.corners, found.weights()),
+                (places, place),
+                plane_normal,
+            ),
         };
         let event = along(ray.origin, ray.step, found.s);
         let delay = match ray.start {
@@ -87,14 +105,8 @@ impl SurfacePoint {
         let is_moving = !part.frame.velocity().is_zero();
         let own_time = || delay - ugphysics::length(place);
         let plane = SurfaceElementPlane { frame: &part.frame, normal: plane_normal, event, places };
-        let steps = |neighbours| plane.steps(neighbours, |step| step);
-        let emitted = emitted(scenery, found, (is_moving, own_time), neighbours, steps);
-        let color = if scenery.textures.is_empty() {
-            color(scenery, found, is_moving, own_time)
-        } else {
-            textured(scenery, found, is_moving, neighbours, steps)
-                .unwrap_or_else(|| color(scenery, found, is_moving, own_time))
-        };
+        let steps = || neighbours().map_or([[0.0; 2]; 2], |rays| plane.steps(rays, |step| step));
+        let (color, emitted) = surfaces.colors(found, is_moving, own_time, steps);
         Self {
             part: found.part,
             face: found.triangle.face,
@@ -115,24 +127,25 @@ impl SurfacePoint {
     /// Where a ray meets a face of a body on a world line.
     #[inline(never)] // Keeps `new` small, which is called for every ray.
     fn on_line(
-        scenery: &Scenery<'_>,
-        (ray, neighbours): (&PastRay, Option<&Neighbours>),
+        surfaces: &Surfaces<'_>,
+        ray: &PastRay,
         found: &Intersection,
         line: &WorldLine,
+        neighbours: impl Fn() -> Option<[PastRay; 2]>,
     ) -> Self {
-        let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
+        let places = surfaces.places(found);
         let place = mean(places, found.weights());
         let own_time = found.own_time;
         let element = line.element(place, own_time);
         let frame = RestFrame::new(element.velocity);
-        let outside = scenery.world.outside[found.triangle.face as usize];
+        let outside = surfaces.outside(found);
         let step = frame.rest_from_camera(ray.step).x;
         let outside_in_frame = element.normal(outside);
         let is_outside = outside_in_frame.dot(step) <= 0.0;
         let side = if is_outside { 1.0 } else { -1.0 };
         let (plane, plane_normal) = (side * outside, side * outside_in_frame);
         let (body_normal, body_lift) =
-            smooth(scenery, (found.triangle.corners, found.weights()), (places, place), plane);
+            smooth(surfaces.scene, (found.triangle.corners, found.weights()), (places, place), plane);
         let lift = if body_lift == DVec3::ZERO {
             DVec3::ZERO
         } else {
@@ -140,34 +153,37 @@ impl SurfacePoint {
         };
         let event = along(ray.origin, ray.step, found.s);
         let triangle = SurfaceElementPlane { frame: &frame, normal: plane_normal, event, places };
-        let steps = |neighbours| triangle.steps(neighbours, |step| to_body(&element, step));
-        let textured = textured(scenery, found, true, neighbours, steps);
+        let steps = || {
+            neighbours().map_or([[0.0; 2]; 2], |rays| triangle.steps(rays, |step| to_body(&element, step)))
+        };
+        let (color, emitted) = surfaces.colors(found, true, || own_time, steps);
         Self {
             part: found.part,
             face: found.triangle.face,
             event,
             place,
-            element: Some(Box::new(Element { frame, own_time, body_normal })),
+            element: Some(Box::new(WorldLineElement { frame, own_time, body_normal })),
             delay: 0.0,
             lift: if lift.is_finite() { lift } else { DVec3::ZERO },
             plane_normal,
             normal: if body_normal == plane { plane_normal } else { element.normal(body_normal) },
             is_outside,
             wave: frame.wave_to_rest(ray.wave),
-            color: textured.unwrap_or_else(|| color(scenery, found, true, || own_time)),
-            emitted: emitted(scenery, found, (true, || own_time), neighbours, steps),
+            color,
+            emitted,
         }
     }
 
     /// Where a neighbour of the ray meets the surface: the event, the place, and the normal there.
     pub fn beside(
         &self,
-        scenery: &Scenery<'_>,
+        surfaces: &Surfaces<'_>,
         found: &Intersection,
         ray: &PastRay,
     ) -> (Event, DVec3, DVec3) {
-        let places = found.triangle.corners.map(|corner| scenery.appearance.surface.rest(corner));
-        let (frame, normal) = (self.frame(scenery), self.plane_normal);
+        let Surfaces { scene, world, .. } = surfaces;
+        let places = surfaces.places(found);
+        let (frame, normal) = (self.frame(world), self.plane_normal);
         let plane = SurfaceElementPlane { frame, normal, event: self.event, places };
         let (s, step) = plane.met(ray);
         let smooth = |step: DVec3, normal: DVec3| {
@@ -175,44 +191,42 @@ impl SurfacePoint {
             let [across, down] = plane.weights(step);
             let (second, third) = (second + across, third + down);
             let weights = [1.0 - second - third, second, third];
-            smooth(scenery, (found.triangle.corners, weights), (places, self.place + step), normal).0
+            smooth(scene, (found.triangle.corners, weights), (places, self.place + step), normal).0
         };
         let side = if self.is_outside { 1.0 } else { -1.0 };
-        let (place, normal) = if let Some((line, own_time)) = self.world_line(scenery) {
+        let (place, normal) = if let Some((line, own_time)) = self.world_line(world) {
             let element = line.element(self.place, own_time);
             let step = to_body(&element, step);
-            let outside = scenery.world.outside[self.face as usize];
-            (self.place + step, element.normal(smooth(step, side * outside)))
+            (self.place + step, element.normal(smooth(step, side * surfaces.outside(found))))
         } else {
             let place = self.place + step;
-            let round = scenery.world.parts[self.part].round_surface(found, (place, DVec3::ZERO));
+            let round = world.parts[self.part].round_surface(found, (place, DVec3::ZERO));
             (place, round.map_or_else(|| smooth(step, normal), |(_, outside)| side * outside))
         };
         (along(ray.origin, ray.step, s), place, normal)
     }
 
     /// The rest frame of the surface.
-    pub fn frame<'s>(&'s self, scenery: &'s Scenery<'_>) -> &'s RestFrame {
+    pub fn frame<'s>(&'s self, world: &'s World) -> &'s RestFrame {
         match &self.element {
             Some(element) => &element.frame,
-            None => &scenery.world.parts[self.part].frame,
+            None => &world.parts[self.part].frame,
         }
     }
 
     /// The world line of the body, and its own time here; `None` for an inertial body.
-    pub fn world_line<'s>(&self, scenery: &'s Scenery<'_>) -> Option<(&'s WorldLine, f64)> {
+    pub fn world_line<'s>(&self, world: &'s World) -> Option<(&'s WorldLine, f64)> {
         let own_time = self.element.as_ref()?.own_time;
-        Some((&scenery.world.parts[self.part].motion.as_ref()?.line, own_time))
+        Some((&world.parts[self.part].motion.as_ref()?.line, own_time))
     }
 
     /// The surface as lamps light it.
-    pub fn lit(&self, scenery: &Scenery<'_>) -> SurfaceElement {
+    pub fn lit(&self, scene: &Scene) -> SurfaceElement {
         let (time, normal) = match &self.element {
             Some(element) => (ScatteringTime::Own(element.own_time), element.body_normal),
             None => (ScatteringTime::Delay(self.delay), self.normal),
         };
-        let body = scenery.scene.faces[self.face as usize].body;
-        SurfaceElement { point: self.place, time, normal, body }
+        SurfaceElement { point: self.place, time, normal, body: scene.faces[self.face as usize].body }
     }
 
     /// D, from here to the eye: the product over all changes of frame along the path. Light of a
@@ -228,115 +242,54 @@ impl SurfacePoint {
     }
 
     /// The surface of the face, if it has one.
-    pub fn surface(&self, scenery: &Scenery<'_>) -> Option<SurfaceId> {
-        match scenery.scene.shadings[scenery.scene.faces[self.face as usize].shading?.index()] {
-            ugscene::Shading::Surface(surface) => Some(surface),
-            ugscene::Shading::Level(_) => None,
-        }
+    pub fn surface(&self, scene: &Scene) -> Option<SurfaceId> {
+        scene.surface_id(&scene.faces[self.face as usize])
     }
 }
 
-/// The neighbours across and down of a ray, which show how large a sample is on a surface.
-#[derive(Clone, Debug)]
-pub enum Neighbours {
-    /// Those of a ray from the eye.
-    OfSample(PictureSample),
-    /// Those of a ray that was mirrored or refracted.
-    Bent(Box<[PastRay; 2]>),
-}
-
-impl Neighbours {
-    /// Their rays. A lens may show nothing at one; then it is on the other side.
-    pub fn rays(&self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
-        match self {
-            Self::OfSample(sample) => sample.neighbours(scenery),
-            Self::Bent(rays) => Some(**rays),
-        }
+impl Surfaces<'_> {
+    /// The corners of a triangle at rest.
+    fn places(&self, found: &Intersection) -> [DVec3; 3] {
+        found.triangle.corners.map(|corner| self.appearance.surface.rest(corner))
     }
-}
 
-/// A sample of the picture.
-#[derive(Clone, Copy, Debug)]
-pub struct PictureSample {
-    /// Its column and row.
-    pub place: [u32; 2],
-    /// How far it is from its neighbours, in samples.
-    pub distance: u32,
-}
+    /// The unit normal of a face on its outside.
+    fn outside(&self, found: &Intersection) -> DVec3 {
+        self.world.outside[found.triangle.face as usize]
+    }
 
-impl PictureSample {
-    fn neighbours(self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
-        let [column, row] = self.place.map(|at| f64::from(at) + 0.5);
-        let steps = scenery.film.steps_in_frame(self.place, self.distance);
-        let ray = |across: f64, down: f64| {
-            let through = |sign: f64| scenery.ray_through([column + sign * across, row + sign * down]);
-            through(1.0).or_else(|| through(-1.0))
+    /// The colour at rest where a ray meets a face, and the one that it emits. `own_time`: of the
+    /// body there; `steps`: of the weights of a sample, for textures.
+    #[inline]
+    fn colors(
+        &self,
+        found: &Intersection,
+        is_moving: bool,
+        own_time: impl Fn() -> f64,
+        steps: impl Fn() -> [[f64; 2]; 2],
+    ) -> (SurfaceColor, Option<Box<SurfaceColor>>) {
+        let Self { scene, appearance, textures, .. } = self;
+        let (corners, weights) = (found.triangle.corners, found.weights());
+        let color = scene.faces[found.triangle.face as usize].color;
+        let of_corners = || {
+            let colors = &self.face_colors[found.triangle.face as usize];
+            appearance.color_at(colors, corners, weights)
         };
-        Some([ray(steps[0], 0.0)?, ray(0.0, steps[1])?])
+        // As in most scenes.
+        if textures.is_empty() && scene.emissions.is_empty() && scene.color_tables.is_empty() {
+            return (of_corners(), None);
+        }
+        let now = |color: Option<ColorId>| appearance.color_at_time(scene, color?, own_time(), is_moving);
+        let at = Some((corners, weights));
+        let [texel, emitted] = textures.colors((scene, appearance), color, at, is_moving, steps);
+        let emitted = emitted.map(|it| now(color.and_then(|color| scene.emitted_by(color))).unwrap_or(it));
+        (texel.or_else(|| now(color)).unwrap_or_else(of_corners), emitted.map(Box::new))
     }
-}
-
-/// The colour at rest where a ray meets a face with a texture. `steps`: of the weights of a sample.
-#[inline]
-fn textured(
-    scenery: &Scenery<'_>,
-    found: &Intersection,
-    is_moving: bool,
-    neighbours: Option<&Neighbours>,
-    steps: impl FnOnce([PastRay; 2]) -> [[f64; 2]; 2],
-) -> Option<SurfaceColor> {
-    let color = scenery.scene.faces[found.triangle.face as usize].color;
-    let neighbours = || neighbours.and_then(|neighbours| neighbours.rays(scenery));
-    let steps = || neighbours().map_or([[0.0; 2]; 2], steps);
-    let texel =
-        scenery.textures.texel(&scenery.scene, color, (found.triangle.corners, found.weights()), steps)?;
-    Some(scenery.appearance.texel(texel.light, texel.translucency, is_moving))
-}
-
-/// The colour at rest that a face emits where a ray meets it; see [`textured`] and [`color`].
-#[inline]
-fn emitted(
-    scenery: &Scenery<'_>,
-    found: &Intersection,
-    (is_moving, own_time): (bool, impl Fn() -> f64),
-    neighbours: Option<&Neighbours>,
-    steps: impl FnOnce([PastRay; 2]) -> [[f64; 2]; 2],
-) -> Option<Box<SurfaceColor>> {
-    let Scenery { scene, appearance, textures, .. } = scenery;
-    if scene.emissions.is_empty() {
-        return None;
-    }
-    let color = scene.faces[found.triangle.face as usize].color;
-    let steps = || neighbours.and_then(|near| near.rays(scenery)).map_or([[0.0; 2]; 2], steps);
-    let at = Some((found.triangle.corners, found.weights()));
-    let (color, texel) = textures.emitted(scene, color, at, steps)?;
-    let now = appearance.color_at_time(scene, color, own_time(), is_moving);
-    Some(Box::new(now.unwrap_or_else(|| appearance.emitted(color, texel.map(|it| it.light), is_moving))))
-}
-
-/// The colour at rest where a ray meets a face. `own_time`: of the body there.
-#[inline]
-fn color(
-    scenery: &Scenery<'_>,
-    found: &Intersection,
-    is_moving: bool,
-    own_time: impl Fn() -> f64,
-) -> SurfaceColor {
-    let (scene, appearance) = (&scenery.scene, &scenery.appearance);
-    let face = &scene.faces[found.triangle.face as usize];
-    if !scene.color_tables.is_empty()
-        && let Some(color) = face.color
-        && let Some(now) = appearance.color_at_time(scene, color, own_time(), is_moving)
-    {
-        return now;
-    }
-    let colors = &scenery.face_colors[found.triangle.face as usize];
-    appearance.color_at(colors, found.triangle.corners, found.weights())
 }
 
 /// A step in the coordinates of the body: its axes in the frame of the element, as normals turn,
 /// exact unless the body spins.
-fn to_body(element: &ugphysics::ElementFrame, step: DVec3) -> DVec3 {
+fn to_body(element: &ElementFrame, step: DVec3) -> DVec3 {
     DVec3::from_array(DVec3::AXES.map(|axis| element.normal(axis).dot(step)))
 }
 
@@ -349,12 +302,12 @@ fn mean(values: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 /// planes of the corners, where these are above the face (Hanika 2021).
 #[inline(always)] // Most faces are plane.
 fn smooth(
-    scenery: &Scenery<'_>,
+    scene: &Scene,
     (vertices, weights): ([VertexId; 3], [f64; 3]),
     (corners, place): ([DVec3; 3], DVec3),
     plane: DVec3,
 ) -> (DVec3, DVec3) {
-    let own = vertices.map(|corner| scenery.scene.vertices[corner.index()].normal);
+    let own = vertices.map(|corner| scene.vertices[corner.index()].normal);
     if own == [None; 3] {
         return (plane, DVec3::ZERO);
     }

@@ -1,14 +1,11 @@
 //! Lines of moving bodies, which are seen as curves.
 
-use std::sync::Arc;
-
 use glam::DVec3;
 use uglight::{ColorForm, Swatch};
-use ugphysics::{Event, WorldLine, doppler_at};
-use ugpicture::outlines::PictureRays;
-use ugscene::{BodyId, CameraPoint};
+use ugphysics::{WorldLineError, doppler_at};
+use ugscene::{BodyId, CameraPoint, RelativeMotion};
 
-use crate::lines::{Joint, Line, LineShape};
+use super::{Joint, Line};
 use crate::painter::Painter;
 
 /// Greatest distance of a piece from the curve, in samples.
@@ -23,74 +20,59 @@ const MOST_CHANGE: f64 = 2e-3;
 /// How often a line is halved at most.
 const MOST_HALVINGS: u32 = 12;
 
-/// Approximates lines by polylines. Their pieces are nearly straight in the picture and have nearly
-/// one Doppler factor.
-pub struct CurvedLines<'a> {
-    painter: Painter<'a>,
-    frames: Vec<PictureRays>,
+/// A line as a polyline, whose pieces are nearly straight in the picture and have nearly one
+/// Doppler factor.
+pub fn curved(painter: &Painter<'_>, line: &Line) -> Vec<Joint> {
+    let surface = &painter.appearance.surface;
+    let motion = surface.frames().motion(line.body);
+    let rest = line.ends.map(|end| match motion.world_line() {
+        Some(_) => surface.rest(end),
+        None => motion.turned(surface.rest(end)),
+    });
+    let curve = Curve { painter, line, motion, rest };
+    let mut joints = vec![curve.joint(0.0)];
+    curve.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
+    joints
 }
 
-impl<'a> CurvedLines<'a> {
-    /// The lines of a scene.
-    pub fn new(painter: Painter<'a>) -> Self {
-        let frames = painter.appearance.surface.frames();
-        Self { painter, frames: PictureRays::all(frames, painter.view, painter.scene) }
-    }
-}
-
-impl LineShape for CurvedLines<'_> {
-    fn joints(&self, line: &Line) -> Vec<Joint> {
-        let painter = &self.painter;
-        let surface = &painter.appearance.surface;
-        let (frame, world_line) = (&self.frames[line.body.index()], surface.frames().world_line(line.body));
-        let rest = line.ends.map(|end| match world_line {
-            Some(_) => surface.rest(end),
-            None => frame.aligned_from_scene(surface.rest(end)),
-        });
-        let curve = Curve { frame, world_line, painter, rest, colors: line.colors, rows: line.rows };
-        let mut joints = vec![curve.joint(0.0)];
-        curve.add([0.0, 1.0], MOST_HALVINGS, &mut joints);
-        joints
-    }
-
-    fn keeps_light(&self, body: BodyId) -> bool {
-        let appearance = self.painter.appearance;
-        let is_on_line = appearance.surface.frames().world_line(body).is_some();
-        appearance.keeps_light() || !is_on_line && self.frames[body.index()].velocity.is_zero()
-    }
+/// False if colours on this body are Doppler shifted as hues, so that colours given as light have
+/// to be converted to hues.
+pub fn keeps_light(painter: &Painter<'_>, body: BodyId) -> bool {
+    painter.appearance.keeps_light() || !painter.appearance.surface.frames().is_moving(body)
 }
 
 struct Curve<'a> {
-    frame: &'a PictureRays,
-    /// Of a body that accelerates or turns.
-    world_line: Option<&'a Arc<WorldLine>>,
     painter: &'a Painter<'a>,
-    /// The ends at rest, in the axes of the frame; on a world line, in the coordinates of the body.
+    line: &'a Line,
+    motion: &'a RelativeMotion,
+    /// The ends at rest, in the axes of [`RelativeMotion::turned`]; on a world line, in the
+    /// coordinates of the body.
     rest: [DVec3; 2],
-    colors: [Swatch; 2],
-    rows: Option<[u32; 2]>,
 }
 
 impl Curve<'_> {
-    /// Where a point of the line is seen, in the axes of the camera's frame, and its Doppler
-    /// factor; NaN if it is never seen.
+    /// Where a point of the line is seen, in the frame of the camera, and its Doppler factor; NaN if
+    /// it is never seen.
     fn seen(&self, part: f64) -> (DVec3, f64) {
         let rest = self.rest[0] + part * (self.rest[1] - self.rest[0]);
-        let Some(line) = self.world_line else {
-            let seen = self.frame.to_camera(self.frame.seen(rest));
-            return (seen, doppler_at(seen, self.frame.velocity));
+        let seen = || {
+            let (seen, own_time) = self.motion.light(rest)?;
+            let velocity = match self.motion.world_line() {
+                Some(line) => line.velocity(rest, own_time)?,
+                None => self.motion.velocity(),
+            };
+            Ok::<_, WorldLineError>((seen, doppler_at(seen, velocity)))
         };
-        let seen = line.light(rest, Event { t: 0.0, x: DVec3::ZERO });
-        seen.map_or((DVec3::NAN, 1.0), |seen| (seen.event.x, 1.0 / seen.inverse_doppler))
+        seen().unwrap_or((DVec3::NAN, 1.0))
     }
 
     fn joint(&self, part: f64) -> Joint {
-        let rest = Swatch::mean(&self.colors, [1.0 - part, part]);
+        let rest = Swatch::mean(&self.line.colors, [1.0 - part, part]);
         let (seen, doppler) = self.seen(part);
         let (stretch, appearance) = (1.0 / doppler, self.painter.appearance);
-        let color = match self.rows.filter(|_| appearance.is_spectral()) {
+        let color = match self.line.rows.filter(|_| appearance.is_spectral()) {
             Some([a, b]) => {
-                let light = appearance.seen_light([(a, 1.0 - part), (b, part)], stretch, None);
+                let light = appearance.seen_light([(a, 1.0 - part), (b, part)], stretch);
                 Swatch { form: ColorForm::Light(light), ..rest }
             }
             None => appearance.seen(&rest, appearance.wavelength_nm(rest.tint), stretch),
