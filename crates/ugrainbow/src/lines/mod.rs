@@ -1,7 +1,7 @@
 //! Lines of the picture: wires, and edges of faces.
 //!
 //! 1. [`edges`]: which edges of faces are drawn;
-//! 2. here: lines with their colours, projected; curved under `-xc` ([`curved`]);
+//! 2. here: lines with their colours, projected; curved under `-xc` ([`mod@curved`]);
 //! 3. [`hidden`]: their visible parts, computed and not sampled;
 //! 4. these parts as strips for the rasterizer, or unchanged for figures.
 //!
