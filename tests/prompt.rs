@@ -152,14 +152,14 @@ fn mistakes_are_answered() {
     check("ugrainbow -lc 1 ship.ug", "add -wf or -ed, or leave it out");
     check("ugphoton -sp -iw ship.ug", both);
     check("ugphoton -ad .1 -aa 1 ship.ug", "leave out -ad");
-    check("ugphoton --film-shutter 1 -pan ship.ug", "leave it out");
-    check("ugphoton -pan -gr ship.ug", "leave them out");
-    check("ugphoton -crop 0 0 2 2 -lg ship.ug", "leave them out, or -crop");
+    check("ugphoton --film-shutter 1 -pan ship.ug", "leave out --film-shutter, or -pan");
+    check("ugphoton -pan -gr ship.ug", "leave out -dl and -gr");
+    check("ugphoton -crop 0 0 2 2 -lg ship.ug", "or -crop");
     check("ugphoton --stereo .1 -cube ship.ug", both);
     check("ugwarp -ep 0 1 0 photo.jpg", "leave out -ep");
     check("ugwarp -bg .5 photo.jpg", "leave out -bg and -tb");
     check("ugwarp -tb -pan photo.jpg", "leave out -bg and -tb");
-    check("ugwarp -gr photo.jpg", "leave them out");
+    check("ugwarp -gr photo.jpg", "leave out -dl and -gr");
     check("ugwarp --no-doppler --infrared photo.jpg photo.jpg", both);
     check("ugwarp -aa 4 stars.csv", "leave out -aa and -fl");
     check("ugwarp -fl spline stars.csv", "leave out -aa and -fl");
