@@ -2,14 +2,23 @@
 //! `cargo xtask worlds` checks others, for as long as it is left to.
 
 use rayon::prelude::*;
-use ugtests::worlds::LAWS;
+use ugtests::worlds::{LAWS, Law};
 
 /// Worlds for each law.
 const N_WORLDS: u64 = 6;
 
+/// Worlds in which a law did not hold: a lamp with an area away from the reference point of a body
+/// that spins.
+const ONCE_FAILED: [(&str, u64); 1] = [("accelerated-mirror", 8_000_005)];
+
 #[test]
 fn laws_hold() {
-    let worlds: Vec<_> = LAWS.iter().flat_map(|law| (0..N_WORLDS).map(move |seed| (law, seed))).collect();
+    let seeds = |law: &Law| {
+        let failed = ONCE_FAILED.into_iter().filter(|(name, _)| *name == law.name).map(|(_, seed)| seed);
+        (0..N_WORLDS).chain(failed).collect::<Vec<_>>()
+    };
+    let worlds: Vec<_> =
+        LAWS.iter().flat_map(|law| seeds(law).into_iter().map(move |seed| (law, seed))).collect();
     let outcomes: Vec<_> = worlds.par_iter().map(|(law, seed)| law.check(*seed)).collect();
     let findings: Vec<&String> = outcomes.iter().filter_map(|outcome| outcome.as_ref().err()).collect();
     assert!(findings.is_empty(), "{} findings, such as\n{}", findings.len(), findings[0]);

@@ -1,8 +1,10 @@
 //! Contributions of lamps, at rest and in motion, to the light on a point of a surface.  Eq. (P14)
 
+use std::cell::LazyCell;
+
 use glam::{DQuat, DVec3};
 use ugphysics::{
-    Event, Pose, SkyRing, Velocity, ambient_illumination, compose, illumination, illumination_along,
+    Event, SkyRing, Velocity, ambient_illumination, compose, illumination, illumination_along,
     illumination_at, illumination_from_afar,
 };
 use ugscene::{BodyId, RestFrames};
@@ -142,7 +144,8 @@ impl SurfaceElement {
                     None => {
                         let level = lamp.level_from(place, standing.point, standing.normal);
                         let toward = standing.direction_at_rest(place);
-                        let part = toward.map_or(1.0, |(toward, distance)| lamp.part_at(distance, -toward));
+                        let part = toward
+                            .map_or(1.0, |(toward, distance)| lamp.part_at(distance, -toward, lamp.beam));
                         add(level, 1.0, toward, part);
                     }
                     Some(body) => {
@@ -163,7 +166,7 @@ impl SurfaceElement {
         let place = lamp.shifted(lamp.place, frames.lamp_shift(self.body));
         let Some(body) = self.moving_body(lamp, frames) else {
             let (toward, distance) = self.standing(frames).direction_at_rest(place)?;
-            return Some((toward, 1.0, lamp.part_at(distance, -toward)));
+            return Some((toward, 1.0, lamp.part_at(distance, -toward, lamp.beam)));
         };
         let mut light = None;
         MovingElement::new(self, frames)?.light_of(lamp, (place, body), &mut |_, doppler, toward, part| {
@@ -289,7 +292,8 @@ impl<'a> MovingElement<'a> {
         add: &mut impl FnMut(f64, f64, Option<(DVec3, f64)>, f64),
     ) -> Option<()> {
         let velocity = self.velocity;
-        let (light, axes) = match place {
+        let turned = |axes: DQuat| lamp.beam.turned(|vector| axes * vector);
+        let (light, beam) = match place {
             LampPlace::Everywhere => {
                 let (motion, _) = self.motion_of(body)?;
                 let relative = compose(motion, -velocity);
@@ -300,30 +304,32 @@ impl<'a> MovingElement<'a> {
             }
             LampPlace::Afar(toward) => {
                 let (motion, axes) = self.motion_of(body)?;
-                (illumination_from_afar(velocity, axes * toward, motion)?, axes)
+                (illumination_from_afar(velocity, axes * toward, motion)?, lamp.beam)
             }
             LampPlace::At(place) => match (self.frames.world_line(body), self.on_line) {
                 (None, None) => {
                     let (motion, axes) = self.motion_of(body)?;
                     let (point, delay) = (self.axes * self.element.point, self.delay());
-                    (illumination(point, delay, velocity, axes * place, motion)?, axes)
+                    (illumination(point, delay, velocity, axes * place, motion)?, turned(axes))
                 }
                 (None, Some(event)) => {
                     let at = self.frames.of(body).rest_from_camera(event).x;
                     let (motion, axes) = self.motion_of(body)?;
-                    (illumination_at(axes * at, velocity, axes * place, motion)?, axes)
+                    (illumination_at(axes * at, velocity, axes * place, motion)?, turned(axes))
                 }
                 (Some(line), _) => {
                     let event = self.event();
                     let emission = line.emission(place, event).ok()?;
-                    let (_, axes) = axes_of(&line.pose(emission.own_time))?;
                     let way = emission.event.x - event.x;
-                    (illumination_along(way, velocity, emission.velocity)?, axes)
+                    // Where a body spins, each of its places has a rest frame of its own.
+                    let element = LazyCell::new(|| line.element(place, emission.own_time));
+                    let beam = lamp.beam.turned(|vector| element.line(vector));
+                    (illumination_along(way, velocity, emission.velocity)?, beam)
                 }
             },
         };
         let toward = self.axes.inverse() * light.toward;
-        let part = lamp.part_at(light.rest_distance, axes.inverse() * light.leaving);
+        let part = lamp.part_at(light.rest_distance, light.leaving, beam);
         let level = part * self.normal.dot(light.toward);
         add(level, light.doppler, Some((toward, light.distance)), part);
         Some(())
@@ -335,13 +341,9 @@ impl<'a> MovingElement<'a> {
         let Some(line) = self.frames.world_line(body) else {
             return Some((self.frames.velocity(body), self.frames.of(body).boosted_from_scene()));
         };
-        axes_of(&line.pose(line.own_time_when(self.event(), self.frames.scene_from_camera())))
+        let pose = line.pose(line.own_time_when(self.event(), self.frames.scene_from_camera()));
+        let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
+        let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
+        Some((velocity, carried.turn() * pose.turn))
     }
-}
-
-/// The velocity of a body on a world line, and the turn of its directions.
-fn axes_of(pose: &Pose) -> Option<(Velocity, DQuat)> {
-    let velocity = pose.scene_from_axes.velocity_of_frame().ok()?;
-    let carried = ugphysics::Lorentz::boost(velocity).inverse() * pose.scene_from_axes;
-    Some((velocity, carried.turn() * pose.turn))
 }

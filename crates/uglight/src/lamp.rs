@@ -224,10 +224,6 @@ fn lamp(scene: &Scene, statement: &Light, eye: DVec3, is_spectral: bool) -> Lamp
         LightKind::Local { radius, reference, beam, .. } => (radius, reference, beam),
         _ => (0.0, None, Beam::Even),
     };
-    let beam = match beam {
-        Beam::Spot { axis, degrees } => Beam::Spot { axis: unit_or_zero(axis), degrees },
-        _ => beam,
-    };
     let fall_off = reference.map(|reference| FallOff::new(reference, radius));
     let motion = statement.motion;
     let white = Lamp { motion, radius, fall_off, beam, ..Lamp::white(place, statement.intensity) };
@@ -315,13 +311,14 @@ impl Lamp {
 
     /// The part of its intensity that arrives at a distance in its rest frame: 1 unless its light
     /// falls off, or depends on the direction. `leaving`: the unit vector in which it left the
-    /// lamp.
+    /// lamp. `beam`: its own, in the axes of this vector.
     #[inline]
-    pub fn part_at(&self, rest_distance: f64, leaving: DVec3) -> f64 {
+    pub fn part_at(&self, rest_distance: f64, leaving: DVec3, beam: Beam) -> f64 {
         let part = self.fall_off.map_or(1.0, |fall_off| fall_off.at(rest_distance));
-        match self.beam {
+        match beam {
             Beam::Even => part,
             Beam::Spot { axis, degrees: [angle, edge] } => {
+                let axis = unit_or_zero(axis);
                 // The angle between unit vectors, exact for small ones, too.
                 let off = 2.0 * libm::atan2((leaving - axis).length(), (leaving + axis).length());
                 let inside = angle - off.to_degrees();
@@ -389,7 +386,7 @@ impl Lamp {
         let level = normal.dot(toward).max(0.0);
         match place {
             LampPlace::At(place) if level > 0.0 && !self.is_even() => {
-                level * self.part_at(length(place - point), -toward)
+                level * self.part_at(length(place - point), -toward, self.beam)
             }
             _ => level,
         }

@@ -38,7 +38,7 @@ pub struct SurfacePoint {
     /// The surface element of a body on a world line. Boxed, since points are moved often.
     pub element: Option<Box<WorldLineElement>>,
     /// How much later the light leaves than where the eye sees the place directly; see
-    /// [`SurfaceElement::delay`](uglight::SurfaceElement::delay).
+    /// [`uglight::ScatteringTime::Delay`].
     pub delay: f64,
     /// From the place to the smooth surface that the normals of the corners describe, above it.
     pub lift: DVec3,

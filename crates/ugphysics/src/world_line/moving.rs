@@ -422,6 +422,12 @@ pub struct ElementFrame {
 }
 
 impl ElementFrame {
+    /// A line of the body at the element, which moves along with it, in this frame. `line`: in the
+    /// coordinates of the body.  Eq. (P43)
+    pub fn line(&self, line: DVec3) -> DVec3 {
+        self.from_axes.apply(Event { t: 0.0, x: self.turn * line }).x
+    }
+
     /// The unit normal of the surface in this frame. It differs from that of the body's shape where
     /// the body spins: N = (n·w; n)/√(1 − (n·w)²) in the axes (u; e_i), perpendicular to ∂X/∂τ and
     /// to both tangents of the surface.  Eq. (P43)
