@@ -171,7 +171,8 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
     let (point, normal) = (DVec3::new(1.5, 0.8, -0.4), DVec3::new(0.36, 0.48, 0.8));
     let [first, second] = normal.any_orthonormal_pair().into();
     for own_time in [-2.0, 0.0, 3.0] {
-        let found = line.element(point, own_time).normal(normal);
+        let element = line.element(point, own_time);
+        let found = element.normal(normal);
         assert!((found.length() - 1.0).abs() < 1e-14);
         let h = 1e-6;
         let difference = |plus: Event, minus: Event| Event {
@@ -188,10 +189,11 @@ fn normals_are_perpendicular_to_the_motion_of_the_surface() {
             difference(line.event(point, own_time + h).unwrap(), line.event(point, own_time - h).unwrap());
         let velocity = Velocity::from_beta(rate.x / rate.t).unwrap();
         let to_element = Lorentz::boost(velocity).inverse();
-        for tangent in [along(first), along(second)] {
-            let tangent = to_element.apply(tangent);
+        for direction in [first, second] {
+            let tangent = to_element.apply(along(direction)).x;
             // At rest with the element, tangents at one time lie in the surface.
-            assert!(found.dot(tangent.x).abs() < 1e-8, "{own_time}: {found} {:?}", tangent);
+            assert!(found.dot(tangent).abs() < 1e-8, "{own_time}: {found} {tangent}");
+            assert!(element.line(direction).distance(tangent) < 1e-8, "{own_time}: {tangent}");
         }
     }
 }
