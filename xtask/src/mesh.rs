@@ -10,6 +10,7 @@ pub struct Mesh {
     pub positions: Vec<DVec3>,
     /// Counterclockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
+    n_columns: u32,
 }
 
 impl Mesh {
@@ -37,6 +38,7 @@ impl Mesh {
         Self {
             positions: grid(n + 1).map(|(i, j)| position(i, j)).collect(),
             triangles: grid(n).flat_map(|(i, j)| cell(i, j)).collect(),
+            n_columns,
         }
     }
 
@@ -49,16 +51,17 @@ impl Mesh {
         );
         let n_colors = if has_own_colors { self.positions.len() } else { 36 };
         for k in 0..n_colors {
-            let part = k as f64 / n_colors as f64;
-            let [red, green] = [part, 6.0 * part % 1.0].map(|part| 0.2 + 0.8 * part);
-            writeln!(text, "c_rgb k{k} {red:.6} {green:.6} .5 ;")?;
+            let [red, green] = [k % 6, k / 6 % 6].map(|step| 0.2 + 0.16 * step as f64);
+            let blue = 0.5 + 0.5 * (k / 36 * 36) as f64 / n_colors as f64;
+            writeln!(text, "c_rgb k{k} {red:.2} {green:.2} {blue:.6} ;")?;
         }
         for (k, DVec3 { x, y, z }) in self.positions.iter().enumerate() {
             let color = if has_own_colors { format!("k{k}") } else { String::new() };
             writeln!(text, "v v{k} {x:.6} {y:.6} {z:.6} {color};")?;
         }
-        for (k, [a, b, c]) in self.triangles.iter().enumerate() {
-            let color = if has_own_colors { String::new() } else { format!("k{}", k % 36) };
+        for [a, b, c] in &self.triangles {
+            let (row, column) = (a / self.n_columns, a % self.n_columns);
+            let color = if has_own_colors { String::new() } else { format!("k{}", (row + column) % 36) };
             writeln!(text, "f (v{a} v{b} v{c}) {color};")?;
         }
         Ok(text)

@@ -38,7 +38,7 @@ const VIEW_ANGLE: f64 = 52.0;
 /// Does the work `times` times on a mesh of about `triangles` triangles, and prints the number of
 /// hits of a picture.
 pub fn write(out: &mut impl Write, work: Work, triangles: u32, times: u32) -> io::Result<()> {
-    let Mesh { mut positions, triangles } = Mesh::of_triangles(triangles);
+    let Mesh { mut positions, triangles, .. } = Mesh::of_triangles(triangles);
     // Both programs have the same positions.
     positions.iter_mut().for_each(|position| *position = position.as_vec3().as_dvec3());
     if let Work::Mesh = work {
