@@ -14,12 +14,12 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Of about so many triangles.
+    /// A mesh of about this number of triangles.
     pub fn of_triangles(triangles: u32) -> Self {
         Self::of_rows((f64::from(triangles) / 4.0).sqrt().round() as u32)
     }
 
-    /// Of n rows from pole to pole and 2n columns: 4n(n − 1) triangles.
+    /// A mesh of n rows from pole to pole and 2n columns, with 4n(n − 1) triangles.
     pub fn of_rows(n: u32) -> Self {
         let n_columns = 2 * n;
         let position = |i: u32, j: u32| {

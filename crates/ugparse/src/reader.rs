@@ -96,7 +96,7 @@ struct Reader<'t, 'f> {
     options: Options,
     /// A statement has ended on the current line.
     line_has_statement: bool,
-    /// The names in the current statement.
+    /// The names in the statement that is being read.
     names: Vec<(NameKind, Span)>,
     findings: &'f mut Vec<Diagnostic>,
     error_count: usize,

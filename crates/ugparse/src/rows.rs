@@ -89,7 +89,7 @@ impl<'t, T> Named<'t, T> {
 pub(crate) struct NameTable<'t> {
     pub list: Vec<&'t [u8]>,
     numbers: FxHashMap<&'t [u8], usize>,
-    /// The last result, because consecutive statements often share a colour.
+    /// The number that was looked up last: consecutive statements often share a colour.
     last: usize,
 }
 

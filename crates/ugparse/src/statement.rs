@@ -10,7 +10,7 @@ use ugscene::{
 use crate::source::Span;
 use crate::transform::Transform;
 
-/// What a name in a statement is the name of.
+/// What a name in a statement refers to.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NameKind {
     /// The statement itself.
@@ -128,7 +128,7 @@ pub(crate) struct Call {
     pub inner: Transform,
     pub repeat: Repeat,
     pub motion: Option<MotionReference>,
-    /// The numbers of rows before it.
+    /// How many rows the tables of its scope had where it stands in the text.
     pub before: Counts,
     /// The scope of its definition, if that is defined, and its name in paths; after resolution.
     pub target: Option<usize>,

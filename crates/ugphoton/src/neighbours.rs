@@ -4,17 +4,18 @@ use ugpicture::rays::PastRay;
 
 use crate::scenery::Scenery;
 
-/// The neighbours across and down of a ray, which show how large a sample is on a surface.
+/// The rays next to a ray, in the row and in the column of samples. Where they meet a surface shows
+/// how large a sample is there.
 #[derive(Clone, Debug)]
 pub enum Neighbours {
-    /// Those of a ray from the eye.
+    /// Next to a ray from the eye.
     OfSample(PictureSample),
-    /// Those of a ray that was mirrored or refracted.
+    /// Next to a ray that was mirrored or refracted, as they were with it.
     Bent(Box<[PastRay; 2]>),
 }
 
 impl Neighbours {
-    /// Their rays. A lens may show nothing at one; then it is on the other side.
+    /// The two rays. Where a lens shows nothing beyond its edge, one is on the other side.
     pub fn rays(&self, scenery: &Scenery<'_>) -> Option<[PastRay; 2]> {
         match self {
             Self::OfSample(sample) => sample.neighbours(scenery),

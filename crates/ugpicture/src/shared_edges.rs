@@ -11,16 +11,16 @@ pub struct FaceEdge {
     pub ends: [VertexId; 2],
     /// Row of the face.
     pub face: u32,
-    /// Its ends, the same for all vertices at one place, in ascending order.
+    /// The places of its ends, in ascending order: see `places` of [`shared_edges`].
     pub places: [usize; 2],
-    /// The face has its ends in this order, too.
+    /// The face runs through its ends in this order.
     pub is_forward: bool,
     body: BodyId,
 }
 
-/// What `take` makes of each edge of a body, which is passed the edges of all its faces there, also
-/// of faces without common vertices. `places`: for each vertex the row of one at its place;
-/// `is_counted`: of faces.
+/// Calls `take` for each edge of a body with the edges of all faces that meet there, also of faces
+/// without common vertices, and returns what it makes of them. `places`: for each vertex the row of
+/// one vertex, the same for all at its place; `is_counted`: false for faces that are left out.
 pub fn shared_edges<T: Send>(
     scene: &Scene,
     places: &[usize],

@@ -17,7 +17,7 @@ pub struct Surfaces<'a> {
     pub world: &'a World,
     /// Its colours.
     pub appearance: &'a Appearance,
-    /// What the colours of the corners of each face have in common.
+    /// How the colours of the corners of each face are interpolated.
     pub face_colors: &'a [FaceColors],
     /// The pictures that colours of faces are.
     pub textures: &'a Textures,
@@ -68,8 +68,8 @@ pub struct WorldLineElement {
 }
 
 impl SurfacePoint {
-    /// Where a ray meets a face. `neighbours`: of the ray across and down, for the footprints of
-    /// textures.
+    /// Where a ray meets a face. `neighbours`: the rays of the next samples in the row and in the
+    /// column, for the footprints of textures.
     pub fn new(
         surfaces: &Surfaces<'_>,
         ray: &PastRay,
@@ -258,8 +258,9 @@ impl Surfaces<'_> {
         self.world.outside[found.triangle.face as usize]
     }
 
-    /// The colour at rest where a ray meets a face, and the one that it emits. `own_time`: of the
-    /// body there; `steps`: of the weights of a sample, for textures.
+    /// The colour at rest of a face where a ray meets it, and the colour of the light that the face
+    /// emits there. `own_time`: of the body; `steps`: from sample to sample, of the weights of the
+    /// corners, for textures.
     #[inline]
     fn colors(
         &self,
@@ -275,7 +276,7 @@ impl Surfaces<'_> {
             let colors = &self.face_colors[found.triangle.face as usize];
             appearance.color_at(colors, corners, weights)
         };
-        // As in most scenes.
+        // Most scenes have neither.
         if textures.is_empty() && scene.emissions.is_empty() && scene.color_tables.is_empty() {
             return (of_corners(), None);
         }

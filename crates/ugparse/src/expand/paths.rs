@@ -1,4 +1,4 @@
-//! Names of expanded rows, which are paths, and vertices of instances by their paths.
+//! Paths: the names of what instances place, `fleet:ship:bow`, and references to vertices by them.
 
 use ugscene::{NameId, Names, Scene, UniqueNames, VertexId};
 

@@ -47,7 +47,7 @@ pub(crate) fn is_keyword(word: &[u8]) -> bool {
 /// A parser of statements of one scope. The text's length gives the position of any rest of it.
 pub(crate) struct Grammar<'t, 's> {
     pub text: &'t [u8],
-    /// Names, contours, samples and the vertices of round faces are added to it.
+    /// Receives the names, contours, spectral samples and vertices of round faces of a statement.
     pub scope: &'s mut Scope<'t>,
     /// The names in the statement, in the order of the text.
     pub names: &'s mut Vec<(NameKind, Span)>,

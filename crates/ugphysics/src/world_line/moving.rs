@@ -422,8 +422,8 @@ pub struct ElementFrame {
 }
 
 impl ElementFrame {
-    /// A line of the body at the element, which moves along with it, in this frame. `line`: in the
-    /// coordinates of the body.  Eq. (P43)
+    /// A short line on the body, such as an edge of a lamp at the element, as it is in this frame.
+    /// `line`: in the coordinates of the body.  Eq. (P43)
     pub fn line(&self, line: DVec3) -> DVec3 {
         self.from_axes.apply(Event { t: 0.0, x: self.turn * line }).x
     }

@@ -15,7 +15,7 @@ pub struct Edge {
     pub ends: [VertexId; 2],
     /// Row of the face, or of the first of several.
     pub face: u32,
-    /// Its ends, the same for all vertices at one place.
+    /// The places of its ends; vertices at one place have the same.
     pub places: [usize; 2],
     /// On which side of a silhouette, seen from its first end to the other, the body is not: 1 if
     /// on the right, −1 on the left, 0 for other edges.
