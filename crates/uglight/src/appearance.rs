@@ -160,33 +160,32 @@ impl Appearance {
         }
     }
 
-    /// The apparent colour of `rest` where wavelengths are stretched by `stretch` = 1/D. `rest_nm`:
+    /// The apparent colour of `color` where wavelengths are stretched by `stretch` = 1/D. `rest_nm`:
     /// the wavelength of its tint.  Eq. (P11), (P12), (P18)
     ///
     /// A colour drawn as light is returned unchanged. On moving bodies such colours occur only in
     /// spectral mode; otherwise the renderer replaces them by hues.
     #[inline]
-    pub fn seen(&self, rest: &Swatch, rest_nm: f64, stretch: f64) -> Swatch {
-        if stretch == 1.0 || rest.form != ColorForm::Hue {
-            return *rest;
+    pub fn seen(&self, mut color: Swatch, rest_nm: f64, stretch: f64) -> Swatch {
+        if stretch == 1.0 || color.form != ColorForm::Hue {
+            return color;
         }
         let factor = self.hue_shift.law.factor(1.0 / stretch);
-        let seen = if self.hue_shift.law.acts_on_light() {
-            Swatch { factor: rest.factor * factor, ..*rest }
+        if self.hue_shift.law.acts_on_light() {
+            color.factor *= factor;
         } else {
-            Swatch { value: rest.value * factor, ..*rest }
-        };
-        if !self.hue_shift.doppler || rest.is_grey() {
-            return seen;
+            color.value *= factor;
         }
-        // λ/D, as a product, since this runs for every sample.
-        let seen_nm = rest_nm * stretch;
-        // The wavelength may be invisible; a hue is clamped to the end of its range.
-        let tint = match self.palette.interpolation {
-            Interpolation::Hue => self.hues.hue(seen_nm),
-            Interpolation::Wavelength => seen_nm,
-        };
-        Swatch { tint, ..seen }
+        if self.hue_shift.doppler && !color.is_grey() {
+            // λ/D, as a product, since this runs for every sample.
+            let seen_nm = rest_nm * stretch;
+            // The wavelength may be invisible; a hue is clamped to the end of its range.
+            color.tint = match self.palette.interpolation {
+                Interpolation::Hue => self.hues.hue(seen_nm),
+                Interpolation::Wavelength => seen_nm,
+            };
+        }
+        color
     }
 
     /// A colour at rest with its wavelength.

@@ -131,7 +131,7 @@ impl<'a, const N: usize> Faces<'a, N> {
                 let key = (1.0 / found.s) as f32;
                 target.draw_each(row, column..column + 1, found.triangle.face, |_, occluder_key| {
                     (key > occluder_key)
-                        .then(|| (key, self.packed(moving.shaded::<SPECTRAL>(&ray, &found, place))))
+                        .then(|| (key, self.packed(&moving.shaded::<SPECTRAL>(&ray, &found, place))))
                 });
             }
         }
@@ -162,8 +162,8 @@ impl<'a, const N: usize> Faces<'a, N> {
     }
 
     #[inline]
-    fn packed(&self, (color, level): (Swatch, DVec3)) -> [f32; N] {
-        (self.pack)(&color, level).map(|number| number as f32)
+    fn packed(&self, (color, level): &(Swatch, DVec3)) -> [f32; N] {
+        (self.pack)(color, *level).map(|number| number as f32)
     }
 
     /// The values of a face where a ray meets it, in the packed layout.
@@ -176,7 +176,7 @@ impl<'a, const N: usize> Faces<'a, N> {
         (ray, n_samples): (&RestRay, u32),
     ) -> [f32; N] {
         let look = &self.looks[number as usize];
-        self.packed(look.at::<SPECTRAL>(&self.painter, frame, (ray, n_samples), shape.key(ray.rest)))
+        self.packed(&look.at::<SPECTRAL>(&self.painter, frame, (ray, n_samples), shape.key(ray.rest)))
     }
 }
 

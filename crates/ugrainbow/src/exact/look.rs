@@ -188,7 +188,7 @@ impl Look {
             };
             texel.map(|texel| texel.rows).or_else(|| mixed.map(of_corners))
         };
-        let seen = self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
+        let mut seen = self.shaded::<SPECTRAL>(painter, (color, rows), ray.stretch, || {
             let place = || frame.scene_from_aligned * (ray.rest * (1.0 / key));
             let normal = match spot {
                 Some((triangle, weights)) if self.has_normals => {
@@ -198,10 +198,10 @@ impl Look {
             };
             [if self.needs_place { place() } else { DVec3::ZERO }, normal, frame.lamp_shift]
         });
-        match emitted {
-            Some(emitted) => with_emitted(painter, seen, ray.stretch, &emitted),
-            None => seen,
+        if let Some(emitted) = emitted {
+            seen = with_emitted(painter, seen, ray.stretch, &emitted);
         }
+        seen
     }
 
     /// The colour of a texture where a ray meets the face, and the colour that it emits.
@@ -231,28 +231,28 @@ impl Look {
         lit: impl Fn() -> [DVec3; 3],
     ) -> (Swatch, DVec3) {
         let appearance = painter.appearance;
-        let rest = mixed.as_ref().unwrap_or(&self.color);
-        let rows = || rows().unwrap_or_else(|| SurfaceColor::even(*rest, self.row).rows);
+        let rest = mixed.unwrap_or(self.color);
+        let rows = || rows().unwrap_or_else(|| SurfaceColor::even(rest, self.row).rows);
         if self.is_lit_by_color {
             return (
-                lit_by_color(painter, SurfaceColor { swatch: *rest, rows: rows() }, stretch, lit()),
+                lit_by_color(painter, SurfaceColor { swatch: rest, rows: rows() }, stretch, lit()),
                 DVec3::ONE,
             );
         }
         let color = if SPECTRAL {
             // Between corners, the apparent colours of spectra are mixed.
-            Swatch { form: ColorForm::Light(appearance.seen_light(rows(), stretch)), ..*rest }
+            Swatch { form: ColorForm::Light(appearance.seen_light(rows(), stretch)), ..rest }
         } else {
             let has_own = mixed.is_some() && self.has_tints && stretch != 1.0;
             let rest_nm = if has_own { appearance.wavelength_nm(rest.tint) } else { self.wavelength_nm };
             appearance.seen(rest, rest_nm, stretch)
         };
         let color = painter.lit_as_written(color);
-        if let Some(level) = self.level {
-            return (color, level);
-        }
-        let [point, normal, shift] = lit();
-        (color, painter.lighting.level(point, normal, shift, self.colors.mixing == Mixing::Light))
+        let level = self.level.unwrap_or_else(|| {
+            let [point, normal, shift] = lit();
+            painter.lighting.level(point, normal, shift, self.colors.mixing == Mixing::Light)
+        });
+        (color, level)
     }
 
     /// The point of the triangles on a ray. Where rounding places the ray outside all triangles,

@@ -103,14 +103,14 @@ impl<'a> MovingFaces<'a> {
         let point = SurfacePoint::new(&surfaces, ray, found, neighbours);
         let (look, stretch) = (&self.looks[&point.face], point.wave.frequency);
         let color = (Some(point.color.swatch), || Some(point.color.rows));
-        let seen = look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
+        let mut seen = look.shaded::<SPECTRAL>(&self.painter, color, stretch, || {
             let frames = appearance.surface.frames();
             let lit = point.lit(scene).standing(frames);
             [lit.point, lit.normal, frames.lamp_shift(lit.body)]
         });
-        match &point.emitted {
-            Some(emitted) => with_emitted(&self.painter, seen, stretch, emitted),
-            None => seen,
+        if let Some(emitted) = &point.emitted {
+            seen = with_emitted(&self.painter, seen, stretch, emitted);
         }
+        seen
     }
 }

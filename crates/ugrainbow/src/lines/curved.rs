@@ -75,7 +75,7 @@ impl Curve<'_> {
                 let light = appearance.seen_light([(a, 1.0 - part), (b, part)], stretch);
                 Swatch { form: ColorForm::Light(light), ..rest }
             }
-            None => appearance.seen(&rest, appearance.wavelength_nm(rest.tint), stretch),
+            None => appearance.seen(rest, appearance.wavelength_nm(rest.tint), stretch),
         };
         Joint { seen, color }
     }
