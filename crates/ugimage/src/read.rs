@@ -162,6 +162,12 @@ fn decoded<P>(
     let mut reader = decoder.read_info().map_err(broken)?;
     // As stored: a pixel may have one bit.
     check_packed(n_file, reader.info().raw_bytes() as u64, MOST_INFLATED)?;
+    let n_palette = reader.info().palette.as_ref().map_or(0, |palette| palette.len());
+    if n_palette % 3 != 0 || n_palette > 3 * 256 {
+        // The decoder expects whole colours, as many as it has room for.
+        let problem = format!("not a readable PNG file: {n_palette} bytes are no palette");
+        return Err(ReadError::new(&problem));
+    }
     let n_channels = match reader.output_color_type().0 {
         ColorType::Grayscale => 1,
         ColorType::GrayscaleAlpha => 2,
@@ -448,6 +454,19 @@ mod tests {
         let mut huge = file;
         huge[16..20].copy_from_slice(&0x7fff_ffff_u32.to_be_bytes());
         assert!(read(&huge).is_err());
+    }
+
+    #[test]
+    fn palettes_have_whole_colors_and_256_at_most() {
+        for n_bytes in [1, 2, 3, 7, 8, 768, 769, 771, 3000] {
+            let mut file = Vec::new();
+            let mut encoder = png::Encoder::new(&mut file, 3, 1);
+            encoder.set_color(ColorType::Indexed);
+            encoder.set_palette(vec![9; n_bytes]);
+            encoder.set_trns(vec![128]);
+            encoder.write_header().unwrap().write_image_data(&[0; 3]).unwrap();
+            assert_eq!(read(&file).is_ok(), [3, 768].contains(&n_bytes), "{n_bytes} bytes");
+        }
     }
 
     /// A PNG of one pixel with these chunks after its header.

@@ -63,27 +63,29 @@ pub struct Statistics {
     pub n_negative: u64,
 }
 
-/// [`Statistics`] of a part of a picture. The maximum is kept for each index of [`Light`] apart, so
-/// that it is computed with SIMD instructions.
+/// [`Statistics`] of a part of a picture, for each index of [`Light`] apart, so that they are
+/// computed with SIMD instructions.
 #[derive(Clone, Copy, Default)]
 struct Found {
     max_light: [f32; Seen::N],
-    n_covered: u64,
-    n_negative: u64,
+    n_covered: [u32; Seen::N],
+    n_negative: [u32; Seen::N],
 }
 
 impl Found {
     /// Adds pixels: light times the covered part, and that part.
     #[inline]
     fn add(&mut self, [reds, greens, blues, covered]: &Light) {
+        // One instruction; `f32::max` takes several, because of NaN.
+        let max = |one: f32, other: f32| if one > other { one } else { other };
         for idx in 0..Seen::N {
-            // One instruction; `f32::max` takes several, because of NaN.
-            let max = |one: f32, other: f32| if one > other { one } else { other };
             self.max_light[idx] = max(max(reds[idx], greens[idx]), max(blues[idx], self.max_light[idx]));
-            let luminance = luminance([reds, greens, blues].map(|channel| channel[idx].into()));
-            self.n_negative += u64::from(luminance < -DARK);
+            self.n_covered[idx] += u32::from(covered[idx] > 0.0);
         }
-        self.n_covered += covered.iter().map(|part| u64::from(*part > 0.0)).sum::<u64>();
+        for idx in 0..Seen::N {
+            let luminance = luminance([reds, greens, blues].map(|channel| channel[idx].into()));
+            self.n_negative[idx] += u32::from(luminance < -DARK);
+        }
     }
 }
 
@@ -91,8 +93,9 @@ impl Statistics {
     /// Adds the statistics of a part of the picture.
     fn add(&mut self, found: &Found) {
         self.max_light = found.max_light.into_iter().fold(self.max_light, f32::max);
-        self.n_covered += found.n_covered;
-        self.n_negative += found.n_negative;
+        let sum = |numbers: [u32; Seen::N]| numbers.map(u64::from).iter().sum::<u64>();
+        self.n_covered += sum(found.n_covered);
+        self.n_negative += sum(found.n_negative);
     }
 }
 
