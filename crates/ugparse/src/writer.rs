@@ -263,7 +263,7 @@ impl<'s> Writer<'s> {
 
     fn name(&mut self, name: NameId) {
         self.out.push(b' ');
-        self.out.extend_from_slice(self.scene.names.get(name).as_bytes());
+        self.out.extend_from_slice(self.scene.names.bytes(name));
     }
 
     /// Writes the keyword of a statement and its name, if it has one.
@@ -363,8 +363,8 @@ impl<'s> Writer<'s> {
     }
 
     fn corner(&mut self, corner: VertexId) {
-        let name = self.scene.names.get(self.scene.vertices[corner.index()].name);
-        self.out.extend_from_slice(name.as_bytes());
+        let name = self.scene.names.bytes(self.scene.vertices[corner.index()].name);
+        self.out.extend_from_slice(name);
     }
 
     /// A label after its name: the text and the vertex.

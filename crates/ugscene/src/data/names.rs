@@ -62,6 +62,12 @@ impl Names {
         &self.text[self.range(id)]
     }
 
+    /// The text of a name, without the check that it is whole characters.
+    #[inline]
+    pub fn bytes(&self, id: NameId) -> &[u8] {
+        &self.text.as_bytes()[self.range(id)]
+    }
+
     #[inline]
     fn range(&self, id: NameId) -> Range<usize> {
         let row = id.index();
