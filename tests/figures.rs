@@ -297,9 +297,9 @@ fn vector_figures_are_smaller_than_pictures_for_print() {
     let pipe = ship();
     let colored = pipe.run(&scenes::text("ship")).colored;
     let draw = |config| rainbow(&colored, &config).len();
-    // 6 x 4.5 inches on paper: in points, and in pixels at 1200 dpi.
+    // 6 x 4.5 inches on paper: in points, and in pixels at 600 dpi.
     let print = ugrainbow::Config {
-        picture: ugrainbow::PictureOptions { size: [7200, 5400], samples: 1, ..pipe.rainbow.picture.clone() },
+        picture: ugrainbow::PictureOptions { size: [3600, 2700], samples: 1, ..pipe.rainbow.picture.clone() },
         ..pipe.rainbow.clone()
     };
     let png = draw(print);

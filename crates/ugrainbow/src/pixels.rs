@@ -34,9 +34,9 @@ pub fn draw(
         return Ok((DrawnContent::Display(frame), stats));
     }
     let (frame, stats) = light_with_sky(setup, layers, config, progress)?;
-    let is_uncut =
+    let keeps_highlights =
         setup.keeps_highlights || config.sky.is_some() && config.shift(setup.scene()).is_spectral();
-    Ok((DrawnContent::Light { frame, is_clipped: !is_uncut }, stats))
+    Ok((DrawnContent::Light { frame, is_clipped: !keeps_highlights }, stats))
 }
 
 /// The light of the scene with its sky behind it, and the requested channels.

@@ -92,10 +92,10 @@ impl Shade {
                 Kind::Spectra(spectral_table(basis, colors.parts(), velocity, range_nm)?)
             }
         };
-        let is_uncut = keeps_light || matches!(kind, Kind::Spectra(_));
+        let keeps_highlights = keeps_light || matches!(kind, Kind::Spectra(_));
         Ok(Self {
             kind,
-            most: if is_uncut { f32::INFINITY } else { 1.0 },
+            most: if keeps_highlights { f32::INFINITY } else { 1.0 },
             highlights: 1.0,
             simd: Level::new(),
         })
@@ -108,7 +108,7 @@ impl Shade {
     }
 
     /// Light brighter than white is kept until it is developed.
-    pub fn is_uncut(&self) -> bool {
+    pub fn keeps_highlights(&self) -> bool {
         self.most > 1.0
     }
 

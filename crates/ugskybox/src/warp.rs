@@ -136,12 +136,12 @@ impl<'s> Warp<'s> {
 
     /// The panorama, if its light is clipped at white, as in 1988, and alone.
     pub fn clipped(&self) -> Option<&Layer<'s>> {
-        self.panorama.as_ref().filter(|layer| self.bands.is_empty() && !layer.shade.is_uncut())
+        self.panorama.as_ref().filter(|layer| self.bands.is_empty() && !layer.shade.keeps_highlights())
     }
 
     /// Light brighter than white is kept until it is developed.
-    pub fn is_uncut(&self) -> bool {
-        self.panorama.as_ref().is_none_or(|layer| layer.shade.is_uncut())
+    pub fn keeps_highlights(&self) -> bool {
+        self.panorama.as_ref().is_none_or(|layer| layer.shade.keeps_highlights())
     }
 
     /// The light of a picture of panoramas, on the background.

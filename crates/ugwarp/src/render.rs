@@ -196,7 +196,7 @@ impl<'s> Prepared<'s> {
             None => {
                 let (mut frame, statistics) = seen(sky, warp, picture, progress);
                 push_channels(&mut frame, warp, config);
-                (DrawnContent::Light { frame, is_clipped: !warp.is_uncut() }, statistics)
+                (DrawnContent::Light { frame, is_clipped: !warp.keeps_highlights() }, statistics)
             }
         };
         let items = |each_sample: bool, found: &mut dyn FnMut(&FoundItems<'_>)| {

@@ -65,7 +65,7 @@ fn the_last_step_is_the_picture() {
         (&hues, "-aa 2 -ex -.5"),
     ] {
         let picture = pixels(&ugrainbow(scene, options));
-        for idx in (7..60 * 45).step_by(89) {
+        for idx in (7..60 * 45).step_by(179) {
             let place = format!("{},{}", idx % 60, idx / 60);
             let told = told(scene, &format!("{options} --explain {place}"));
             let bytes: Vec<u64> =
@@ -80,7 +80,7 @@ fn the_last_step_is_the_picture() {
             }
         }
     }
-    assert!(seen[0] > 10 && seen[1] > 60 && seen[2] > 1, "background, faces, wires: {seen:?}");
+    assert!(seen[0] > 5 && seen[1] > 30 && seen[2] > 1, "background, faces, wires: {seen:?}");
 }
 
 /// As `ugdoppler -sp` writes them: what a sampled spectrum emits, and paint.
