@@ -89,8 +89,8 @@ fn directions_are_in_the_axes_of_the_scene() {
         let by_pipe =
             ugrainbow::explain::explain(&scanned, &Source::new("t.ug", &fine[..]), PIXEL).unwrap().0;
         let by_rays = ugphoton::explain(&rays, &Source::new("t.ug", text.as_str()), PIXEL).unwrap().0;
-        let by_pipe = by_pipe.sample.unwrap().surface;
-        let by_rays = by_rays.sample.unwrap().surfaces.remove(0).surface;
+        let by_pipe = by_pipe.sample.unwrap().own.surface;
+        let by_rays = by_rays.sample.unwrap().own.surfaces.remove(0).surface;
         for (program, surface) in [("ugrainbow", by_pipe), ("ugphoton", by_rays)] {
             let [seen, rest] =
                 [surface.emission, surface.emission_at_rest].map(|event| DVec3::from_array(event.x));

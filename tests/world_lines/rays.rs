@@ -76,7 +76,7 @@ fn the_pipe_and_rays_explain_one_event() {
     (rays.picture.size, rays.picture.samples) = (size, 1);
     let source = ugparse::Source::new("rays.ug", text);
     let (rays, _) = ugphoton::explain(&rays, &source, pixel).expect("an explanation");
-    let rays = &rays.sample.expect("the body").surfaces[0].surface;
+    let rays = &rays.sample.expect("the body").own.surfaces[0].surface;
 
     let config = uglorentz::Config {
         pieces: uglorentz::Pieces::UpTo(1e-5),
@@ -87,7 +87,7 @@ fn the_pipe_and_rays_explain_one_event() {
     (pipe.picture.size, pipe.picture.samples) = (size, 1);
     let (pipe, _) =
         ugrainbow::explain::explain(&pipe, &ugparse::Source::new("pipe.ug", text), pixel).expect("one");
-    let pipe = pipe.sample.expect("the body").surface;
+    let pipe = pipe.sample.expect("the body").own.surface;
 
     let times = [pipe.own_time, rays.own_time].map(|own_time| own_time.expect("it is not inertial"));
     assert!((times[0] - times[1]).abs() < 1e-3 && times[0].abs() > 0.1, "{times:?}");

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use ugphysics::{Event, InertialFrame, Piece, Velocity};
 use ugscene::{
-    Camera, Color, ColorId, ColorTable, Face, Light, Mix, SurfaceProperties, Texture, Vertex, Wire,
+    Camera, Color, ColorId, ColorTable, CurveKind, Face, Light, Mix, SurfaceProperties, Texture, Vertex, Wire,
 };
 
 use crate::source::Span;
@@ -70,25 +70,27 @@ impl StatedFrame {
     }
 }
 
-/// A motion; of the options that may not be combined, the last.
+/// A motion.
 #[derive(Debug, Default)]
 pub(crate) struct MotionStatement {
     pub name: Span,
     pub at: DVec3,
-    pub velocity: Option<Velocity>,
+    /// The option that states the path: `vel` for `acc`, too.
+    pub path_word: Option<&'static str>,
+    pub velocity: Velocity,
     pub accelerations: Vec<Piece>,
     pub spins: Vec<Piece>,
-    /// Centre, axis and rate.
-    pub orbit: Option<(DVec3, DVec3, f64)>,
     pub path: Option<PathStatement>,
     /// The motion that it is part of.
     pub on: Option<MotionReference>,
     pub shift: Event,
 }
 
-/// The events of a path.
+/// A path other than one of constant velocity or acceleration.
 #[derive(Debug)]
 pub(crate) enum PathStatement {
+    /// A kind of curve, and its numbers.
+    Curve(&'static CurveKind, Vec<f64>),
     /// `-path FILE`
     File(FileStatement),
     /// `-path < NAME >`: that of another motion.

@@ -1,5 +1,7 @@
 //! The text of messages about single words and statements.
 
+use ugscene::SurfaceProperties;
+
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::grammar::{KEYWORDS, NAME, is_keyword};
 use crate::source::Span;
@@ -103,7 +105,7 @@ fn usage(keyword: &[u8]) -> Option<&'static str> {
             "c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend] ;"
         }
         b"c_emit" => "c_emit ID color ;",
-        b"surf" => "surf ID kd ks kt [n [exponent [absorption]]] ;",
+        b"surf" => SurfaceProperties::FORM,
         b"l" => "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
         b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",
         b"motion" => {

@@ -492,11 +492,7 @@ impl<'s> Writer<'s> {
                 }
                 accelerations.iter().for_each(|piece| self.piece(" -acc", piece, 0.0));
             }
-            MotionPath::Orbit { center, axis, rate } => {
-                self.option(" -orbit", center.as_ref());
-                self.point(*axis);
-                self.number(*rate);
-            }
+            MotionPath::Curve { kind, numbers } => self.option(&format!(" -{}", kind.word), numbers),
             MotionPath::Along(path) if along[&path.address()] != body => {
                 self.text(" -path");
                 push_motion_name(&mut self.out, self.scene, along[&path.address()]);

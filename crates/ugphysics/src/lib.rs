@@ -96,7 +96,7 @@ pub use retarded_position::{
 pub use vector::{angle, length, unit_or_zero};
 pub use velocity::{Velocity, VelocityError};
 pub use world_line::{
-    ElementFrame, EmissionEvent, InertialFrame, Orbit, Piece, Pose, RayPoint, RayStretch, SampledPath,
-    SeenLight, SeenPoint, SeenTriangle, SmoothStretch, WorldLine, WorldLineError, WorldTube,
+    ElementFrame, EmissionEvent, InertialFrame, Piece, Pose, RayPoint, RayStretch, SampledPath, SeenLight,
+    SeenPoint, SeenTriangle, SmoothStretch, WorldLine, WorldLineError, WorldTube,
 };
 pub use xyz::{MOST_LIGHT, WHITE_XYZ, limited, linear_srgb_to_xyz, xyz_to_linear_srgb};

@@ -176,14 +176,13 @@ impl Expander<'_, '_> {
             let help = format!("a motion may be part of {MAX_CARRIERS} others at most, and not of itself");
             return Err(error.label("this one").help(help));
         }
-        let MotionStatement { at, velocity, accelerations, spins, orbit, on, shift, .. } = statement;
-        let path = match (orbit, &motions.paths[row]) {
-            (&Some((center, axis, rate)), _) => MotionPath::Orbit { center, axis, rate },
-            (None, Some(path)) => MotionPath::Along(path.clone()),
-            (None, None) => {
-                let velocity = velocity.unwrap_or_default();
-                MotionPath::Free { velocity, accelerations: accelerations.clone() }
+        let MotionStatement { at, velocity, accelerations, spins, on, shift, .. } = statement;
+        let path = match (&statement.path, &motions.paths[row]) {
+            (Some(PathStatement::Curve(kind, numbers)), _) => {
+                MotionPath::Curve { kind, numbers: numbers.clone() }
             }
+            (_, Some(path)) => MotionPath::Along(path.clone()),
+            (_, None) => MotionPath::Free { velocity: *velocity, accelerations: accelerations.clone() },
         };
         let (on, carrier) = match on {
             None => (None, WorldLine::REST),

@@ -4,6 +4,7 @@ use glam::DVec3;
 use nom::Parser;
 use nom::combinator::opt;
 use ugphysics::{Event, Piece, SampledPath};
+use ugscene::CurveKind;
 
 use super::{Grammar, NAME, file, numbers, option_word, store, velocity, zero_vector};
 use crate::source::Span;
@@ -30,27 +31,35 @@ impl<'t> Grammar<'t, '_> {
         input: Input<'t>,
     ) -> Parsed<'t, ()> {
         let at = blank(at)?.0;
-        let is_free = motion.velocity.is_some() || !motion.accelerations.is_empty();
-        let (no_orbit, no_path) = (motion.orbit.is_none(), motion.path.is_none());
+        let curve = CurveKind::ALL.iter().find(|kind| kind.word.as_bytes() == option);
+        let path_word = match option {
+            b"vel" | b"acc" => Some("vel"),
+            b"path" => Some("path"),
+            _ => curve.map(|kind| kind.word),
+        };
+        if path_word.is_some() && motion.path_word.is_some_and(|stated| Some(stated) != path_word) {
+            let reason = Reason::Impossible(1, "the motion has another path already", CurveKind::PATHS);
+            return fail(at, reason);
+        }
+        motion.path_word = path_word.or(motion.path_word);
+        if let Some(kind) = curve {
+            let (mut input, mut numbers) = (input, Vec::new());
+            for row in 0..kind.n_numbers {
+                if kind.axis == Some(row) && require(point(input))?.1 == DVec3::ZERO {
+                    return fail(blank(input)?.0, zero_vector(3));
+                }
+                let (rest, value) = require(number(input))?;
+                numbers.push(value);
+                input = rest;
+            }
+            motion.path = Some(PathStatement::Curve(kind, numbers));
+            return Ok((input, ()));
+        }
         let rest;
         match option {
-            b"vel" if no_orbit && no_path => return store(&mut motion.velocity, velocity(input)),
-            b"acc" if no_orbit && no_path => return piece(input, 0.0, &mut motion.accelerations),
-            b"orbit" if !is_free && no_path => {
-                let (behind, center) = require(point(input))?;
-                let axis_at = blank(behind)?.0;
-                let (behind, axis) = require(point(behind))?;
-                if axis == DVec3::ZERO {
-                    return fail(axis_at, zero_vector(3));
-                }
-                let (behind, rate) = require(number(behind))?;
-                (rest, motion.orbit) = (behind, Some((center, axis, rate)));
-            }
-            b"path" if !is_free && no_orbit => return store(&mut motion.path, self.path(input)),
-            b"vel" | b"acc" | b"orbit" | b"path" => {
-                let remedy = "give `-vel` and `-acc`, or `-orbit`, or `-path`";
-                return fail(at, Reason::Impossible(1, "the motion has another path already", remedy));
-            }
+            b"vel" => (rest, motion.velocity) = require(velocity(input))?,
+            b"acc" => return piece(input, 0.0, &mut motion.accelerations),
+            b"path" => return store(&mut motion.path, self.path(input)),
             b"on" => {
                 let name = || self.name(input).map(|(rest, name)| (rest, MotionReference::Named(name)));
                 let on = name().or_else(|_| self.motion_reference(input));
@@ -59,10 +68,7 @@ impl<'t> Grammar<'t, '_> {
             b"at" => (rest, motion.at) = require(point(input))?,
             b"spin" => return piece(input, f64::NEG_INFINITY, &mut motion.spins),
             b"shift" => (rest, motion.shift) = shift(input)?,
-            _ => {
-                let expected = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
-                return fail(at, Reason::Expected(expected));
-            }
+            _ => return fail(at, Reason::Expected(CurveKind::OPTIONS)),
         }
         Ok((rest, ()))
     }

@@ -8,13 +8,13 @@ use std::borrow::Cow;
 use glam::DVec3;
 use serde::Serialize;
 use uglight::{ColorForm, ColorShift, light_names};
-use ugparse::{Diagnostics, Parsed, Source};
+use ugparse::{Diagnostics, Source};
 use ugphysics::Velocity;
 use ugpicture::SurfacePoint;
 use ugpicture::explain::{
-    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, PixelSteps, SampleColor, covers, nearest,
+    ExplainedEvent, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor, SampleContent,
 };
-use ugscene::{HueScale, SeenColors};
+use ugscene::HueScale;
 use ugskybox::SkyError;
 
 use crate::config::Config;
@@ -26,11 +26,9 @@ use crate::scenery::Scenery;
 use crate::shade::LampLight;
 use crate::tracer::{Visit, Way};
 
-/// The explanation of a sample.
+/// What is told of a sample.
 #[derive(Clone, Debug, Serialize)]
 pub struct TracedSample {
-    /// Column and row of the sample in pixels.
-    pub place: [f64; 2],
     /// Linear red, green and blue: the sum over the surfaces.
     pub linear: [f64; 3],
     /// The part of the background that is seen, in red, green and blue.
@@ -112,38 +110,22 @@ pub fn explain(
     let pixel = canvas.pixel_of_scene(pixel)?;
     let config = &config.on(&canvas);
     let scenery = Scenery::new(Cow::Owned(as_seen(parsed.scene.clone(), config)?), config)?;
-    let light_names = light_names(&scenery.scene);
-    let teller = Teller { scenery: &scenery, config, source, parsed: &parsed, light_names };
-    let samples = pixels::explained(&scenery, config, pixel);
-    let n = config.picture.samples;
-    let n_missing = (n * n) as usize - samples.len();
-    let is_free = |sample: &&ExplainedRay| sample.arriving.background.max_element() > 0.0;
-    let covered: Vec<&ExplainedRay> = samples.iter().filter(|sample| !sample.visits.is_empty()).collect();
-    let explanation = Explanation {
-        pixel,
-        size: config.picture.size,
-        samples: [n; 2],
-        covers: covers(samples.iter().map(direct_faces), |face| teller.item(face)),
-        background_samples: n_missing + samples.iter().filter(is_free).count(),
-        is_at_rest: !ugscene::has_moving_bodies(&scenery.scene)
-            && !ugscene::has_moving_lights(&scenery.scene),
-        history: parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
-        colors: seen_colors(&scenery),
-        sample: nearest(&covered, |sample| sample.place, pixel, n).map(|sample| teller.shown(sample)),
-        steps: pixel_steps(&scenery, config, pixel),
-    };
-    Ok((explanation, parsed.warnings))
-}
-
-/// The faces that a ray from the eye meets.
-fn direct_faces(sample: &ExplainedRay) -> impl Iterator<Item = u32> {
-    sample.visits.iter().filter(|visit| visit.depth == 0).map(|visit| visit.point.face)
-}
-
-/// The law by which colours change; `None` if nothing is changed.
-fn seen_colors(scenery: &Scenery<'_>) -> Option<SeenColors> {
+    let scene = &scenery.scene;
     let is_changed = scenery.shift != ColorShift::NONE;
-    is_changed.then(|| scenery.shift.seen_colors(HueScale::Degrees, scenery.has_lights()))
+    let colors = is_changed.then(|| scenery.shift.seen_colors(HueScale::Degrees, scenery.has_lights()));
+    let explainer = Explainer { scene, parsed: &parsed, source, picture: &config.picture, colors };
+    let teller = Teller { scenery: &scenery, explainer: &explainer, light_names: light_names(scene) };
+    let samples: Vec<_> = pixels::explained(&scenery, config, pixel).into_iter().map(content).collect();
+    let steps = pixel_steps(&scenery, config, pixel);
+    Ok((explainer.explain(pixel, &samples, |sample| teller.shown(sample), steps), parsed.warnings))
+}
+
+/// What a sample shows: the faces that its ray from the eye meets.
+fn content(sample: ExplainedRay) -> (SampleContent, ExplainedRay) {
+    let direct = sample.visits.iter().filter(|visit| visit.depth == 0);
+    let rows = direct.map(|visit| visit.point.face).collect();
+    let is_free = sample.arriving.background.max_element() > 0.0;
+    (SampleContent { place: sample.place, rows, is_free }, sample)
 }
 
 fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) -> PixelSteps {
@@ -157,22 +139,14 @@ fn pixel_steps(scenery: &Scenery<'_>, config: &Config, [column, row]: [u32; 2]) 
 /// Computes the explanations of samples.
 struct Teller<'a> {
     scenery: &'a Scenery<'a>,
-    config: &'a Config,
-    source: &'a Source,
-    parsed: &'a Parsed,
+    explainer: &'a Explainer<'a>,
     /// In the order of the lamps.
     light_names: Vec<String>,
 }
 
 impl Teller<'_> {
-    fn item(&self, face: u32) -> ExplainedItem {
-        ExplainedItem::new(face, &self.scenery.scene, self.parsed, self.source)
-    }
-
     fn shown(&self, sample: &ExplainedRay) -> TracedSample {
-        let n = f64::from(self.config.picture.samples);
         TracedSample {
-            place: sample.place.map(|at| (f64::from(at) + 0.5) / n),
             linear: sample.arriving.light.to_array(),
             background: sample.arriving.background.to_array(),
             surfaces: sample.visits.iter().map(|visit| self.traced(sample, visit)).collect(),
@@ -211,7 +185,7 @@ impl Teller<'_> {
             [camera, (-point.wave.k).angle_between(moving)].map(f64::to_degrees)
         });
         ExplainedSurface {
-            item: self.item(point.face),
+            item: self.explainer.item(point.face),
             velocity: velocity.beta().to_array(),
             beta: velocity.beta().length(),
             gamma: velocity.gamma(),

@@ -13,10 +13,6 @@ const MAX_SURFACES: usize = 24;
 const MAX_LAMPS: usize = 8;
 
 impl WriteSample for TracedSample {
-    fn place(&self) -> [f64; 2] {
-        self.place
-    }
-
     fn write(&self, out: &mut ExplanationText, explanation: &Explanation<Self>) {
         out.row("light", format!("{} linear, the sum of these surfaces", numbers(&self.linear)));
         if self.background != [0.0; 3] {

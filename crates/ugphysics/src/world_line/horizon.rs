@@ -5,8 +5,8 @@ use std::collections::VecDeque;
 use glam::DVec3;
 
 use super::WorldLineError;
+use super::curve::Curve;
 use super::moving::{Moving, Path, Turn};
-use super::table::Along;
 
 /// Samples of a stretch of time in which acceleration and spin, or several spins, act together.
 const N_SAMPLES: u32 = 512;
@@ -41,12 +41,8 @@ impl Moving {
 
     /// See [`super::WorldLine::check_turn`].
     pub(super) fn check_turn(&self, own_time: f64) -> Result<(), WorldLineError> {
-        let of_path = match &self.path {
-            Path::Orbit(orbit) => orbit.turn_rate(),
-            Path::Accelerated(_) | Path::Along(_) => 0.0,
-        };
         let spins = self.turns.iter().map(|turn| turn.spin.rate(own_time).length());
-        let turned = (of_path + spins.sum::<f64>()) * own_time.abs();
+        let turned = (self.path.turn_rate() + spins.sum::<f64>()) * own_time.abs();
         if turned <= super::WorldLine::MOST_TURN {
             return Ok(());
         }
@@ -58,8 +54,7 @@ impl Moving {
     fn changes(&self) -> Vec<f64> {
         let of_path: Vec<f64> = match &self.path {
             Path::Accelerated(acceleration) => acceleration.changes().collect(),
-            Path::Orbit(_) => Vec::new(),
-            Path::Along(along) => vec![0.0, along.path.end()],
+            Path::Curved(framed) => framed.curve.changes().collect(),
         };
         of_path.into_iter().chain(self.turns.iter().flat_map(|turn| turn.spin.changes())).collect()
     }
@@ -84,22 +79,18 @@ impl Moving {
         inside: f64,
     ) -> Result<(), WorldLineError> {
         let is_at = |own_time: f64| self.point_event(point, own_time).map(drop);
-        if let Path::Along(along) = &self.path
-            && begin >= 0.0
-            && end <= along.path.end()
+        if let Path::Curved(framed) = &self.path
+            && framed.curve.changes().next().is_some_and(|first| begin >= first)
+            && framed.curve.changes().last().is_some_and(|last| end <= last)
         {
-            return self.check_along(point, (begin, end), along);
+            return self.check_halves(point, (begin, end), &framed.curve);
         }
-        let rates = self.turns.iter().map(|turn| turn.spin.rate(inside).length()).filter(|&rate| rate > 0.0);
-        let (n_spins, slowest) = rates.fold((0, f64::INFINITY), |(n, least), rate| (n + 1, rate.min(least)));
-        let turns_alone = n_spins == 1 && self.acceleration(inside) == DVec3::ZERO && !self.is_orbit();
-        if turns_alone || n_spins == 0 && !self.is_orbit() {
+        let spins = self.turns.iter().map(|turn| turn.spin.rate(inside).length());
+        let rates = spins.chain([self.path.turn_rate()]).filter(|&rate| rate > 0.0);
+        let (n_turns, slowest) = rates.fold((0, f64::INFINITY), |(n, least), rate| (n + 1, rate.min(least)));
+        if n_turns == 0 || n_turns == 1 && self.acceleration(inside) == DVec3::ZERO {
             return is_at(inside);
         }
-        let slowest = match &self.path {
-            Path::Orbit(orbit) => slowest.min(orbit.own_rate()),
-            Path::Accelerated(_) | Path::Along(_) => slowest,
-        };
         let span = MOST_TURNS * std::f64::consts::TAU / slowest;
         let begin = if begin.is_finite() { begin } else { end.min(0.0) - span };
         let end = if end.is_finite() { end } else { begin.max(0.0) + span };
@@ -107,18 +98,18 @@ impl Moving {
         (0..N_SAMPLES).try_for_each(|k| is_at(begin + (f64::from(k) + 0.5) * step))
     }
 
-    /// Halves a stretch between two events of a path where no bound shows that it is safe.
-    fn check_along(
+    /// Halves a stretch between two changes of a curve where no bound shows that it is safe.
+    fn check_halves(
         &self,
         point: DVec3,
         (begin, end): (f64, f64),
-        along: &Along,
+        curve: &Curve,
     ) -> Result<(), WorldLineError> {
         let mut parts = VecDeque::from([(begin, end)]);
         let mut n_samples = 0;
         while let Some((begin, end)) = parts.pop_front() {
             let middle = begin.midpoint(end);
-            let [acceleration, _] = along.path.bounds([begin, end]);
+            let [acceleration, _] = curve.bounds([begin, end]);
             if n_samples == N_SAMPLES
                 || self.is_safe(point, acceleration, |turn| turn.spin.rate(middle).length())
             {
@@ -129,9 +120,5 @@ impl Moving {
             parts.extend([(begin, middle), (middle, end)]);
         }
         Ok(())
-    }
-
-    fn is_orbit(&self) -> bool {
-        matches!(self.path, Path::Orbit(_))
     }
 }

@@ -4,10 +4,10 @@
 //! e₁, e₂, e₃ perpendicular to the four-velocity u = dz/dτ that are carried without turning
 //! (Fermi-Walker transport), in which it may spin.
 
+mod curve;
 mod horizon;
 mod inertial;
 mod moving;
-mod orbit;
 mod pieces;
 mod range_maximum;
 mod ray;
@@ -21,16 +21,15 @@ use glam::{DQuat, DVec3};
 
 pub use inertial::InertialFrame;
 pub use moving::ElementFrame;
-pub use orbit::Orbit;
 pub use pieces::Piece;
 pub use ray::{RayPoint, RayStretch, SmoothStretch, WorldTube};
 pub use seen::{SeenPoint, SeenTriangle};
 pub use table::SampledPath;
 
 use crate::{Event, Lorentz, Velocity, VelocityError};
+use curve::Curve;
 use moving::{Moving, Path, PointEvent, Turn};
 use pieces::{Acceleration, Spin};
-use table::Along;
 
 /// The motion of a body in the frame of the scene.
 ///
@@ -229,30 +228,6 @@ impl WorldLine {
         Ok(Self(Kind::Moving(Box::new(Moving { at, initial: velocity, path, turns }))))
     }
 
-    /// A motion whose reference point runs on a circle.
-    ///
-    /// # Errors
-    /// See [`WorldLineError`].
-    pub fn orbiting(orbit: Orbit, spins: &[Piece]) -> Result<Self, WorldLineError> {
-        let (at, initial) = (orbit.at(), orbit.velocity());
-        let turns = Turn::new(at, Spin::new(spins)?).into_iter().collect();
-        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path: Path::Orbit(Box::new(orbit)), turns }))))
-    }
-
-    /// A motion whose reference point, `at` in the coordinates of the body, passes given events, at
-    /// whose first its own time is 0.  Eq. (P48)
-    ///
-    /// # Errors
-    /// See [`WorldLineError`].
-    pub fn along(at: DVec3, path: SampledPath, spins: &[Piece]) -> Result<Self, WorldLineError> {
-        if !at.is_finite() {
-            return Err(WorldLineError::NotFinite);
-        }
-        let turns = Turn::new(at, Spin::new(spins)?).into_iter().collect();
-        let (initial, path) = (path.velocity(), Path::Along(Box::new(Along::new(path))));
-        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path, turns }))))
-    }
-
     /// The motion of a part of a body with this motion, which spins about its point `at` of it: a
     /// wheel on a car. Own times of the part are those of the body.
     ///
@@ -280,8 +255,7 @@ impl WorldLine {
         };
         match &mut moving.path {
             Path::Accelerated(acceleration) => acceleration.change_frame(target_from_source, origin),
-            Path::Orbit(orbit) => orbit.change_frame(target_from_source, origin),
-            Path::Along(along) => along.change_frame(target_from_source, origin),
+            Path::Curved(framed) => framed.change_frame(target_from_source, origin),
         }
         let frame = moving.pose(0.0).scene_from_axes;
         moving.initial = frame.velocity_of_frame().unwrap_or(moving.initial);
@@ -318,7 +292,9 @@ impl WorldLine {
     /// True if it passes given events, or is part of a motion that does: its place in space and
     /// time is stated, and no body is placed otherwise by what is seen of it.
     pub fn passes_events(&self) -> bool {
-        matches!(&self.0, Kind::Moving(moving) if matches!(moving.path, Path::Along(_)))
+        let is_table =
+            |path: &Path| matches!(path, Path::Curved(framed) if matches!(framed.curve, Curve::Along(_)));
+        matches!(&self.0, Kind::Moving(moving) if is_table(&moving.path))
     }
 
     /// The displacement in space and time of [`WorldLine::anchored`]; none if it runs on a circle

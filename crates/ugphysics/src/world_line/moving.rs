@@ -2,9 +2,9 @@
 
 use glam::{DQuat, DVec3};
 
-use super::orbit::Orbit;
+use super::curve::Framed;
 use super::pieces::{Acceleration, Offset, Spin};
-use super::table::{ALL_TIMES, Along};
+use super::table::ALL_TIMES;
 use super::{EmissionEvent, Pose, SeenLight, WorldLineError};
 use crate::{Event, Lorentz, Velocity, unit_or_zero};
 
@@ -33,8 +33,7 @@ pub(super) struct Turn {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Path {
     Accelerated(Acceleration),
-    Orbit(Box<Orbit>),
-    Along(Box<Along>),
+    Curved(Box<Framed>),
 }
 
 impl Path {
@@ -42,8 +41,7 @@ impl Path {
     pub(super) fn greatest_acceleration(&self) -> f64 {
         match self {
             Self::Accelerated(acceleration) => acceleration.greatest(),
-            Self::Orbit(orbit) => orbit.acceleration(0.0).length(),
-            Self::Along(along) => along.path.bounds(ALL_TIMES)[0],
+            Self::Curved(framed) => framed.curve.bounds(ALL_TIMES)[0],
         }
     }
 
@@ -52,11 +50,16 @@ impl Path {
     pub(super) fn bounds(&self, own_times: [f64; 2], inside: f64) -> [f64; 2] {
         match self {
             Self::Accelerated(acceleration) => [acceleration.at(inside).length(), 0.0],
-            Self::Orbit(orbit) => {
-                let acceleration = orbit.acceleration(inside).length();
-                [acceleration, orbit.turn_rate() * acceleration]
-            }
-            Self::Along(along) => along.path.bounds(own_times),
+            Self::Curved(framed) => framed.curve.bounds(own_times),
+        }
+    }
+
+    /// Radians per unit of own time by which the acceleration turns in the carried axes at all
+    /// times.
+    pub(super) fn turn_rate(&self) -> f64 {
+        match self {
+            Self::Accelerated(_) => 0.0,
+            Self::Curved(framed) => framed.curve.turn_rate(),
         }
     }
 }
@@ -144,16 +147,15 @@ impl Moving {
     pub(super) fn carried(&self, own_time: f64) -> Pose {
         match &self.path {
             Path::Accelerated(acceleration) => acceleration.pose(own_time),
-            Path::Orbit(orbit) => orbit.pose(own_time),
-            Path::Along(along) => along.pose(own_time).0,
+            Path::Curved(framed) => framed.pose(own_time).0,
         }
     }
 
     /// The pose without spin, and the proper acceleration in the carried axes.
     pub(super) fn carried_with_acceleration(&self, own_time: f64) -> (Pose, DVec3) {
         match &self.path {
-            Path::Along(along) => along.pose(own_time),
-            _ => (self.carried(own_time), self.acceleration(own_time)),
+            Path::Accelerated(acceleration) => (acceleration.pose(own_time), acceleration.at(own_time)),
+            Path::Curved(framed) => framed.pose(own_time),
         }
     }
 
@@ -179,8 +181,7 @@ impl Moving {
     pub(super) fn acceleration(&self, own_time: f64) -> DVec3 {
         match &self.path {
             Path::Accelerated(acceleration) => acceleration.at(own_time),
-            Path::Orbit(orbit) => orbit.acceleration(own_time),
-            Path::Along(along) => along.pose(own_time).1,
+            Path::Curved(framed) => framed.pose(own_time).1,
         }
     }
 
@@ -193,7 +194,7 @@ impl Moving {
                 let lapse = check_lapse(1.0 + acceleration.at(own_time).dot(xi), swing, own_time)?;
                 (lapse, acceleration.moment(offset, own_time))
             }
-            Path::Orbit(_) | Path::Along(_) => {
+            Path::Curved(_) => {
                 let (pose, acceleration) = self.carried_with_acceleration(own_time);
                 let Pose { event, scene_from_axes: axes, .. } = pose;
                 let lapse = check_lapse(1.0 + acceleration.dot(xi), swing, own_time)?;
@@ -211,7 +212,7 @@ impl Moving {
                 let (own_time, xi) = acceleration.own_time_at(event)?;
                 (own_time, xi, 1.0 + acceleration.at(own_time).dot(xi))
             }
-            Path::Orbit(_) | Path::Along(_) => {
+            Path::Curved(_) => {
                 let own_time = self.own_time_at(event);
                 let (pose, acceleration) = self.carried_with_acceleration(own_time);
                 let Event { t, x: xi } = pose.scene_from_axes.inverse().apply(event - pose.event);

@@ -272,11 +272,11 @@ impl Moving {
     fn smooth_before(&self, own_time: f64) -> f64 {
         let of_path = match &self.path {
             Path::Accelerated(acceleration) => acceleration.change_before(own_time),
-            Path::Orbit(_) => f64::NEG_INFINITY,
             // Inside, the acceleration is continuous and the bound of its derivative holds.
-            Path::Along(along) if own_time > along.path.end() => along.path.end(),
-            Path::Along(_) if own_time > 0.0 => 0.0,
-            Path::Along(_) => f64::NEG_INFINITY,
+            Path::Curved(framed) => {
+                let before = framed.curve.changes().filter(|&change| change < own_time);
+                before.fold(f64::NEG_INFINITY, f64::max)
+            }
         };
         self.turns.iter().map(|turn| turn.spin.change_before(own_time)).fold(of_path, f64::max)
     }

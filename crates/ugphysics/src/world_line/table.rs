@@ -269,7 +269,7 @@ impl SampledPath {
     }
 
     /// The pose and the proper acceleration in the carried axes.
-    fn pose(&self, own_time: f64) -> (Pose, DVec3) {
+    pub(super) fn pose(&self, own_time: f64) -> (Pose, DVec3) {
         let (event, instant, turn) = self.state(own_time);
         let acceleration = turn.conjugate() * instant.proper_acceleration();
         // Its speed was checked.
@@ -302,31 +302,4 @@ fn time_after(row: &Row, [begin, end]: [f64; 2], part: f64, late: f64) -> f64 {
         }
     }
     now
-}
-
-/// A path in any frame.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Along {
-    pub path: SampledPath,
-    /// The frame of the world line from that of the events, after `origin` is subtracted.
-    frame: Lorentz,
-    origin: Event,
-}
-
-impl Along {
-    pub(super) fn new(path: SampledPath) -> Self {
-        Self { path, frame: Lorentz::IDENTITY, origin: Event { t: 0.0, x: DVec3::ZERO } }
-    }
-
-    pub(super) fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
-        self.origin = self.origin + self.frame.inverse().apply(origin);
-        self.frame = target_from_source * self.frame;
-    }
-
-    /// The pose and the proper acceleration in the carried axes.
-    pub(super) fn pose(&self, own_time: f64) -> (Pose, DVec3) {
-        let (Pose { event, scene_from_axes, turn }, acceleration) = self.path.pose(own_time);
-        let event = self.frame.apply(event - self.origin);
-        (Pose { event, scene_from_axes: self.frame * scene_from_axes, turn }, acceleration)
-    }
 }

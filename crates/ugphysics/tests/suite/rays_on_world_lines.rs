@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use ugphysics::{Event, Lorentz, Orbit, Piece, SampledPath, Velocity, WorldLine};
+use ugphysics::{Event, Lorentz, Piece, SampledPath, Velocity, WorldLine};
 use ugtesting::Random;
 
 /// Random motions of all kinds, of bodies within 1 of their point A at `at`.
@@ -25,8 +25,8 @@ fn motion(random: &mut Random, kind: usize) -> (WorldLine, DVec3) {
             WorldLine::accelerated(at, velocity, &push, &spin)
         }
         3 => {
-            let orbit = Orbit::new(at, at + random.in_ball(1.0), random.in_ball(1.0), 0.3).unwrap();
-            WorldLine::orbiting(orbit, &pieces(random, 0.3))
+            let (center, axis) = (at + random.in_ball(1.0), random.in_ball(1.0));
+            WorldLine::orbiting(at, center, axis, 0.3, &pieces(random, 0.3))
         }
         4 => {
             let car = WorldLine::accelerated(at, velocity, &pieces(random, 0.15), &[]).unwrap();

@@ -10,7 +10,7 @@ use ugimage::{Filter, LinearFrame, Quantizer, display_pixel};
 use uglight::Interpolation;
 use ugparse::{Diagnostic, Diagnostics, Parsed, Source};
 use ugphysics::{Hsv, attenuation, linear_srgb_to_xyz};
-use ugscene::{Scene, SeenColors};
+use ugscene::{Scene, SeenColors, has_moving_bodies, has_moving_lights};
 
 use crate::{Backdrop, Background, PictureOptions};
 
@@ -39,10 +39,20 @@ pub struct Explanation<S> {
     #[serde(rename = "brightness_law", serialize_with = "text::law_name")]
     pub colors: Option<SeenColors>,
     /// The covered sample nearest to the centre of the pixel.
-    pub sample: Option<S>,
+    pub sample: Option<ExplainedSample<S>>,
     /// From the samples to the bytes.
     #[serde(flatten)]
     pub steps: PixelSteps,
+}
+
+/// The explanation of a sample.
+#[derive(Clone, Debug, Serialize)]
+pub struct ExplainedSample<S> {
+    /// Column and row of the sample in pixels.
+    pub place: [f64; 2],
+    /// What the renderer tells of it.
+    #[serde(flatten)]
+    pub own: S,
 }
 
 /// A surface that samples of a pixel show.
@@ -186,6 +196,92 @@ pub struct DevelopedPixel {
     pub in_gamut: [f64; 3],
 }
 
+/// A picture of which pixels are explained.
+pub struct Explainer<'a> {
+    /// The scene that is drawn, with the faces and wires that were parsed.
+    pub scene: &'a Scene,
+    /// What was parsed from `source`.
+    pub parsed: &'a Parsed,
+    /// The text of the scene.
+    pub source: &'a Source,
+    /// How it is drawn.
+    pub picture: &'a PictureOptions,
+    /// How motion changes colours; `None` if it does not.
+    pub colors: Option<SeenColors>,
+}
+
+/// What a sample shows.
+pub struct SampleContent {
+    /// Its column and row among the samples of the whole picture.
+    pub place: [u32; 2],
+    /// The rows of its surfaces, wires counted after the faces.
+    pub rows: Vec<u32>,
+    /// True if the background is visible.
+    pub is_free: bool,
+}
+
+impl Explainer<'_> {
+    /// The explanation of a pixel. `samples`: those that show anything, with what a renderer needs
+    /// to explain them; `own`: explains one.
+    pub fn explain<T, S: WriteSample>(
+        &self,
+        pixel: [u32; 2],
+        samples: &[(SampleContent, T)],
+        own: impl FnOnce(&T) -> S,
+        steps: PixelSteps,
+    ) -> Explanation<S> {
+        let n = self.picture.samples;
+        let mut covers: Vec<(u32, Cover)> = Vec::new();
+        for &row in samples.iter().flat_map(|(content, _)| &content.rows) {
+            match covers.iter_mut().find(|(shown, _)| *shown == row) {
+                Some((_, cover)) => cover.samples += 1,
+                None => covers.push((row, Cover { item: self.item(row), samples: 1 })),
+            }
+        }
+        let away = |(content, _): &&(SampleContent, T)| {
+            // Twice the distance, which is an integer.
+            let axis = |i: usize| 2 * i64::from(content.place[i] - pixel[i] * n) + 1 - i64::from(n);
+            axis(0) * axis(0) + axis(1) * axis(1)
+        };
+        // Of several equally near the last, as for channels.
+        let covered = samples.iter().rev().filter(|(content, _)| !content.rows.is_empty());
+        Explanation {
+            pixel,
+            size: self.picture.size,
+            samples: [n; 2],
+            covers: covers.into_iter().map(|(_, cover)| cover).collect(),
+            background_samples: (n * n) as usize
+                - samples.iter().filter(|(content, _)| !content.is_free).count(),
+            is_at_rest: !has_moving_bodies(self.scene) && !has_moving_lights(self.scene),
+            history: self.parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
+            colors: self.colors,
+            sample: covered.min_by_key(away).map(|(content, sample)| ExplainedSample {
+                place: content.place.map(|at| (f64::from(at) + 0.5) / f64::from(n)),
+                own: own(sample),
+            }),
+            steps,
+        }
+    }
+
+    /// A face, or a wire counted after the faces.
+    pub fn item(&self, row: u32) -> ExplainedItem {
+        let Self { scene, parsed, source, .. } = self;
+        let id = row.saturating_add(1);
+        let row = row as usize;
+        let name = |name: Option<ugscene::NameId>| name.map(|name| scene.names.get(name).to_owned());
+        let Some(face) = scene.faces.get(row) else {
+            let wire = scene.wires.get(row - scene.faces.len());
+            let name = name(wire.and_then(|wire| wire.name));
+            return ExplainedItem { kind: "wire", id, name, file: None, line: None };
+        };
+        let place = parsed.origins.faces.get(row).and_then(|span| {
+            Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()
+        });
+        let (file, line) = place.map(|place| (place.file, place.line)).unzip();
+        ExplainedItem { kind: "face", id, name: name(face.name), file, line }
+    }
+}
+
 impl<S: WriteSample> Explanation<S> {
     /// The explanation as JSON, ending with a line break.
     pub fn json(&self) -> String {
@@ -232,59 +328,6 @@ impl PixelSteps {
             development,
             bytes,
         }
-    }
-}
-
-/// The surfaces that samples show. `samples`: the rows of the faces and wires of each; `item`: the
-/// face or wire of a row.
-pub fn covers<Rows: IntoIterator<Item = u32>>(
-    samples: impl Iterator<Item = Rows>,
-    item: impl Fn(u32) -> ExplainedItem,
-) -> Vec<Cover> {
-    let mut covers: Vec<(u32, Cover)> = Vec::new();
-    for row in samples.flatten() {
-        match covers.iter_mut().find(|(shown, _)| *shown == row) {
-            Some((_, cover)) => cover.samples += 1,
-            None => covers.push((row, Cover { item: item(row), samples: 1 })),
-        }
-    }
-    covers.into_iter().map(|(_, cover)| cover).collect()
-}
-
-/// The sample nearest to the centre of a pixel; of several the last, as for channels. `place`:
-/// column and row of a sample, `n_samples` to a pixel.
-pub fn nearest<S>(
-    samples: &[S],
-    place: impl Fn(&S) -> [u32; 2],
-    pixel: [u32; 2],
-    n_samples: u32,
-) -> Option<&S> {
-    let away = |sample: &&S| {
-        let place = place(sample);
-        // Twice the distance, which is an integer.
-        let axis = |i: usize| 2 * i64::from(place[i] - pixel[i] * n_samples) + 1 - i64::from(n_samples);
-        axis(0) * axis(0) + axis(1) * axis(1)
-    };
-    samples.iter().rev().min_by_key(away)
-}
-
-impl ExplainedItem {
-    /// A face, or a wire counted after the faces. `scene`: with the faces and wires that were
-    /// parsed from `source`.
-    pub fn new(row: u32, scene: &Scene, parsed: &Parsed, source: &Source) -> Self {
-        let id = row.saturating_add(1);
-        let row = row as usize;
-        let name = |name: Option<ugscene::NameId>| name.map(|name| scene.names.get(name).to_owned());
-        let Some(face) = scene.faces.get(row) else {
-            let wire = scene.wires.get(row - scene.faces.len());
-            let name = name(wire.and_then(|wire| wire.name));
-            return Self { kind: "wire", id, name, file: None, line: None };
-        };
-        let place = parsed.origins.faces.get(row).and_then(|span| {
-            Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()
-        });
-        let (file, line) = place.map(|place| (place.file, place.line)).unzip();
-        Self { kind: "face", id, name: name(face.name), file, line }
     }
 }
 

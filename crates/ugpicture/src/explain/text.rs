@@ -11,9 +11,6 @@ use super::{ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, HueWav
 pub trait WriteSample: Serialize + Sized {
     /// Writes what follows the heading about the sample.
     fn write(&self, out: &mut ExplanationText, explanation: &Explanation<Self>);
-
-    /// Column and row of the sample in pixels.
-    fn place(&self) -> [f64; 2];
 }
 
 /// The text of an explanation.
@@ -33,8 +30,8 @@ impl<S: WriteSample> Explanation<S> {
             out.line(format!("    {} of {}: background", self.background_samples, columns * rows));
         }
         if let Some(sample) = &self.sample {
-            out.line(format!("\nthe covered sample nearest to the centre, at {}", numbers(&sample.place())));
-            sample.write(&mut out, self);
+            out.line(format!("\nthe covered sample nearest to the centre, at {}", numbers(&sample.place)));
+            sample.own.write(&mut out, self);
         }
         self.write_steps(&mut out);
         out.0

@@ -5,10 +5,11 @@ mod text;
 use glam::DVec3;
 use serde::Serialize;
 use uglight::Swatch;
-use ugparse::{Diagnostics, Parsed, Source};
+use ugparse::{Diagnostics, Source};
 use ugphysics::{doppler_at, srgb_decode, srgb_encode};
 use ugpicture::explain::{
-    ExplainedEvent, ExplainedItem, ExplainedSurface, Explanation, PixelSteps, SampleColor, covers, nearest,
+    ExplainedEvent, ExplainedItem, ExplainedSurface, Explainer, Explanation, PixelSteps, SampleColor,
+    SampleContent,
 };
 use ugpicture::{Canvas, Emissions, Filter, SurfaceSample};
 use ugraster::{Fragment, PixelSamples, ProbedSample};
@@ -26,11 +27,9 @@ use crate::render::warnings;
 use crate::render_layers::{RenderLayers, with_rasterizer};
 use crate::setup::Setup;
 
-/// The explanation of a sample.
+/// What is told of a sample.
 #[derive(Clone, Debug, Serialize)]
-pub struct ExplainedSample {
-    /// Column and row of the sample in pixels.
-    pub place: [f64; 2],
+pub struct RasterSample {
     /// The surface it shows.
     #[serde(flatten)]
     pub surface: ExplainedSurface,
@@ -88,7 +87,7 @@ pub fn explain(
     config: &Config,
     source: &Source,
     pixel: [u32; 2],
-) -> Result<(Explanation<ExplainedSample>, Diagnostics), Error> {
+) -> Result<(Explanation<RasterSample>, Diagnostics), Error> {
     let parsed = ugparse::read(source, &config.reading, config.picture.camera.name.as_deref())?;
     if config.with_textures(&parsed.scene).exact.is_some() {
         return Err(Error::ExplainExact);
@@ -112,21 +111,12 @@ pub fn explain(
         }
     });
     let whole = || pixels::light(&setup, &layers, config).0;
-    let teller = Teller { setup: &setup, config, source, parsed: &parsed };
-    let explanation = Explanation {
-        pixel,
-        size: picture.size,
-        samples: [picture.samples; 2],
-        covers: covers(samples.iter().map(shown_items), |item| teller.item(item)),
-        background_samples: (picture.samples * picture.samples) as usize
-            - samples.iter().filter(|sample| !is_free(sample)).count(),
-        is_at_rest: !ugscene::has_moving_bodies(setup.scene()) && !ugscene::has_moving_lights(setup.scene()),
-        history: parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
-        colors: parsed.scene.stage.seen_colors().copied(),
-        sample: nearest(&samples, |sample| sample.place, pixel, picture.samples)
-            .map(|sample| teller.shown(sample)),
-        steps: PixelSteps::new(picture, mean, !setup.keeps_highlights, whole),
-    };
+    let colors = parsed.scene.stage.seen_colors().copied();
+    let explainer = Explainer { scene: setup.scene(), parsed: &parsed, source, picture, colors };
+    let teller = Teller { setup: &setup, explainer: &explainer };
+    let samples: Vec<_> = samples.into_iter().map(content).collect();
+    let steps = PixelSteps::new(picture, mean, !setup.keeps_highlights, whole);
+    let explanation = explainer.explain(pixel, &samples, |sample| teller.shown(sample), steps);
     Ok((explanation, warnings(source, parsed)))
 }
 
@@ -154,33 +144,24 @@ fn stack(sample: &ProbedSample) -> Vec<Layer> {
     stack
 }
 
-/// The faces and wires that a sample shows, each once, even if its edges are in the sample as well.
-fn shown_items(sample: &ProbedSample) -> Vec<u32> {
-    let mut items: Vec<u32> = stack(sample).iter().map(|layer| layer.tag).collect();
-    items.sort_unstable();
-    items.dedup();
-    items
-}
-
-/// True if the background is visible at a sample.
-fn is_free(sample: &ProbedSample) -> bool {
-    stack(sample).iter().all(|layer| layer.pass > 0.0)
+/// What a sample shows: its faces and wires, each once, even if its edges are in the sample as well.
+fn content(sample: ProbedSample) -> (SampleContent, ProbedSample) {
+    let stack = stack(&sample);
+    let mut rows: Vec<u32> = stack.iter().map(|layer| layer.tag).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    let is_free = stack.iter().all(|layer| layer.pass > 0.0);
+    (SampleContent { place: sample.place, rows, is_free }, sample)
 }
 
 /// Computes the explanations of samples.
 struct Teller<'a> {
     setup: &'a Setup<'a>,
-    config: &'a Config,
-    source: &'a Source,
-    parsed: &'a Parsed,
+    explainer: &'a Explainer<'a>,
 }
 
 impl Teller<'_> {
-    fn item(&self, item: u32) -> ExplainedItem {
-        ExplainedItem::new(item, self.setup.scene(), self.parsed, self.source)
-    }
-
-    fn shown(&self, sample: &ProbedSample) -> ExplainedSample {
+    fn shown(&self, sample: &ProbedSample) -> RasterSample {
         let painter = self.setup.painter();
         let (seen, values, light) = self.subject(sample);
         let emissions = Emissions::new(painter.scene, painter.view, painter.appearance.surface.frames());
@@ -193,9 +174,8 @@ impl Teller<'_> {
             (!velocity.is_zero()).then(|| line.angle_between(velocity.direction()).to_degrees())
         };
         let doppler = doppler_at(place, velocity);
-        let n = f64::from(self.config.picture.samples);
         let surface = ExplainedSurface {
-            item: self.item(seen.item),
+            item: self.explainer.item(seen.item),
             velocity: velocity.beta().to_array(),
             beta: velocity.beta().length(),
             gamma: velocity.gamma(),
@@ -211,8 +191,7 @@ impl Teller<'_> {
             color: values.map(|values| self.color(values, seen.item, doppler)),
             linear: light.map(f64::from),
         };
-        ExplainedSample {
-            place: sample.place.map(|sample| (f64::from(sample) + 0.5) / n),
+        RasterSample {
             surface,
             corners: self.corners(seen.item),
             depth_cue: self.setup.grid.fade.map(|_| self.setup.grid.light_left(seen.key)),
@@ -243,7 +222,7 @@ impl Teller<'_> {
             return Vec::new();
         }
         let shown = |layer: Layer| LayerShown {
-            item: self.item(layer.tag),
+            item: self.explainer.item(layer.tag),
             translucency: layer.pass,
             linear: layer.light,
         };

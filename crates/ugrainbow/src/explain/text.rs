@@ -3,16 +3,12 @@
 use ugpicture::explain::text::{ExplanationText, described, level, number, numbers};
 use ugpicture::explain::{Explanation, WriteSample};
 
-use super::{ExplainedCorner, ExplainedSample};
+use super::{ExplainedCorner, RasterSample};
 
 /// Corners listed; a face may have thousands.
 const MAX_CORNERS: usize = 8;
 
-impl WriteSample for ExplainedSample {
-    fn place(&self) -> [f64; 2] {
-        self.place
-    }
-
+impl WriteSample for RasterSample {
     fn write(&self, out: &mut ExplanationText, explanation: &Explanation<Self>) {
         let surface = &self.surface;
         out.surface(surface, explanation.is_at_rest);

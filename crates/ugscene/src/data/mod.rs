@@ -19,7 +19,7 @@ pub use color_table::{ColorTable, TablePlace};
 pub use contours::Contours;
 pub use history::{Provenance, recorded};
 pub use ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
-pub use motion::{Carrier, MotionPath, StatedMotion};
+pub use motion::{Carrier, CurveKind, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
 pub use remarks::{Comment, Item, Remarks};
 pub use scene::{

@@ -1,7 +1,7 @@
 //! Motions with a name, as the text states them.
 
 use glam::DVec3;
-use ugphysics::{Event, InertialFrame, Orbit, Piece, SampledPath, Velocity, WorldLine, WorldLineError};
+use ugphysics::{Event, InertialFrame, Piece, SampledPath, Velocity, WorldLine, WorldLineError};
 
 use super::ids::BodyId;
 
@@ -31,14 +31,12 @@ pub enum MotionPath {
         /// `-acc`: proper acceleration along the carried axes.
         accelerations: Vec<Piece>,
     },
-    /// `-orbit`: a circle through A.
-    Orbit {
-        /// The centre.
-        center: DVec3,
-        /// The axis, of any length except 0.
-        axis: DVec3,
-        /// Radians per unit of the time of the frame.
-        rate: f64,
+    /// `-orbit`: a curve through A at own time 0 that a few numbers state.
+    Curve {
+        /// Its kind.
+        kind: &'static CurveKind,
+        /// The numbers of the option.
+        numbers: Vec<f64>,
     },
     /// `-path`: A passes the events of a table.
     Along(SampledPath),
@@ -47,6 +45,45 @@ pub enum MotionPath {
 impl MotionPath {
     /// A is a fixed point of the carrier.
     pub const FIXED: Self = Self::Free { velocity: Velocity::ZERO, accelerations: Vec::new() };
+}
+
+/// A kind of curve: the option that states it, and its world line.
+#[derive(Debug)]
+pub struct CurveKind {
+    /// The option without `-`.
+    pub word: &'static str,
+    /// How many numbers follow it.
+    pub n_numbers: usize,
+    /// Where among them a vector begins that is not zero.
+    pub axis: Option<usize>,
+    /// Of A, the numbers, and the spins of the body.
+    line: fn(DVec3, &[f64], &[Piece]) -> Result<WorldLine, WorldLineError>,
+}
+
+impl CurveKind {
+    /// All kinds.
+    pub const ALL: &'static [Self] = &[Self {
+        word: "orbit",
+        n_numbers: 7,
+        axis: Some(3),
+        // Centre, axis, radians per unit of the time of the frame.
+        line: |at, numbers, spins| {
+            let [center, axis] = [0, 3].map(|row| DVec3::from_slice(&numbers[row..]));
+            WorldLine::orbiting(at, center, axis, numbers[6], spins)
+        },
+    }];
+
+    /// The options of a motion, for messages.
+    pub const OPTIONS: &'static str = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
+
+    /// The options of which a motion has one, for messages.
+    pub const PATHS: &'static str = "give `-vel` and `-acc`, or `-orbit`, or `-path`";
+}
+
+impl PartialEq for CurveKind {
+    fn eq(&self, other: &Self) -> bool {
+        self.word == other.word
+    }
 }
 
 /// What a motion moves on.
@@ -95,9 +132,7 @@ impl StatedMotion {
             MotionPath::Free { velocity, accelerations } => {
                 WorldLine::accelerated(self.at, *velocity, accelerations, &self.spins)
             }
-            &MotionPath::Orbit { center, axis, rate } => {
-                WorldLine::orbiting(Orbit::new(self.at, center, axis, rate)?, &self.spins)
-            }
+            MotionPath::Curve { kind, numbers } => (kind.line)(self.at, numbers, &self.spins),
             MotionPath::Along(path) => WorldLine::along(self.at, path.clone(), &self.spins),
         }?;
         let line = if *frame == InertialFrame::REST { line } else { line.carried_by(frame)? };

@@ -65,6 +65,9 @@ impl SurfaceProperties {
         SurfaceNumber { of: |s| &mut s.absorption, range: 0.0..=f64::MAX, rule: "absorption is 0 or more" },
     ];
 
+    /// The form of the statement, for messages.
+    pub const FORM: &'static str = "surf ID kd ks kt [n [exponent [absorption]]] ;";
+
     /// The count of numbers that every `surf` statement has.
     pub const N_REQUIRED: usize = 3;
 

@@ -2,15 +2,15 @@
 
 use glam::{DQuat, DVec3};
 
-use super::pieces::rotation;
-use super::{Pose, WorldLineError};
+use super::super::pieces::rotation;
+use super::{Curve, Piece, Pose, WorldLine, WorldLineError};
 use crate::{Event, Lorentz, Velocity};
 
 /// A circle on which a reference point runs with constant speed, and the axes that are carried
 /// along without turning. Seen from the scene they turn by −2π(γ − 1) a revolution (Thomas).  Eq.
 /// (P44)
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Orbit {
+pub(in crate::world_line) struct Orbit {
     center: DVec3,
     /// The unit vector about which the point runs counterclockwise.
     axis: DVec3,
@@ -19,19 +19,22 @@ pub struct Orbit {
     /// From the centre to the point at own time 0.
     start: DVec3,
     velocity: Velocity,
-    /// The frame of the world line from that in which it is a circle, after `origin` is subtracted.
-    frame: Lorentz,
-    origin: Event,
 }
 
-impl Orbit {
-    /// A circle about the axis `axis` through `center`, on which a point that is at `at` at time 0
-    /// runs with `rate` radians per unit of the time of the scene.
+impl WorldLine {
+    /// A motion whose reference point, which is at `at` at time 0, runs on a circle about the axis
+    /// `axis` through `center`, with `rate` radians per unit of the time of the scene.
     ///
     /// # Errors
-    /// [`WorldLineError::NotFinite`], [`WorldLineError::NoAxis`], or [`WorldLineError::Velocity`]
-    /// if the speed is not below that of light.
-    pub fn new(at: DVec3, center: DVec3, axis: DVec3, rate: f64) -> Result<Self, WorldLineError> {
+    /// [`WorldLineError::NotFinite`], [`WorldLineError::NoAxis`], [`WorldLineError::Velocity`] if
+    /// the speed is not below that of light, or the error of a spin.
+    pub fn orbiting(
+        at: DVec3,
+        center: DVec3,
+        axis: DVec3,
+        rate: f64,
+        spins: &[Piece],
+    ) -> Result<Self, WorldLineError> {
         if !(at.is_finite() && center.is_finite() && axis.is_finite() && rate.is_finite()) {
             return Err(WorldLineError::NotFinite);
         }
@@ -41,37 +44,21 @@ impl Orbit {
         }
         let start = at - center;
         let velocity = Velocity::from_beta(rate * axis.cross(start))?;
-        let (frame, origin) = (Lorentz::IDENTITY, Event { t: 0.0, x: DVec3::ZERO });
-        Ok(Self { center, axis, rate, start, velocity, frame, origin })
+        let orbit = Orbit { center, axis, rate, start, velocity };
+        // As the pose at own time 0 has it.
+        Self::on_curve(center + start, velocity, Curve::Orbit(orbit), spins)
     }
+}
 
-    pub(super) fn at(&self) -> DVec3 {
-        self.center + self.start
-    }
-
-    /// At own time 0.
-    pub(super) fn velocity(&self) -> Velocity {
-        self.velocity
-    }
-
-    /// Radians per unit of own time.
-    pub(super) fn own_rate(&self) -> f64 {
-        (self.rate * self.velocity.gamma()).abs()
-    }
-
+impl Orbit {
     /// Radians per unit of own time by which the acceleration turns in the carried axes: γ²ω.
     pub(super) fn turn_rate(&self) -> f64 {
-        self.velocity.gamma() * self.own_rate()
+        self.velocity.gamma() * (self.rate * self.velocity.gamma()).abs()
     }
 
     /// The turn of the point's place about the axis.
     fn progress(&self, own_time: f64) -> DQuat {
         rotation(self.axis, self.rate * self.velocity.gamma() * own_time)
-    }
-
-    pub(super) fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
-        self.origin = self.origin + self.frame.inverse().apply(origin);
-        self.frame = target_from_source * self.frame;
     }
 
     pub(super) fn pose(&self, own_time: f64) -> Pose {
@@ -82,10 +69,16 @@ impl Orbit {
         let velocity = Velocity::from_proper(progress * self.velocity.proper()).unwrap_or(self.velocity);
         let lag = rotation(self.axis, -self.velocity.gamma_minus_one() * gamma * self.rate * own_time);
         Pose {
-            event: self.frame.apply(event - self.origin),
-            scene_from_axes: self.frame * Lorentz::boost(velocity) * Lorentz::rotation(lag),
+            event,
+            scene_from_axes: Lorentz::boost(velocity) * Lorentz::rotation(lag),
             turn: DQuat::IDENTITY,
         }
+    }
+
+    /// |a| and |da/dτ|.
+    pub(super) fn bounds(&self) -> [f64; 2] {
+        let acceleration = self.acceleration(0.0).length();
+        [acceleration, self.turn_rate() * acceleration]
     }
 
     /// Centripetal, perpendicular to the velocity: γ²ω²ρ towards the axis. In the carried axes this
