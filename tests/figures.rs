@@ -140,6 +140,12 @@ fn ship() -> Pipe {
     Pipe::new(0.2 * DVec3::X, SIZE).in_place()
 }
 
+/// The colored scene drawn by the last program of the pipe, with another output.
+fn drawn_as(pipe: &Pipe, colored: &[u8], output: Output) -> Vec<u8> {
+    let picture = ugrainbow::PictureOptions { output, ..pipe.rainbow.picture.clone() };
+    rainbow(colored, &ugrainbow::Config { picture, ..pipe.rainbow.clone() })
+}
+
 #[test]
 fn embedded_pictures_are_the_png() {
     if !tools::has(&TOOLS) {
@@ -147,15 +153,7 @@ fn embedded_pictures_are_the_png() {
     }
     let pipe = ship();
     let colored = pipe.run(&scenes::text("ship")).colored;
-    let draw = |output| {
-        rainbow(
-            &colored,
-            &ugrainbow::Config {
-                picture: ugrainbow::PictureOptions { output, ..pipe.rainbow.picture.clone() },
-                ..pipe.rainbow.clone()
-            },
-        )
-    };
+    let draw = |output| drawn_as(&pipe, &colored, output);
     let png = decode(&draw(Output::Color(Format::Png)));
     for (format, tool) in [
         (Format::Pdf, Tool::Ghostscript),
@@ -228,15 +226,7 @@ fn vector_figures_show_the_same_as_the_png() {
     ];
     figures.par_iter().for_each(|(name, text, pipe)| {
         let colored = pipe.run(text).colored;
-        let draw = |output| {
-            rainbow(
-                &colored,
-                &ugrainbow::Config {
-                    picture: ugrainbow::PictureOptions { output, ..pipe.rainbow.picture.clone() },
-                    ..pipe.rainbow.clone()
-                },
-            )
-        };
+        let draw = |output| drawn_as(pipe, &colored, output);
         let png = on_paper(decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
         let is_clear = pipe.rainbow.picture.background == ugrainbow::Background::Transparent;
@@ -296,21 +286,14 @@ fn text_in_figures_can_be_searched() {
 fn vector_figures_are_smaller_than_pictures_for_print() {
     let pipe = ship();
     let colored = pipe.run(&scenes::text("ship")).colored;
-    let draw = |config| rainbow(&colored, &config).len();
     // 6 x 4.5 inches on paper: in points, and in pixels at 600 dpi.
     let print = ugrainbow::Config {
         picture: ugrainbow::PictureOptions { size: [3600, 2700], samples: 1, ..pipe.rainbow.picture.clone() },
         ..pipe.rainbow.clone()
     };
-    let png = draw(print);
+    let png = rainbow(&colored, &print).len();
     for format in [Format::Eps, Format::Ps, Format::Pdf, Format::Svg] {
-        let figure = draw(ugrainbow::Config {
-            picture: ugrainbow::PictureOptions {
-                output: Output::Vector(format),
-                ..pipe.rainbow.picture.clone()
-            },
-            ..pipe.rainbow.clone()
-        });
+        let figure = drawn_as(&pipe, &colored, Output::Vector(format)).len();
         println!("{}: {figure} bytes, PNG {png}", format.name());
         assert!(figure < png, "{}: {figure} bytes, PNG {png}", format.name());
     }

@@ -9,7 +9,7 @@ use std::process::Command;
 use glam::DVec3;
 use ugimage::Format;
 use ugparse::{Options, Source, parse};
-use ugrainbow::{Background, Channel, Output};
+use ugrainbow::{Background, Channel, Output, PictureOptions};
 use ugtests::oracle::Pinhole;
 use ugtests::pipe::{Pipe, rainbow};
 use ugtests::tools::{self, OIIOTOOL};
@@ -51,28 +51,22 @@ fn write(folder: &Path, name: &str, bytes: &[u8]) -> PathBuf {
     path
 }
 
+/// Draws a scene, with nine samples a pixel.
+fn draw(text: &str, picture: PictureOptions) -> Vec<u8> {
+    let picture = PictureOptions { size: SIZE, samples: 3, ..picture };
+    rainbow(text.as_bytes(), &ugrainbow::Config { picture, ..ugrainbow::Config::default() })
+}
+
 #[test]
 fn another_program_reads_the_same_light() {
     if !tools::has(&[OIIOTOOL]) {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let config = ugrainbow::Config {
-        picture: ugrainbow::PictureOptions { size: SIZE, samples: 3, ..ugrainbow::PictureOptions::default() },
-        ..ugrainbow::Config::default()
-    };
+    let black = PictureOptions::default().background;
     let draw = |format, background| {
-        let config = ugrainbow::Config {
-            picture: ugrainbow::PictureOptions {
-                output: Output::Color(format),
-                background,
-                ..config.picture.clone()
-            },
-            ..config.clone()
-        };
-        rainbow(GLARE.as_bytes(), &config)
+        draw(GLARE, PictureOptions { output: Output::Color(format), background, ..PictureOptions::default() })
     };
-    let black = config.picture.background;
     // The numbers in the PFM file: three floats per pixel, rows from the bottom.
     let pfm = draw(Format::Pfm, black);
     let [width, height] = SIZE.map(|side| side as usize);
@@ -113,19 +107,8 @@ fn another_program_reads_the_same_levels() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let draw = |format| {
-        let output = Output::Color(format);
-        let config = ugrainbow::Config {
-            picture: ugrainbow::PictureOptions {
-                output,
-                size: SIZE,
-                samples: 3,
-                ..ugrainbow::PictureOptions::default()
-            },
-            ..ugrainbow::Config::default()
-        };
-        rainbow(GLARE.as_bytes(), &config)
-    };
+    let draw =
+        |format| draw(GLARE, PictureOptions { output: Output::Color(format), ..PictureOptions::default() });
     let png = read(&write(folder.path(), "a.png", &draw(Format::Png)));
     assert_eq!(read(&write(folder.path(), "a.ppm", &draw(Format::Ppm))), png);
     let deep = read(&write(folder.path(), "deep.png", &draw(Format::Png16)));
@@ -155,12 +138,8 @@ fn channels_describe_the_emission_event() {
     let folder = tempfile::tempdir().unwrap();
     let path = write(folder.path(), "plane.exr", &pipe.run(text.as_bytes()).file);
     let header = oiiotool(&["-v", "--info"], &[&path]);
-    let listed: Vec<&str> = header
-        .lines()
-        .find_map(|line| line.trim().strip_prefix("channel list: "))
-        .unwrap()
-        .split(", ")
-        .collect();
+    let list = header.lines().find_map(|line| line.trim().strip_prefix("channel list: "));
+    let listed: Vec<&str> = list.unwrap().split(", ").collect();
     assert_eq!(listed.len(), 3 + 7, "{header}");
     assert!(header.contains("0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329"), "{header}");
     let row =
@@ -187,10 +166,8 @@ fn channels_describe_the_emission_event() {
         for (name, expected) in expected {
             let ours = pixel[row(name)];
             // Subdivision has a relative error of a ten-thousandth as seen from the eye.
-            assert!(
-                (ours - expected).abs() < 1e-3 * expected.abs(),
-                "{name} at {x} {y}: {ours} for {expected}"
-            );
+            let is_near = (ours - expected).abs() < 1e-3 * expected.abs();
+            assert!(is_near, "{name} at {x} {y}: {ours} for {expected}");
         }
     }
 }
@@ -201,15 +178,6 @@ fn the_id_channel_numbers_faces() {
         return;
     }
     let folder = tempfile::tempdir().unwrap();
-    let config = ugrainbow::Config {
-        picture: ugrainbow::PictureOptions {
-            size: SIZE,
-            output: Output::Color(Format::Exr),
-            channels: vec![Channel::Id],
-            ..ugrainbow::PictureOptions::default()
-        },
-        ..ugrainbow::Config::default()
-    };
     // Columns side by side; the third is missing.
     let column = |k: usize| {
         let left = k as f64 - 2.0;
@@ -220,7 +188,9 @@ fn the_id_channel_numbers_faces() {
         )
     };
     let text = [0, 1, 3].map(column).concat() + "cam -ep 0 0 0 -vc 0 4 0 -va 53.1301023542 40;";
-    let path = write(folder.path(), "a.exr", &rainbow(text.as_bytes(), &config));
+    let output = Output::Color(Format::Exr);
+    let options = PictureOptions { output, channels: vec![Channel::Id], ..PictureOptions::default() };
+    let path = write(folder.path(), "a.exr", &draw(&text, options));
     let counted = folder.path().join("id.exr");
     // `oiiotool` scales integers by the largest one.
     let [from, to] = [&path, &counted].map(|path| path.to_str().unwrap());

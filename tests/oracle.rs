@@ -158,10 +158,8 @@ fn outline_errors_are_within_the_bound() {
         for row in 0..scene.faces.len() {
             scene.faces[row].name = Some(scene.names.add(&format!("f{row}")));
         }
-        let camera = scene.camera().unwrap();
-        let eye = camera.eye.unwrap();
+        let eye = scene.camera().unwrap().eye.unwrap();
         let oracle = Oracle::new(&scene, eye, Some(beta), in_place);
-        let camera = Pinhole::new(camera, eye, [320, 240]);
         for bound in [3e-3, 0.3e-3] {
             let config = uglorentz::Config {
                 velocity: Some(beta),
@@ -172,7 +170,7 @@ fn outline_errors_are_within_the_bound() {
             let seen = uglorentz::apply(scene.clone(), &config).unwrap().0;
             let row = |face: &ugscene::Face| seen.names.get(face.name.unwrap())[1..].parse().unwrap();
             let origins: Vec<usize> = seen.faces.iter().map(row).collect();
-            let errors = outline::errors(&seen, &origins, eye, &oracle, &camera);
+            let errors = outline::errors(&seen, &origins, eye, &oracle);
             println!("{name} {bound}: {errors:?}");
             assert!(errors.n_edges >= scene.faces.len(), "{name}: {errors:?}");
             assert!(errors.angle <= bound && errors.angle > bound / 10.0, "{name} {bound}: {errors:?}");

@@ -56,10 +56,8 @@ fn mistakes_are_answered() {
                 them is in a pipe";
     check("uglorentz -vel .9 0 0 ship.ug | ugphoton", seen);
     check("uglorentz -vel .9 0 0 ship.ug | uglorentz", seen);
-    check(
-        "uglorentz -vel .9 0 0 ship.ug | ugfilm -frames 2 -ti 0..1 -fo f_%d.png",
-        "each compute themselves",
-    );
+    let film = "ugfilm -frames 2 -ti 0..1 -fo f_%d.png";
+    check(&format!("uglorentz -vel .9 0 0 ship.ug | {film}"), "each compute themselves");
     check("uglorentz -vel .9 0 0 ship.ug | ugdoppler | ugphoton", seen);
     check("ugdoppler -qt ship.ug | ugphoton", "ugphoton and ugfilm do the work of all three");
     check(
@@ -73,29 +71,23 @@ fn mistakes_are_answered() {
     );
 
     // Values of options.
-    check(
-        "ugfilm -vel 0..0.9 -fo a_%04d.png ship.ug",
-        "`-vel` takes three values, not one: write `-vel X Y Z`",
-    );
+    let three = "`-vel` takes three values, not one: write `-vel X Y Z`";
+    check("ugfilm -vel 0..0.9 -fo a_%04d.png ship.ug", three);
     for program in ["uglorentz", "ugphoton", "ugwarp", "ugfilm"] {
         let expected = format!("{program}: error: `-cv` takes three values, not one: write `-cv X Y Z`");
         check(&format!("{program} -cv .9 -fo x.png ship.ug"), &expected);
     }
     check("uglorentz -ti -fo x.ug ship.ug", "`-ti` needs a value: `-ti T`");
     check("ugfilm -ti -fo x.png ship.ug", "`-ti` needs a value: `-ti T`");
-    let number = "is not valid for `-vel`:";
-    check(
-        "uglorentz -vel 90% 0 0 ship.ug",
-        &format!("`90%` {number} percentages are fractions of 1: write `0.9`"),
-    );
-    let speed = format!("{number} speeds are fractions of the speed of light, without a unit: write");
+    let percent = "`90%` is not valid for `-vel`: percentages are fractions of 1: write `0.9`";
+    let comma = "`0,9` is not valid for `-vel`: the decimal point is a point: write `0.9`";
+    check("uglorentz -vel 90% 0 0 ship.ug", percent);
+    let speed = "is not valid for `-vel`: speeds are fractions of the speed of light, without a unit: write";
     check("uglorentz -vel .9c 0 0 ship.ug", &format!("`.9c` {speed} `0.9`"));
     check("uglorentz -vel 270000km/s 0 0 ship.ug", &format!("`270000km/s` {speed} `0.9006230"));
-    check(
-        "uglorentz -vel 0,9 0 0 ship.ug",
-        &format!("`0,9` {number} the decimal point is a point: write `0.9`"),
-    );
-    check("uglorentz -vel 0.9, 0, 0 ship.ug", &format!("`0.9,` {number} numbers are separated by blanks"));
+    check("uglorentz -vel 0,9 0 0 ship.ug", comma);
+    let separated = "`0.9,` is not valid for `-vel`: numbers are separated by blanks";
+    check("uglorentz -vel 0.9, 0, 0 ship.ug", separated);
     check("uglorentz -ti 0..5 ship.ug", "only ugfilm draws numbers that change over time");
     check("uglorentz -ti 0 .. 5 ship.ug", "only ugfilm draws numbers that change over time");
     check("ugfilm -ti 0...1 -fo a_%d.png ship.ug", "`-ti`: `0...1` has three dots: write `0..1` or `0..0.1`");
@@ -371,10 +363,7 @@ fn textures_are_drawn_alike() {
     let spinning = scene.replace(") wood;", ") wood <turn>;") + "motion turn -acc .05 0 0 -spin 0 .2 .1;";
     shell.write("spinning.ug", spinning.as_bytes());
     let view = "-ep 4 -6 3 -vc 0 0 0 -va 30 -sz 60 45 -ex 1";
-    let pixels = |name: &str| {
-        let file = std::fs::read(shell.path(name)).unwrap();
-        ugimage::read_png(&file, &ugimage::PictureLimits::default()).unwrap().0.into_pixels()
-    };
+    let pixels = |name: &str| shell.pixels(name);
     // ugrainbow finds texels once for a row of samples in a pixel.
     let decibels = |name: &str| {
         let (rays, other) = (pixels("rays.png"), pixels(name));
@@ -405,16 +394,10 @@ fn textures_are_drawn_alike() {
     shell.run(&format!("ugphoton -qt -look shape {view} crate.ug > rays.png"));
     shell.run(&format!("ugrainbow -qt {view} crate.ug > plain.png"));
     assert!(decibels("plain.png") > 45.0);
-    let output = shell.output("ugrainbow -cb crate.ug");
-    let messages = String::from_utf8(output.stderr).unwrap();
     let note = "textures are not drawn: faces of colour `wood` have its plain colour; -xc draws them";
-    assert!(messages.contains(note), "{messages}");
-    let output = shell.output("ugrainbow --explain 30,20 -sz 60 45 crate.ug");
-    let messages = String::from_utf8(output.stderr).unwrap();
-    assert!(messages.contains("faces with textures are drawn by rays"), "{messages}");
-    let output = shell.output("uglorentz -vel .5 0 0 crate.ug | ugdoppler -ir | ugrainbow");
-    let messages = String::from_utf8(output.stderr).unwrap();
-    assert!(messages.contains("plain colour; leave out -vel, -gw, -ir"), "{messages}");
+    check(&shell, "ugrainbow -cb crate.ug", note);
+    check(&shell, "ugrainbow --explain 30,20 -sz 60 45 crate.ug", "faces with textures are drawn by rays");
+    check(&shell, "uglorentz -vel .5 0 0 crate.ug | ugdoppler -ir", "plain colour; leave out -vel, -gw, -ir");
     // ugdoppler leaves textures to rays, which draw as without it.
     let moved = "uglorentz -vel .5 0 0 -in -ep 4 -6 3 crate.ug";
     for shift in ["", "-sp", "-sp --infrared-rule constant --no-flux", "-br photon"] {
@@ -429,29 +412,25 @@ fn textures_are_drawn_alike() {
         let output = shell.output(&format!("{moved} | ugdoppler -qt --no-textures | {picture}"));
         assert!(output.status.success() && !output.stdout.is_empty());
     }
-    let output = shell.output("uglorentz -vel .5 0 0 < crate.gltf");
-    let messages = String::from_utf8(output.stderr).unwrap();
-    assert!(messages.contains("textures within a mesh on standard input are left out"), "{messages}");
+    check(
+        &shell,
+        "uglorentz -vel .5 0 0 < crate.gltf",
+        "textures within a mesh on standard input are left out",
+    );
     // Films draw them by rays; what they print draws the same.
     let film = "ugfilm -qt -frames 2 -vel 0..0.6 0 0 -in -sz 60 45";
     shell.run(&format!("{film} -fo film_%d.png crate.gltf"));
-    let printed =
-        String::from_utf8(shell.output(&format!("{film} --print -fo shell_%d.png crate.gltf")).stdout);
-    let printed = printed.unwrap();
+    let [printed, _] = shell.run(&format!("{film} --print -fo shell_%d.png crate.gltf"));
     assert!(!printed.contains("--no-textures"), "{printed}");
     printed.lines().for_each(|line| drop(shell.run(line)));
     assert!(pixels("film_2.png") == pixels("shell_2.png"));
-    let plain = shell.output(&format!("{film} -cb --print -fo shell_%d.png crate.gltf")).stdout;
-    assert!(String::from_utf8(plain).unwrap().contains("--no-textures"));
+    let [plain, _] = shell.run(&format!("{film} -cb --print -fo shell_%d.png crate.gltf"));
+    assert!(plain.contains("--no-textures"), "{plain}");
     // A scene in a folder, of which programs see only that.
     std::fs::create_dir(shell.path("sub")).unwrap();
     shell.write("sub/a.ug", b"c w 1; c_tex w \"../crate_texture1.png\";");
-    let output = shell.output("ugparse check sub/a.ug");
-    let messages = String::from_utf8(output.stderr).unwrap();
-    assert!(
-        messages.contains("cannot read `sub/../crate_texture1.png`") && messages.contains("--allow-outside"),
-        "{messages}"
-    );
+    check(&shell, "ugparse check sub/a.ug", "cannot read `sub/../crate_texture1.png`");
+    check(&shell, "ugparse check sub/a.ug", "--allow-outside");
 }
 
 /// Values over time may have blanks around their dots.

@@ -90,13 +90,9 @@ fn comments_tell_programs_nothing() {
         }
     }
     for last in ["ugmesh -dt obj", "ugparse check"] {
-        let head_of_mesh = |text: Vec<u8>| -> Vec<u8> {
+        let head_of_mesh = |text: Vec<u8>| -> String {
             let text = String::from_utf8(text).expect("text");
-            text.lines()
-                .filter(|line| !line.starts_with('#'))
-                .flat_map(|line| [line, "\n"])
-                .collect::<String>()
-                .into()
+            text.lines().filter(|line| !line.starts_with('#')).flat_map(|line| [line, "\n"]).collect()
         };
         let commands = ["uglorentz -vel 0 -.4 .1 -sm", "ugdoppler -qt -gw", last];
         let [plain, stripped] = [<[u8]>::to_vec, without_comments]
@@ -106,94 +102,48 @@ fn comments_tell_programs_nothing() {
     assert!(n_pictures > 40, "{n_pictures}");
 }
 
-/// A pipe whose last program refuses its input.
-struct Refused {
-    pipe: &'static [&'static str],
-    /// The expected message.
-    problem: &'static str,
-    /// The expected remedy.
-    remedy: &'static str,
-}
-
 #[test]
+#[rustfmt::skip] // rows of a table
 fn pipes_that_would_draw_wrong_pictures_are_refused() {
-    const ALL: &[Refused] = &[
-        Refused {
-            pipe: &["uglorentz", "uglorentz"],
-            problem: "positions in this scene are as seen already",
-            remedy: "give the scene at rest",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugdoppler", "ugdoppler"],
-            problem: "colours in this scene are as seen already",
-            remedy: "start again from the scene before ugdoppler",
-        },
-        Refused {
-            pipe: &["ugdoppler"],
-            problem: "bodies in this scene move, and their positions are not as seen yet",
-            remedy: "give the scene to uglorentz first",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugdoppler -ep 0 0 1"],
-            problem: "positions in this scene are as seen from the eye point 0 0 0, and would be wrong from 0 0 1",
-            remedy: "give it to uglorentz (-ep 0 0 1)",
-        },
-        Refused {
-            pipe: &["uglorentz -ep 0 -1 0", "ugrainbow -ep 0 0 0"],
-            problem: "positions in this scene are as seen from the eye point 0 -1 0, and would be wrong from 0 0 0",
-            remedy: "leave out -ep",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugdoppler", "ugrainbow -ep 1 0 0"],
-            problem: "as seen from the eye point 0 0 0",
-            remedy: "leave out -ep",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugrainbow -ep 1 0 0 --explain 3,3"],
-            problem: "as seen from the eye point 0 0 0",
-            remedy: "leave out -ep",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugrainbow -cam side"],
-            problem: "as seen from the eye point 0 0 0, and would be wrong from 3 0 0",
-            remedy: "leave out -ep",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugdoppler", "ugrainbow -wi"],
-            problem: "colours in this scene are as seen, and are not written as wavelengths",
-            remedy: "give -gw to ugdoppler",
-        },
-        Refused {
-            pipe: &["uglorentz", "ugdoppler -sp", "ugrainbow -wi"],
-            problem: "are not written as wavelengths",
-            remedy: "leave out -wi",
-        },
-        Refused {
-            pipe: &["uglorentz -sd 1", "ugdoppler", "ugrainbow -xc"],
-            problem: "those of this scene have been shifted",
-            remedy: "leave ugdoppler out",
-        },
-        Refused {
-            pipe: &["ugrainbow -xc --no-doppler --no-flux"],
-            problem: "bodies in this scene move, and their positions are not as seen yet",
-            remedy: "give the scene to uglorentz first",
-        },
-        Refused {
-            pipe: &["uglorentz -nc -sd 1", "ugrainbow -xc --no-doppler --no-flux"],
-            problem: "left one of them out",
-            remedy: "leave out -xc",
-        },
-    ];
     let scene = SCENE.to_owned() + "cam side -ep 3 0 0 -vc 0 8 0;";
-    for Refused { pipe, problem, remedy } in ALL {
+    let moving = "bodies in this scene move, and their positions are not as seen yet";
+    let seen_from = "positions in this scene are as seen from the eye point";
+    // The last program of a pipe refuses its input with these words.
+    for (pipe, problem, remedy) in [
+        (&["uglorentz", "uglorentz"][..], "positions in this scene are as seen already", "give the scene at rest"),
+        (&["uglorentz", "ugdoppler", "ugdoppler"], "colours in this scene are as seen already",
+            "start again from the scene before ugdoppler"),
+        (&["ugdoppler"], moving, "give the scene to uglorentz first"),
+        (&["uglorentz", "ugdoppler -ep 0 0 1"], &format!("{seen_from} 0 0 0, and would be wrong from 0 0 1"),
+            "give it to uglorentz (-ep 0 0 1)"),
+        (&["uglorentz -ep 0 -1 0", "ugrainbow -ep 0 0 0"],
+            &format!("{seen_from} 0 -1 0, and would be wrong from 0 0 0"), "leave out -ep"),
+        (&["uglorentz", "ugdoppler", "ugrainbow -ep 1 0 0"], "as seen from the eye point 0 0 0", "leave out -ep"),
+        (&["uglorentz", "ugrainbow -ep 1 0 0 --explain 3,3"], "as seen from the eye point 0 0 0", "leave out -ep"),
+        (&["uglorentz", "ugrainbow -cam side"], "from the eye point 0 0 0, and would be wrong from 3 0 0",
+            "leave out -ep"),
+        (&["uglorentz", "ugdoppler", "ugrainbow -wi"],
+            "colours in this scene are as seen, and are not written as wavelengths", "give -gw to ugdoppler"),
+        (&["uglorentz", "ugdoppler -sp", "ugrainbow -wi"], "are not written as wavelengths", "leave out -wi"),
+        (&["uglorentz -sd 1", "ugdoppler", "ugrainbow -xc"], "those of this scene have been shifted",
+            "leave ugdoppler out"),
+        (&["ugrainbow -xc --no-doppler --no-flux"], moving, "give the scene to uglorentz first"),
+        (&["uglorentz -nc -sd 1", "ugrainbow -xc --no-doppler --no-flux"], "left one of them out", "leave out -xc"),
+    ] {
         let (last, others) = pipe.split_last().expect("a program");
-        let input = piped(others, &scene, <[u8]>::to_vec);
-        let output = programs::fed(last, &input);
-        let messages = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{pipe:?}: {messages}");
-        assert!(output.stdout.is_empty(), "{pipe:?}");
+        let messages = refused(last, &piped(others, &scene, <[u8]>::to_vec));
         assert!(messages.contains(problem) && messages.contains(remedy), "{pipe:?}: {messages}");
     }
+}
+
+/// The messages of a program that refuses its input.
+#[track_caller]
+fn refused(command: &str, input: &[u8]) -> String {
+    let output = programs::fed(command, input);
+    let messages = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(1), "{command}: {messages}");
+    assert!(output.stdout.is_empty(), "{command}");
+    messages
 }
 
 /// Nothing moves.
@@ -203,9 +153,7 @@ const STILL: &str = "c red 1 20; v a 0 5 0; v b 1 5 0; v c 0 5 1; f (a b c) red;
 fn colours_come_last_even_at_rest() {
     let colored = piped(&["ugdoppler"], STILL, <[u8]>::to_vec);
     for command in ["uglorentz -vel .1 0 0", "ugdoppler"] {
-        let output = programs::fed(command, &colored);
-        let messages = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(1), "{command}: {messages}");
+        let messages = refused(command, &colored);
         assert!(messages.contains("colours in this scene are as seen already"), "{command}: {messages}");
     }
 }
@@ -240,10 +188,8 @@ fn moving_bodies_at_rest_are_drawn_with_a_warning() {
     let output = programs::fed("ugrainbow -sz 9 9", SCENE.as_bytes());
     let messages = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success() && !output.stdout.is_empty(), "{messages}");
-    assert!(
-        messages.contains("bodies in this scene move, and are drawn with their shapes at rest"),
-        "{messages}"
-    );
+    let warning = "bodies in this scene move, and are drawn with their shapes at rest";
+    assert!(messages.contains(warning), "{messages}");
     assert!(messages.contains("<stdin>:8:1") && messages.contains("uglorentz"), "{messages}");
 }
 

@@ -228,12 +228,6 @@ impl Body {
         (self.boost * past(d)).truncate()
     }
 
-    fn outlines(&self) -> impl Iterator<Item = (usize, Outline<'_>)> {
-        self.polygons.iter().map(|polygon| {
-            (polygon.face, Outline { body: self, edges: &polygon.edges, size: polygon.radius })
-        })
-    }
-
     /// The apparent position of a point at rest: its light is emitted at −|p| in the body's time.
     fn seen(&self, p: DVec3) -> DVec3 {
         (self.boost.inverse() * p.extend(-p.length())).truncate()
@@ -352,57 +346,40 @@ impl Oracle {
     }
 
     /// The apparent point of each edge of a face nearest to direction `d`, ignoring other faces.
-    pub fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
-        let find = |body: &Body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            Some(polygon.edge_points(body.ray(d)).map(|point| body.seen(point)).collect())
-        };
-        self.bodies.iter().find_map(find).unwrap_or_default()
+    fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
+        let Some((body, polygon)) = self.polygon(face) else { return Vec::new() };
+        polygon.edge_points(body.ray(d)).map(|point| body.seen(point)).collect()
     }
 
-    /// All faces in a direction, occluded ones too, and their distances.
-    pub fn hits(&self, direction: DVec3) -> Vec<(usize, f64)> {
-        let of_body = |body: &Body| {
-            let ray = body.ray(direction);
-            let hit = |polygon: &Polygon| Some((polygon.face, polygon.hit(ray)?));
-            body.polygons.iter().filter_map(hit).collect::<Vec<_>>()
-        };
-        self.bodies.iter().flat_map(of_body).collect()
+    /// A face at rest, and its body; `None` if it has no area.
+    fn polygon(&self, face: usize) -> Option<(&Body, &Polygon)> {
+        self.bodies.iter().find_map(|body| {
+            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
+            Some((body, polygon))
+        })
     }
 
     /// The outline of a face; `None` if it has no area.
     pub fn outline(&self, face: usize) -> Option<Outline<'_>> {
-        self.outlines().find_map(|(other, outline)| (other == face).then_some(outline))
-    }
-
-    /// All faces that have an area, and their outlines.
-    pub fn outlines(&self) -> impl Iterator<Item = (usize, Outline<'_>)> {
-        self.bodies.iter().flat_map(Body::outlines)
+        let (body, polygon) = self.polygon(face)?;
+        Some(Outline { body, edges: &polygon.edges, size: polygon.radius })
     }
 
     /// The intersection with one face in a direction (unit vector), ignoring other faces.
     pub fn hit(&self, face: usize, direction: DVec3) -> Option<Hit> {
-        self.bodies.iter().find_map(|body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            let ray = body.ray(direction);
-            let point = polygon.hit(ray)? * ray;
-            // Frequencies are proportional to the time components, and so to the lengths, of null
-            // vectors.
-            Some(Hit {
-                point,
-                written: point - body.offset,
-                normal: polygon.normal,
-                doppler: 1.0 / ray.length(),
-            })
-        })
+        let (body, polygon) = self.polygon(face)?;
+        let ray = body.ray(direction);
+        let point = polygon.hit(ray)? * ray;
+        // Frequencies are proportional to the time components, and so to the lengths, of null
+        // vectors.
+        let doppler = 1.0 / ray.length();
+        Some(Hit { point, written: point - body.offset, normal: polygon.normal, doppler })
     }
 
     /// The apparent distance of one face in a direction, ignoring other faces.
     pub fn distance(&self, face: usize, direction: DVec3) -> Option<f64> {
-        self.bodies.iter().find_map(|body| {
-            let polygon = body.polygons.iter().find(|polygon| polygon.face == face)?;
-            polygon.hit(body.ray(direction))
-        })
+        let (body, polygon) = self.polygon(face)?;
+        polygon.hit(body.ray(direction))
     }
 }
 
@@ -420,32 +397,20 @@ impl Outline<'_> {
         self.edges.len()
     }
 
-    /// The apparent position of the point at `part`, 0…1, of an edge.
-    pub fn point(&self, edge: usize, part: f64) -> DVec3 {
-        let (a, b) = self.edges[edge];
-        self.body.seen(a + part * (b - a))
-    }
-
-    /// The apparent positions of the ends of an edge.
-    pub fn ends(&self, edge: usize) -> [DVec3; 2] {
-        [0.0, 1.0].map(|part| self.point(edge, part))
-    }
-
-    /// The parameters, 0…1, of two apparent points on an edge; `None` if one of them is not on it.
-    pub fn parts(&self, edge: usize, seen: [DVec3; 2]) -> Option<[f64; 2]> {
+    /// Whether two apparent points are on an edge.
+    pub fn has(&self, edge: usize, seen: [DVec3; 2]) -> bool {
         /// Relative to the size of the face. The inverse boost has an error of some γ² units in the
         /// last place.
         const ON_EDGE: f64 = 1e-8;
         let (a, b) = self.edges[edge];
         let along = b - a;
-        let [first, second] = seen.map(|p| {
+        seen.into_iter().all(|p| {
             let rest = (self.body.boost * p.extend(-p.length())).truncate();
             let part = (rest - a).dot(along) / along.length_squared();
             let off = (a + part * along - rest).length();
             let is_within = (-ON_EDGE..=1.0 + ON_EDGE).contains(&part);
-            (is_within && off <= ON_EDGE * (self.size + rest.length())).then_some(part)
-        });
-        Some([first?, second?])
+            is_within && off <= ON_EDGE * (self.size + rest.length())
+        })
     }
 
     /// The apparent position of the point of an edge nearest to direction `d`.

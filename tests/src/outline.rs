@@ -4,11 +4,11 @@
 //! its ends, transformed back to the rest frame by the oracle's matrix, lie on one edge of the
 //! original face; edges within a face are ignored.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 use ugscene::Scene;
 
-use crate::oracle::{Oracle, Outline, Pinhole};
+use crate::oracle::{Oracle, Outline};
 
 /// Each drawn edge is measured at this number of intervals.
 const N_POINTS: u32 = 12;
@@ -18,8 +18,6 @@ const N_POINTS: u32 = 12;
 pub struct Errors {
     /// Angle at the eye, radians, over all directions.
     pub angle: f64,
-    /// Pixels, within the picture.
-    pub pixels: f64,
     /// Drawn edges on outlines.
     pub n_edges: usize,
 }
@@ -28,17 +26,13 @@ impl Errors {
     /// The larger of both errors, and the sum of the edges.
     #[must_use]
     pub fn and(self, other: Errors) -> Errors {
-        Errors {
-            angle: self.angle.max(other.angle),
-            pixels: self.pixels.max(other.pixels),
-            n_edges: self.n_edges + other.n_edges,
-        }
+        Errors { angle: self.angle.max(other.angle), n_edges: self.n_edges + other.n_edges }
     }
 }
 
 /// Measures every edge of `seen`, relative to `eye`. `origin`: for each face, the face of the
 /// oracle's scene of which it is a piece.
-pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle, camera: &Pinhole) -> Errors {
+pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle) -> Errors {
     let n_faces = origin.iter().max().map_or(0, |last| last + 1);
     let outlines: Vec<Option<Outline>> =
         (0..n_faces).into_par_iter().map(|face| oracle.outline(face)).collect();
@@ -47,26 +41,22 @@ pub fn errors(seen: &Scene, origin: &[usize], eye: DVec3, oracle: &Oracle, camer
         let contours = seen.face_contours(&seen.faces[row]);
         let ends = contours.flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
         let position = |id: &ugscene::VertexId| seen.vertices[id.index()].position - eye;
-        ends.map(|(a, b)| of_chord(&outline, [position(a), position(b)], camera))
-            .fold(Errors::default(), Errors::and)
+        ends.map(|(a, b)| of_chord(&outline, [position(a), position(b)])).fold(Errors::default(), Errors::and)
     };
     origin.par_iter().enumerate().map(of_face).reduce(Errors::default, Errors::and)
 }
 
-fn of_chord(outline: &Outline, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
-    let edge = (0..outline.n_edges()).find(|&edge| outline.parts(edge, ends).is_some());
-    edge.map_or_else(Errors::default, |edge| chord_error(outline, edge, ends, camera))
+fn of_chord(outline: &Outline, ends: [DVec3; 2]) -> Errors {
+    let edge = (0..outline.n_edges()).find(|&edge| outline.has(edge, ends));
+    edge.map_or_else(Errors::default, |edge| chord_error(outline, edge, ends))
 }
 
 /// The error of a straight line between two apparent points of one edge.
-fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhole) -> Errors {
+fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2]) -> Errors {
     let mut errors = Errors { n_edges: 1, ..Errors::default() };
     for drawn in drawn(ends) {
         let exact = outline.nearest(edge, drawn).normalize();
         errors.angle = errors.angle.max(libm::atan2(drawn.cross(exact).length(), drawn.dot(exact)));
-        if let Some(pixel) = pixel_within(camera, drawn) {
-            errors.pixels = errors.pixels.max(distance(camera, exact, pixel));
-        }
     }
     errors
 }
@@ -75,14 +65,4 @@ fn chord_error(outline: &Outline, edge: usize, ends: [DVec3; 2], camera: &Pinhol
 fn drawn(ends: [DVec3; 2]) -> impl Iterator<Item = DVec3> {
     let [from, to] = ends.map(DVec3::normalize);
     (1..N_POINTS).map(move |step| from.lerp(to, f64::from(step) / f64::from(N_POINTS)).normalize())
-}
-
-fn pixel_within(camera: &Pinhole, direction: DVec3) -> Option<DVec2> {
-    let [width, height] = camera.size().map(f64::from);
-    let is_within = |p: &DVec2| (0.0..=width).contains(&p.x) && (0.0..=height).contains(&p.y);
-    camera.pixel(direction).filter(is_within)
-}
-
-fn distance(camera: &Pinhole, direction: DVec3, pixel: DVec2) -> f64 {
-    camera.pixel(direction).map_or(f64::INFINITY, |exact| exact.distance(pixel))
 }

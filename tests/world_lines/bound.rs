@@ -35,38 +35,36 @@ impl Errors {
 fn fast(random: &mut Random, middle: DVec3) -> Statement {
     let mut motion = Statement::random(random, middle, 0.95);
     let always = |of: DVec3| Stretch { of, from: f64::NEG_INFINITY, to: f64::INFINITY };
+    // Short pieces of any direction, one after the other.
+    let pieces = |random: &mut Random, most: f64| {
+        let mut from = -9.0;
+        let pieces = std::iter::from_fn(|| {
+            let to = from + random.between(0.2, 1.2);
+            let piece = Stretch { of: random.direction() * random.between(0.3, most), from, to };
+            from = to;
+            (from < 3.0).then_some(piece)
+        });
+        pieces.collect::<Vec<_>>()
+    };
+    let free = |velocity| Path::Free { velocity, accelerations: Vec::new() };
     match random.below(4) {
         // The rim of radius 1.
         0 => {
             motion.at = middle;
-            motion.path = Path::Free { velocity: random.in_ball(0.9), accelerations: Vec::new() };
+            motion.path = free(random.in_ball(0.9));
             motion.spins = vec![always(random.direction() * random.between(0.8, 0.97))];
         }
         // A jerk when the light leaves.
         1 => {
             motion.at = middle;
-            let mut from = -9.0;
-            let accelerations = std::iter::from_fn(|| {
-                let to = from + random.between(0.2, 1.2);
-                let piece = Stretch { of: random.direction() * random.between(0.3, 0.8), from, to };
-                from = to;
-                (from < 3.0).then_some(piece)
-            });
-            motion.path = Path::Free { velocity: DVec3::ZERO, accelerations: accelerations.collect() };
+            motion.path = Path::Free { velocity: DVec3::ZERO, accelerations: pieces(random, 0.8) };
             motion.spins.clear();
         }
         // Spin that reverses.
         2 => {
             motion.at = middle;
-            let mut from = -9.0;
-            let spins = std::iter::from_fn(|| {
-                let to = from + random.between(0.2, 1.2);
-                let piece = Stretch { of: random.direction() * random.between(0.3, 0.9), from, to };
-                from = to;
-                (from < 3.0).then_some(piece)
-            });
-            motion.spins = spins.collect();
-            motion.path = Path::Free { velocity: random.in_ball(0.8), accelerations: Vec::new() };
+            motion.spins = pieces(random, 0.9);
+            motion.path = free(random.in_ball(0.8));
         }
         _ => {}
     }
@@ -182,11 +180,8 @@ fn errors_of_edges_are_within_the_bound() {
         let some: Vec<_> = pieces.iter().copied().step_by(pieces.len().div_ceil(25)).collect();
         let errors = errors_of(&some, &bodies, &observer, bound);
         if errors.angle > 1.0 || errors.depth > 1.0 || errors.inside > 1.0 {
-            println!(
-                "{case} {bound}: {errors:?} of {} pieces\n{}",
-                pieces.len(),
-                world.motions[0].text("m0")
-            );
+            let motion = world.motions[0].text("m0");
+            println!("{case} {bound}: {errors:?} of {} pieces\n{motion}", pieces.len());
             n_beyond += 1;
         }
         all = all.with(errors);

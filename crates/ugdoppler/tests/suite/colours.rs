@@ -7,6 +7,7 @@ use ugphysics::{Brightness, Velocity, hue_to_wavelength};
 use ugpipe::Words;
 use ugscene::{ColorValue, Scene};
 
+use crate::spectra::ribbon;
 use crate::{colour, parsed};
 
 /// One green triangle, far away to the right, above and behind; and one grey.
@@ -225,16 +226,7 @@ fn values_above_one_are_clipped_or_scaled() {
 
 #[test]
 fn reuse_keeps_its_tolerance_and_saves_colours() {
-    // A ribbon of many vertices along which D runs from ahead to behind.
-    let mut text = String::from("c green 0.3 120;");
-    let n = 2000;
-    for k in 0..n {
-        let x = -20.0 + 40.0 * k as f64 / n as f64;
-        text += &format!("v a{k} {x} 9 0; v b{k} {x} 9 1;\n");
-    }
-    for k in 1..n {
-        text += &format!("f (a{} a{k} b{k}) green;\n", k - 1);
-    }
+    let text = ribbon("c green 0.3 120;", "green");
     let exact = colour(&text, &Config { wavelengths: true, ..moving(-0.3, 0.0, 0.0) }).0;
     let mut n_before = exact.colors.len();
     for tolerance in [0.1, 1.0, 5.0] {

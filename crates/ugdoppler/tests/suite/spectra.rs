@@ -41,7 +41,7 @@ fn ahead_and_behind(colors: &str, name: &str) -> String {
 }
 
 /// A ribbon of triangles past which D runs from ahead to behind: enough vertices for a table.
-fn ribbon(colors: &str, name: &str) -> String {
+pub fn ribbon(colors: &str, name: &str) -> String {
     let mut text = colors.to_string();
     let n = 3000;
     for k in 0..n {

@@ -226,14 +226,12 @@ fn strips_fans_and_colours_of_gltf() {
     let linear = r#","materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0.5,0,0.25]}}]"#;
     let red = [255, 0, 0, 128].repeat(5);
     let with = |attributes: &str, material: &str| gltf_strip(4, attributes, material, &red);
-    let given = |bytes: Vec<u8>| {
+    let given = |text: Vec<u8>| {
         // Adds a material to the primitive, after its mode.
-        let text = [bytes.as_slice()].concat();
-        let at = text.windows(8).position(|w| w == b"\"mode\":4").unwrap();
         let json_len = u32::from_le_bytes(text[12..16].try_into().unwrap()) as usize;
         let json = String::from_utf8_lossy(&text[20..20 + json_len]).into_owned();
+        assert!(json.contains("\"mode\":4"));
         let json = json.replacen("\"mode\":4", "\"mode\":4,\"material\":0", 1);
-        assert!(at > 20);
         glb(json.trim_end(), &text[28 + json_len..])
     };
     check(given(with("", linear)), &format!("c_rgb c1 1 {half} 0; f (v1 v2 v3) c1;"));
@@ -281,11 +279,10 @@ fn lines_end_with_line_feeds_or_carriage_returns() {
 #[test]
 fn files_beside_the_mesh() {
     let beside = |name: &str, _limit: u64| -> std::io::Result<Vec<u8>> {
+        let materials =
+            "# made by hand\nnewmtl deep red\n Kd 0.5 0 0\nd 0.75\nnewmtl bare\nnewmtl white\nKd 1\n";
         match name {
-            "my colours.mtl" => {
-                Ok(b"# made by hand\nnewmtl deep red\n Kd 0.5 0 0\nd 0.75\nnewmtl bare\nnewmtl white\nKd 1\n"
-                    .to_vec())
-            }
+            "my colours.mtl" => Ok(materials.into()),
             "a b.bin" => Ok(floats(&[0., 0., 0., 1., 0., 0., 0., 1., 0.])),
             _ => Err(std::io::ErrorKind::NotFound.into()),
         }
@@ -295,17 +292,11 @@ fn files_beside_the_mesh() {
             .unwrap_or_else(|error| panic!("{error}"))
     };
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    let obj = run(
-        "a.obj",
-        &format!(
-            "mtllib my colours.mtl\n{points}usemtl deep red\nf 1 2 3\nusemtl bare\nf 1 3 2\nusemtl white\nf 1 3 2"
-        ),
-    );
+    let faces = "usemtl deep red\nf 1 2 3\nusemtl bare\nf 1 3 2\nusemtl white\nf 1 3 2";
+    let obj = run("a.obj", &format!("mtllib my colours.mtl\n{points}{faces}"));
     let text = String::from_utf8(obj.bytes).unwrap();
-    assert!(
-        text.contains("c_rgb deep_red 0.5 0 0 0.25;\nc_rgb bare 0.8 0.8 0.8;\nc_rgb white 1 1 1;\n"),
-        "{text}"
-    );
+    let colours = "c_rgb deep_red 0.5 0 0 0.25;\nc_rgb bare 0.8 0.8 0.8;\nc_rgb white 1 1 1;\n";
+    assert!(text.contains(colours), "{text}");
     assert!(text.ends_with("f (v1 v2 v3) deep_red;\nf (v1 v3 v2) bare;\nf (v1 v3 v2) white;\n"), "{text}");
     assert!(obj.warnings.is_empty(), "{:?}", obj.warnings);
 
@@ -405,14 +396,13 @@ fn errors_name_the_problem_and_line() {
         assert_eq!(convert(&Config::default(), name, bytes).unwrap_err().words(), expected);
     }
     check("a", "", "cannot detect the format of `a`; give it with -if ug, obj, ply, stl, off or gltf");
-    check(
-        "a.ug",
-        "",
-        "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp",
-    );
+    let scene =
+        "the input is already a UniGrafix scene; choose an output format with -dt obj, ply, gltf, glb or vtp";
+    check("a.ug", "", scene);
     let of = |name: &str, format: &str, bytes: &[u8], problem: &str| {
         check(name, bytes, &format!("cannot read `{name}` as {format}: {problem}"));
     };
+    let stl = |bytes: &[u8], problem: &str| of("a.stl", "STL", bytes, problem);
     let obj = |text: &str, problem: &str| of("a.obj", "OBJ", text.as_bytes(), problem);
     obj("v 1 2", "line 1: a vertex needs 3 numbers or more");
     obj("v 0 0 0\nv 1 2 nan", "line 2: `nan` in a vertex is not a finite number");
@@ -423,18 +413,12 @@ fn errors_name_the_problem_and_line() {
     obj(page, "it is a web page; download the file itself");
     let pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 5\n";
     obj(pointer, "it is a Git LFS pointer; fetch the file itself with `git lfs pull`");
-    of(
-        "a.stl",
-        "STL",
-        pointer.as_bytes(),
-        "it is a Git LFS pointer; fetch the file itself with `git lfs pull`",
-    );
-    of("a.stl", "STL", b"\xff\xfes\0o\0", "it is UTF-16 text; save it as UTF-8 or ASCII");
+    stl(pointer.as_bytes(), "it is a Git LFS pointer; fetch the file itself with `git lfs pull`");
+    stl(b"\xff\xfes\0o\0", "it is UTF-16 text; save it as UTF-8 or ASCII");
     of("a.obj", "OBJ", b"\x1f\x8b\x08", "it is compressed data; decompress it first");
     let shown = format!("line 1: `{}…` in a vertex is not a finite number", "x".repeat(40));
     obj(&format!("v 1 2 {}", "x".repeat(1000)), &shown);
     obj("vn 1", "line 1: a normal needs 3 numbers");
-    let stl = |bytes: &[u8], problem: &str| of("a.stl", "STL", bytes, problem);
     stl(b"solid\nvertex 0 0 0\nendloop", "line 3: a facet has 1 corners, not 3");
     stl(b"solid\nvertx 0 0 0", "line 2: `vertx` is not a keyword of STL");
     stl(b"solid\nvertex 0 0 0", "the file ends inside a facet; copy it again");
@@ -457,21 +441,14 @@ fn errors_name_the_problem_and_line() {
     ply("1\nproperty float x\nend_header\n1\n", "vertices have no property `y`");
     let gltf = |bytes: &[u8], problem: &str| of("a.glb", "glTF", bytes, problem);
     gltf(b"glTF\x02\0\0\0\0\0\0\0", "the file is truncated; copy it again");
-    gltf(
-        &glb(r#"{"asset":{"version":"2.0"},"extensionsRequired":["KHR_draco_mesh_compression"]}"#, b""),
-        "the mesh has draco compression (KHR_draco_mesh_compression); export without it",
-    );
-    let required = r#"{"asset":{"version":"2.0"},"extensionsRequired":["EXT_meshopt_compression"]}"#;
-    gltf(
-        &glb(required, b""),
-        "the mesh has meshopt compression (EXT_meshopt_compression); export without it",
-    );
-    of(
-        "a.gltf",
-        "glTF",
-        br#"{"asset":{"version":"1.0"},"meshes":{"a":{}}}"#,
-        "glTF 1.0 is not read; convert the mesh to glTF 2.0",
-    );
+    for (extension, name) in [("KHR_draco_mesh_compression", "draco"), ("EXT_meshopt_compression", "meshopt")]
+    {
+        let required = format!(r#"{{"asset":{{"version":"2.0"}},"extensionsRequired":["{extension}"]}}"#);
+        let problem = format!("the mesh has {name} compression ({extension}); export without it");
+        gltf(&glb(&required, b""), &problem);
+    }
+    let old = br#"{"asset":{"version":"1.0"},"meshes":{"a":{}}}"#;
+    of("a.gltf", "glTF", old, "glTF 1.0 is not read; convert the mesh to glTF 2.0");
     of("a.gltf", "glTF", b"{}", "this is not a glTF document: it has no `asset` with a version");
     gltf(&glb_with_nodes(r#"[{"mesh":7}]"#), "`meshes[7]` does not exist; export the mesh again");
     let ascii =
@@ -488,21 +465,19 @@ fn errors_name_the_problem_and_line() {
 
 #[test]
 fn omitted_parts_are_counted() {
-    #[track_caller]
-    fn check(name: &str, text: &str, expected: &[&str]) {
-        assert_eq!(convert(&Config::default(), name, text).unwrap().warnings, expected);
-    }
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    check("a.obj", points, &["the mesh has no faces"]);
-    check(
-        "a.obj",
-        &format!("{points}f 1 2 3\nf 1 2 1\nl 1 2"),
-        &["1 line, point or curve is left out", "1 face without area is left out"],
-    );
-    check("a.obj", &format!("{points}f 1 2 3\nf 1 1 1\nf 1 2 2"), &["2 faces without area are left out"]);
-    check(
-        "a.obj",
-        "v 0 0 0 255 0 0\nv 1 0 0 255 0 0\nv 0 1 0 0 0 0\nf 1 2 3",
-        &["1 colour is outside 0…1 and clipped"],
-    );
+    for (text, expected) in [
+        (points, &["the mesh has no faces"][..]),
+        (
+            &format!("{points}f 1 2 3\nf 1 2 1\nl 1 2"),
+            &["1 line, point or curve is left out", "1 face without area is left out"],
+        ),
+        (&format!("{points}f 1 2 3\nf 1 1 1\nf 1 2 2"), &["2 faces without area are left out"]),
+        (
+            "v 0 0 0 255 0 0\nv 1 0 0 255 0 0\nv 0 1 0 0 0 0\nf 1 2 3",
+            &["1 colour is outside 0…1 and clipped"],
+        ),
+    ] {
+        assert_eq!(convert(&Config::default(), "a.obj", text).unwrap().warnings, expected);
+    }
 }

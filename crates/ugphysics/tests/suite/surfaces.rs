@@ -1,5 +1,4 @@
-//! Mirrors, glass, lamps and accelerated bodies: published numbers, and laws tested on random
-//! input.
+//! Mirrors, glass, lamps and accelerated bodies: laws tested on random input.
 
 use glam::DVec3;
 use proptest::prelude::*;
@@ -8,63 +7,21 @@ use ugphysics::{
     seen_position,
 };
 
-use crate::{along_x, angle_deg, at_angle, beta, near, near_vector};
+use crate::{near, near_vector};
 
-const TEN_DIGITS: f64 = 1e-9;
-
-fn wave(direction: DVec3) -> WaveVector {
+pub fn wave(direction: DVec3) -> WaveVector {
     WaveVector::in_vacuum(1.0, direction)
 }
 
 /// Light in vacuum after a mirror that moves with `v`.
-fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> WaveVector {
+pub fn reflected(light: WaveVector, rest_normal: DVec3, v: Velocity) -> WaveVector {
     let there = light.in_frame(v);
     let normal = rest_normal * -there.k.dot(rest_normal).signum();
     Medium::VACUUM.wave_across(there, normal).expect("a mirror reflects").in_frame(-v)
 }
 
 #[test]
-fn t27_moving_mirrors() {
-    // Einstein 1905, section 8. The mirror faces +x; light comes at an angle from there.
-    for (in_deg, speed, out_deg, frequency) in [
-        (60.0, 0.3, 34.53894442, 1.527472527),
-        (30.0, 0.5, 10.20781872, 2.821367205),
-        (30.0, -0.5, 77.58795377, 0.5119661283),
-    ] {
-        let d = at_angle(in_deg);
-        let back = reflected(wave(DVec3::new(-d.x, d.y, 0.0)), DVec3::X, along_x(speed));
-        near("angle", angle_deg(back.k, DVec3::X), out_deg, TEN_DIGITS);
-        near("frequency", back.frequency, frequency, TEN_DIGITS);
-    }
-    // After reflection the light still travels in the mirror's direction of motion.
-    let back = reflected(wave(-at_angle(-60.0)), DVec3::X, along_x(-0.3));
-    near("cos", -back.k.x / back.frequency, 0.06962025316, TEN_DIGITS);
-    let sliding = reflected(wave(DVec3::new(-0.6, 0.0, 0.8)), DVec3::X, beta(0.0, 0.9, 0.3));
-    near_vector("sliding", sliding.k, DVec3::new(0.6, 0.0, 0.8), 1e-14);
-    near("sliding", sliding.frequency, 1.0, 1e-14);
-}
-
-#[test]
-fn t28_moving_glass() {
-    for (index, speed, light) in
-        [(1.5, 0.1, 0.71875), (1.5, 0.9, 0.9791666667), (1.5, -0.9, -0.5833333333), (1.33, 0.5, 0.9098360656)]
-    {
-        let glass = Medium { index, velocity: along_x(speed) };
-        let light_in_glass = WaveVector { frequency: 1.0, k: index * DVec3::X };
-        let step = glass.step(light_in_glass.in_frame(-glass.velocity));
-        near("speed", step.x.x / step.t, light, TEN_DIGITS);
-    }
-}
-
-#[test]
-fn t30_a_year_at_one_g() {
-    let year_g = 9.80665 * 31_557_600.0 / 299_792_458.0;
-    let ship = HyperbolicMotion { acceleration: year_g * DVec3::Z };
-    let (event, v) = (ship.event(1.0), ship.velocity(1.0).unwrap());
-    near("speed", v.speed(), 0.7748272626, TEN_DIGITS);
-    near("γ", v.gamma(), 1.581845454, TEN_DIGITS);
-    near("t", event.t, 1.187312402, TEN_DIGITS);
-    near("x", event.x.z, 0.5636424651, TEN_DIGITS);
+fn without_acceleration_a_body_stays() {
     let still = HyperbolicMotion { acceleration: DVec3::ZERO };
     assert_eq!(still.event(3.0), Event { t: 3.0, x: DVec3::ZERO });
 }

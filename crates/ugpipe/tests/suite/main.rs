@@ -322,13 +322,6 @@ fn output_files_of_failed_runs_do_not_appear() {
 }
 
 #[test]
-fn an_input_that_cannot_be_read_is_an_error() {
-    let folder = folder();
-    let unreadable = shell(&folder, "\"$ugcat\" 0> /dev/null");
-    assert_run(&unreadable, 1, "", "ugcat: error: cannot read `<stdin>`: Bad file descriptor\n");
-}
-
-#[test]
 fn a_full_disk_leaves_no_file() {
     let folder = folder();
     let stdout = shell(&folder, "\"$ugcat\" ship.ug > /dev/full");
@@ -407,17 +400,8 @@ fn is_ignored(signal: i32) -> bool {
 
 #[test]
 fn signals_leave_no_files_and_no_programs() {
-    let signals = [
-        ("INT", 2),
-        ("TERM", 15),
-        ("HUP", 1),
-        ("QUIT", 3),
-        ("ALRM", 14),
-        ("XCPU", 24),
-        ("USR1", 10),
-        ("VTALRM", 26),
-    ];
-    for (signal, number) in signals {
+    let names = ["INT", "TERM", "HUP", "QUIT", "ALRM", "XCPU", "USR1", "VTALRM"];
+    for (signal, number) in names.into_iter().zip([2, 15, 1, 3, 14, 24, 10, 26]) {
         // What ignores a signal, as a job in the background does, passes that on to its children.
         if is_ignored(number) {
             assert_ne!(signal, "TERM");
@@ -481,13 +465,22 @@ fn the_next_run_deletes_what_was_left() {
     running.wait().unwrap();
 }
 
-/// Threads are started as far as the address space suffices.
 #[test]
-fn little_address_space_is_enough_for_many_threads() {
+fn streams_memory_and_variables_that_a_shell_sets() {
     let folder = folder();
-    for kib in [30_000, 100_000, 500_000] {
-        let output = shell(&folder, &format!("ulimit -v {kib}; $ugcat -nt 64 ship.ug"));
-        assert_run(&output, 0, SHIP, "");
+    let error = |message: &str| format!("ugcat: error: cannot {message}\n");
+    for (line, status, stdout, stderr) in [
+        ("$ugcat 0> /dev/null", 1, "", error("read `<stdin>`: Bad file descriptor")),
+        // An endless input ends.
+        ("ulimit -v 1000000; $ugcat /dev/zero", 1, "", error("read `/dev/zero`: out of memory")),
+        // Threads are started as far as the address space suffices.
+        ("ulimit -v 30000; $ugcat -nt 64 ship.ug", 0, SHIP, String::new()),
+        ("ulimit -v 100000; $ugcat -nt 64 ship.ug", 0, SHIP, String::new()),
+        ("ulimit -v 500000; $ugcat -nt 64 ship.ug", 0, SHIP, String::new()),
+        // Their number is not chosen by a variable.
+        ("RAYON_NUM_THREADS=99999999 $ugcat ship.ug", 0, SHIP, String::new()),
+    ] {
+        assert_run(&shell(&folder, line), status, stdout, &stderr);
     }
 }
 
@@ -498,20 +491,6 @@ fn an_ignored_signal_stays_ignored() {
                 while ! ls .ug-* >/dev/null 2>&1; do sleep .01; done; kill -HUP $!; wait $!";
     assert_run(&shell(&folder, line), 0, "", "");
     assert_eq!(files(&folder), ["out.ug", "ship.ug"]);
-}
-
-#[test]
-fn an_endless_input_ends() {
-    let folder = folder();
-    let line = "ulimit -v 1000000; $ugcat /dev/zero";
-    assert_run(&shell(&folder, line), 1, "", "ugcat: error: cannot read `/dev/zero`: out of memory\n");
-}
-
-#[test]
-fn a_variable_does_not_choose_the_number_of_threads() {
-    let folder = folder();
-    let output = shell(&folder, "RAYON_NUM_THREADS=99999999 $ugcat ship.ug");
-    assert_run(&output, 0, SHIP, "");
 }
 
 #[test]

@@ -19,24 +19,13 @@ fn sizes_that_do_not_fit_are_refused() {
         assert!(error.is_usage());
         assert_eq!(error.words(), message);
     }
-    check(
-        [32_768, 16_384],
-        4,
-        "a picture of 32768 x 16384 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 \
-         along a side; give a smaller -sz",
-    );
-    check(
-        [0, 7],
-        4,
-        "a picture of 0 x 7 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 along a \
-         side; give a smaller -sz",
-    );
-    check(
-        [u32::MAX, 1],
-        4,
-        "a picture of 4294967295 x 1 pixels cannot be made: the limit is 268435456 pixels in all and 16777216 \
-         along a side; give a smaller -sz",
-    );
+    for [width, height] in [[32_768, 16_384], [0, 7], [u32::MAX, 1]] {
+        let message = format!(
+            "a picture of {width} x {height} pixels cannot be made: the limit is 268435456 pixels in all and \
+             16777216 along a side; give a smaller -sz"
+        );
+        check([width, height], 4, &message);
+    }
     check([8, 8], 17, "17 x 17 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa");
     check([8, 8], 0, "0 x 0 samples a pixel cannot be taken, only 1 to 16 along a side: give another -aa");
 }
@@ -53,31 +42,35 @@ fn scenes_without_a_picture_are_errors() {
         "the scene has no faces and no wires, so there is nothing to draw; check that the program before in \
          the pipe wrote one",
     );
-    check(
-        &format!("{SQUARE} f (a b c d);"),
-        "the eye point 0 0 0 is also the view centre, so there is no direction to look in; move the eye with \
-         -ep or the centre with -vc",
-    );
-    check(
-        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -va 180 40;"),
-        "a view angle of 180 degrees cannot be projected on a flat picture; give -va more than 0 and less than \
-         180",
-    );
-    check(
-        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -fs 1 1 -fl 0;"),
-        "the film size and the focal length of the camera must be positive; correct -fs and -fl of the `cam` \
-         statement, or give -va",
-    );
-    check(
-        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -ph 0 0 0 1;"),
-        "the film rectangle of the camera has no area; give -ph of the `cam` statement as min x, min y, max x, \
-         max y",
-    );
-    check(
-        &format!("{SQUARE} f (a b c d); cam -ep 0 0 5 -cl 3 2;"),
-        "nothing lies between the clipping distances 3 and 2; give -cl of the `cam` statement as hither and a \
-         greater yon",
-    );
+    for (camera, message) in [
+        (
+            "",
+            "the eye point 0 0 0 is also the view centre, so there is no direction to look in; move the eye \
+             with -ep or the centre with -vc",
+        ),
+        (
+            "cam -ep 0 0 5 -va 180 40;",
+            "a view angle of 180 degrees cannot be projected on a flat picture; give -va more than 0 and less \
+             than 180",
+        ),
+        (
+            "cam -ep 0 0 5 -fs 1 1 -fl 0;",
+            "the film size and the focal length of the camera must be positive; correct -fs and -fl of the \
+             `cam` statement, or give -va",
+        ),
+        (
+            "cam -ep 0 0 5 -ph 0 0 0 1;",
+            "the film rectangle of the camera has no area; give -ph of the `cam` statement as min x, min y, \
+             max x, max y",
+        ),
+        (
+            "cam -ep 0 0 5 -cl 3 2;",
+            "nothing lies between the clipping distances 3 and 2; give -cl of the `cam` statement as hither \
+             and a greater yon",
+        ),
+    ] {
+        check(&format!("{SQUARE} f (a b c d); {camera}"), message);
+    }
 }
 
 #[test]
@@ -90,42 +83,37 @@ fn pictures_in_which_nothing_is_seen_say_why() {
     let square = format!("c green 1 120; c far 1 900; c black 0; l 1; {SQUARE} f (a b c d)");
     let config = plain(32, 32);
     check(&format!("{square}; cam -ep 1 0 20;"), &config, &[]);
-    check(
-        &format!("{square}; cam -ep 0 0 20 -vc 0 0 30 -ud 0 1 0;"),
-        &config,
-        &["nothing is drawn: everything is behind the eye or outside the clipping distances; try \
-             `uglorentz --keep-in-view`, another -ep or -vc"],
-    );
-    check(
-        &format!("{square}; cam -ep 0 0 20 -vc 90 0 0;"),
-        &config,
-        &["nothing is drawn: everything is outside the picture, where fast bodies often are; \
-             try `uglorentz --keep-in-view`, another -vc or a wider -va"],
-    );
-    check(
-        &format!("{square}; cam -ep 30 0 0 -vc 0 0 0;"),
-        &config,
-        &[
-            "nothing is drawn: everything is seen edge-on or smaller than a sample; try another -ep or a narrower \
-           -va",
-        ],
-    );
-    check(
-        &format!("{square} far; cam -ep 1 0 20;"),
-        &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
-        &["all that is in the picture is black: its wavelengths are outside 380-780 nm; give ugdoppler \
-             and ugrainbow -look light, or -look shape to see the shape"],
-    );
+    for (camera, note) in [
+        (
+            "-ep 0 0 20 -vc 0 0 30 -ud 0 1 0",
+            "everything is behind the eye or outside the clipping distances; try `uglorentz --keep-in-view`, \
+             another -ep or -vc",
+        ),
+        (
+            "-ep 0 0 20 -vc 90 0 0",
+            "everything is outside the picture, where fast bodies often are; try `uglorentz --keep-in-view`, \
+             another -vc or a wider -va",
+        ),
+        (
+            "-ep 30 0 0 -vc 0 0 0",
+            "everything is seen edge-on or smaller than a sample; try another -ep or a narrower -va",
+        ),
+    ] {
+        check(&format!("{square}; cam {camera};"), &config, &[&format!("nothing is drawn: {note}")]);
+    }
+    let wavelengths = Config { hue_scale: HueScale::Wavelengths, ..config.clone() };
+    let out_of_sight = |what: &str| {
+        format!(
+            "{what}: its wavelengths are outside 380-780 nm; give ugdoppler and ugrainbow -look light, or \
+             -look shape to see the shape"
+        )
+    };
+    let black = out_of_sight("all that is in the picture is black");
+    check(&format!("{square} far; cam -ep 1 0 20;"), &wavelengths, &[&black]);
     // The white part of a pale colour stays visible.
     let moved = "c far .5 900 .8; v e 30 0 0; v f 31 0 0; v g 30 1 0; f (e f g) far";
-    check(
-        &format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"),
-        &Config { hue_scale: HueScale::Wavelengths, ..config.clone() },
-        &[
-            "all that is in the picture is black or grey: its wavelengths are outside 380-780 nm; give ugdoppler \
-             and ugrainbow -look light, or -look shape to see the shape",
-        ],
-    );
+    let grey = out_of_sight("all that is in the picture is black or grey");
+    check(&format!("{moved}; l 1; cam -ep 30.2 .2 20 -vc 30.2 .2 0 -ud 0 1 0;"), &wavelengths, &[&grey]);
     // The picture is 40 tan 2.5° = 1.746 wide, so 1.373 / 1.746 of it is out of range, then 0.373.
     let parts = |near: f64| {
         format!(
@@ -134,23 +122,12 @@ fn pictures_in_which_nothing_is_seen_say_why() {
              cam -ep 0 0 20 -vc 0 0 0 -ud 0 1 0 -va 5;"
         )
     };
-    let wavelengths = Config { hue_scale: HueScale::Wavelengths, ..config.clone() };
-    check(
-        &parts(0.5),
-        &wavelengths,
-        &["78 percent of what is in the picture is black or grey: its wavelengths are outside 380-780 nm; \
-           give ugdoppler \
-             and ugrainbow -look light, or -look shape to see the shape"],
-    );
+    let most = out_of_sight("78 percent of what is in the picture is black or grey");
+    check(&parts(0.5), &wavelengths, &[&most]);
     check(&parts(-0.5), &wavelengths, &[]);
-    check(
-        &format!("{square} black; cam -ep 1 0 20;"),
-        &config,
-        &[
-            "all that is in the picture is black: its colours are, or the light of its lamps does not reach it \
-             at this time, or falls between the vertices",
-        ],
-    );
+    let dark = "all that is in the picture is black: its colours are, or the light of its lamps does not reach it \
+                at this time, or falls between the vertices";
+    check(&format!("{square} black; cam -ep 1 0 20;"), &config, &[dark]);
     // Black lines, on black and on white.
     let lines = Config {
         wireframe: Some(Wireframe { has_faces: false, color: Some(BLACK), ..Wireframe::default() }),
