@@ -65,7 +65,7 @@ fn the_last_step_is_the_picture() {
         (&hues, "-aa 2 -ex -.5"),
     ] {
         let picture = pixels(&ugrainbow(scene, options));
-        for idx in (7..60 * 45).step_by(179) {
+        for idx in (7..60 * 45).step_by(131) {
             let place = format!("{},{}", idx % 60, idx / 60);
             let told = told(scene, &format!("{options} --explain {place}"));
             let bytes: Vec<u64> =
