@@ -280,8 +280,8 @@ impl ExplainedItem {
             let name = name(wire.and_then(|wire| wire.name));
             return Self { kind: "wire", id, name, file: None, line: None };
         };
-        let place = parsed.origins.faces.get(row).and_then(|span| {
-            Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()
+        let place = parsed.origins.face(face).and_then(|span| {
+            Diagnostics::one(source, Diagnostic::error(span, "")).locations().into_iter().next()
         });
         let (file, line) = place.map(|place| (place.file, place.line)).unzip();
         Self { kind: "face", id, name: name(face.name), file, line }
