@@ -13,7 +13,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use ugparse::{Options, Source};
+use ugparse::{Options, Parsed, Source};
 use ugtests::scenes::{self, root};
 use ugtests::tracked;
 
@@ -349,12 +349,13 @@ fn every_scene_parses_and_writes_itself() {
             let parsed = ugparse::parse(&Source::new(format!("{name}.ug"), text), &Options::default());
             let parsed = parsed.unwrap_or_else(|findings| panic!("{findings}"));
             assert!(parsed.warnings.is_empty(), "{}", parsed.warnings);
-            parsed.scene
+            parsed
         };
-        let scene = parse(scenes::text(&name));
-        let written = ugparse::write(&scene);
-        let again = parse(written.clone());
-        assert!(ugparse::write(&again) == written, "{name}");
+        let write = |parsed: &Parsed| ugparse::write_with(&parsed.scene, &parsed.passed_on);
+        let parsed = parse(scenes::text(&name));
+        let written = write(&parsed);
+        assert!(write(&parse(written.clone())) == written, "{name}");
+        let scene = parsed.scene;
         assert!(!scene.faces.is_empty() && !scene.cameras.is_empty() && !scene.lights.is_empty(), "{name}");
     }
 }

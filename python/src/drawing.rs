@@ -50,7 +50,7 @@ impl Drawing {
         let subject = match subject.cast::<PyScene>() {
             Ok(scene) => {
                 let chosen = scene.get().with_camera(camera);
-                Subject::Scene(chosen.map_err(|refused| refused.exception(py))?)
+                Subject::Scene(chosen.map_err(|refused| refused.exception(py))?.0)
             }
             Err(_) => {
                 let (opened, origin) = subject.cast::<PySky>()?.get().subject();

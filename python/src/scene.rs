@@ -10,7 +10,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArr
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{Error, FilmItem, Note, ParsedCommand, Program, ProgramError};
-use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
+use ugparse::{Diagnostics, Origins, Parsed, PassedOn, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, Words, parse_words};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
 
@@ -21,6 +21,7 @@ use crate::error::{Refused, wrong};
 #[pyclass(frozen, module = "uglorentz._core", name = "Scene")]
 pub struct PyScene {
     scene: Arc<ugscene::Scene>,
+    passed_on: Arc<PassedOn>,
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
     origins: Arc<Origins>,
@@ -98,7 +99,7 @@ impl PyScene {
 
     /// The scene as text.
     fn text<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let text = call::run(py, None, |_| ugparse::write(&self.scene))?;
+        let text = call::run(py, None, |_| ugparse::write_with(&self.scene, &self.passed_on))?;
         Ok(PyBytes::new(py, &text))
     }
 
@@ -178,11 +179,12 @@ impl PyScene {
         let source = pipe::follow(input, &options, &context)?;
         let parsed = ugparse::read(&source, &options, None)?;
         let warning = ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
-        let Parsed { scene, origins, warnings, .. } = parsed;
+        let Parsed { scene, passed_on, origins, warnings, .. } = parsed;
         let mut notes = call.take_notes();
         notes.extend(notes_on(warnings));
         Ok(Self {
             scene: Arc::new(scene),
+            passed_on: Arc::new(passed_on),
             source: Arc::new(source),
             origins: Arc::new(origins),
             time: None,
@@ -191,11 +193,12 @@ impl PyScene {
         })
     }
 
-    /// The scene whose camera is the one of this name.
-    pub fn with_camera(&self, name: Option<&str>) -> Result<Arc<ugscene::Scene>, Refused> {
-        let Some(name) = name else { return Ok(self.scene.clone()) };
+    /// The scene whose camera is the one of this name, and what is passed on with it.
+    pub fn with_camera(&self, name: Option<&str>) -> Result<(Arc<ugscene::Scene>, Arc<PassedOn>), Refused> {
+        let Some(name) = name else { return Ok((self.scene.clone(), self.passed_on.clone())) };
         let mut parsed = Parsed {
             scene: (*self.scene).clone(),
+            passed_on: (*self.passed_on).clone(),
             origins: (*self.origins).clone(),
             bent: Vec::new(),
             warnings: Diagnostics::new(&self.source, Vec::new()),
@@ -203,12 +206,12 @@ impl PyScene {
         // Spans of the cameras of a scene that a program made are not known.
         parsed.origins.cameras.resize(parsed.scene.cameras.len(), ugparse::Span::default());
         parsed.choose_camera(&self.source, name)?;
-        Ok(Arc::new(parsed.scene))
+        Ok((Arc::new(parsed.scene), Arc::new(parsed.passed_on)))
     }
 
     fn filter(&self, words: &[String], camera: Option<&str>, call: &Arc<Call>) -> Result<Self, Refused> {
         let ParsedCommand { program, line, .. } = ParsedCommand::from_words(words)?;
-        let at_rest = self.with_camera(camera)?;
+        let (at_rest, passed_on) = self.with_camera(camera)?;
         let item = FilmItem::Scene(Box::new((*at_rest).clone()));
         let made = program.run(item, &**call).map_err(|error| self.refused(error))?;
         let Some((FilmItem::Scene(mut scene), told)) = made else { return Err(Refused::of(Error::Subject)) };
@@ -225,6 +228,7 @@ impl PyScene {
         }
         Ok(Self {
             scene: Arc::from(scene),
+            passed_on,
             source: Arc::new(Source::new("<scene>", "")),
             origins: Arc::default(),
             time,

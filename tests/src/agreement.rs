@@ -63,7 +63,6 @@ pub fn face_of(pixel: [u8; 4]) -> Shown {
 pub fn recolored(mut scene: Scene) -> Scene {
     scene.colors.clear();
     scene.wires.clear();
-    scene.remarks.comments.clear();
     scene.lights = vec![Light {
         name: None,
         intensity: 1.0,

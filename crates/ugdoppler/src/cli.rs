@@ -182,7 +182,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     }
     notes.iter().for_each(|note| context.note(&note.words()));
     context.detail(&format!("{} vertices, {} colours", scene.vertices.len(), scene.colors.len()));
-    context.write_with(|out| ugparse::write_to(&scene, out))
+    context.write_with(|out| ugparse::write_to(&scene, &parsed.passed_on, out).map(drop))
 }
 
 /// Errors at a vertex are shown at its statement.

@@ -100,7 +100,7 @@ impl VertexIrradiance {
 }
 
 /// Replaces all lights by one ambient light of intensity 1, because the colours include the light
-/// already: a renderer then draws them unchanged. Comments beside the lights are kept.
+/// already: a renderer then draws them unchanged.
 pub(crate) fn replace_lights(scene: &mut Scene) {
     for body in scene.bodies.ids() {
         if let Some(&frame) =
@@ -116,10 +116,4 @@ pub(crate) fn replace_lights(scene: &mut Scene) {
         color: None,
         motion: LightMotion::WithWhatItLights,
     }];
-    for comment in &mut scene.remarks.comments {
-        if let ugscene::Item::Light(row) = &mut comment.at {
-            comment.trailing = false;
-            *row = 0;
-        }
-    }
 }

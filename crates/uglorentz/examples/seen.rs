@@ -12,6 +12,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let velocity = Some(DVec3::new(0.9, 0.0, 0.0));
     let config = uglorentz::Config { velocity, ..uglorentz::Config::default() };
     let (seen, _) = uglorentz::apply(parsed.scene, &config)?;
-    ugparse::write_to(&seen, &mut std::io::stdout())?;
+    ugparse::write_to(&seen, &parsed.passed_on, &mut std::io::stdout())?;
     Ok(())
 }

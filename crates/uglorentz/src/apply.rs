@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 use ugpipe::Progress;
-use ugscene::{CameraOptions, Item, PlacedBodies, Scene};
+use ugscene::{CameraOptions, PlacedBodies, Scene};
 
 use crate::clocks::Clocks;
 use crate::criterion::Bounds;
@@ -10,7 +10,6 @@ use crate::cull::ViewVolume;
 use crate::edge::Tolerance;
 use crate::evenness::Evenness;
 use crate::near_lamps::NearLamps;
-use crate::pieces::Outcome;
 use crate::refined_mesh::RefinedMesh;
 use crate::relative_motion::Point;
 use crate::{
@@ -83,7 +82,7 @@ pub fn apply_with(
     };
     let has_new = !mesh.recipes.is_empty();
     let shades = if has_new { attributes::shades(&scene, &mesh.points) } else { None };
-    put_pieces(&mut scene, &outcome);
+    outcome.put_into(&mut scene);
     let inherits =
         attributes::add_vertices(&mut scene, &mesh.recipes, shades, is_apart).ok_or(Error::TooManyParts)?;
     let n_placed = mesh.points.len() - mesh.recipes.len();
@@ -139,17 +138,4 @@ fn check(config: &Config) -> Result<(), Error> {
 fn points(scene: &Scene, placed: &PlacedBodies) -> Vec<Point> {
     let rest = placed.rest_positions(scene).into_par_iter().zip(&placed.bodies);
     rest.map(|(rest, &body)| Point::new(&placed.motions[body.index()], body, rest)).collect()
-}
-
-/// Comments move to the first piece of their face.
-fn put_pieces(scene: &mut Scene, outcome: &Outcome) {
-    if outcome.is_empty() {
-        return;
-    }
-    let first_pieces = outcome.put_into(scene);
-    for comment in &mut scene.remarks.comments {
-        if let Item::Face(row) = &mut comment.at {
-            *row = first_pieces[*row as usize];
-        }
-    }
 }

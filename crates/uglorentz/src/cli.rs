@@ -162,7 +162,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
         let rows = measure(&scene, ugscene::eye(&scene, None), config.time);
         context.write_file(path, &table.write(&scene, &rows))?;
     }
-    context.write_with(|out| ugparse::write_to(&scene, out))
+    context.write_with(|out| ugparse::write_to(&scene, &parsed.passed_on, out).map(drop))
 }
 
 fn failure(error: Error, source: &Source, origins: &Origins) -> Failure {

@@ -8,7 +8,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 use ugphysics::{Event, SeenLight, SeenPoint, SmoothStretch, WorldLine, WorldTube};
-use ugscene::{Face, HalfSpace, Item, Scene, VertexId, View, Wire};
+use ugscene::{Face, HalfSpace, Scene, VertexId, View, Wire};
 
 use crate::relative_motion::{Point, RelativeMotion};
 
@@ -153,7 +153,7 @@ fn remove(scene: &mut Scene, points: &mut Vec<Point>, kept_faces: &[bool]) {
     }
     scene.wires.iter().for_each(|wire| mark(wire.contours.clone(), true));
 
-    let (new_vertices, new_faces) = (new_rows(&kept_vertices), new_rows(kept_faces));
+    let new_vertices = new_rows(&kept_vertices);
     retain(&mut scene.faces, kept_faces);
     retain(&mut scene.vertices, &kept_vertices);
     retain(points, &kept_vertices);
@@ -165,18 +165,6 @@ fn remove(scene: &mut Scene, points: &mut Vec<Point>, kept_faces: &[bool]) {
     };
     scene.faces.iter_mut().for_each(|Face { contours, .. }| *contours = copy(contours.clone()));
     scene.wires.iter_mut().for_each(|Wire { contours, .. }| *contours = copy(contours.clone()));
-    scene.remarks.comments.retain_mut(|comment| match &mut comment.at {
-        Item::Vertex(row) => follow(row, &kept_vertices, &new_vertices),
-        Item::Face(row) => follow(row, kept_faces, &new_faces),
-        _ => true,
-    });
-}
-
-/// Updates a row; false if it is removed.
-fn follow(row: &mut u32, kept: &[bool], new_rows: &[u32]) -> bool {
-    let old = *row as usize;
-    *row = new_rows[old];
-    kept[old]
 }
 
 /// The number of kept rows before each row.

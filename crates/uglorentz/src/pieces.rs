@@ -134,14 +134,11 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    /// True if nothing was subdivided.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.pieces.is_empty() && self.lines.is_empty()
-    }
-
-    /// Replaces faces by their pieces. Returns for each old face the row of its first piece,
-    /// followed by the number of faces.
-    pub(crate) fn put_into(&self, scene: &mut Scene) -> Vec<u32> {
+    /// Replaces faces by their pieces.
+    pub(crate) fn put_into(&self, scene: &mut Scene) {
+        if self.pieces.is_empty() && self.lines.is_empty() {
+            return;
+        }
         let mut lines: Vec<&Polyline> = self.lines.iter().collect();
         lines.sort_by_key(|line| line.row);
         let old = std::mem::take(&mut scene.contours);
@@ -156,10 +153,8 @@ impl Outcome {
 
         let contours = &mut scene.contours;
         let mut faces = Vec::with_capacity(scene.faces.len() + self.pieces.len());
-        let mut first_pieces = Vec::with_capacity(scene.faces.len() + 1);
         let mut groups = self.pieces.chunk_by(|a, b| a.face == b.face).peekable();
         for (idx, face) in std::mem::take(&mut scene.faces).into_iter().enumerate() {
-            first_pieces.push(faces.len() as u32);
             let Some(group) = groups.next_if(|group| group[0].face as usize == idx) else {
                 faces.push(Face { contours: contours.push_all(face.contours.clone().map(kept)), ..face });
                 continue;
@@ -169,11 +164,9 @@ impl Outcome {
                 faces.push(Face { contours: rows, ..face.clone() });
             }
         }
-        first_pieces.push(faces.len() as u32);
         scene.faces = faces;
         for wire in &mut scene.wires {
             wire.contours = contours.push_all(wire.contours.clone().map(kept));
         }
-        first_pieces
     }
 }

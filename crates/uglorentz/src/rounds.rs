@@ -31,8 +31,7 @@ pub(crate) fn cut(scene: &mut Scene, config: &Config) -> Result<(), Error> {
             None => seen_sagitta(&round, DVec3::ZERO, error * least_doppler(&round, motion).min(1.0)),
         })
     };
-    cut_rounds(scene, sagitta)?;
-    Ok(())
+    Ok(cut_rounds(scene, sagitta)?)
 }
 
 /// A lower bound of D on a shape relative to the eye: angles at the eye are 1/D times those in the

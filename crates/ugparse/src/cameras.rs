@@ -1,21 +1,21 @@
 //! Selects one of several cameras.
 
-use ugscene::{Item, Scene};
+use ugscene::Scene;
 
+use crate::passed_on::{Item, PassedOn};
 use crate::suggest::nearest;
 use crate::{Diagnostic, Diagnostics, Parsed, Setting, Source, Span};
 
 /// Puts the cameras of a scene in another order. `order`: the old row of each. `spans`: of all.
-pub(crate) fn reorder(scene: &mut Scene, spans: &mut Vec<Span>, order: &[usize]) {
+pub(crate) fn reorder(scene: &mut Scene, passed_on: &mut PassedOn, spans: &mut Vec<Span>, order: &[usize]) {
     scene.cameras = order.iter().map(|&row| scene.cameras[row].clone()).collect();
     *spans = order.iter().map(|&row| spans[row]).collect();
-    for comment in &mut scene.remarks.comments {
+    for comment in &mut passed_on.comments {
         if let Item::Camera(row) = &mut comment.at {
             let new = order.iter().position(|&old| old == *row as usize);
             *row = new.map_or(*row, |new| new as u32);
         }
     }
-    scene.remarks.comments.sort_by_key(|comment| comment.at);
 }
 
 impl Parsed {
@@ -34,7 +34,7 @@ impl Parsed {
         let first = self.scene.camera_row().unwrap_or(chosen);
         let mut order: Vec<usize> = (0..self.scene.cameras.len()).collect();
         order[first..=chosen].rotate_right(1);
-        reorder(&mut self.scene, &mut self.origins.cameras, &order);
+        reorder(&mut self.scene, &mut self.passed_on, &mut self.origins.cameras, &order);
         Ok(())
     }
 

@@ -37,8 +37,8 @@ pub fn rest_shapes_warning(parsed: &Parsed) -> Option<Diagnostic> {
     let Parsed { scene, origins, .. } = parsed;
     require_seen_geometry(scene).err()?;
     let mut faces = scene.faces.iter();
-    let moving = faces.position(|face| scene.bodies.is_moving(face.body));
-    let span = moving.and_then(|row| origins.faces.get(row).copied());
+    let moving = faces.find(|face| scene.bodies.is_moving(face.body));
+    let span = moving.and_then(|face| origins.face(face));
     let message = "bodies in this scene move, and are drawn with their shapes at rest";
     let finding = Diagnostic::warning(span.unwrap_or_default(), message);
     let finding = finding.label("moves");

@@ -4,7 +4,7 @@
 //! [grammar](crate::grammar), which parses the statement from its beginning and reports errors.
 
 use glam::DVec3;
-use ugscene::{BodyId, ColorId, Face, FaceShape, Vertex, VertexId};
+use ugscene::{BodyId, ColorId, Face, Vertex, VertexId};
 
 use crate::numbered::Name;
 use crate::scope::Scope;
@@ -49,7 +49,7 @@ fn face<'t>(mut cursor: Cursor<'t>, start: usize, scope: &mut Scope<'t>) -> Opti
     };
     let name = name.map(|name| scope.add_name(name));
     let contours = first as u32..scope.contours.row_count();
-    let face = Face { name, contours, color, shading: None, body, shape: FaceShape::Polygon };
+    let face = Face { name, color, ..Face::polygon(contours, body) };
     scope.n_statements += 1;
     scope.faces.push(face, Span { start: start as u32, end: cursor.at as u32 });
     Some(cursor.at)

@@ -56,6 +56,7 @@ mod number_text;
 mod numbered;
 mod options;
 mod origin;
+mod passed_on;
 #[cfg(feature = "cli")]
 pub mod pipe;
 #[cfg(feature = "triangles")]
@@ -88,13 +89,14 @@ pub use face_warnings::{FLAT, rest_shapes_warning};
 pub use include::include;
 pub use options::{Limit, Limits, Options};
 pub use origin::{Origin, has_history, with_origin};
+pub use passed_on::{Comment, Item, PassedOn};
 #[cfg(feature = "triangles")]
 pub use read::read;
 pub use request::{Request, RequestError, RequestKind, name_pictures};
 pub use sky_statement::stated_sky;
 pub use source::{Source, Span};
 pub use tidy::tidy;
-pub use writer::{write, write_to};
+pub use writer::{write, write_to, write_with};
 
 use ugscene::{BentFace, Scene, Stage};
 
@@ -103,6 +105,8 @@ use ugscene::{BentFace, Scene, Stage};
 pub struct Parsed {
     /// The flat scene.
     pub scene: Scene,
+    /// Comments and statements for other programs.
+    pub passed_on: PassedOn,
     /// The locations of its rows in the text.
     pub origins: Origins,
     /// Faces to be drawn as triangles, because they are bent, in order.
@@ -152,11 +156,20 @@ fn parse_text(source: &Source, options: &Options) -> Result<Parsed, Diagnostics>
     );
     refuse_errors(source, &mut findings)?;
 
-    let (scene, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);
+    let (scene, passed_on, origins) = expand::expand(text, &mut document, &links, scene, &mut findings);
     refuse_errors(source, &mut findings)?;
-    let bent = ugscene::bent_faces(&scene);
-    findings.extend(face_warnings::bent_warning(source, &origins, &bent));
-    Ok(Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) })
+    Ok(Parsed { passed_on, ..Parsed::new(source, scene, origins, findings) })
+}
+
+impl Parsed {
+    /// A scene that was read from `source`.
+    fn new(source: &Source, mut scene: Scene, origins: Origins, mut findings: Vec<Diagnostic>) -> Self {
+        scene.faces.iter_mut().zip(0..).for_each(|(face, row)| face.row_as_read = row);
+        let bent = ugscene::bent_faces(&scene);
+        findings.extend(face_warnings::bent_warning(source, &origins, &bent));
+        let warnings = Diagnostics::new(source, findings);
+        Self { scene, passed_on: PassedOn::default(), origins, bent, warnings }
+    }
 }
 
 /// Refuses texts whose positions do not fit 32 bits or that exceed the limit.

@@ -5,7 +5,6 @@ use std::io;
 use std::path::Path;
 
 use ugmeshfile::{Lines, MeshFormat, MeshScene, Problem};
-use ugscene::Scene;
 
 use crate::diagnostic::Diagnostic;
 use crate::diagnostics::Diagnostics;
@@ -13,7 +12,7 @@ use crate::expand::Origins;
 use crate::options::Options;
 use crate::request::{Request, RequestError, RequestKind, name_pictures};
 use crate::source::{Source, Span};
-use crate::{Parsed, check_length, face_warnings};
+use crate::{Parsed, check_length};
 
 /// Reads the mesh in a source as a scene with z as the up axis. `load` reads the files that it
 /// names, as those of [`crate::include`].
@@ -60,13 +59,11 @@ fn malformed(source: &Source, format: MeshFormat, Problem { line, what }: Proble
 
 fn parsed(source: &Source, format: MeshFormat, mesh: MeshScene) -> Parsed {
     let origins = origins(source, &mesh.lines);
-    let mut findings: Vec<Diagnostic> =
+    let findings =
         mesh.warnings.iter().map(|warning| Diagnostic::warning(Span::WHOLE_FILE, warning.clone())).collect();
-    let mut scene: Scene = mesh.z_up(format.up());
+    let mut scene = mesh.z_up(format.up());
     name_pictures(&mut scene, &source.name);
-    let bent = ugscene::bent_faces(&scene);
-    findings.extend(face_warnings::bent_warning(source, &origins, &bent));
-    Parsed { scene, origins, bent, warnings: Diagnostics::new(source, findings) }
+    Parsed::new(source, scene, origins, findings)
 }
 
 fn origins(source: &Source, lines: &Lines) -> Origins {

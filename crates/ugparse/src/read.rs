@@ -24,7 +24,7 @@ pub fn read(source: &Source, options: &Options, camera: Option<&str>) -> Result<
     }
     let rows: Vec<usize> = parsed.bent.iter().map(|face| face.row).collect();
     if !rows.is_empty() {
-        cut_faces(&mut parsed, &rows);
+        cut_faces(&mut parsed.scene, &rows);
     }
     if !options.keeps_rounds {
         let eye = parsed.scene.camera().and_then(|camera| camera.eye);
@@ -41,17 +41,13 @@ impl Parsed {
     /// There are too many.
     pub fn cut_rounds(&mut self, source: &Source, eye: Option<DVec3>) -> Result<(), Diagnostics> {
         let Self { scene, origins, .. } = self;
-        let Some(first) = scene.faces.iter().position(|face| face.shape.is_round()) else { return Ok(()) };
-        let span = origins.faces.get(first).copied().unwrap_or_default();
+        let Some(first) = scene.faces.iter().find(|face| face.shape.is_round()) else { return Ok(()) };
+        let span = origins.face(first).unwrap_or_default();
         let n_vertices = scene.vertices.len();
-        let first_pieces = ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
+        ugscene::cut_rounds_at_rest(scene, eye).map_err(|error| {
             let finding = Diagnostic::error(span, error.to_string()).label("the first of them");
             Diagnostics::one(source, finding.help("split the scene"))
         })?;
-        let spans = std::mem::take(&mut origins.faces);
-        for (&span, end) in spans.iter().zip(&first_pieces[1..]) {
-            origins.faces.resize(*end as usize, span);
-        }
         origins.vertices.resize(n_vertices, span);
         origins.vertices.resize(scene.vertices.len(), span);
         Ok(())
@@ -59,13 +55,8 @@ impl Parsed {
 }
 
 /// Triangulates the faces of these rows, which are in order, where possible.
-fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
-    let Parsed { scene, origins, .. } = parsed;
-    let faces = std::mem::take(&mut scene.faces);
-    let spans = std::mem::take(&mut origins.faces);
-    let mut first_pieces = Vec::with_capacity(faces.len() + 1);
-    for (row, (face, span)) in faces.into_iter().zip(spans).enumerate() {
-        first_pieces.push(scene.faces.len() as u32);
+fn cut_faces(scene: &mut Scene, rows: &[usize]) {
+    for (row, face) in std::mem::take(&mut scene.faces).into_iter().enumerate() {
         let pieces = if rows.binary_search(&row).is_ok() { triangles(scene, &face) } else { None };
         match pieces {
             Some(pieces) => {
@@ -73,10 +64,7 @@ fn cut_faces(parsed: &mut Parsed, rows: &[usize]) {
             }
             None => scene.faces.push(face),
         }
-        origins.faces.resize(scene.faces.len(), span);
     }
-    first_pieces.push(scene.faces.len() as u32);
-    scene.remarks.follow_pieces(&first_pieces);
 }
 
 /// The triangles of a face, as contours; `None` if it intersects itself.

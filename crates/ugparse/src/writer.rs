@@ -7,13 +7,14 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Piece};
 use ugscene::{
-    AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Comment, Contours,
-    Item, Light, LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties,
-    Texture, VertexId, Wire, Wrap,
+    AlphaMode, Beam, BodyId, Camera, Carrier, Color, ColorId, ColorTable, ColorValue, Contours, Light,
+    LightKind, MotionPath, NameId, Projection, Scene, Shading, StatedMotion, SurfaceProperties, Texture,
+    VertexId, Wire, Wrap,
 };
 
 use crate::chunked_writer::ChunkedWriter;
 use crate::number_text::{push_number, push_number32, push_velocity};
+use crate::passed_on::{Comment, Item, PassedOn};
 use crate::{sky_statement, stage_statement};
 
 /// Number of rows per piece of text.
@@ -22,38 +23,41 @@ const BLOCK_ROWS: usize = 1 << 11;
 /// Pieces per thread and round: enough to balance the load, few enough to save memory.
 const BLOCKS_PER_THREAD: usize = 4;
 
+/// The text of a scene to which nothing is [passed on](PassedOn), see [`write_with`].
+pub fn write(scene: &Scene) -> Vec<u8> {
+    write_with(scene, &PassedOn::default())
+}
+
 /// The text of a scene: head comments, the stage, then escapes and unknown statements,
 /// colours, surfaces, motions, vertices, faces, wires, lights, cameras, each with its comments.
-pub fn write(scene: &Scene) -> Vec<u8> {
+pub fn write_with(scene: &Scene, passed_on: &PassedOn) -> Vec<u8> {
     let mut text = Vec::with_capacity(64 * (scene.vertices.len() + scene.faces.len()) + 1024);
-    write_to(scene, &mut text).expect("memory takes all that is written to it");
+    write_to(scene, passed_on, &mut text).expect("memory takes all that is written to it");
     text
 }
 
-/// Writes the same text as [`write()`] to `out` while it is formatted on all threads, which needs
+/// Writes the same text as [`write_with`] to `out` while it is formatted on all threads, which needs
 /// less memory. The bytes do not depend on the number of threads.
+///
+/// Returns the number of bytes.
 ///
 /// # Errors
 /// Errors that `out` returns; it may have received a part of the text.
-pub fn write_to(scene: &Scene, out: &mut dyn Write) -> io::Result<()> {
-    write_counted(scene, out).map(|_| ())
-}
-
-/// Like [`write_to`]; returns the number of bytes.
-pub(crate) fn write_counted(scene: &Scene, out: &mut dyn Write) -> io::Result<usize> {
+pub fn write_to(scene: &Scene, passed_on: &PassedOn, out: &mut dyn Write) -> io::Result<usize> {
     let motions: Vec<BodyId> = scene.bodies.stated_by_name().collect();
-    let comments = &scene.remarks.comments;
-    Tables { scene, motions: &motions, chunked_writer: ChunkedWriter::new(out), comments }.send()
+    let comments = &passed_on.comments_in(scene);
+    Tables { scene, passed_on, motions: &motions, chunked_writer: ChunkedWriter::new(out), comments }.send()
 }
 
 /// Writes the tables of a scene.
 struct Tables<'s, 'o> {
     scene: &'s Scene,
+    passed_on: &'s PassedOn,
     /// The bodies whose motions have statements.
     motions: &'s [BodyId],
     chunked_writer: ChunkedWriter<'o>,
     /// Comments not yet assigned to a block, sorted by statement.
-    comments: &'s [Comment],
+    comments: &'s [(Item, &'s Comment)],
 }
 
 impl<'s> Tables<'s, '_> {
@@ -67,7 +71,7 @@ impl<'s> Tables<'s, '_> {
         self.rows(stage, at_stage, |w, stage| stage_statement::write(stage, &mut w.out, &mut w.numbers))?;
         let sky = scene.sky.as_slice();
         self.rows(sky, at_stage, |w, sky| sky_statement::write(sky, &mut w.out, &mut w.numbers))?;
-        self.rows(&scene.remarks.passed_on, Item::PassedOn, |w, text| w.text(text))?;
+        self.rows(&self.passed_on.statements, Item::PassedOn, |w, text| w.text(text))?;
         self.rows(&scene.colors, Item::Color, |w, color| {
             match scene.table_of(ColorId::from_index(w.row as usize)) {
                 Some(table) => w.color_table(table),
@@ -166,7 +170,7 @@ impl<'s> Tables<'s, '_> {
     /// A block of rows with the comments that belong to them.
     fn take_block<T>(&mut self, first: usize, rows: &'s [T], item: fn(u32) -> Item) -> Block<'s, T> {
         let last = item((first + rows.len() - 1) as u32);
-        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|c| c.at <= last));
+        let (comments, rest) = self.comments.split_at(self.comments.partition_point(|(at, _)| *at <= last));
         self.comments = rest;
         Block { first, rows, comments }
     }
@@ -177,14 +181,14 @@ struct Block<'s, T> {
     /// Row in the table.
     first: usize,
     rows: &'s [T],
-    comments: &'s [Comment],
+    comments: &'s [(Item, &'s Comment)],
 }
 
 struct Writer<'s> {
     scene: &'s Scene,
     out: Vec<u8>,
     /// Comments not yet written, sorted by statement.
-    comments: &'s [Comment],
+    comments: &'s [(Item, &'s Comment)],
     numbers: zmij::Buffer,
     /// The row that is written.
     row: u32,
@@ -196,7 +200,12 @@ struct Writer<'s> {
 
 impl<'s> Writer<'s> {
     /// Appends the output of `write` to `out`.
-    fn on(out: &mut Vec<u8>, scene: &'s Scene, comments: &'s [Comment], write: impl FnOnce(&mut Self)) {
+    fn on(
+        out: &mut Vec<u8>,
+        scene: &'s Scene,
+        comments: &'s [(Item, &'s Comment)],
+        write: impl FnOnce(&mut Self),
+    ) {
         let mut writer = Self {
             scene,
             out: std::mem::take(out),
@@ -224,16 +233,14 @@ impl<'s> Writer<'s> {
             }
             self.out.push(b'\n');
         }
-        // Comments remain only if they are not sorted; they must not be lost.
-        self.comments.iter().for_each(|comment| self.comment_line(&comment.text));
     }
 
     /// Writes the comments of `item`: those after it if `trailing`, else those above it.
     fn comments_at(&mut self, item: Item, trailing: bool) {
-        while let Some((comment, rest)) = self.comments.split_first() {
+        while let Some((&(at, comment), rest)) = self.comments.split_first() {
             // A comment of a missing row must not block the others.
-            let lost = comment.at < item;
-            if !lost && (comment.at != item || comment.trailing != trailing) {
+            let lost = at < item;
+            if !lost && (at != item || comment.trailing != trailing) {
                 break;
             }
             self.comments = rest;

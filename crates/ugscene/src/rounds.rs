@@ -35,9 +35,8 @@ messages! { TooManyPolygons {
     Self(n) => "the round faces of the scene would become {n} polygons, of {MOST_POLYGONS} at most";
 } }
 
-/// Cuts round faces into polygons with corners on the surface and normals of the surface there, and
-/// returns the row of the first polygon of each face, and the number of all faces. In a scene as
-/// seen, the polygons are those at rest, with corners where they are seen.
+/// Cuts round faces into polygons with corners on the surface and normals of the surface there. In
+/// a scene as seen, the polygons are those at rest, with corners where they are seen.
 ///
 /// `sagitta`: of a face, its row and its shape at rest, relative to the radius, how far a polygon
 /// may be from the surface, at least 9.6·10⁻⁵ (spheres) or 4.7·10⁻⁶ (others); `None` keeps the
@@ -48,7 +47,7 @@ messages! { TooManyPolygons {
 pub fn cut_rounds(
     scene: &mut Scene,
     sagitta: impl Fn(usize, &Face, &RoundShape) -> Option<f64>,
-) -> Result<Vec<u32>, TooManyPolygons> {
+) -> Result<(), TooManyPolygons> {
     let is_seen = scene.has_rounds() && scene.stage.seen_geometry().is_some();
     let seen = is_seen.then(|| {
         let (eye, frames) = (crate::eye(scene, None), RestFrames::new(scene));
@@ -65,7 +64,7 @@ pub fn cut_rounds(
     // Scenes have fewer than 2^32 faces.
     let mut cuts: Vec<Option<(RoundShape, usize)>> = scene.faces.iter().enumerate().map(cut).collect();
     if cuts.iter().all(Option::is_none) {
-        return Ok((0..=cuts.len() as u32).collect());
+        return Ok(());
     }
     let polygons = |(round, n): &(RoundShape, usize)| match round.shape {
         FaceShape::Sphere => n * n / 2,
@@ -85,9 +84,7 @@ pub fn cut_rounds(
         return Err(TooManyPolygons(n_polygons));
     }
     let mut names = vertex_names(scene);
-    let mut first_pieces = Vec::with_capacity(cuts.len() + 1);
     for (face, cut) in std::mem::take(&mut scene.faces).into_iter().zip(cuts) {
-        first_pieces.push(scene.faces.len() as u32);
         match cut {
             Some((round, n)) => {
                 let corners = scene.contours.corners(face.contours.clone()).iter().copied();
@@ -98,9 +95,7 @@ pub fn cut_rounds(
             None => scene.faces.push(face),
         }
     }
-    first_pieces.push(scene.faces.len() as u32);
-    scene.remarks.follow_pieces(&first_pieces);
-    Ok(first_pieces)
+    Ok(())
 }
 
 /// The sagitta of a shape at rest, relative to its radius, that is seen from `eye` within the angle
@@ -123,7 +118,7 @@ pub fn seen_sagitta(round: &RoundShape, eye: DVec3, error: f64) -> f64 {
 ///
 /// # Errors
 /// See [`cut_rounds`].
-pub fn cut_rounds_at_rest(scene: &mut Scene, eye: Option<DVec3>) -> Result<Vec<u32>, TooManyPolygons> {
+pub fn cut_rounds_at_rest(scene: &mut Scene, eye: Option<DVec3>) -> Result<(), TooManyPolygons> {
     cut_rounds(scene, |_, _, round| {
         Some(eye.map_or(DEFAULT_SAGITTA, |eye| seen_sagitta(round, eye, DEFAULT_ERROR)))
     })
@@ -138,7 +133,7 @@ pub fn cut_rounds_on_world_lines(scene: &mut Scene) -> Result<(), TooManyPolygon
         return Ok(());
     }
     let on_line: Vec<bool> = scene.bodies.ids().map(|body| scene.bodies.is_on_world_line(body)).collect();
-    cut_rounds(scene, |_, face, _| on_line[face.body.index()].then_some(FINE_SAGITTA)).map(|_| ())
+    cut_rounds(scene, |_, face, _| on_line[face.body.index()].then_some(FINE_SAGITTA))
 }
 
 /// Segments of a full circle, a multiple of 4, so that the extreme points are corners.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use glam::DVec3;
 use uglorentz::{Config, PROVENANCE, Provenance, Report, Table};
-use ugparse::{Options, Source};
+use ugparse::{Options, Parsed, PassedOn, Source};
 use ugpipe::Words;
 use ugscene::{Face, Scene, VertexId};
 use ugtesting::Random;
@@ -26,8 +26,8 @@ pub fn text(vertices: &[DVec3], faces: &[Vec<usize>]) -> String {
 /// The scene as seen, written and read again.
 pub fn seen(text: &str, config: &Config) -> Scene {
     let text = run(text, config).text();
-    let scene = parse(str::from_utf8(&text).unwrap());
-    let again = ugparse::write(&scene);
+    let Parsed { scene, passed_on, .. } = parsed(str::from_utf8(&text).unwrap());
+    let again = ugparse::write_with(&scene, &passed_on);
     let lines = |text: &[u8]| String::from_utf8_lossy(text).lines().map(str::to_owned).collect::<Vec<_>>();
     let differs = lines(&text).into_iter().zip(lines(&again)).find(|(a, b)| a != b);
     assert_eq!(differs, None, "what is written is read back");
@@ -38,12 +38,13 @@ pub fn seen(text: &str, config: &Config) -> Scene {
 #[derive(Debug)]
 pub struct Outcome {
     pub scene: Scene,
+    pub passed_on: PassedOn,
     pub report: Report,
 }
 
 impl Outcome {
     pub fn text(&self) -> Vec<u8> {
-        ugparse::write(&self.scene)
+        ugparse::write_with(&self.scene, &self.passed_on)
     }
 }
 
@@ -64,7 +65,7 @@ pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
         diagnostics.map_or_else(|| error.words(), |diagnostics| diagnostics.to_string())
     })?;
     scene.remarks.record(Provenance { command: Some("uglorentz"), ..PROVENANCE });
-    Ok(Outcome { scene, report })
+    Ok(Outcome { scene, passed_on: parsed.passed_on, report })
 }
 
 /// The measurements of a scene as seen, as a file.
@@ -75,8 +76,12 @@ pub fn table(text: &str, config: &Config, table: Table) -> String {
 }
 
 pub fn parse(text: &str) -> Scene {
+    parsed(text).scene
+}
+
+fn parsed(text: &str) -> Parsed {
     let parsed = ugparse::parse(&Source::new("test.ug", text), &Options::default());
-    parsed.unwrap_or_else(|error| panic!("{error}")).scene
+    parsed.unwrap_or_else(|error| panic!("{error}"))
 }
 
 pub fn moving(beta: DVec3) -> Config {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use uglorentz::{Config, DEFAULT_COLOR_ERROR, Pieces};
 use ugphysics::{Velocity, doppler_at, seen_position};
 use ugpipe::Words;
-use ugscene::{Item, RestFrames, Scene, ShownEffects, VertexId};
+use ugscene::{RestFrames, Scene, ShownEffects, VertexId};
 use ugtesting::Random;
 
 use crate::common::{edges, find, moving, normal, parse, place, prism, rock, run, seen, tetrahedron, text};
@@ -352,19 +352,19 @@ fn comments_and_attributes_go_with_their_faces() {
         { the line } w (a b);";
     let scene = seen(text, &moving(DVec3::X * 0.9));
     let named = |row: u32| scene.names.get(scene.faces[row as usize].name.unwrap());
-    let mut found = Vec::new();
-    for comment in &scene.remarks.comments {
-        let at = match comment.at {
-            Item::Face(row) => {
-                assert!(comment.trailing || row == 0 || named(row - 1) != named(row), "not the first piece");
-                named(row).to_string()
-            }
-            other => format!("{other:?}"),
-        };
-        found.push((comment.text.trim(), at));
-    }
-    let expected = [("the upper", "up"), ("the lower", "low"), ("behind it", "low"), ("the line", "Wire(0)")];
-    assert_eq!(found, expected.map(|(text, at)| (text, at.to_string())));
+    // The pieces of each face, and the comments, which come before the first and behind the last.
+    let written = String::from_utf8(run(text, &moving(DVec3::X * 0.9)).text()).unwrap();
+    let marks = written.lines().filter_map(|line| {
+        let begin = ["f up", "f low", "w", "{"].into_iter().find(|begin| line.starts_with(begin))?;
+        let (_, comment) = line.split_once('{').unwrap_or_default();
+        Some(format!("{begin}{comment}"))
+    });
+    let mut marks: Vec<String> = marks.skip(2).collect();
+    marks.dedup();
+    assert_eq!(
+        marks,
+        ["{ the upper }", "f up", "{ the lower }", "f low", "f low behind it }", "{ the line }", "w"]
+    );
     for (row, face) in scene.faces.iter().enumerate() {
         assert_eq!(scene.light_level(face), (named(row as u32) == "up").then_some(0.5));
         assert!(face.color.is_some() && scene.bodies.stated_velocity(face.body).unwrap().beta().x == 0.9);
@@ -485,6 +485,20 @@ fn what_is_out_of_sight_is_not_cut_further() {
         let (all, few) = (n_faces(&whole), n_faces(&seen));
         assert!(few < all * 2 / 3, "{direction}: {few} of {all}");
     }
+}
+
+#[test]
+fn comments_go_with_what_is_not_culled() {
+    let text = "v p -5 5 0; v q -5 -5 0; { of q } v r -5 0 5;
+        { of a } v a 5 -1 0; v b 5 1 0; v c 5 0 1;
+        { gone } f (p q r); { gone as well }
+        { the second } f (a b c); { behind it }
+        cam -ep 0 0 0 -vc 1 0 0;";
+    let written = String::from_utf8(run(text, &Config { cull: true, ..Config::default() }).text()).unwrap();
+    let lines: Vec<&str> = written.lines().filter(|line| !line.starts_with("{ uglorentz")).collect();
+    let expected = "{ of a }\nv a 5 -1 0;\nv b 5 1 0;\nv c 5 0 1;\n{ the second }\nf (a b c); { behind it }";
+    assert_eq!(lines[..6].join("\n"), expected);
+    assert!(lines[6].starts_with("cam "), "{written}");
 }
 
 #[test]

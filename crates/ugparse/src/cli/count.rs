@@ -51,7 +51,7 @@ impl<'s> Counts<'s> {
         let edges = Edges::new(scene);
         Self {
             scene,
-            statements: statements(source, scene, options),
+            statements: statements(source, parsed, options),
             corners: corner_count(scene),
             faces_with_holes: scene.faces.iter().filter(|face| face.contours.len() > 1).count(),
             thickest: thickest_face(scene).map(|(row, thickness)| (face_place(row), thickness)),
@@ -147,15 +147,16 @@ fn point(p: DVec3) -> String {
 }
 
 /// Numbers of statements by kind. The text is parsed again, because expansion consumes its tables.
-fn statements(source: &Source, scene: &Scene, options: &Options) -> Vec<Statements> {
+fn statements(source: &Source, parsed: &Parsed, options: &Options) -> Vec<Statements> {
+    let Parsed { scene, passed_on, .. } = parsed;
     let mut document = read(&source.text, options, &mut Vec::new());
     stage_statement::take(&source.text, &mut document, &mut Vec::new());
     let written = |count: fn(&Scope<'_>) -> usize| document.scopes.iter().map(count).sum();
     let row =
         |kind, count: fn(&Scope<'_>) -> usize, placed| Statements { kind, written: written(count), placed };
     let n_labels = scene.labels().count();
-    let n_escapes = escape_count(&scene.remarks.passed_on);
-    let n_unknown = scene.remarks.passed_on.len() - n_escapes;
+    let n_escapes = escape_count(&passed_on.statements);
+    let n_unknown = passed_on.statements.len() - n_escapes;
     vec![
         row("colours", |scope| scope.colors.table.len(), Some(scene.colors.len())),
         row("surfaces", |scope| scope.surfaces.table.len(), Some(scene.surfaces.len())),

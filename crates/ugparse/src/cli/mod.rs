@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use ugpipe::{CommonArgs, Context, Failure, ToolArgs};
 
 use crate::pipe::{self, refused};
-use crate::writer::write_counted;
+use crate::writer::write_to;
 use crate::{Diagnostics, Options, Parsed, Severity, Source};
 
 /// Checks, formats, flattens and measures UniGrafix scenes
@@ -134,7 +134,7 @@ fn run(args: &Args, context: &mut Context) -> Result<bool, Failure> {
             if *hues {
                 ugscene::write_display_as_hues(&mut parsed.scene);
             }
-            context.write_with(|out| match write_counted(&parsed.scene, out)? {
+            context.write_with(|out| match write_to(&parsed.scene, &parsed.passed_on, out)? {
                 0 => out.write_all(EMPTY),
                 _ => Ok(()),
             })?;

@@ -38,7 +38,7 @@ impl Expander<'_, '_> {
             .other(outer_span, "this one, outside definitions, is used")
             .help(format!("choose this one by its name `{name}`, or remove one of them"))
             .setting(Setting::Camera);
-        reorder(&mut self.scene, &mut self.origins.cameras, &[outer, nested].concat());
+        reorder(&mut self.scene, &mut self.passed_on, &mut self.origins.cameras, &[outer, nested].concat());
         Some(warning)
     }
 }

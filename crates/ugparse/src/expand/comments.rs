@@ -1,9 +1,9 @@
 //! Attaches comments to statements of the flat scene.
 
 use rustc_hash::FxHashSet;
-use ugscene::{Comment, Item};
 
 use super::{Expander, Origins};
+use crate::passed_on::{Comment, Item};
 use crate::reader::CommentSpan;
 use crate::scope::Scope;
 use crate::source::Span;
@@ -31,7 +31,8 @@ impl Expander<'_, '_> {
         let Some(mut all) = self.emitted.take() else { return Vec::new() };
         let is_flat = self.scopes.len() == 1;
         let Origins { vertices, faces, lights, cameras, wires, passed_on } = &self.origins;
-        let vertices = firsts(is_flat, vertices, Item::Vertex);
+        let name = |row: u32| Item::Vertex(self.scene.vertices[row as usize].name.index() as u32);
+        let vertices = firsts(is_flat, vertices, name);
         all.extend(vertices.map(|(name, item)| (Scope::vertex_statement(self.text, name), item)));
         all.extend(firsts(is_flat, faces, Item::Face));
         all.extend(firsts(is_flat, wires, Item::Wire));
@@ -53,10 +54,8 @@ impl Expander<'_, '_> {
                 continue;
             }
             let (at, trailing) = item_at(self.text, &emitted, comment);
-            self.scene.remarks.comments.push(Comment { text, at, trailing });
+            self.passed_on.comments.push(Comment { text, at, trailing });
         }
-        // The writer traverses rows and comments in parallel.
-        self.scene.remarks.comments.sort_by_key(|comment| comment.at);
     }
 }
 

@@ -20,9 +20,10 @@ use glam::DVec3;
 use placement::{Inherited, Placement};
 use queue::{Queue, Queues};
 use rustc_hash::FxHashMap;
-use ugscene::{ColorId, Item, Scene, Vertex, VertexId};
+use ugscene::{ColorId, Face, Scene, Vertex, VertexId};
 
 use crate::diagnostic::Diagnostic;
+use crate::passed_on::{Item, PassedOn};
 use crate::reader::Document;
 use crate::resolve::Links;
 use crate::scope::{BodyTable, Scope};
@@ -34,7 +35,7 @@ use crate::statement::{Call, Counts, MotionReference, Repeat, StatedFrame};
 pub struct Origins {
     /// For each vertex, the name in its `v` statement.
     pub vertices: Vec<Span>,
-    /// For each face, its statement.
+    /// The statement of each face, by [`ugscene::Face::row_as_read`].
     pub faces: Vec<Span>,
     /// For each light, its statement.
     pub lights: Vec<Span>,
@@ -42,6 +43,13 @@ pub struct Origins {
     pub cameras: Vec<Span>,
     pub(super) wires: Vec<Span>,
     pub(super) passed_on: Vec<Span>,
+}
+
+impl Origins {
+    /// The statement of a face, or of the face that it is a piece of.
+    pub fn face(&self, face: &Face) -> Option<Span> {
+        self.faces.get(face.row_as_read as usize).copied()
+    }
 }
 
 /// The longest chain of nested instances for which the stack of any thread suffices.
@@ -57,7 +65,7 @@ pub(crate) fn expand<'t>(
     links: &Links,
     scene: Scene,
     findings: &mut Vec<Diagnostic>,
-) -> (Scene, Origins) {
+) -> (Scene, PassedOn, Origins) {
     if links.levels <= SHORT_CHAIN {
         return expand_here(text, document, links, scene, findings);
     }
@@ -82,7 +90,7 @@ fn expand_here<'t>(
     links: &Links,
     scene: Scene,
     findings: &mut Vec<Diagnostic>,
-) -> (Scene, Origins) {
+) -> (Scene, PassedOn, Origins) {
     // Only comments after the head require the spans of statements.
     let first_statement = document.first_statement.unwrap_or(u32::MAX);
     let has_comments = document.comments.last().is_some_and(|comment| comment.text.start > first_statement);
@@ -92,6 +100,7 @@ fn expand_here<'t>(
         scopes: &document.scopes,
         links,
         scene,
+        passed_on: PassedOn::default(),
         origins: Origins::default(),
         emitted: has_comments.then(Vec::new),
         next_vertex: 0,
@@ -122,7 +131,7 @@ fn expand_here<'t>(
     findings.extend(expander.prefer_outer_camera());
     findings.extend(expander.error);
     findings.extend(expander.degenerate.into_values());
-    (expander.scene, expander.origins)
+    (expander.scene, expander.passed_on, expander.origins)
 }
 
 struct Expander<'d, 't> {
@@ -131,6 +140,7 @@ struct Expander<'d, 't> {
     scopes: &'d [Scope<'t>],
     links: &'d Links,
     scene: Scene,
+    passed_on: PassedOn,
     origins: Origins,
     /// If there are comments to attach, the statements that are not in `origins`, and their rows.
     emitted: Option<Vec<(Span, Item)>>,

@@ -3,11 +3,12 @@
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
 use ugphysics::{SampledPath, WorldLine, WorldLineError};
-use ugscene::{BodyId, Carrier, FaceOrWire, Item, LightKind, MotionPath, StatedMotion};
+use ugscene::{BodyId, Carrier, FaceOrWire, LightKind, MotionPath, StatedMotion};
 
 use super::Expander;
 use crate::diagnostic::Diagnostic;
 use crate::event_table::impossible as impossible_path;
+use crate::passed_on::Item;
 use crate::resolve::undefined_like;
 use crate::rows::Rows;
 use crate::source::Span;

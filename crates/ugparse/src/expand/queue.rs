@@ -10,12 +10,12 @@ use crate::statement::Counts;
 impl Expander<'_, '_> {
     /// Moves rows of the file up to `end`.
     pub(super) fn move_rows(&mut self, queues: &mut Queues, end: Counts) {
-        let Self { scene, origins, .. } = self;
+        let Self { scene, origins, passed_on, .. } = self;
         queues.faces.move_up_to(end.faces, &mut scene.faces, &mut origins.faces);
         queues.wires.move_up_to(end.wires, &mut scene.wires, &mut origins.wires);
         queues.lights.move_up_to(end.lights, &mut scene.lights, &mut origins.lights);
         queues.cameras.move_up_to(end.cameras, &mut scene.cameras, &mut origins.cameras);
-        queues.passed_on.move_up_to(end.passed_on, &mut scene.remarks.passed_on, &mut origins.passed_on);
+        queues.passed_on.move_up_to(end.passed_on, &mut passed_on.statements, &mut origins.passed_on);
     }
 }
 

@@ -32,7 +32,7 @@ impl Expander<'_, '_> {
         if placement.first_time {
             let passed_on = start.passed_on..end.passed_on;
             self.origins.passed_on.extend_from_slice(&scope.passed_on.spans[passed_on.clone()]);
-            self.scene.remarks.passed_on.extend_from_slice(&scope.passed_on.rows[passed_on]);
+            self.passed_on.statements.extend_from_slice(&scope.passed_on.rows[passed_on]);
         }
     }
 

@@ -202,7 +202,7 @@ impl<'t> Grammar<'t, '_> {
         let (input, shading) = self.shading(input)?;
         let (input, body) = self.body(input)?;
         let name = self.own_name(name);
-        Ok((input, Statement::Face(Face { name, contours, color, shading, body, shape })))
+        Ok((input, Statement::Face(Face { name, color, shading, shape, ..Face::polygon(contours, body) })))
     }
 
     /// `number` or `surface`

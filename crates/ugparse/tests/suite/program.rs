@@ -31,7 +31,8 @@ fn scenes() -> Vec<PathBuf> {
 
 fn flat(text: &[u8]) -> Vec<u8> {
     let parsed = ugparse::parse(&Source::new("scene.ug", text), &Options::default());
-    ugparse::write(&parsed.unwrap_or_else(|findings| panic!("{findings}")).scene)
+    let parsed = parsed.unwrap_or_else(|findings| panic!("{findings}"));
+    ugparse::write_with(&parsed.scene, &parsed.passed_on)
 }
 
 const BAD: &str = "v a 0 0 0;\nv b 1 0 0;\nv c 0 1 0;\nf (a b c) red;\nf (a b d);\n";
@@ -297,7 +298,7 @@ fn tidy_formats() {
             let options = Options { lax: true, ..Options::default() };
             ugparse::parse(&Source::new("scene.ug", text), &options)
                 .ok()
-                .map(|parsed| ugparse::write(&parsed.scene))
+                .map(|parsed| ugparse::write_with(&parsed.scene, &parsed.passed_on))
         };
         assert!(scene(text) == scene(expected), "{text}");
     }

@@ -274,8 +274,8 @@ impl Explainer<'_> {
             let name = name(wire.and_then(|wire| wire.name));
             return ExplainedItem { kind: "wire", id, name, file: None, line: None };
         };
-        let place = parsed.origins.faces.get(row).and_then(|span| {
-            Diagnostics::one(source, Diagnostic::error(*span, "")).locations().into_iter().next()
+        let place = parsed.origins.face(face).and_then(|span| {
+            Diagnostics::one(source, Diagnostic::error(span, "")).locations().into_iter().next()
         });
         let (file, line) = place.map(|place| (place.file, place.line)).unzip();
         ExplainedItem { kind: "face", id, name: name(face.name), file, line }

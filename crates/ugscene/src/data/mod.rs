@@ -21,7 +21,7 @@ pub use history::{Provenance, recorded};
 pub use ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 pub use motion::{Carrier, CurveKind, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
-pub use remarks::{Comment, Item, Remarks};
+pub use remarks::Remarks;
 pub use scene::{
     Beam, Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
     Shading, StatedSky, Tint, Vertex, Wire,

@@ -79,7 +79,7 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// `sky`.
     pub sky: Option<StatedSky>,
-    /// Comments, history and statements for other programs.
+    /// Its licence and history.
     pub remarks: Remarks,
 }
 
@@ -231,12 +231,15 @@ pub struct Face {
     pub body: BodyId,
     /// What its contours determine.
     pub shape: FaceShape,
+    /// Its row in the scene that was read; the pieces of a face keep it.
+    pub row_as_read: u32,
 }
 
 impl Face {
     /// A polygon without name, colour and shading.
     pub fn polygon(contours: Range<u32>, body: BodyId) -> Self {
-        Self { name: None, contours, color: None, shading: None, body, shape: FaceShape::Polygon }
+        let shape = FaceShape::Polygon;
+        Self { name: None, contours, color: None, shading: None, body, shape, row_as_read: 0 }
     }
 }
 

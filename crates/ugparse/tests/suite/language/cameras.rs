@@ -7,9 +7,9 @@ fn chosen(text: &str, name: &str) -> Result<Vec<String>, String> {
     let source = Source::new("test.ug", text);
     let mut parsed = parse_with(text, false);
     parsed.choose_camera(&source, name).map_err(|found| found.render(false))?;
-    let again = parse(write(&parsed.scene));
+    let again = parse(written(&parsed));
     assert_eq!(again.camera(), parsed.scene.camera());
-    Ok(write(&parsed.scene).lines().map(str::to_owned).collect())
+    Ok(written(&parsed).lines().map(str::to_owned).collect())
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use ugparse::{Limit, Limits, Options, Request, RequestError, RequestKind, Source};
 
-use crate::language::{check, check_error, parse, write};
+use crate::language::{check, check_error, parse, written};
 
 /// Parses the first of some files; returns the written scene, or the messages.
 fn read(files: &[(&str, &str)]) -> String {
@@ -31,7 +31,7 @@ fn read_with(files: &[(&str, &str)], options: &Options) -> String {
     };
     let scene = Source::new(files[0].0, files[0].1);
     match ugparse::include(scene, options, load).and_then(|whole| ugparse::parse(&whole, options)) {
-        Ok(parsed) => write(&parsed.scene),
+        Ok(parsed) => written(&parsed),
         Err(found) => found.render(false),
     }
 }

@@ -41,12 +41,18 @@ fn write(scene: &Scene) -> String {
     String::from_utf8(ugparse::write(scene)).expect("scenes are written as UTF-8")
 }
 
+/// The text of a scene with its comments.
+fn written(parsed: &Parsed) -> String {
+    let text = ugparse::write_with(&parsed.scene, &parsed.passed_on);
+    String::from_utf8(text).expect("scenes are written as UTF-8")
+}
+
 /// Parses and writes a scene; checks the round trip of the output.
 fn flat(text: impl AsRef<[u8]>) -> String {
     let parsed = parse_with(&text, true);
-    let out = write(&parsed.scene);
+    let out = written(&parsed);
     let again = parse_with(&out, true);
-    assert_eq!(write(&again.scene), out, "written, read and written again");
+    assert_eq!(written(&again), out, "written, read and written again");
     out
 }
 

@@ -4,10 +4,10 @@ use std::fmt::Write;
 
 use proptest::prelude::*;
 use proptest::sample::select;
-use ugparse::{Options, Source};
+use ugparse::{Options, Parsed, Source};
 use ugscene::Scene;
 
-use crate::language::{parse, parse_with, write};
+use crate::language::{parse, parse_with, write, written};
 
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
@@ -48,13 +48,13 @@ proptest! {
     /// The round trip preserves every table, and gives the same text.
     #[test]
     fn scenes_round_trip(text in scene_text()) {
-        let first = parse_with(&text, true).scene;
-        let out = write(&first);
+        let first = parse_with(&text, true);
+        let out = written(&first);
         let second = parse_with(&out, true);
-        prop_assert_eq!(&write(&second.scene), &out);
+        prop_assert_eq!(&written(&second), &out);
         let is_kept = |message: &str| ["passed on unread", "not flat"].iter().any(|end| message.ends_with(end));
         prop_assert!(second.warnings.list.iter().all(|warning| is_kept(&warning.message)));
-        same(&first, &second.scene)?;
+        same(&first, &second)?;
     }
 
     #[test]
@@ -70,14 +70,14 @@ fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     for lax in [false, true] {
         match ugparse::parse(&Source::new("any.ug", bytes), &Options { lax, ..Options::default() }) {
             Ok(parsed) => {
-                let out = write(&parsed.scene);
+                let out = written(&parsed);
                 parsed.warnings.render(true);
                 let again = ugparse::parse(
                     &Source::new("out.ug", out.as_bytes()),
                     &Options { lax, ..Options::default() },
                 );
                 prop_assert_eq!(
-                    again.map(|again| write(&again.scene)).map_err(|found| found.to_string()),
+                    again.map(|again| written(&again)).map_err(|found| found.to_string()),
                     Ok(out)
                 );
             }
@@ -100,7 +100,8 @@ fn surface(scene: &Scene, face: &ugscene::Face) -> Option<(String, [f64; 6])> {
 }
 
 /// Equal row by row, not only as text.
-fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
+fn same(first: &Parsed, second: &Parsed) -> Result<(), TestCaseError> {
+    let (a, b) = (&first.scene, &second.scene);
     let vertices = |scene: &Scene| -> Vec<String> {
         let row =
             |v: &ugscene::Vertex| format!("{} {:?} {:?}", scene.names.get(v.name), v.position, v.normal);
@@ -125,9 +126,9 @@ fn same(a: &Scene, b: &Scene) -> Result<(), TestCaseError> {
         scene.lights.iter().map(|light| (light.intensity, light.kind, light.color)).collect()
     };
     prop_assert_eq!(kinds(a), kinds(b));
-    prop_assert_eq!(&a.remarks.passed_on, &b.remarks.passed_on);
-    let n_comments = |scene: &Scene| scene.remarks.head.len() + scene.remarks.comments.len();
-    prop_assert_eq!(n_comments(a), n_comments(b));
+    prop_assert_eq!(&first.passed_on.statements, &second.passed_on.statements);
+    let n_comments = |parsed: &Parsed| parsed.scene.remarks.head.len() + parsed.passed_on.comments.len();
+    prop_assert_eq!(n_comments(first), n_comments(second));
     let colors = |scene: &Scene| -> Vec<_> { scene.colors.iter().map(|color| color.translucency).collect() };
     prop_assert_eq!(colors(a), colors(b));
     Ok(())

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::io;
 
-use ugparse::{Options, Source};
+use ugparse::{Options, Parsed, Source};
 
 /// A scene in the layout of the writer, with comments above and after rows, also at the boundaries
 /// between pieces that different threads write.
@@ -31,16 +31,19 @@ fn as_written() -> String {
 fn any_number_of_threads_writes_the_same() {
     let text = as_written();
     let source = Source::new("written.ug", text.as_str());
-    let scene = ugparse::parse(&source, &Options::default()).unwrap().scene;
+    let Parsed { scene, passed_on, .. } = ugparse::parse(&source, &Options::default()).unwrap();
     for n_threads in [1, 2, 7] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads).build().unwrap();
         let mut sent = Vec::new();
-        pool.install(|| ugparse::write_to(&scene, &mut sent)).unwrap();
+        pool.install(|| ugparse::write_to(&scene, &passed_on, &mut sent)).unwrap();
         assert!(sent == text.as_bytes(), "sent on {n_threads} threads");
-        assert!(pool.install(|| ugparse::write(&scene)) == sent, "written on {n_threads} threads");
+        assert!(
+            pool.install(|| ugparse::write_with(&scene, &passed_on)) == sent,
+            "written on {n_threads} threads"
+        );
     }
     // The caller may be outside the thread pool.
-    assert!(ugparse::write(&scene) == text.as_bytes());
+    assert!(ugparse::write_with(&scene, &passed_on) == text.as_bytes());
 }
 
 /// Accepts a limited number of bytes.
@@ -62,10 +65,10 @@ impl io::Write for Full {
 fn failed_output_is_an_error() {
     let text = as_written();
     let source = Source::new("written.ug", text.as_str());
-    let scene = ugparse::parse(&source, &Options::default()).unwrap().scene;
+    let Parsed { scene, passed_on, .. } = ugparse::parse(&source, &Options::default()).unwrap();
     for room in [0, 1, text.len() / 2, text.len() - 1] {
-        let error = ugparse::write_to(&scene, &mut Full(room)).unwrap_err();
+        let error = ugparse::write_to(&scene, &passed_on, &mut Full(room)).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::StorageFull, "room for {room} bytes");
     }
-    ugparse::write_to(&scene, &mut Full(text.len())).unwrap();
+    ugparse::write_to(&scene, &passed_on, &mut Full(text.len())).unwrap();
 }

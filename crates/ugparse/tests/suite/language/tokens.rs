@@ -1,6 +1,8 @@
 //! Numbers, names, white space.
 
-use crate::language::{check, check_error, errors, flat, parse};
+use ugparse::Parsed;
+
+use crate::language::{check, check_error, errors, flat, parse, parse_with, written};
 
 #[test]
 fn numbers_are_read_to_the_bit() {
@@ -79,10 +81,10 @@ fn the_layout_is_free() {
         assert_eq!(flat(words.join(blank)), plain, "{blank:?}");
     }
     let no_comments = |text: String| {
-        let mut scene = parse(text);
-        scene.remarks.head.clear();
-        scene.remarks.comments.clear();
-        String::from_utf8(ugparse::write(&scene)).unwrap()
+        let mut parsed = parse_with(text, false);
+        parsed.scene.remarks.head.clear();
+        parsed.passed_on.comments.clear();
+        written(&parsed)
     };
     // Not inside the escape, whose text must not change.
     let scene = WORDS.replace("(escape) ;", "");
@@ -100,12 +102,9 @@ fn the_layout_is_free() {
         let (before, after) = words.split_at(idx);
         let text = format!("{} {{ here {{ and here }} }} {}", before.join(" "), after.join(" "));
         assert_eq!(no_comments(text.clone()), plain, "{text}");
-        let scene = parse(text);
-        assert_eq!(
-            scene.remarks.head.len() + scene.remarks.comments.len(),
-            1,
-            "the comment before word {idx} is kept"
-        );
+        let Parsed { scene, passed_on, .. } = parse_with(text, false);
+        let n_comments = scene.remarks.head.len() + passed_on.comments.len();
+        assert_eq!(n_comments, 1, "the comment before word {idx} is kept");
     }
 }
 
