@@ -215,7 +215,7 @@ impl PyScene {
         let item = FilmItem::Scene(Box::new((*at_rest).clone()));
         let made = program.run(item, &**call).map_err(|error| self.refused(error))?;
         let Some((FilmItem::Scene(mut scene), told)) = made else { return Err(Refused::of(Error::Subject)) };
-        scene.remarks.record(Provenance { command: Some(&line), ..program.provenance() });
+        scene.head.record(Provenance { command: Some(&line), ..program.provenance() });
         let mut notes: Vec<String> = told.iter().flat_map(Note::words).collect();
         let mut time = self.time;
         if let Program::Lorentz(config) = &program {

@@ -22,7 +22,7 @@ fn the_notice_stays_at_the_head_and_surfaces_on_their_faces() {
         let text = String::from_utf8_lossy(text);
         assert!(text.starts_with(notice), "{name}: {text}");
         let scene = scenes::parse(text.as_bytes());
-        assert_eq!(scene.remarks.history().len(), programs, "{name}");
+        assert_eq!(scene.head.history().len(), programs, "{name}");
         let names: Vec<&str> = scene.surfaces.iter().map(|row| scene.names.get(row.name)).collect();
         assert_eq!(names, ["dull", "shiny", "wall:waxed"], "{name}");
         // Every piece of a face keeps the surface or level of the face.

@@ -93,7 +93,7 @@ pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
 #[track_caller]
 fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Vec<u8> {
     let (mut scene, _) = lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
-    scene.remarks.record(Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
+    scene.head.record(Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
     ugparse::write(&scene)
 }
 
@@ -126,7 +126,7 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
     let applied = ugdoppler::apply(read(text, None), config);
     let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
-    scene.remarks.record(Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
+    scene.head.record(Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
     ugparse::write(&scene)
 }
 

@@ -176,7 +176,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let applied = apply_with(parsed.scene, &config, &steps);
     let (mut scene, notes) = applied.map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    scene.head.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
     }

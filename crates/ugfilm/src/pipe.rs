@@ -3,7 +3,7 @@
 use ugimage::{LinearFrame, Metadata};
 use ugpicture::{AnnotationOptions, Canvas, PictureOptions, Rendering};
 use ugpipe::Progress;
-use ugscene::{Provenance, Remarks, Scene};
+use ugscene::{Head, Provenance, Scene};
 use ugskybox::SceneSky;
 
 use crate::error::Error;
@@ -57,20 +57,16 @@ impl Pipe {
 
     /// The record in the file of the frame. Of a scene only the comments are used.
     pub fn metadata(&self, subject: FilmSubject<'_>) -> Metadata {
-        let mut remarks = match subject {
-            FilmSubject::Scene(Scene { remarks: Remarks { head, origin, .. }, .. }) => {
-                Remarks { head: head.clone(), origin: origin.clone(), ..Remarks::default() }
-            }
-            FilmSubject::Panorama(_, origin) => {
-                Remarks { origin: Some(origin.to_owned()), ..Remarks::default() }
-            }
+        let mut head = match subject {
+            FilmSubject::Scene(scene) => scene.head.clone(),
+            FilmSubject::Panorama(_, origin) => Head { origin: Some(origin.to_owned()), ..Head::default() },
         };
         let Some((last, filters)) = self.programs.split_last() else { return Metadata::default() };
         for (filter, line) in filters.iter().zip(&self.lines) {
-            remarks.record(Provenance { command: Some(line), ..filter.provenance() });
+            head.record(Provenance { command: Some(line), ..filter.provenance() });
         }
         let command = Some(self.lines.last().map_or("", String::as_str));
-        let metadata = ugpicture::metadata(&remarks, Provenance { command, ..last.provenance() });
+        let metadata = ugpicture::metadata(&head, Provenance { command, ..last.provenance() });
         Metadata { panorama: last.panorama(&self.picture), ..metadata }
     }
 

@@ -137,7 +137,7 @@ fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let (mut scene, report) = crate::apply_with(parsed.scene, &config, &steps)
         .map_err(|error| failure(error, &source, &parsed.origins))?;
     drop(steps);
-    scene.remarks.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
+    scene.head.record(Provenance { command: Some(context.command_line()), ..PROVENANCE });
     if !parsed.warnings.is_empty() {
         context.report(&parsed.warnings.report());
     }

@@ -65,7 +65,7 @@ fn write_csv(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
 fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt::Result {
     let faces = all_polygons(scene);
     text.push_str("ply\nformat ascii 1.0\n");
-    for line in scene.remarks.history() {
+    for line in scene.head.history() {
         writeln!(text, "comment {line}")?;
     }
     writeln!(text, "element vertex {}", rows.len())?;
@@ -94,7 +94,7 @@ fn write_ply(text: &mut String, scene: &Scene, rows: &[Measurement]) -> std::fmt
 
 fn write_vtp(text: &mut String, scene: &Scene, rows: &[Measurement]) {
     let mut mesh = VtkPolygons {
-        history: scene.remarks.history(),
+        history: scene.head.history(),
         points: scene.vertices.iter().map(|vertex| vertex.position).collect(),
         polygons: all_polygons(scene),
         ..VtkPolygons::default()

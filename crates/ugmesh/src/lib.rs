@@ -187,7 +187,7 @@ pub fn run(config: &Config, input: &MeshFile) -> Result<Converted, Error> {
     if config.stage && config.target == Target::Ug {
         staging::add(&mut scene);
     }
-    scene.remarks.record(input.provenance);
+    scene.head.record(input.provenance);
     let mut pictures = Vec::new();
     let mut missing = None;
     if config.target == Target::Ug {
@@ -212,7 +212,7 @@ fn load(config: &Config, format: MeshFormat, input: &MeshFile) -> Result<Loaded,
     let (read, origin) = ugparse::with_origin(input.origin.as_ref(), &input.bytes, read);
     let MeshScene { mut scene, warnings, .. } =
         read.map_err(|problem| Error::Malformed { name: input.name.clone(), format, problem })?;
-    scene.remarks.origin = origin;
+    scene.head.origin = origin;
     Ok(Loaded { scene, warnings, diagnostics: None })
 }
 

@@ -228,7 +228,7 @@ impl Builder {
         let text = text.trim().replace('{', "(").replace('}', ")").replace('\t', " ");
         let text = text.lines().map(printable).collect::<Vec<_>>().join("\n");
         if !text.is_empty() {
-            self.scene.remarks.head.push(format!(" {text} "));
+            self.scene.head.comments.push(format!(" {text} "));
         }
     }
 

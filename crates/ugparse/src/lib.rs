@@ -122,7 +122,7 @@ pub struct Parsed {
 pub fn parse(source: &Source, options: &Options) -> Result<Parsed, Diagnostics> {
     let (parsed, origin) = with_origin(source.origin.as_ref(), &source.text, || parse_text(source, options));
     let mut parsed = parsed?;
-    parsed.scene.remarks.origin = origin;
+    parsed.scene.head.origin = origin;
     Ok(parsed)
 }
 

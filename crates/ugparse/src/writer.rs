@@ -63,7 +63,7 @@ struct Tables<'s, 'o> {
 impl<'s> Tables<'s, '_> {
     fn send(mut self) -> io::Result<usize> {
         let scene = self.scene;
-        for text in &scene.remarks.head {
+        for text in &scene.head.comments {
             self.chunked_writer.append(|out| Writer::on(out, scene, &[], |w| w.comment_line(text)));
         }
         let at_stage: fn(u32) -> Item = |_| Item::Stage;

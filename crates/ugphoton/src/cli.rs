@@ -11,7 +11,7 @@ use ugparse::pipe;
 use ugpicture::Output;
 use ugpicture::cli::{
     AnnotationArgs, Kind, LensArgs, PICTURE, PictureArgs, Pixel, color_shift, kinds, picture_format, pixel,
-    refuse_terminal, report_format, with_format, write_picture, write_report,
+    refuse_terminal, with_format, write_explanation, write_picture,
 };
 use ugpipe::{CommonArgs, Context, Failure, Look, LookArgs, Looks, ToolArgs, number, one_of, whole};
 use ugscene::cli::{MotionArgs, RepeatArgs, ShiftArgs};
@@ -274,10 +274,8 @@ impl Args {
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut config = args.config(context.output_name())?;
     if let Some(pixel) = args.explain {
-        let report = report_format(args.dt, context.output_name())?;
-        let source = pipe::read(context, &config.reading)?;
-        let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
-        return write_report(report, &explanation, &warnings, context);
+        let explain = |source: &_| explain(&config, source, pixel).map_err(Failure::of);
+        return write_explanation(args.dt, &config.reading, context, explain);
     }
     refuse_terminal(config.picture.output.format(), context)?;
     let preview = if args.pv { Some(context.replaceable_output().ok_or_else(no_preview)?) } else { None };

@@ -120,7 +120,7 @@ impl PreparedScene {
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
         progress.step("preparing", 0);
-        let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.remarks, provenance) };
+        let metadata = Metadata { panorama: config.panorama(), ..metadata(&scene.head, provenance) };
         let mut config = config.on(&canvas);
         config.sky.or_stated(scene.sky.as_ref());
         let (mut scene, mut notes) = (scene, Vec::new());

@@ -11,7 +11,7 @@ use clap::{ArgAction, ArgMatches, Args};
 use ugimage::label::TextForm;
 use ugimage::{Filter, Format, Tone, spelled_color};
 use uglight::ColorShift;
-use ugparse::Diagnostics;
+use ugparse::{Diagnostics, Source, pipe};
 use ugphysics::Hsv;
 use ugpipe::{Context, Failure, PIXELS_PER_INCH, Preset, Side, Words, finite, number, one_of, whole};
 use ugscene::cli::{CameraArgs, ShiftArgs};
@@ -416,10 +416,7 @@ pub fn picture_format(
 }
 
 /// The format of the explanation. `given`: with -dt. `file`: the output.
-///
-/// # Errors
-/// The format is one of pictures.
-pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<ExplanationFormat, Failure> {
+fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<ExplanationFormat, Failure> {
     let is_json = |file: &Path| file.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
     match given {
         Some(Kind::Report(report)) => Ok(report),
@@ -431,16 +428,20 @@ pub fn report_format(given: Option<Kind>, file: Option<&Path>) -> Result<Explana
     }
 }
 
-/// Prints the warnings of a scene, and writes the explanation of a pixel.
+/// Reads a scene, prints its warnings, and writes the explanation of a pixel. `given`: the format
+/// with -dt.
 ///
 /// # Errors
-/// The output cannot be written.
-pub fn write_report<S: WriteSample>(
-    report: ExplanationFormat,
-    explanation: &Explanation<S>,
-    warnings: &Diagnostics,
+/// The format is one of pictures; errors of reading, of `explain` and of writing.
+pub fn write_explanation<S: WriteSample>(
+    given: Option<Kind>,
+    reading: &ugparse::Options,
     context: &mut Context,
+    explain: impl FnOnce(&Source) -> Result<(Explanation<S>, Diagnostics), Failure>,
 ) -> Result<(), Failure> {
+    let report = report_format(given, context.output_name())?;
+    let source = pipe::read(context, reading)?;
+    let (explanation, warnings) = explain(&source)?;
     if !warnings.is_empty() {
         context.report(&warnings.report());
     }

@@ -10,7 +10,7 @@ use ugparse::pipe;
 use ugphysics::Hsv;
 use ugpicture::cli::{
     AnnotationArgs, Kind, PICTURE, PictureArgs, Pixel, color, color_shift, kinds, picture_format, pixel,
-    refuse_terminal, report_format, with_format, write_picture, write_report,
+    refuse_terminal, with_format, write_explanation, write_picture,
 };
 use ugpicture::{Output, PictureOptions, TextForm};
 use ugpipe::{
@@ -303,20 +303,14 @@ impl Args {
 /// Bad usage, a bad scene, or a stream that fails.
 pub fn draw(args: &Args, context: &mut Context) -> Result<(), Failure> {
     let mut config = args.config(context.output_name())?;
-    let report = match args.explain {
-        Some(pixel) => Some((pixel, report_format(args.dt, context.output_name())?)),
-        None => None,
-    };
-    if report.is_none() {
-        refuse_terminal(config.picture.output.format(), context)?;
+    if let Some(pixel) = args.explain {
+        let explain = |source: &_| explain(&config, source, pixel).map_err(Failure::of);
+        return write_explanation(args.dt, &config.reading, context, explain);
     }
+    refuse_terminal(config.picture.output.format(), context)?;
     let input = pipe::input(context, &config.reading)?;
     context.detail(&format!("read {} bytes of `{}`", input.text.len(), input.name));
     let source = pipe::follow(input, &config.reading, context).map_err(pipe::refused)?;
-    if let Some((pixel, report)) = report {
-        let (explanation, warnings) = explain(&config, &source, pixel).map_err(Failure::of)?;
-        return write_report(report, &explanation, &warnings, context);
-    }
     config.sky.open_with((&source, &config.reading), &args.common, context)?;
     let command_line = args.recorded(context.command_line(), &config);
     let provenance = Provenance { command: Some(&command_line), ..PROVENANCE };

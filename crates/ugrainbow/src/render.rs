@@ -122,7 +122,7 @@ fn draw(
     };
     let annotated = Annotated { is_shifted, subject };
     let drawn = Drawn { content, brightest: stats.max_intensity, notes, annotated };
-    canvas.finish(drawn, metadata(&scene.remarks, provenance), progress)
+    canvas.finish(drawn, metadata(&scene.head, provenance), progress)
 }
 
 fn draw_pixels<'a>(

@@ -9,7 +9,7 @@ use ugparse::{Diagnostics, Source};
 use ugpicture::lens::Film;
 use ugpicture::{Annotated, Canvas, Drawn, DrawnContent, FoundItems, Note, PictureFile, Rendering, Subject};
 use ugpipe::Progress;
-use ugscene::{CameraError, CameraOptions, Provenance, Remarks, Scene, View};
+use ugscene::{CameraError, CameraOptions, Head, Provenance, Scene, View};
 use ugsky::{Basis, Layer, Sky};
 use ugskybox::{Opened, SkyPicture, StarField, Statistics, Warp, sky_colors};
 
@@ -119,8 +119,8 @@ pub const PROVENANCE: Provenance<'static> =
 
 /// The record in a picture of how it was made. `origin`: hash and name of the panorama.
 pub fn metadata(origin: Option<&str>, provenance: Provenance<'_>) -> Metadata {
-    let remarks = Remarks { origin: origin.map(str::to_owned), ..Remarks::default() };
-    ugpicture::metadata(&remarks, provenance)
+    let head = Head { origin: origin.map(str::to_owned), ..Head::default() };
+    ugpicture::metadata(&head, provenance)
 }
 
 /// Like [`render_with`], with the camera of the scene that was read with the sky, if there is one.

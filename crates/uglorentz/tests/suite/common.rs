@@ -64,7 +64,7 @@ pub fn try_run(text: &str, config: &Config) -> Result<Outcome, String> {
         let diagnostics = error.diagnostics(&source, &parsed.origins);
         diagnostics.map_or_else(|| error.words(), |diagnostics| diagnostics.to_string())
     })?;
-    scene.remarks.record(Provenance { command: Some("uglorentz"), ..PROVENANCE });
+    scene.head.record(Provenance { command: Some("uglorentz"), ..PROVENANCE });
     Ok(Outcome { scene, passed_on: parsed.passed_on, report })
 }
 

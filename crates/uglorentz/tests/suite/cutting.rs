@@ -369,7 +369,7 @@ fn comments_and_attributes_go_with_their_faces() {
         assert_eq!(scene.light_level(face), (named(row as u32) == "up").then_some(0.5));
         assert!(face.color.is_some() && scene.bodies.stated_velocity(face.body).unwrap().beta().x == 0.9);
     }
-    assert_eq!(scene.remarks.head, [" head ", " uglorentz 0.1.0: uglorentz "]);
+    assert_eq!(scene.head.comments, [" head ", " uglorentz 0.1.0: uglorentz "]);
 }
 
 #[test]

@@ -27,7 +27,7 @@ fn nothing_changes_at_rest() {
         [Config::default(), moving(DVec3::ZERO), Config { eye: Some(DVec3::ONE / 3.0), ..Config::default() }]
     {
         let mut after = seen(&text, &config);
-        assert_eq!(after.remarks.head.remove(1), " uglorentz 0.1.0: uglorentz ");
+        assert_eq!(after.head.comments.remove(1), " uglorentz 0.1.0: uglorentz ");
         assert_eq!(after.cameras.pop().unwrap().eye, Some(config.eye.unwrap_or(DVec3::ZERO)));
         assert_eq!(ugparse::write(&after), ugparse::write(&before));
     }

@@ -33,8 +33,8 @@ type Writer = fn(&mut PolygonMesh) -> Result<Vec<u8>, Error>;
 /// The lines of the scene's head comments (licence and history).
 fn head_lines(scene: &Scene) -> impl Iterator<Item = String> {
     scene
-        .remarks
         .head
+        .comments
         .iter()
         .flat_map(|comment| comment.lines())
         .map(|line| one_line(line.trim()))

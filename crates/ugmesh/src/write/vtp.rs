@@ -21,7 +21,7 @@ pub(super) fn write(mesh: &mut PolygonMesh, is_measured: bool) -> Vec<u8> {
         seen.filter(|_| is_measured).map(|(eye, time)| ugscene::measure(&mesh.scene, eye, time));
     let scene = &mesh.scene;
     let mut file = VtkPolygons {
-        history: scene.remarks.history(),
+        history: scene.head.history(),
         points: scene.vertices.iter().map(|vertex| vertex.position).collect(),
         polygons: (0..mesh.polygons.len() as u32).map(|row| mesh.polygons.get(row).to_vec()).collect(),
         ..VtkPolygons::default()

@@ -31,7 +31,7 @@ pub fn parse(text: &[u8]) -> Scene {
 /// The text of a scene without its head comments.
 pub fn statements(scene: &Scene) -> String {
     let mut bare = scene.clone();
-    bare.remarks.head.clear();
+    bare.head.comments.clear();
     String::from_utf8(ugparse::write(&bare)).unwrap()
 }
 

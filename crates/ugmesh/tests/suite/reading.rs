@@ -99,7 +99,7 @@ fn text_formats_become_scenes() {
 fn encodings_of_ply_give_the_same_scene() {
     let [ascii, little, big] = [Encoding::Ascii, Encoding::Little, Encoding::Big].map(|encoding| {
         let scene = to_scene(&Config::default(), "<stdin>", ply(encoding));
-        assert!(scene.remarks.head[0].contains("free for all"), "{:?}", scene.remarks.head);
+        assert!(scene.head.comments[0].contains("free for all"), "{:?}", scene.head.comments);
         statements(&scene)
     });
     let unit = [0.6f32, 0.8].map(f64::from);

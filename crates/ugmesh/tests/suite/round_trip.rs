@@ -237,7 +237,7 @@ fn history_and_licence_are_kept() {
         let mesh = convert(target, "a.ug", SCENE.as_bytes());
         let scene = parse(&convert(Target::Ug, "<stdin>", &mesh));
         let line = concat!(" ugmesh ", env!("CARGO_PKG_VERSION"), ": ugmesh -dt x ");
-        assert_eq!(scene.remarks.head, [" a licence ", line, line], "{target:?}");
+        assert_eq!(scene.head.comments, [" a licence ", line, line], "{target:?}");
     }
 }
 

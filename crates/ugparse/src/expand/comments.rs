@@ -50,7 +50,7 @@ impl Expander<'_, '_> {
         for comment in comments {
             let text = comment.text.lossy(self.text);
             if comment.text.start < first_statement {
-                self.scene.remarks.head.push(text);
+                self.scene.head.comments.push(text);
                 continue;
             }
             let (at, trailing) = item_at(self.text, &emitted, comment);

@@ -137,8 +137,8 @@ fn faces_with_holes_are_cut_and_what_was_seen_stays() {
 #[test]
 fn recorded_texts_have_a_history() {
     let mut scene = Scene::default();
-    scene.remarks.head.push(" A licence: free for all ".to_string());
+    scene.head.comments.push(" A licence: free for all ".to_string());
     assert!(!ugparse::has_history(&ugparse::write(&scene)) && !ugparse::has_history(b"{"));
-    scene.remarks.record(Provenance { program: "ugdoppler", version: "0.1.0", command: Some("ugdoppler") });
+    scene.head.record(Provenance { program: "ugdoppler", version: "0.1.0", command: Some("ugdoppler") });
     assert!(ugparse::has_history(&ugparse::write(&scene)));
 }

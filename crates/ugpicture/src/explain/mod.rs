@@ -253,7 +253,7 @@ impl Explainer<'_> {
             background_samples: (n * n) as usize
                 - samples.iter().filter(|(content, _)| !content.is_free).count(),
             is_at_rest: !has_moving_bodies(self.scene) && !has_moving_lights(self.scene),
-            history: self.parsed.scene.remarks.history().into_iter().map(str::to_owned).collect(),
+            history: self.parsed.scene.head.history().into_iter().map(str::to_owned).collect(),
             colors: self.colors,
             sample: covered.min_by_key(away).map(|(content, sample)| ExplainedSample {
                 place: content.place.map(|at| (f64::from(at) + 0.5) / f64::from(n)),

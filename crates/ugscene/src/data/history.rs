@@ -1,7 +1,15 @@
 //! The history of a scene: each filter adds a head comment, the first one also the hash and the
 //! name of what it read.
 
-use super::remarks::Remarks;
+/// Comments at the head of a scene: its licence, and the history that pictures of it have as well.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Head {
+    /// Comments before the first statement, without their outer braces. They come first in the
+    /// output.
+    pub comments: Vec<String>,
+    /// The hash and the name of the input of a scene without a history, see [`Head::record`].
+    pub origin: Option<String>,
+}
 
 /// The program that made a scene or a picture, and the command that makes it again.
 ///
@@ -18,17 +26,17 @@ pub struct Provenance<'s> {
     pub command: Option<&'s str>,
 }
 
-impl Remarks {
+impl Head {
     /// Appends a head comment with a command and its program, after one with the
-    /// [origin](Remarks::origin) of a scene without a history.
+    /// [origin](Head::origin) of a scene without a history.
     pub fn record(&mut self, provenance: Provenance<'_>) {
         let Provenance { program, version, command: Some(command) } = provenance else { return };
         if let Some(origin) = self.origin.take()
             && self.history().is_empty()
         {
-            self.head.push(format!(" {origin} "));
+            self.comments.push(format!(" {origin} "));
         }
-        self.head.push(format!(" {program} {version}: {command} "));
+        self.comments.push(format!(" {program} {version}: {command} "));
     }
 
     /// The command lines recorded in a scene, oldest first.
@@ -64,12 +72,12 @@ impl Remarks {
 
     /// The records of programs, oldest first; each has a command.
     fn entries(&self) -> impl Iterator<Item = Provenance<'_>> {
-        self.head.iter().filter_map(|comment| recorded(comment))
+        self.comments.iter().filter_map(|comment| recorded(comment))
     }
 
     /// The recorded hash and name.
     fn recorded_origin(&self) -> Option<&str> {
-        self.head.iter().map(|comment| comment.trim()).find(|comment| origin_parts(comment).is_some())
+        self.comments.iter().map(|comment| comment.trim()).find(|comment| origin_parts(comment).is_some())
     }
 }
 

@@ -7,7 +7,6 @@ mod history;
 mod ids;
 mod motion;
 mod names;
-mod remarks;
 mod scene;
 mod shape;
 mod stage;
@@ -17,11 +16,10 @@ mod texture;
 pub use body::{Bodies, Body};
 pub use color_table::{ColorTable, TablePlace};
 pub use contours::Contours;
-pub use history::{Provenance, recorded};
+pub use history::{Head, Provenance, recorded};
 pub use ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 pub use motion::{Carrier, CurveKind, MotionPath, StatedMotion};
 pub use names::{Names, UniqueNames};
-pub use remarks::Remarks;
 pub use scene::{
     Beam, Camera, Color, ColorValue, Face, FaceOrWire, Light, LightKind, LightMotion, Mix, Projection, Scene,
     Shading, StatedSky, Tint, Vertex, Wire,

@@ -56,9 +56,11 @@ pub struct CurveKind {
     pub n_numbers: usize,
     /// Where among them a vector begins that is not zero.
     pub axis: Option<usize>,
-    /// Of A, the numbers, and the spins of the body.
-    line: fn(DVec3, &[f64], &[Piece]) -> Result<WorldLine, WorldLineError>,
+    line: Line,
 }
+
+/// The world line of a body: of A, the numbers of the curve, and the spins.
+type Line = fn(DVec3, &[f64], &[Piece]) -> Result<WorldLine, WorldLineError>;
 
 impl CurveKind {
     /// All kinds.

@@ -18,9 +18,9 @@ use ugphysics::spectrum::InfraredRule;
 use super::body::Bodies;
 use super::color_table::ColorTable;
 use super::contours::Contours;
+use super::history::Head;
 use super::ids::{BodyId, ColorId, NameId, ShadingId, SurfaceId, VertexId};
 use super::names::Names;
-use super::remarks::Remarks;
 use super::shape::{FaceShape, RoundShape};
 use super::stage::{HueScale, Stage};
 use super::surface::SurfaceProperties;
@@ -79,8 +79,8 @@ pub struct Scene {
     pub cameras: Vec<Camera>,
     /// `sky`.
     pub sky: Option<StatedSky>,
-    /// Its licence and history.
-    pub remarks: Remarks,
+    /// Comments at its head: licence and history.
+    pub head: Head,
 }
 
 /// The sky around the scene, which is not read.

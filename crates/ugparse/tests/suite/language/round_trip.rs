@@ -127,7 +127,7 @@ fn same(first: &Parsed, second: &Parsed) -> Result<(), TestCaseError> {
     };
     prop_assert_eq!(kinds(a), kinds(b));
     prop_assert_eq!(&first.passed_on.statements, &second.passed_on.statements);
-    let n_comments = |parsed: &Parsed| parsed.scene.remarks.head.len() + parsed.passed_on.comments.len();
+    let n_comments = |parsed: &Parsed| parsed.scene.head.comments.len() + parsed.passed_on.comments.len();
     prop_assert_eq!(n_comments(first), n_comments(second));
     let colors = |scene: &Scene| -> Vec<_> { scene.colors.iter().map(|color| color.translucency).collect() };
     prop_assert_eq!(colors(a), colors(b));

@@ -82,7 +82,7 @@ fn the_layout_is_free() {
     }
     let no_comments = |text: String| {
         let mut parsed = parse_with(text, false);
-        parsed.scene.remarks.head.clear();
+        parsed.scene.head.comments.clear();
         parsed.passed_on.comments.clear();
         written(&parsed)
     };
@@ -103,7 +103,7 @@ fn the_layout_is_free() {
         let text = format!("{} {{ here {{ and here }} }} {}", before.join(" "), after.join(" "));
         assert_eq!(no_comments(text.clone()), plain, "{text}");
         let Parsed { scene, passed_on, .. } = parse_with(text, false);
-        let n_comments = scene.remarks.head.len() + passed_on.comments.len();
+        let n_comments = scene.head.comments.len() + passed_on.comments.len();
         assert_eq!(n_comments, 1, "the comment before word {idx} is kept");
     }
 }
