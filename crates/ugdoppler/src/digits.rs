@@ -45,7 +45,7 @@ fn push_few_digits(text: &mut String, number: f64, places: usize) -> bool {
             digits[first] = b'0' + (rest % 10) as u8;
             rest /= 10;
         }
-        text.extend(digits[first..].iter().map(|&digit| char::from(digit)));
+        text.push_str(&String::from_utf8_lossy(&digits[first..]));
     }
     is_sure
 }

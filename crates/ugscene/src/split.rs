@@ -36,8 +36,8 @@ pub fn split_corners<K: Copy + Eq + Hash>(
     let mut originals = Vec::new();
     let mut names: Option<UniqueNames> = None;
     for (user, rows) in users.enumerate() {
-        for idx in 0..scene.contours.corners(rows.clone()).len() {
-            let corner = scene.contours.corners(rows.clone())[idx];
+        for at in scene.contours.first_corner(rows.start)..scene.contours.first_corner(rows.end) {
+            let corner = scene.contours.corner(at);
             let Some(kind) = kind(user, corner, &scene.vertices[corner.index()]) else { continue };
             if *owner[corner.index()].get_or_insert(kind) == kind {
                 continue;
@@ -48,7 +48,7 @@ pub fn split_corners<K: Copy + Eq + Hash>(
                 let name = names.add_copy(scene.vertices[corner.index()].name, &mut scene.names);
                 scene.copy_vertex(corner, name)
             });
-            scene.contours.corners_mut(rows.clone())[idx] = copy;
+            scene.contours.all_corners_mut()[at] = copy;
         }
     }
     originals

@@ -27,7 +27,7 @@ pub use seen::{SeenPoint, SeenTriangle};
 pub use table::SampledPath;
 
 use crate::{Event, Lorentz, Velocity, VelocityError};
-use curve::Curve;
+use curve::{Curve, Framed};
 use moving::{Moving, Path, PointEvent, Turn};
 use pieces::{Acceleration, Spin};
 
@@ -197,6 +197,26 @@ impl WorldLine {
     /// Constant velocity.
     pub fn inertial(frame: InertialFrame) -> Self {
         Self(Kind::Inertial(frame))
+    }
+
+    /// A motion whose reference point, `at` in the coordinates of the body, passes given events, at
+    /// whose first its own time is 0.  Eq. (P48)
+    ///
+    /// # Errors
+    /// See [`WorldLineError`].
+    pub fn along(at: DVec3, path: SampledPath, spins: &[Piece]) -> Result<Self, WorldLineError> {
+        Self::on_curve(at, path.velocity(), Curve::Along(path), spins)
+    }
+
+    /// A motion whose reference point, `at` in the coordinates of the body, follows a curve.
+    /// `initial`: its velocity at own time 0.
+    fn on_curve(at: DVec3, initial: Velocity, curve: Curve, spins: &[Piece]) -> Result<Self, WorldLineError> {
+        if !at.is_finite() {
+            return Err(WorldLineError::NotFinite);
+        }
+        let turns = Turn::new(at, Spin::new(spins)?).into_iter().collect();
+        let path = Path::Curved(Box::new(Framed::new(curve)));
+        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path, turns }))))
     }
 
     /// A motion with the velocity `velocity` at own time 0, with proper acceleration and spin.

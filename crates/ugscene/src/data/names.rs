@@ -1,7 +1,6 @@
 //! The names of a scene, in one buffer, and generation of unique names.
 
 use std::collections::hash_map::Entry;
-use std::fmt::Write;
 use std::ops::Range;
 
 use rustc_hash::FxHashMap;
@@ -35,8 +34,8 @@ impl Names {
     /// Adds a name followed by `_` and a number.
     fn add_numbered(&mut self, name: NameId, number: u64) -> NameId {
         self.text.extend_from_within(self.range(name));
-        // Writing to a string cannot fail.
-        let _ = write!(self.text, "_{number}");
+        self.text.push('_');
+        self.text.push_str(&number.to_string());
         self.add("")
     }
 

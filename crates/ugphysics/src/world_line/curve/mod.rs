@@ -4,10 +4,8 @@ mod orbit;
 
 use glam::DVec3;
 
-use super::moving::{Moving, Path, Turn};
-use super::pieces::Spin;
-use super::{Kind, Piece, Pose, SampledPath, WorldLine, WorldLineError};
-use crate::{Event, Lorentz, Velocity};
+use super::{Pose, SampledPath};
+use crate::{Event, Lorentz};
 use orbit::Orbit;
 
 /// A curve in the frame in which it is stated: at its place at own time 0.
@@ -64,6 +62,11 @@ pub(super) struct Framed {
 }
 
 impl Framed {
+    /// A curve in its own frame.
+    pub fn new(curve: Curve) -> Self {
+        Self { curve, frame: Lorentz::IDENTITY, origin: Event { t: 0.0, x: DVec3::ZERO } }
+    }
+
     pub fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
         self.origin = self.origin + self.frame.inverse().apply(origin);
         self.frame = target_from_source * self.frame;
@@ -74,27 +77,5 @@ impl Framed {
         let (Pose { event, scene_from_axes, turn }, acceleration) = self.curve.pose(own_time);
         let event = self.frame.apply(event - self.origin);
         (Pose { event, scene_from_axes: self.frame * scene_from_axes, turn }, acceleration)
-    }
-}
-
-impl WorldLine {
-    /// A motion whose reference point, `at` in the coordinates of the body, passes given events, at
-    /// whose first its own time is 0.  Eq. (P48)
-    ///
-    /// # Errors
-    /// See [`WorldLineError`].
-    pub fn along(at: DVec3, path: SampledPath, spins: &[Piece]) -> Result<Self, WorldLineError> {
-        Self::on_curve(at, path.velocity(), Curve::Along(path), spins)
-    }
-
-    /// A motion whose reference point, `at` in the coordinates of the body, follows a curve.
-    /// `initial`: its velocity at own time 0.
-    fn on_curve(at: DVec3, initial: Velocity, curve: Curve, spins: &[Piece]) -> Result<Self, WorldLineError> {
-        if !at.is_finite() {
-            return Err(WorldLineError::NotFinite);
-        }
-        let turns = Turn::new(at, Spin::new(spins)?).into_iter().collect();
-        let framed = Framed { curve, frame: Lorentz::IDENTITY, origin: Event { t: 0.0, x: DVec3::ZERO } };
-        Ok(Self(Kind::Moving(Box::new(Moving { at, initial, path: Path::Curved(Box::new(framed)), turns }))))
     }
 }

@@ -3,7 +3,8 @@
 use glam::{DQuat, DVec3};
 
 use super::super::pieces::rotation;
-use super::{Curve, Piece, Pose, WorldLine, WorldLineError};
+use super::super::{Piece, Pose, WorldLine, WorldLineError};
+use super::Curve;
 use crate::{Event, Lorentz, Velocity};
 
 /// A circle on which a reference point runs with constant speed, and the axes that are carried
