@@ -2,7 +2,7 @@
 //! between them.
 
 use glam::DVec3;
-use ugparse::{Options, Source};
+use ugparse::{Options, Parsed, Source};
 use ugscene::{Provenance, Scene};
 
 use crate::picture::{Picture, decode};
@@ -94,7 +94,7 @@ pub fn lorentz(text: &[u8], config: &uglorentz::Config) -> Vec<u8> {
 fn lorentz_as(text: &[u8], config: &uglorentz::Config, command_line: &str) -> Vec<u8> {
     let (mut scene, _) = lorentz_scene(text, config).unwrap_or_else(|error| panic!("uglorentz: {error}"));
     scene.head.record(Provenance { command: Some(command_line), ..uglorentz::PROVENANCE });
-    ugparse::write(&scene)
+    ugparse::write_with(&scene, &read(text, None).passed_on)
 }
 
 /// The scene that `uglorentz` writes, and its report. In a scene without a camera the eye is at the
@@ -110,7 +110,7 @@ pub fn lorentz_scene(
     text: &[u8],
     config: &uglorentz::Config,
 ) -> Result<(Scene, uglorentz::Report), uglorentz::Error> {
-    let scene = read(text, config.camera.name.as_deref());
+    let scene = read(text, config.camera.name.as_deref()).scene;
     let origin = scene.cameras.is_empty().then_some(DVec3::ZERO);
     uglorentz::apply(scene, &uglorentz::Config { eye: config.eye.or(origin), ..config.clone() })
 }
@@ -124,17 +124,18 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 /// `ugdoppler`, called by that command line.
 #[track_caller]
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
-    let applied = ugdoppler::apply(read(text, None), config);
+    let Parsed { scene, passed_on, .. } = read(text, None);
+    let applied = ugdoppler::apply(scene, config);
     let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
     scene.head.record(Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
-    ugparse::write(&scene)
+    ugparse::write_with(&scene, &passed_on)
 }
 
 /// A scene as programs read it. `camera`: the option `-cam`.
 #[track_caller]
-fn read(text: &[u8], camera: Option<&str>) -> Scene {
+fn read(text: &[u8], camera: Option<&str>) -> Parsed {
     let parsed = ugparse::read(&Source::new("<stdin>", text), &Options::default(), camera);
-    parsed.unwrap_or_else(|findings| panic!("{findings}")).scene
+    parsed.unwrap_or_else(|findings| panic!("{findings}"))
 }
 
 /// `ugrainbow`
