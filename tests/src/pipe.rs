@@ -125,8 +125,7 @@ pub fn doppler(text: &[u8], config: &ugdoppler::Config) -> Vec<u8> {
 #[track_caller]
 fn doppler_as(text: &[u8], config: &ugdoppler::Config, command_line: &str) -> Vec<u8> {
     let Parsed { scene, passed_on, .. } = read(text, None);
-    let applied = ugdoppler::apply(scene, config);
-    let (mut scene, _) = applied.unwrap_or_else(|error| panic!("ugdoppler: {error}"));
+    let (mut scene, _) = ugdoppler::apply(scene, config).unwrap_or_else(|error| panic!("ugdoppler: {error}"));
     scene.head.record(Provenance { command: Some(command_line), ..ugdoppler::PROVENANCE });
     ugparse::write_with(&scene, &passed_on)
 }
