@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use glam::DVec3;
+use ugparse::{Options, Parsed, Source};
 use ugscene::Scene;
 use ugtesting::Random;
 use ugtests::pipe;
@@ -63,7 +64,12 @@ fn comments_stay_at_their_motions() {
     let text =
         "{ first }\nmotion b -spin 0 0 .1 ; { beside b }\n{ of a }\nmotion a -on b -at 1 0 0 ; { beside a }
         motion c -acc .1 0 0 ;\n{ of d } v d 0 9 0; v e 1 9 0; v f 0 9 1; f (d e f) <a>; f (d e f) <b>;";
-    let written = String::from_utf8(ugparse::write(&parse(text.as_bytes()))).unwrap();
+    let write = |text: &str| {
+        let Parsed { scene, passed_on, .. } =
+            ugparse::parse(&Source::new("", text), &Options::default()).unwrap();
+        String::from_utf8(ugparse::write_with(&scene, &passed_on)).unwrap()
+    };
+    let written = write(text);
     let position = |part: &str| written.find(part).unwrap_or_else(|| panic!("{part}: {written}"));
     for (before, behind) in
         [("motion b", "{ beside b }"), ("{ of a }", "motion a"), ("motion a", "{ beside a }")]
@@ -72,7 +78,7 @@ fn comments_stay_at_their_motions() {
         assert!(before < behind && !written[before..behind].contains("motion c"), "{written}");
         assert!(behind - before < 60, "{written}");
     }
-    assert_eq!(String::from_utf8(ugparse::write(&parse(written.as_bytes()))).unwrap(), written);
+    assert_eq!(write(&written), written);
 }
 
 /// A large text in which all motions follow their use is read in blocks.
