@@ -134,7 +134,7 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    /// Replaces faces by their pieces.
+    /// Replaces the faces and wires that were subdivided by their pieces.
     pub(crate) fn put_into(&self, scene: &mut Scene) {
         if self.pieces.is_empty() && self.lines.is_empty() {
             return;

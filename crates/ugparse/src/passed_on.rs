@@ -26,7 +26,7 @@ pub struct Comment {
     pub trailing: bool,
 }
 
-/// A statement of a flat scene, by table and row.
+/// A statement of a scene without instances: its table and its row there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Item {
     /// [`Scene::stage`].

@@ -35,7 +35,7 @@ use crate::statement::{Call, Counts, MotionReference, Repeat, StatedFrame};
 pub struct Origins {
     /// For each vertex, the name in its `v` statement.
     pub vertices: Vec<Span>,
-    /// The statement of each face, by [`ugscene::Face::row_as_read`].
+    /// For each face that was read, its statement: the index is [`ugscene::Face::row_as_read`].
     pub faces: Vec<Span>,
     /// For each light, its statement.
     pub lights: Vec<Span>,

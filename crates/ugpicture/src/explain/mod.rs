@@ -196,9 +196,9 @@ pub struct DevelopedPixel {
     pub in_gamut: [f64; 3],
 }
 
-/// A picture of which pixels are explained.
+/// Explains the pixels of a picture.
 pub struct Explainer<'a> {
-    /// The scene that is drawn, with the faces and wires that were parsed.
+    /// The scene as it is drawn; its faces and wires are those of `parsed`.
     pub scene: &'a Scene,
     /// What was parsed from `source`.
     pub parsed: &'a Parsed,
@@ -263,7 +263,8 @@ impl Explainer<'_> {
         }
     }
 
-    /// A face, or a wire counted after the faces.
+    /// The name of a face or wire, and its place in the text. `row`: of a face, or of a wire plus
+    /// the number of faces.
     pub fn item(&self, row: u32) -> ExplainedItem {
         let Self { scene, parsed, source, .. } = self;
         let id = row.saturating_add(1);

@@ -31,7 +31,7 @@ pub enum MotionPath {
         /// `-acc`: proper acceleration along the carried axes.
         accelerations: Vec<Piece>,
     },
-    /// `-orbit`: a curve through A at own time 0 that a few numbers state.
+    /// `-orbit`: a curve given by a few numbers, on which A is at own time 0.
     Curve {
         /// Its kind.
         kind: &'static CurveKind,
@@ -59,7 +59,7 @@ pub struct CurveKind {
     line: Line,
 }
 
-/// The world line of a body: of A, the numbers of the curve, and the spins.
+/// Makes the world line of a body from A, the numbers of the curve, and the spins.
 type Line = fn(DVec3, &[f64], &[Piece]) -> Result<WorldLine, WorldLineError>;
 
 impl CurveKind {
@@ -68,17 +68,17 @@ impl CurveKind {
         word: "orbit",
         n_numbers: 7,
         axis: Some(3),
-        // Centre, axis, radians per unit of the time of the frame.
+        // The centre, the axis, and the angular velocity in the time of the frame.
         line: |at, numbers, spins| {
             let [center, axis] = [0, 3].map(|row| DVec3::from_slice(&numbers[row..]));
             WorldLine::orbiting(at, center, axis, numbers[6], spins)
         },
     }];
 
-    /// The options of a motion, for messages.
+    /// All options of a motion, for error messages.
     pub const OPTIONS: &'static str = "an option of a motion (-vel -at -acc -spin -orbit -path -on -shift)";
 
-    /// The options of which a motion has one, for messages.
+    /// The options that state a path, of which a motion has one kind, for error messages.
     pub const PATHS: &'static str = "give `-vel` and `-acc`, or `-orbit`, or `-path`";
 }
 

@@ -61,7 +61,7 @@ impl Names {
         &self.text[self.range(id)]
     }
 
-    /// The text of a name, without the check that it is whole characters.
+    /// A name as UTF-8, faster than [`Names::get`], which makes sure of character boundaries.
     #[inline]
     pub fn bytes(&self, id: NameId) -> &[u8] {
         &self.text.as_bytes()[self.range(id)]

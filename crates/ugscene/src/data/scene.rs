@@ -231,7 +231,7 @@ pub struct Face {
     pub body: BodyId,
     /// What its contours determine.
     pub shape: FaceShape,
-    /// Its row in the scene that was read; the pieces of a face keep it.
+    /// Its row in the scene that was read, which its pieces keep; `u32::MAX` if a program added it.
     pub row_as_read: u32,
 }
 
@@ -239,7 +239,7 @@ impl Face {
     /// A polygon without name, colour and shading.
     pub fn polygon(contours: Range<u32>, body: BodyId) -> Self {
         let shape = FaceShape::Polygon;
-        Self { name: None, contours, color: None, shading: None, body, shape, row_as_read: 0 }
+        Self { name: None, contours, color: None, shading: None, body, shape, row_as_read: u32::MAX }
     }
 }
 

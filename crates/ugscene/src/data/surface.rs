@@ -65,7 +65,7 @@ impl SurfaceProperties {
         SurfaceNumber { of: |s| &mut s.absorption, range: 0.0..=f64::MAX, rule: "absorption is 0 or more" },
     ];
 
-    /// The form of the statement, for messages.
+    /// The syntax of the statement, for error messages.
     pub const FORM: &'static str = "surf ID kd ks kt [n [exponent [absorption]]] ;";
 
     /// The count of numbers that every `surf` statement has.

@@ -1,4 +1,5 @@
-//! World lines of reference points that are not pieces of constant acceleration.
+//! Paths of reference points other than pieces of constant acceleration: circles, and paths
+//! through given events.
 
 mod orbit;
 
@@ -19,7 +20,7 @@ impl Curve {
     /// The pose and the proper acceleration in the carried axes.
     fn pose(&self, own_time: f64) -> (Pose, DVec3) {
         match self {
-            Self::Orbit(orbit) => (orbit.pose(own_time), orbit.acceleration(own_time)),
+            Self::Orbit(orbit) => orbit.pose(own_time),
             Self::Along(path) => path.pose(own_time),
         }
     }
@@ -52,12 +53,13 @@ impl Curve {
     }
 }
 
-/// A curve in any frame.
+/// A curve seen from another frame than the one in which it is stated.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Framed {
     pub curve: Curve,
-    /// The frame of the world line from that of the curve, after `origin` is subtracted.
+    /// Maps events of the curve, less `origin`, to the frame of the world line.
     frame: Lorentz,
+    /// In the frame of the curve.
     origin: Event,
 }
 

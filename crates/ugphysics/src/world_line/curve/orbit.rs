@@ -57,37 +57,30 @@ impl Orbit {
         self.velocity.gamma() * (self.rate * self.velocity.gamma()).abs()
     }
 
-    /// The turn of the point's place about the axis.
-    fn progress(&self, own_time: f64) -> DQuat {
-        rotation(self.axis, self.rate * self.velocity.gamma() * own_time)
-    }
-
-    pub(super) fn pose(&self, own_time: f64) -> Pose {
+    /// The pose and the proper acceleration in the carried axes.
+    pub(super) fn pose(&self, own_time: f64) -> (Pose, DVec3) {
         let gamma = self.velocity.gamma();
-        let progress = self.progress(own_time);
+        // The turn of the point's place about the axis.
+        let progress = rotation(self.axis, self.rate * gamma * own_time);
         let event = Event { t: gamma * own_time, x: self.center + progress * self.start };
         // A turn does not change the speed, whose square is below the limit.
         let velocity = Velocity::from_proper(progress * self.velocity.proper()).unwrap_or(self.velocity);
         let lag = rotation(self.axis, -self.velocity.gamma_minus_one() * gamma * self.rate * own_time);
-        Pose {
-            event,
-            scene_from_axes: Lorentz::boost(velocity) * Lorentz::rotation(lag),
-            turn: DQuat::IDENTITY,
-        }
+        let scene_from_axes = Lorentz::boost(velocity) * Lorentz::rotation(lag);
+        let acceleration = lag.conjugate() * (progress * self.initial_acceleration());
+        (Pose { event, scene_from_axes, turn: DQuat::IDENTITY }, acceleration)
     }
 
     /// |a| and |da/dτ|.
     pub(super) fn bounds(&self) -> [f64; 2] {
-        let acceleration = self.acceleration(0.0).length();
+        let acceleration = self.initial_acceleration().length();
         [acceleration, self.turn_rate() * acceleration]
     }
 
-    /// Centripetal, perpendicular to the velocity: γ²ω²ρ towards the axis. In the carried axes this
-    /// direction turns.
-    pub(super) fn acceleration(&self, own_time: f64) -> DVec3 {
+    /// At own time 0. Centripetal, perpendicular to the velocity: γ²ω²ρ towards the axis.
+    fn initial_acceleration(&self) -> DVec3 {
         let from_axis = self.start - self.start.dot(self.axis) * self.axis;
         let own_rate = self.velocity.gamma() * self.rate;
-        let turn = rotation(self.axis, self.velocity.gamma() * own_rate * own_time);
-        turn * (-own_rate * own_rate * from_axis)
+        -own_rate * own_rate * from_axis
     }
 }
