@@ -4,7 +4,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use rayon::prelude::*;
-use ugtests::documents::{Page, prepare, resized, shortened, transcripts, with_options, written_files};
+use ugtests::documents::{
+    Page, coarse, prepare, resized, shortened, transcripts, with_options, written_files,
+};
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
@@ -32,13 +34,14 @@ fn commands_in_documents_work() {
         assert!(page.commands.len() >= least, "{path}: {} commands", page.commands.len());
         let is_possible = |command: &&String| has_ffmpeg || !command.contains(".mp4");
         for command in page.commands.iter().filter(is_possible) {
-            // Smaller pictures and short films are sufficient, unless they need room for text.
+            // Smaller pictures and short films are sufficient, unless they need room for text. Lengths on
+            // paper, and so text, have fewer pixels. The parts of a picture are those of its size.
+            let small = coarse(command);
             let has_text = command.contains("-lg") || command.contains("-cap");
-            // The parts of a picture are those of its size.
-            let small = if has_text || command.contains("-crop") {
-                command.clone()
+            let small = if has_text || command.contains("-crop") || small != *command {
+                small
             } else {
-                resized(command, [640, 480], 0.25)
+                resized(&small, [640, 480], 0.25)
             };
             // An option is given once.
             let small = if small.contains(" -aa ") || small.contains(" -vec ") {

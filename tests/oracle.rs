@@ -47,6 +47,8 @@ fn check(case: Case) -> Result<(), String> {
     // The oracle's bodies are those of one velocity.
     pipe.lorentz.anchor = (!case.in_place).then_some(uglorentz::Anchor::Eye);
     pipe.lorentz.eye = case.eye;
+    // A twentieth of a pixel.
+    pipe.lorentz.pieces = uglorentz::Pieces::UpTo(2e-4);
     // Colours are not shifted.
     pipe.lorentz.color_error = f64::INFINITY;
     pipe.doppler.repeat = true;

@@ -439,7 +439,7 @@ fn blanks_in_values_over_time() {
     let shell = prepared();
     let printed = |options: &str| {
         let [commands, _] =
-            shell.run(&format!("ugfilm -qt -frames 3 {options} --print -fo f_%d.png ship.ug"));
+            shell.run(&format!("ugfilm -qt -frames 3 {options} -sz 40 30 --print -fo f_%d.png ship.ug"));
         commands
     };
     for (with_blanks, without) in [

@@ -162,7 +162,7 @@ fn sum_of_light(frame: &LinearFrame) -> f64 {
 /// exchanged. Stars in it keep the sum of their light.
 #[test]
 fn a_mirror_shows_the_sky_of_the_mirrored_eye() {
-    for beta in [0.0, 0.3, -0.5] {
+    for beta in [0.3, -0.5] {
         let scene = format!(
             "surf plane 0 1 0; l 0; c white 1; v a -900 20 -900; v b 900 20 -900; v c 900 20 900; v d -900 20 900;
              f (a b c d) white plane <0 {beta} 0>; cam -ep 0 0 0 -vc 0 1 0 -ud 0 0 1 -va 100;"

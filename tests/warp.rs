@@ -142,10 +142,10 @@ fn radiances_are_those_of_a_moving_camera() {
         let three = Panorama::new(size, Texels::Light(sky.pixels().to_vec()), Extent::FULL).unwrap();
         for beta in [DVec3::new(0.0, 0.9, 0.0), DVec3::new(0.0, -0.9, 0.0)] {
             let motion = MotionOptions { camera_velocity: Some(beta), ..MotionOptions::default() };
-            let by_rays = ugphoton::Config { picture: own([48, 36], 4), motion, shift, ..Default::default() };
+            let by_rays = ugphoton::Config { picture: own([24, 18], 4), motion, shift, ..Default::default() };
             let by_rays = traced(&scene, by_rays);
             let velocity = Velocity::from_beta(beta).unwrap();
-            let config = ugwarp::Config { velocity, shift, picture: own([48, 36], 4), ..Default::default() };
+            let config = ugwarp::Config { velocity, shift, picture: own([24, 18], 4), ..Default::default() };
             let peak = by_rays.pixels().iter().flat_map(|pixel| pixel[..3].to_vec()).fold(0.0, f32::max);
             let of = |sky: Sky<'_>| psnr(&by_rays, &ugwarp::light(sky, &config).unwrap(), f64::from(peak));
             let (found, of_three) = (of(all), of(Sky::from(&three)));

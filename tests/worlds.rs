@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use ugtests::worlds::{LAWS, Law};
 
 /// Worlds for each law.
-const N_WORLDS: u64 = 6;
+const N_WORLDS: u64 = 2;
 
 /// Worlds in which a law did not hold: a lamp with an area away from the reference point of a body
 /// that spins.

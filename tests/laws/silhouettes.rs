@@ -11,7 +11,7 @@ use ugtests::pipe::Pipe;
 const SIZE: [u32; 2] = [600, 450];
 
 /// Steps round the torus, and round its tube.
-const STEPS: [usize; 2] = [60, 30];
+const STEPS: [usize; 2] = [44, 24];
 
 /// Pixels about a point within which a surface hides it, or does not.
 const MARGIN: f64 = 0.7;

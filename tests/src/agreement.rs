@@ -149,8 +149,8 @@ impl Neighbourhood<'_> {
     /// Is the face, or the background, visible within reach of a pixel's centre?
     fn shows(&self, face: Option<usize>, center: DVec2) -> bool {
         (self.reach >= DIAGONAL && self.neighbours(center).any(|neighbour| neighbour == face))
-            || self.rings(center).contains(&face)
             || face.is_some_and(|face| self.has_edge(face, center))
+            || self.rings(center).any(|seen| seen == face)
             || self.grid(center).contains(&face)
     }
 
@@ -164,17 +164,15 @@ impl Neighbourhood<'_> {
     }
 
     /// The faces visible at 48 points on each of five rings.
-    fn rings(&self, center: DVec2) -> Vec<Option<usize>> {
-        let radii = (1..=5).map(|ring| self.reach * f64::from(ring) / 5.0);
-        let angles = || (0..48).map(|step| f64::from(step) / 48.0 * std::f64::consts::TAU);
-        let points = radii.flat_map(|radius| {
-            angles().map(move |angle| {
-                let (sin, cos) = libm::sincos(angle);
-                center + radius * DVec2::new(cos, sin)
-            })
-        });
-        let directions: Vec<DVec3> = points.map(|p| self.camera.direction(p.x, p.y)).collect();
-        self.oracle.faces(&directions)
+    fn rings(&self, center: DVec2) -> impl Iterator<Item = Option<usize>> {
+        (1..=5).flat_map(move |ring| {
+            let points = (0..48).map(|step| {
+                let (sin, cos) = libm::sincos(f64::from(step) / 48.0 * std::f64::consts::TAU);
+                center + self.reach * f64::from(ring) / 5.0 * DVec2::new(cos, sin)
+            });
+            let directions: Vec<DVec3> = points.map(|p| self.camera.direction(p.x, p.y)).collect();
+            self.oracle.faces(&directions)
+        })
     }
 
     /// The faces visible at points a twenty-fifth of the reach apart. Slow; necessary for slits and
@@ -192,9 +190,12 @@ impl Neighbourhood<'_> {
     fn has_edge(&self, face: usize, center: DVec2) -> bool {
         /// Relative tolerance of depth, so that faces that share the edge do not occlude it.
         const BESIDE: f64 = 1e-6;
-        let edges = self.oracle.edges_near(face, self.camera.direction(center.x, center.y), BESIDE);
-        let mut pixels = edges.into_iter().filter_map(|direction| self.camera.pixel(direction));
-        pixels.any(|pixel| pixel.distance(center) <= self.reach)
+        let points = self.oracle.edge_points(face, self.camera.direction(center.x, center.y));
+        points.into_iter().any(|point| {
+            let pixel = self.camera.pixel(point.normalize());
+            pixel.is_some_and(|pixel| pixel.distance(center) <= self.reach)
+                && self.oracle.is_visible(point, BESIDE)
+        })
     }
 }
 

@@ -164,6 +164,23 @@ fn copy_scenes(folder: &Path) {
 /// Programs that draw pictures.
 const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 
+/// The command with pictures of 40 pixels to the centimetre where it states a size in centimetres.
+#[must_use]
+pub fn coarse(command: &str) -> String {
+    let mut parts = command.split("-sz ");
+    let before = parts.next().unwrap_or_default().to_owned();
+    parts.fold(before, |before, part| {
+        let words: Vec<&str> = part.splitn(3, ' ').collect();
+        let pixels = |length: &str| Some(40.0 * length.strip_suffix("cm")?.parse::<f64>().ok()?);
+        match words[..] {
+            [width, height, rest] if let (Some(width), Some(height)) = (pixels(width), pixels(height)) => {
+                format!("{before}-sz {width:.0} {height:.0} {rest}")
+            }
+            _ => format!("{before}-sz {part}"),
+        }
+    })
+}
+
 /// The command with pictures of other sizes: sizes in it are multiplied by `scale`, and `default`
 /// (width and height in pixels) is added to every renderer without a size, times `scale`.
 ///

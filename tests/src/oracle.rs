@@ -92,8 +92,8 @@ struct Polygon {
     axis: usize,
     contours: Vec<Vec<DVec2>>,
     edges: Vec<(DVec3, DVec3)>,
-    /// Bounding sphere.
-    center: DVec3,
+    /// Around its bounding sphere.
+    cone: Cone,
     radius: f64,
 }
 
@@ -122,7 +122,11 @@ impl Polygon {
         let edges = edges.collect();
         let contours =
             contours.iter().map(|contour| contour.iter().map(|&p| without(p, axis)).collect()).collect();
-        Some(Self { face, normal, point: center, axis, contours, edges, center, radius })
+        // Everything is near the eye that is in the sphere.
+        let half_angle = libm::asin((radius / center.length()).min(1.0));
+        let half_angle = if center.length() > radius { half_angle } else { core::f64::consts::PI };
+        let cone = Cone { axis: center.normalize_or_zero(), half_angle };
+        Some(Self { face, normal, point: center, axis, contours, edges, cone, radius })
     }
 
     /// The multiple of the vector `ray` that reaches the face from the eye; `None` if the ray
@@ -154,12 +158,8 @@ impl Polygon {
 
     /// False only if no ray within `cone` intersects the bounding sphere.
     fn may_meet(&self, cone: &Cone) -> bool {
-        let distance = self.center.length();
-        if distance <= self.radius {
-            return true;
-        }
-        let angle = self.center.angle_between(cone.axis);
-        angle <= cone.half_angle + libm::asin(self.radius / distance) + 1e-9
+        let angle = self.cone.half_angle + cone.half_angle + 1e-7;
+        self.cone.axis.dot(cone.axis) >= libm::cos(angle.min(core::f64::consts::PI))
     }
 }
 
@@ -184,15 +184,17 @@ fn nearest_to_ray(a: DVec3, b: DVec3, ray: DVec3) -> DVec3 {
     if ray.angle_between(a) <= ray.angle_between(b) { a } else { b }
 }
 
-/// A cone around the rays of some pixels.
+/// A cone around some rays.
+#[derive(Clone, Copy, Debug)]
 struct Cone {
+    /// Unit vector.
     axis: DVec3,
     half_angle: f64,
 }
 
 impl Cone {
     fn around(rays: &[DVec3]) -> Self {
-        let axis = rays.iter().map(|ray| ray.normalize()).sum::<DVec3>();
+        let axis = rays.iter().map(|ray| ray.normalize()).sum::<DVec3>().normalize();
         Self { axis, half_angle: rays.iter().map(|ray| ray.angle_between(axis)).fold(0.0, f64::max) }
     }
 }
@@ -332,21 +334,18 @@ impl Oracle {
         nearest.into_iter().map(|(_, face)| face).collect()
     }
 
-    /// Directions to the visible edges of a face near direction `d`, one for each edge.
-    ///
-    /// A face seen edge-on can be too thin for any ray to hit it, but its edges can be found.
-    /// `beside`: a face nearer by at most this fraction of the distance does not occlude an edge.
-    pub fn edges_near(&self, face: usize, d: DVec3, beside: f64) -> Vec<DVec3> {
-        let is_visible = |point: &DVec3| {
-            let direction = point.normalize();
-            let nearest = self.faces(&[direction])[0].and_then(|face| self.distance(face, direction));
-            nearest.is_none_or(|nearest| nearest >= point.length() * (1.0 - beside))
-        };
-        self.edge_points(face, d).into_iter().filter(is_visible).map(DVec3::normalize).collect()
+    /// Whether a point is visible. `beside`: a face nearer by at most this fraction of the distance
+    /// does not occlude it.
+    pub fn is_visible(&self, point: DVec3, beside: f64) -> bool {
+        let direction = point.normalize();
+        let nearest = self.faces(&[direction])[0].and_then(|face| self.distance(face, direction));
+        nearest.is_none_or(|nearest| nearest >= point.length() * (1.0 - beside))
     }
 
     /// The apparent point of each edge of a face nearest to direction `d`, ignoring other faces.
-    fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
+    ///
+    /// A face seen edge-on can be too thin for any ray to hit it, but its edges can be found.
+    pub fn edge_points(&self, face: usize, d: DVec3) -> Vec<DVec3> {
         let Some((body, polygon)) = self.polygon(face) else { return Vec::new() };
         polygon.edge_points(body.ray(d)).map(|point| body.seen(point)).collect()
     }

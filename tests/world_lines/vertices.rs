@@ -51,7 +51,7 @@ fn check(world: &World, extra: &str, config: &uglorentz::Config, eye: &Observer)
 fn vertices_are_seen_where_integration_says() {
     let mut random = Random(1);
     let mut largest = 0.0_f64;
-    for _ in 0..40 {
+    for _ in 0..12 {
         let mut world = World::default();
         for _ in 0..2 {
             let middle = random.in_ball(4.0);
@@ -77,7 +77,7 @@ fn vertices_are_seen_where_integration_says() {
 fn cameras_ride_on_bodies() {
     let mut random = Random(2);
     let mut largest = 0.0_f64;
-    for case in 0..40 {
+    for case in 0..12 {
         let mut world = World::default();
         let eye = random.in_ball(4.0);
         let carrier = Statement::random(&mut random, eye, 0.8);
