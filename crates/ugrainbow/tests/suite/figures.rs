@@ -29,19 +29,17 @@ fn strips() -> AnnotationOptions {
     }
 }
 
-/// Rows of the scene in an annotated picture: the greatest height at which the scene alone has the
-/// same upper rows, to the byte.
+/// Rows of the scene in an annotated picture, which is that of the scene alone in so many rows, to
+/// the byte.
 fn scene_rows(config: &Config) -> u32 {
     let figure = draw(SHIP, config);
-    let [width, height] = config.picture.size;
     assert_eq!([figure.width(), figure.height()], config.picture.size);
-    let is_alike = |rows: &u32| {
-        let alone = with(config, |picture| {
-            (picture.size, picture.annotations) = ([width, *rows], AnnotationOptions::default())
-        });
-        figure.pixels().starts_with(draw(SHIP, &alone).pixels())
-    };
-    (height / 3..height).rev().find(is_alike).unwrap_or(0)
+    let size = Canvas::new(&config.picture).unwrap().options().size;
+    let alone = with(config, |picture| {
+        (picture.size, picture.annotations) = (size, AnnotationOptions::default())
+    });
+    assert!(size[0] == figure.width() && figure.pixels().starts_with(draw(SHIP, &alone).pixels()));
+    size[1]
 }
 
 #[test]
