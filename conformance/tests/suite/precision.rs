@@ -56,24 +56,13 @@ fn mistakes_are_found_in_single_precision() {
         }
     }
     assert!(n_found >= 300, "{n_found}");
-    assert_eq!(n_hidden, HIDDEN, "{n_found}");
+    assert_eq!(n_hidden.join(", "), HIDDEN, "{n_found}");
 }
 
 /// Mistakes that single precision hides: correct to first order at the speeds of planets, b from
 /// tanh η at η = 0.5, and proper time instead of coordinate time after 0.001.
-const HIDDEN: [&str; 11] = [
-    "T17.01 M9",
-    "T17.02 M9",
-    "T18.03 M9",
-    "T18.04 M9",
-    "T18.05 M9",
-    "T18.06 M9",
-    "T19.37 M16",
-    "T19.38 M16",
-    "T19.39 M16",
-    "T24.01 M9",
-    "T30.05 M11",
-];
+const HIDDEN: &str = "T17.01 M9, T17.02 M9, T18.03 M9, T18.04 M9, T18.05 M9, T18.06 M9, T19.37 M16, T19.38 M16, \
+    T19.39 M16, T24.01 M9, T30.05 M11";
 
 /// Rounding alone is no mistake.
 #[test]

@@ -136,19 +136,3 @@ impl Format {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_round_trip() {
-        for format in Format::ALL {
-            assert_eq!(Format::from_name(format.name()), Some(format));
-            assert_eq!(Format::from_name(&format.name().to_uppercase()), Some(format));
-        }
-        assert_eq!(Format::from_name("jpg"), None);
-        assert_eq!(Format::from_name(""), None);
-        assert_eq!(Format::list(), "png, png16, eps, ps, pdf, svg, ppm, exr, pfm, hdr");
-    }
-}

@@ -57,8 +57,6 @@ mod read_light;
 mod read_pfm;
 mod spelled_color;
 mod svg;
-#[cfg(test)]
-mod test_frames;
 mod typeface;
 
 pub use format::Format;

@@ -26,27 +26,3 @@ impl Metadata {
         size.map(|side| ((f64::from(side) / per_point).round() as u32).max(1))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{Format, Frame};
-
-    /// 600 x 300 pixels at 300 to the inch are 144 x 72 points in every format of pages.
-    #[test]
-    fn pages_have_the_size_of_their_resolution() {
-        let frame = Frame::opaque(600, 300);
-        for (per_inch, width, height) in [(Some(300.0), 144, 72), (Some(72.0), 600, 300), (None, 600, 300)] {
-            let metadata = Metadata { per_inch, ..Metadata::default() };
-            for (format, expected) in [
-                (Format::Pdf, format!("/MediaBox [0 0 {width} {height}]")),
-                (Format::Svg, format!("width=\"{width}pt\" height=\"{height}pt\"")),
-                (Format::Eps, format!("%%BoundingBox: 0 0 {width} {height}\n")),
-                (Format::Ps, format!("/PageSize [{width} {height}]")),
-            ] {
-                let file = String::from_utf8_lossy(&format.encode(&frame, &metadata)).into_owned();
-                assert!(file.contains(&expected), "{format:?}: {expected}");
-            }
-        }
-    }
-}

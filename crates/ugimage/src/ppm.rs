@@ -19,21 +19,3 @@ pub fn encode(frame: &Frame, metadata: &Metadata) -> Vec<u8> {
     file.extend_from_slice(pixels.as_flattened());
     file
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn another_reader_reads_the_same_pixels() {
-        let metadata =
-            Metadata { software: "ug 1".into(), comment: "ug -sz 3 2\nug γ".into(), ..Metadata::default() };
-        for frame in crate::test_frames::frames() {
-            let file = encode(&frame, &metadata);
-            let read =
-                image::load_from_memory_with_format(&file, image::ImageFormat::Pnm).unwrap().into_rgb8();
-            assert_eq!(read.dimensions(), (frame.width(), frame.height()));
-            assert_eq!(read.as_raw()[..], *over_white(&frame).as_flattened());
-        }
-    }
-}

@@ -47,31 +47,3 @@ pub fn escaped(text: &str) -> String {
     }
     out
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_embedded_picture_is_the_png() {
-        for frame in crate::test_frames::frames() {
-            let text = String::from_utf8(encode(&frame, &Metadata::default())).unwrap();
-            let data = text.split("base64,").nth(1).unwrap().split('"').next().unwrap();
-            assert_eq!(
-                STANDARD.decode(data).unwrap(),
-                png::encode(&frame, &Metadata::default(), Compression::Fast)
-            );
-        }
-    }
-
-    #[test]
-    fn metadata_is_text() {
-        let metadata = Metadata {
-            software: "ug 1".into(),
-            comment: "a < b > c & \"d\"\nγ\u{1}".into(),
-            ..Metadata::default()
-        };
-        let text = String::from_utf8(document([2, 1], &metadata, "")).unwrap();
-        assert!(text.contains("<desc>ug 1\na &lt; b &gt; c &amp; \"d\"\nγ?</desc>"), "{text}");
-    }
-}

@@ -66,23 +66,3 @@ fn tables() -> impl Iterator<Item = (&'static [u8], usize)> {
         .take(n_tables)
         .map(|entry| (&entry[..4], u32::from_be_bytes([entry[8], entry[9], entry[10], entry[11]]) as usize))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_are_the_file() {
-        for most in [1, 40_000, 65_534, 1 << 20] {
-            assert_eq!(parts(most).concat(), FILE);
-        }
-        assert!(parts(65_534).len() > 1 && parts(65_534).iter().all(|part| part.len() <= 65_534));
-    }
-
-    #[test]
-    fn bounds_hold_the_letters() {
-        let [left, bottom, right, top] = bounds();
-        assert!((-2.0..=0.0).contains(&left) && (-1.0..-0.2).contains(&bottom), "{left} {bottom}");
-        assert!((1.0..2.0).contains(&right) && (0.9..1.5).contains(&top), "{right} {top}");
-    }
-}

@@ -66,8 +66,6 @@ mod render;
 mod sampling;
 mod scenery;
 mod shade;
-#[cfg(test)]
-mod tests;
 mod tracer;
 mod wires;
 

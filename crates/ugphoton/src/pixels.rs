@@ -527,17 +527,3 @@ impl Packet {
         scenery.first(rays, range, seen, &mut self.memory, &mut self.first);
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_samples_reach_from_side_to_side() {
-        let rows: [(u32, &[u32]); 6] =
-            [(1, &[0]), (2, &[0, 1]), (3, &[0, 2]), (4, &[0, 3]), (5, &[0, 2, 4]), (8, &[0, 2, 5, 7])];
-        for (n, expected) in rows {
-            assert_eq!(first_samples(n), expected, "{n}");
-        }
-    }
-}

@@ -28,19 +28,3 @@ fn scrambled(seed: u64) -> u64 {
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn points_fill_the_disk_evenly() {
-        let axis = DVec3::new(0.6, 0.0, -0.8);
-        let points: Vec<DVec3> = (0..1000).map(|sample| disk_point(axis, sample, 3)).collect();
-        let mean = points.iter().sum::<DVec3>() / 1000.0;
-        // The mean of r² over a disk is a half.
-        let square = points.iter().map(|point| point.length_squared()).sum::<f64>() / 1000.0;
-        assert!(mean.length() < 5e-3 && (square - 0.5).abs() < 5e-3, "{mean} {square}");
-        assert!(points.iter().all(|point| point.dot(axis).abs() < 1e-15 && point.length() <= 1.0));
-    }
-}

@@ -20,18 +20,3 @@ impl DepthFade {
         1.0 - (1.0 - self.least) * progress
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn light_falls_linearly_between_two_depths() {
-        let fade = DepthFade { near: 2.0, far: 6.0, least: 0.2 };
-        for (depth, part) in [(0.0, 1.0), (2.0, 1.0), (3.0, 0.8), (4.0, 0.6), (6.0, 0.2), (60.0, 0.2)] {
-            assert!((fade.light_left(depth) - part).abs() < 1e-15, "{depth}");
-        }
-        let step = DepthFade { near: 2.0, far: 2.0, least: 0.0 };
-        assert_eq!([1.0, 2.0, 3.0].map(|depth| step.light_left(depth)), [1.0, 1.0, 0.0]);
-    }
-}

@@ -108,8 +108,6 @@ mod rasterizer;
 mod resolve;
 mod rows;
 mod shading;
-#[cfg(test)]
-mod tests;
 mod tile;
 mod transparency;
 mod triangles;

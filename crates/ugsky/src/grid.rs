@@ -185,30 +185,3 @@ fn grid(level: usize, n_rows: usize, extent: &Extent, ladder: &[Columns]) -> Gri
     let lines = Lines::new(&rows);
     Grid { rows, lines, texel: step.max(equator), rows_per_radian: 1.0 / step }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Cells cover the sphere once, and none is more than about twice as wide as high.
-    #[test]
-    fn cells_cover_the_sphere() {
-        for size in [[64, 32], [100, 50], [33, 17], [4096, 2048]] {
-            let ladder = ladder(size[0], &Extent::FULL);
-            for (level, grid) in grids(size, &Extent::FULL, &ladder).iter().enumerate() {
-                let step = 1.0 / grid.rows_per_radian;
-                let equator = 1.0 / ladder[level].per_radian;
-                let area: f64 = grid
-                    .rows
-                    .iter()
-                    .map(|row| f64::from(row.area) * ladder[row.ladder].n as f64 * step * equator)
-                    .sum();
-                assert!((area / (4.0 * PI) - 1.0).abs() < 1e-6, "{size:?} {level}: {area}");
-                for row in &grid.rows {
-                    let width = row.cos / ladder[row.ladder].per_radian;
-                    assert!(width <= equator * 1.0001 && (row.ladder == level || width > 0.2 * equator));
-                }
-            }
-        }
-    }
-}

@@ -173,36 +173,3 @@ fn interpolated<S: Simd>(simd: S, low: &[f32; N], high: &[f32; N], part: f32x16<
     let low = f32x16::from_slice(simd, low);
     low + (f32x16::from_slice(simd, high) - low) * part
 }
-
-#[cfg(test)]
-mod tests {
-    use fearless_simd::{Level, dispatch};
-
-    use super::*;
-
-    #[test]
-    fn attenuation_is_that_of_the_library() {
-        for step in 0..=5000 {
-            let nm = 350.0 + 0.1 * f64::from(step);
-            let found: [f32; N] = dispatch!(Level::new(), simd =>
-                attenuation(simd, f32x16::splat(simd, nm as f32)).into());
-            assert!((f64::from(found[0]) - ugphysics::attenuation(nm)).abs() < 1e-6, "{nm} nm");
-        }
-    }
-
-    #[test]
-    fn tables_are_those_of_hues() {
-        let hues = Hues::get();
-        let at = |table: &Table, x: f64| {
-            let found: [f32; N] =
-                dispatch!(Level::new(), simd => table.at(simd, f32x16::splat(simd, x as f32)).into());
-            f64::from(found[0])
-        };
-        for step in 0..=10_000 {
-            let part = f64::from(step) / 1e4;
-            let (hue, nm) = (-60.0 + 360.0 * part, 370.0 + 420.0 * part);
-            assert!((at(&hues.nm, hue) - hue_to_wavelength(hue)).abs() < 1e-3, "{hue} degrees");
-            assert!((at(&hues.hue, nm) - wavelength_to_hue(nm)).abs() < 1e-3, "{nm} nm");
-        }
-    }
-}

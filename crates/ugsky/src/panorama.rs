@@ -138,21 +138,3 @@ impl Panorama {
         level
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_is_no_panorama_is_refused() {
-        let new = |size: [u32; 2], n: usize, extent: Extent| {
-            Panorama::new(size, Texels::Srgb(vec![[0; 4]; n]), extent).err()
-        };
-        assert_eq!(new([32, 16], 32 * 16, Extent::FULL), None);
-        assert_eq!(new([32, 16], 12, Extent::FULL), Some(PanoramaError::Size));
-        assert_eq!(new([0, 16], 0, Extent::FULL), Some(PanoramaError::Size));
-        assert_eq!(new([8, 4], 32, Extent::FULL), Some(PanoramaError::Coarse));
-        let bad = Extent { longitudes: [1.0, f64::NAN], ..Extent::FULL };
-        assert_eq!(new([32, 16], 32 * 16, bad), Some(PanoramaError::Extent));
-    }
-}

@@ -249,19 +249,3 @@ fn add_reduced(
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn overlaps_cover_each_cell_once() {
-        for (n_fine, n_coarse) in [(10, 5), (9, 5), (7, 7), (3, 7), (101, 51)] {
-            let mut covered = vec![0.0; n_fine];
-            for idx in 0..n_coarse {
-                overlaps(n_fine, n_coarse, idx).for_each(|(cell, part)| covered[cell] += part);
-            }
-            assert!(covered.iter().all(|part: &f64| (part - 1.0).abs() < 1e-12), "{covered:?}");
-        }
-    }
-}

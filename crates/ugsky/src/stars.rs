@@ -124,23 +124,3 @@ impl StarLight {
 fn ln_relative(kelvin: f64) -> f64 {
     libm::log(kelvin / REFERENCE)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The parts of the effect: the shift alone, and brightness alone.
-    #[test]
-    fn parts_multiply() {
-        let star = Star { direction: DVec3::Y, magnitude: -1.0, kelvin: 4000.0 };
-        let light = |shift| StarLight::new(&[star], shift, 1.0).irradiance(&star, 2.0);
-        let [all, shift, flux, none] =
-            [[true, true], [true, false], [false, true], [false, false]].map(light);
-        for channel in 0..3 {
-            assert!((shift[channel] * 32.0 / all[channel] - 1.0).abs() < 1e-12);
-            assert!((none[channel] * 32.0 / flux[channel] - 1.0).abs() < 1e-12);
-        }
-        let luminance = ugphysics::luminance(none) * 4.0;
-        assert!((luminance / libm::exp10(0.4) - 1.0).abs() < 1e-4, "{luminance}");
-    }
-}

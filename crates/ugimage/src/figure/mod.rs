@@ -276,33 +276,3 @@ impl Mesh {
         [-MESH_MARGIN, end, -MESH_MARGIN, end, 0.0, 1.0, 0.0, 1.0, 0.0, 1.0]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        let rows = [
-            (0.0, "0"),
-            (-0.001, "0"),
-            (0.5, ".5"),
-            (-0.05, "-.05"),
-            (12.0, "12"),
-            (12.345, "12.35"),
-            (-7.1, "-7.1"),
-            (1e6, "1000000"),
-        ];
-        for (value, text) in rows {
-            assert_eq!(number(value), text);
-        }
-    }
-
-    #[test]
-    fn the_area_painted_first_is_extended_under_the_other() {
-        let left = [vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]];
-        let right = [vec![[1.0, 1.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0]]];
-        let seams = seams([Some(&left[..]), None, Some(&right[..])].into_iter());
-        assert_eq!(seams, [vec![[[1.0, 0.0], [1.0, 1.0]]], vec![], vec![]]);
-    }
-}

@@ -187,20 +187,17 @@ fn drawn_edges_are_right_to_the_bound() {
     for speed in [0.3, 0.9, 0.99] {
         for bound in [10e-3, 1e-3, 0.1e-3] {
             let mut worst = Errors::default();
-            for _ in 0..if bound < 1e-3 { 1 } else { 2 } {
-                for (vertices, faces) in meshes(&mut random) {
-                    let direction = random.direction();
-                    let config = Config { pieces: Pieces::UpTo(bound), ..moving(direction * speed) };
-                    let scene = seen(&text(&vertices, &faces), &config);
-                    let found = errors(&scene, Velocity::from_beta(direction * speed).unwrap());
-                    worst.angle = worst.angle.max(found.angle);
-                    worst.offset = worst.offset.max(found.offset);
-                    worst.doppler = worst.doppler.max(found.doppler);
-                    worst.inside = worst.inside.max(found.inside);
-                    worst.inside_doppler = worst.inside_doppler.max(found.inside_doppler);
-                }
+            for (vertices, faces) in meshes(&mut random) {
+                let direction = random.direction();
+                let config = Config { pieces: Pieces::UpTo(bound), ..moving(direction * speed) };
+                let scene = seen(&text(&vertices, &faces), &config);
+                let found = errors(&scene, Velocity::from_beta(direction * speed).unwrap());
+                worst.angle = worst.angle.max(found.angle);
+                worst.offset = worst.offset.max(found.offset);
+                worst.doppler = worst.doppler.max(found.doppler);
+                worst.inside = worst.inside.max(found.inside);
+                worst.inside_doppler = worst.inside_doppler.max(found.inside_doppler);
             }
-            println!("{speed} c, {bound}: {worst:?}");
             assert!(worst.angle <= bound * 1.000_001, "{speed} {bound} {worst:?}");
             assert!(
                 worst.offset.max(worst.inside) <= bound.max(1e-4) * 1.000_001,
@@ -581,7 +578,7 @@ fn depth_of_what_is_far_away_at_rest_goes_with_its_size() {
 #[test]
 fn pieces_are_bounded_at_every_speed() {
     let text = "v a -1 1 0; v b 1 1 0; v c 0 1 1; f (a b c);";
-    for nines in [8, 12, 16] {
+    for nines in [8, 16] {
         let speed = 1.0 - libm::pow(10.0, -f64::from(nines)).max(f64::EPSILON / 2.0);
         for direction in [DVec3::X, DVec3::Y, DVec3::NEG_Y, DVec3::Z] {
             let config = Config { measure: true, ..moving(direction * speed) };

@@ -219,16 +219,9 @@ fn normals_may_be_too_long() {
 
 #[test]
 fn wrong_usage_has_status_2() {
-    for args in [
-        "tidy -format json",
-        "flatten -format json",
-        "count -format xml",
-        "-nonsense",
-        "ship.ug tidy",
-        "-fi ship.ug tidy dice.ug",
-        "tidy -fi ship.ug dice.ug",
-        "tidy ship.ug dice.ug",
-    ] {
+    let wrong = "tidy -format json,flatten -format json,count -format xml,-nonsense,ship.ug tidy,-fi ship.ug tidy dice.ug,\
+        tidy -fi ship.ug dice.ug,tidy ship.ug dice.ug";
+    for args in wrong.split(',') {
         UGPARSE.in_folder(repository().join("scenes")).refuses(args, "", 2, "ugparse: error: ");
     }
 }

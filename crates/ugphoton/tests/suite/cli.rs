@@ -34,7 +34,7 @@ fn only_panoramas_are_stated_for_viewers() {
     assert_eq!(area("-pan -sz 40 20 -dt png16"), part([0, 0]));
     assert_eq!(area("-pan -sz 40 20 -ex 0 -crop 8 4 10 6"), part([8, 4]));
     // Degrees that are not square, two eyes, rows with text, other lenses.
-    for options in ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 400 200 -lg", "-sz 40 20"] {
+    for options in ["-pan -sz 40 30", "-pan -sz 40 20 -stereo .1", "-pan -sz 80 40 -cap A", "-sz 40 20"] {
         assert_eq!(area(options), None, "{options}");
     }
     for options in ["-fish 180 -sz 40 20", "-cube -sz 60 10", "-stereo .1 -sz 40 20"] {

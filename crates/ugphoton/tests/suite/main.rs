@@ -7,3 +7,4 @@ mod explain;
 mod laws;
 mod pictures;
 mod preview;
+mod rays;

@@ -91,7 +91,7 @@ fn ugphoton() -> (TempDir, BuiltProgram) {
 fn the_last_bytes_are_those_without_previews() {
     let (folder, ugphoton) = ugphoton();
     for options in [
-        "-sz 400 300 -lg",
+        "-sz 90 70 -cap A",
         "-sz 90 70 -aa 2 -dt exr -ch D",
         "-sz 90 70 -aa 2 -stereo .1",
         "-sz 90 70 -aa 2 -ex auto -tb",

@@ -60,13 +60,13 @@ fn points(axis: DVec3, gamma: f64) -> Vec<DVec3> {
 fn velocities_given_as_beta() {
     let mut worst = Worst::default();
     for speed in [1e-12, 1e-6, 0.001, 0.1, 0.5, 0.9, 0.99, 0.999, 0.999_999] {
-        for direction in directions() {
+        for direction in directions().into_iter().step_by(3) {
             let beta = speed * direction;
             worst.look(Velocity::from_beta(beta).unwrap(), &BigVelocity::from_beta(beta));
         }
     }
     // Measured: 7.6·10⁻¹⁶. (P2) contains a plain scalar product, which can cost a factor γ = 707.
-    worst.check(40_000, 2e-15, 2e-13);
+    worst.check(13_000, 2e-15, 2e-13);
 }
 
 #[test]
@@ -75,10 +75,10 @@ fn velocities_given_as_rapidity() {
     // The third is 1 − β = 10⁻¹², the last 1 − β = 8·10⁻¹⁸, closer to 1 than any double below 1.
     let near_light = 0.5 * libm::log((2.0 - 1e-12) / 1e-12);
     for rapidity in [1e-9, 3.0, near_light, 20.0] {
-        for direction in directions() {
+        for direction in directions().into_iter().step_by(3) {
             let v = Velocity::from_rapidity(direction, rapidity).unwrap();
             worst.look(v, &BigVelocity::from_rapidity(direction, rapidity));
         }
     }
-    worst.check(15_000, 2e-15, 1e-11);
+    worst.check(5_000, 2e-15, 1e-11);
 }

@@ -29,19 +29,16 @@ fn strips() -> AnnotationOptions {
     }
 }
 
-/// Rows of the scene in an annotated picture: the greatest height at which the scene alone has the
-/// same upper rows, to the byte.
+/// Rows of the scene in an annotated picture, which is that of the scene alone in so many rows, to
+/// the byte.
 fn scene_rows(config: &Config) -> u32 {
     let figure = draw(SHIP, config);
-    let [width, height] = config.picture.size;
     assert_eq!([figure.width(), figure.height()], config.picture.size);
-    let is_alike = |rows: &u32| {
-        let alone = with(config, |picture| {
-            (picture.size, picture.annotations) = ([width, *rows], AnnotationOptions::default())
-        });
-        figure.pixels().starts_with(draw(SHIP, &alone).pixels())
-    };
-    (height / 3..height).rev().find(is_alike).unwrap_or(0)
+    let size = Canvas::new(&config.picture).unwrap().options().size;
+    let alone =
+        with(config, |picture| (picture.size, picture.annotations) = (size, AnnotationOptions::default()));
+    assert!(size[0] == figure.width() && figure.pixels().starts_with(draw(SHIP, &alone).pixels()));
+    size[1]
 }
 
 #[test]
@@ -49,20 +46,16 @@ fn the_scene_is_drawn_as_it_would_be_alone_in_less_room() {
     let plain = with(&Config::default(), |picture| (picture.size, picture.samples) = ([320, 240], 1));
     let caption = AnnotationOptions { legend: false, ..strips() };
     let legend = AnnotationOptions { caption: String::new(), ..strips() };
-    for background in [plain.picture.background, white(), Background::Transparent] {
-        for (figures, output, exact) in [
-            (strips(), Output::Color(Format::Png), None),
-            (caption.clone(), Output::Color(Format::Png16), None),
-            (legend.clone(), Output::Color(Format::Png), Some(ColorShift::default())),
-        ] {
-            let rows = scene_rows(&Config {
-                exact,
-                ..with(&plain, |picture| {
-                    (picture.background, picture.output, picture.annotations) = (background, output, figures)
-                })
-            });
-            assert!((120..235).contains(&rows), "{rows}");
-        }
+    for (background, figures, output, exact) in [
+        (plain.picture.background, strips(), Output::Color(Format::Png), None),
+        (white(), caption, Output::Color(Format::Png16), None),
+        (Background::Transparent, legend, Output::Color(Format::Png), Some(ColorShift::default())),
+    ] {
+        let picture = with(&plain, |picture| {
+            (picture.background, picture.output, picture.annotations) = (background, output, figures)
+        });
+        let rows = scene_rows(&Config { exact, ..picture });
+        assert!((120..235).contains(&rows), "{rows}");
     }
 }
 

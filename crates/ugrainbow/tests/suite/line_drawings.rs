@@ -9,7 +9,7 @@ use crate::common::{file, with};
 /// Lines of a figure, those of visible edges and those of hidden ones: their lengths. Shorter ones
 /// than a few widths are where a hidden line meets the silhouette.
 fn lines(scene: &str, edges: EdgeKind, hidden: HiddenLines) -> [Vec<f64>; 2] {
-    lines_of(160, scene, edges, hidden)
+    lines_of(80, scene, edges, hidden)
 }
 
 /// The same in a picture with sides of this length.

@@ -96,6 +96,13 @@ fn vector(random: &mut Random) -> DVec3 {
     random.in_cube(1.0)
 }
 
+/// An eye, and a camera there.
+fn random_camera(random: &mut Random) -> (DVec3, CameraOptions) {
+    let eye = 12.0 * vector(random);
+    let (center, view_angle) = (Some(eye + vector(random)), Some((random.between(5.0, 60.0), None)));
+    (eye, CameraOptions { eye: Some(eye), center, view_angle, ..CameraOptions::default() })
+}
+
 /// Where nothing is said to be in view, no point of any face is.
 #[test]
 fn nothing_is_seen_of_what_is_out_of_view() {
@@ -111,13 +118,7 @@ fn nothing_is_seen_of_what_is_out_of_view() {
             in_place: random.one_in(3),
             ..MotionOptions::default()
         };
-        let eye = 12.0 * vector(&mut random);
-        let camera = CameraOptions {
-            eye: Some(eye),
-            center: Some(eye + vector(&mut random)),
-            view_angle: Some((random.between(5.0, 60.0), None)),
-            ..CameraOptions::default()
-        };
+        let (_, camera) = random_camera(&mut random);
         if !BodyBoxes::new(&scene).seen(&motion, &camera, SIZE).unwrap().are_out_of_view() {
             continue;
         }
@@ -158,13 +159,7 @@ fn motion_in_view_is_not_noted() {
             in_place: random.one_in(3),
             ..MotionOptions::default()
         };
-        let eye = 12.0 * vector(&mut random);
-        let camera = CameraOptions {
-            eye: Some(eye),
-            center: Some(eye + vector(&mut random)),
-            view_angle: Some((random.between(5.0, 60.0), None)),
-            ..CameraOptions::default()
-        };
+        let (eye, camera) = random_camera(&mut random);
         let mut seen = scene.clone();
         let placed = PlacedBodies::move_to_camera_frame(&mut seen, &motion, &camera, SIZE).unwrap();
         let rest = placed.rest_positions(&seen).into_iter().zip(&placed.bodies);

@@ -1,6 +1,10 @@
-//! The light of footprints against integrals over the sphere.
+//! Skies: the light of footprints against integrals over the sphere, colours, spectra and stars.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod colours;
+mod skies;
+mod spectra;
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -51,7 +55,7 @@ fn ray(direction: DVec3, [long, short]: [f64; 2], turn: f64) -> SkyRay {
 
 /// The mean of `light` over a pixel on the sphere.
 fn mean(light: impl Fn(DVec3) -> f64, ray: &SkyRay) -> f64 {
-    const N: i32 = 24;
+    const N: i32 = 12;
     let mut sum = 0.0;
     for i in 0..N * N {
         let part = |at: i32| (f64::from(at) + 0.5) / f64::from(N) - 0.5;
@@ -166,5 +170,76 @@ fn a_part_ends_at_its_angles() {
             }
         }
         assert!(n_inside > 200 && n_outside > 200, "{n_inside} {n_outside}");
+    }
+}
+
+/// Light that is linear in space has the mean of the pixel almost exactly, and waves of ten texels
+/// tell that its second moments are those of the pixel, too.
+#[test]
+fn moments_of_footprints_are_those_of_pixels() {
+    let linear = |d: DVec3| 0.5 + d.dot(DVec3::new(0.2, -0.3, 0.1));
+    let waves = |d: DVec3| 0.5 + 0.4 * libm::sin(100.0 * d.x);
+    let (one_texel, two_texels) = ([6e-3, 6e-3], [0.012, 0.012]);
+    let check = |light: &dyn Fn(DVec3) -> f64, all_axes: &[[f64; 2]], limit: f64| {
+        let sky = panorama([1024, 512], Extent::FULL, light);
+        for (idx, direction) in directions().into_iter().enumerate() {
+            for axes in all_axes {
+                let ray = ray(direction, *axes, idx as f64);
+                let [found, ..] = sky.sampler().light(&ray, 1.0).unwrap();
+                let expected = mean(light, &ray);
+                assert!(
+                    (f64::from(found) - expected).abs() < limit,
+                    "{axes:?} {direction}: {found} {expected}"
+                );
+            }
+        }
+    };
+    check(&linear, &[[1e-4, 1e-4], one_texel, two_texels, [0.03, 0.01]], 1e-4);
+    check(&waves, &[one_texel, two_texels], 9e-3);
+}
+
+/// A panorama of noise, half of it opaque, with its date line at a longitude of a whole column.
+fn noise(date_line: u32) -> Panorama {
+    const SIZE: [u32; 2] = [1600, 800];
+    let texel = |idx: u32| {
+        let [row, column] = [idx / SIZE[0], (idx % SIZE[0] + date_line) % SIZE[0]];
+        let bytes = (row * SIZE[0] + column).wrapping_mul(2_654_435_761).to_le_bytes();
+        [bytes[0], bytes[1], bytes[2], if column < SIZE[0] / 2 { 255 } else { bytes[3] }]
+    };
+    let texels = (0..SIZE[0] * SIZE[1]).map(texel);
+    let west = TAU * f64::from(date_line) / f64::from(SIZE[0]) - PI;
+    let extent = Extent { longitudes: [west, west + TAU], ..Extent::FULL };
+    Panorama::new(SIZE, Texels::Srgb(texels.collect()), extent).unwrap()
+}
+
+/// Light depends neither on what was sampled before nor on where the date line is, beside which
+/// texels are found and weighed in another way.
+#[test]
+fn caches_and_date_lines_do_not_show() {
+    let (sky, turned) = (noise(0), noise(800));
+    let (mut sampler, mut other) = (sky.sampler(), turned.sampler());
+    let (mut latitude, mut longitude) = (0.3_f64, 0.0);
+    for step in 0..6000 {
+        let part = |by: f64| (f64::from(step) * by).fract();
+        let [turn, climb, scale] = [0.618_034, 0.754_878, 0.569_84].map(part);
+        match step % 100 {
+            0 => (latitude, longitude) = (3.0 * turn - 1.5, 0.2 * climb - 0.1),
+            // Far up and down, so that rows at the same place of the cache replace each other.
+            1..50 => latitude += 0.15 * (climb - 0.5),
+            _ => (latitude, longitude) = (latitude + 0.02 * (climb - 0.5), longitude + 0.04 * (turn - 0.5)),
+        }
+        let ((sin, cos), (up, level)) = (libm::sincos(longitude), libm::sincos(latitude));
+        let direction = DVec3::new(level * sin, level * cos, up);
+        let size = 1e-4 * libm::exp(5.0 * scale);
+        let ray = ray(direction, [size, 0.6 * size], turn);
+        let found = sampler.light(&ray, 1.0).unwrap();
+        assert_eq!(sky.sampler().light(&ray, 1.0).unwrap(), found, "{direction} {size}");
+        // Rows near the poles have fewer columns, which begin at the date line.
+        if up.abs() > 0.7 {
+            continue;
+        }
+        let beside = other.light(&ray, 1.0).unwrap();
+        let error = (0..4).map(|i| (found[i] - beside[i]).abs()).fold(0.0, f32::max);
+        assert!(error < 5e-5, "{direction} {size}: {found:?}, not {beside:?}");
     }
 }

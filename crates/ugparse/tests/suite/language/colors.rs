@@ -4,15 +4,15 @@ use crate::language::{check, check_error, check_rest};
 
 const FACE: &str = "v a 0 0 0; v b 1 0 0; v c 0 1 0; ";
 
+/// Checks the output of a text with two colours, behind these.
+#[track_caller]
+fn row(text: &str, expected: &[&str]) {
+    let text = format!("c r 1 0; c g 1 120; {}", text.replace("FACE", FACE));
+    check_rest(&text, &[&["c r 1 0 1;", "c g 1 120 1;"], expected].concat());
+}
+
 #[test]
 fn own_color_overrides_instance_overrides_unnamed() {
-    let row = |text: &str, expected: &[&str]| {
-        let text = text.replace("FACE", FACE);
-        check_rest(
-            &format!("c r 1 0; c g 1 120; {text}"),
-            &[&["c r 1 0 1;", "c g 1 120 1;"], expected].concat(),
-        );
-    };
     row("FACE f (a b c);", &["f (a b c);"]);
     row("FACE f (a b c) r;", &["f (a b c) r;"]);
     row(
@@ -28,14 +28,9 @@ fn own_color_overrides_instance_overrides_unnamed() {
         ],
     );
     let def = "def d; FACE f (a b c); f (a b c) g; w (a b); end; ";
-    let placed = |color: &str| {
-        [format!("f (d:a d:b d:c){color};"), "f (d:a d:b d:c) g;".to_string(), format!("w (d:a d:b){color};")]
-    };
-    let strs = |lines: &[String]| lines.iter().map(|line| line.as_str().to_string()).collect::<Vec<_>>();
     let row_of = |text: &str, first: &[&str], color: &str| {
-        let lines = strs(&placed(color));
-        let lines: Vec<&str> = first.iter().copied().chain(lines.iter().map(String::as_str)).collect();
-        row(text, &lines);
+        let [face, wire] = [format!("f (d:a d:b d:c){color};"), format!("w (d:a d:b){color};")];
+        row(text, &[first, &[&face, "f (d:a d:b d:c) g;", &wire]].concat());
     };
     row_of(&format!("{def} i (d);"), &[], "");
     row_of(&format!("{def} i (d r);"), &[], " r");
@@ -188,57 +183,22 @@ help: for red 1, green 0, blue 0 write `c_rgb red 1 0 0`"
   |
 help: for red 1, green 0.502, blue 0 write `c_rgb yellow 1 0.502 0`"
     );
-    let is_noticed = |text: &str, expected: bool| assert_eq!(!warnings(text).is_empty(), expected, "{text}");
-    for text in [
-        "c red 255 0 0;",
-        "c green 0 1 0;",
-        "c green 0 255 0;",
-        "c blue 0 0 1;",
-        "c yellow 1 1 0;",
-        "c orange 1 .5 0;",
-        "c cyan 0 1 1;",
-        "c magenta 1 0 1;",
-        "c white 1 1 1;",
-        "c grey .5 .5 .5;",
-        "c wall 200 180 0;",
-        "def d; c red 1 0 0; end;",
-    ] {
-        is_noticed(text, true);
-    }
-    for text in [
-        "c red 1 0 1;",
-        "c red .9 0 .8;",
-        "c red .9 5 .75;",
-        "c red 1;",
-        "c red 1 0;",
-        "c blue 1 240 1;",
-        "c white .95 45 .12;",
-        "c white 1 0 0;",
-        "c black 0 0 0;",
-        "c grey .6;",
-        "c sun 20 0 0;",
-        "c sun 20;",
-        "c lamp 3 60 .5;",
-        "c wall 1 0 0;",
-        "c 1 0 0;",
-        "c red 1 780 1;",
-        "c_rgb red 0 1 0;",
-        // Written by a program, which read it with the warning.
-        "(ugstage 1 colors as-seen hues law report) c red 1 0 0;",
-    ] {
-        is_noticed(text, false);
+    let noticed = "c red 255 0 0 | c green 0 1 0 | c green 0 255 0 | c blue 0 0 1 | c yellow 1 1 0 | c orange 1 .5 0 \
+        | c cyan 0 1 1 | c magenta 1 0 1 | c white 1 1 1 | c grey .5 .5 .5 | c wall 200 180 0 \
+        | def d; c red 1 0 0; end";
+    // The last is written by a program, which read it with the warning.
+    let plain = "c red 1 0 1 | c red .9 0 .8 | c red .9 5 .75 | c red 1 | c red 1 0 | c blue 1 240 1 | c white .95 45 .12 \
+        | c white 1 0 0 | c black 0 0 0 | c grey .6 | c sun 20 0 0 | c sun 20 | c lamp 3 60 .5 | c wall 1 0 0 | c 1 0 0 \
+        | c red 1 780 1 | c_rgb red 0 1 0 | (ugstage 1 colors as-seen hues law report) c red 1 0 0";
+    for (all, expected) in [(noticed, true), (plain, false)] {
+        for text in all.split(" | ") {
+            assert_eq!(!warnings(&format!("{text};")).is_empty(), expected, "{text}");
+        }
     }
 }
 
 #[test]
 fn tables_of_own_times_are_kept() {
-    let row = |text: &str, expected: &[&str]| {
-        let text = text.replace("FACE", FACE);
-        check_rest(
-            &format!("c r 1 0; c g 1 120; {text}"),
-            &[&["c r 1 0 1;", "c g 1 120 1;"], expected].concat(),
-        );
-    };
     let table = "c_time t -step -period 3 0 r 1.5 g;";
     row(&format!("{table} FACE f (a b c) t;"), &[table, "f (a b c) t;"]);
     // A colour may be defined after the table that uses it, and rows may share one.

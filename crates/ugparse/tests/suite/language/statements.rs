@@ -179,17 +179,8 @@ fn cameras() {
     check("cam -va 40;", &["cam -va 40 40;"]);
     check("cam -va 40 -ps <0 0 .5>;", &["cam -va 40 40 -ps <0 0 0.5>;"]);
     check("cam -va 40 { one } -fl 2;", &["{ one }", "cam -va 40 40 -fl 2;"]);
-    for option in [
-        "-ep 0 0 0",
-        "-vc 1 2 3",
-        "-ud 0 1 0",
-        "-cl 0 1",
-        "-ph 0 0 1 1",
-        "-va 1 2",
-        "-fs 1 2",
-        "-fl 3",
-        "-og",
-    ] {
+    let options = "-ep 0 0 0,-vc 1 2 3,-ud 0 1 0,-cl 0 1,-ph 0 0 1 1,-va 1 2,-fs 1 2,-fl 3,-og";
+    for option in options.split(',') {
         check(&format!("cam {option};"), &[&format!("cam {option};")]);
     }
     check("cam -og -ps;", &["cam -ps;"]);

@@ -1,29 +1,14 @@
 //! Bodies that accelerate, spin and orbit: a slow oracle, laws.
 
-use std::borrow::Cow;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
 use ugphysics::{Event, WorldLine};
-use ugscene::Anchor;
+use ugpicture::rays::{Intersection, PastRay, Start};
+use ugpicture::{SurfacePoint, Surfaces, textures::Textures};
 use ugtesting::Random;
 
-use super::ray;
-use crate::Config;
-use crate::render::as_seen;
-use crate::scenery::Scenery;
-use ugpicture::SurfacePoint;
-use ugpicture::rays::{Intersection, PastRay, Start};
-
-fn scenery_at(text: &str, time: f64) -> Scenery<'static> {
-    let source = ugparse::Source::new("test.ug", text);
-    let mut config = Config::default();
-    (config.motion.anchor, config.motion.time) = (Some(Anchor::Origin), time);
-    let parsed = ugparse::parse(&source, &ugparse::Options::default());
-    let scene = parsed.unwrap_or_else(|error| panic!("{error:?}\n{text}")).scene;
-    let seen = as_seen(scene, &config).unwrap_or_else(|error| panic!("{error}\n{text}"));
-    Scenery::new(Cow::Owned(seen), &config).unwrap_or_else(|error| panic!("{error}\n{text}"))
-}
+use super::{Scenery, ray};
 
 /// A triangle.
 fn face(name: &str, corners: [DVec3; 3], motion: &str) -> String {
@@ -66,13 +51,8 @@ fn motion(random: &mut Random, kind: usize) -> String {
     }
 }
 
-struct World {
-    text: String,
-    /// Corners in the coordinates of the body, relative to the eye.
-    triangles: Vec<[DVec3; 3]>,
-}
-
-fn world(random: &mut Random, kind: usize, n: usize) -> World {
+/// A scene of a body of `n` triangles, and their corners in its coordinates, relative to the eye.
+fn world(random: &mut Random, kind: usize, n: usize) -> (String, Vec<[DVec3; 3]>) {
     let mut text = format!("l 1; motion m {};\n", motion(random, kind));
     let eye = 7.0 * random.direction();
     let mut triangles = Vec::new();
@@ -84,7 +64,7 @@ fn world(random: &mut Random, kind: usize, n: usize) -> World {
     }
     let DVec3 { x, y, z } = eye;
     text += &format!("cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;");
-    World { text, triangles }
+    (text, triangles)
 }
 
 /// Hits of a ray of light on a triangle, from the emission events of its points alone: where the
@@ -128,7 +108,7 @@ fn oracle(line: &WorldLine, [a, b, c]: [DVec3; 3], origin: Event, direction: DVe
     found
 }
 
-fn all_hits(scenery: &Scenery<'_>, ray: &PastRay) -> Vec<Intersection> {
+fn all_hits(scenery: &Scenery, ray: &PastRay) -> Vec<Intersection> {
     let mut all = Vec::new();
     let flow = scenery.world.visit(scenery.faces(), ray, 0.0..f64::INFINITY, |found| {
         all.push(found);
@@ -139,13 +119,17 @@ fn all_hits(scenery: &Scenery<'_>, ray: &PastRay) -> Vec<Intersection> {
     all
 }
 
+fn closest(scenery: &Scenery, ray: &PastRay) -> Option<Intersection> {
+    scenery.world.closest(scenery.faces(), ray, 0.0..f64::INFINITY)
+}
+
 #[test]
 fn hits_are_those_of_emission_events() {
     let mut random = Random(41);
     let (mut n_hits, mut n_rays) = (0, 0);
     for kind in 0..40 {
-        let World { text, triangles } = world(&mut random, kind, 4);
-        let scenery = scenery_at(&text, random.between(-3.0, 3.0));
+        let (text, triangles) = world(&mut random, kind, 4);
+        let scenery = Scenery::new(&text, random.between(-3.0, 3.0), 1.0);
         let body = scenery.scene.faces[0].body;
         let line = scenery.appearance.surface.frames().world_line(body).unwrap().clone();
         for idx in 0..60 {
@@ -178,11 +162,13 @@ fn hits_are_those_of_emission_events() {
                     assert!(is_known, "{text}\n{ray:?} {found:?} {expected:?}");
                 }
             }
-            let first = scenery.closest(&ray, 0.0..f64::INFINITY);
+            let first = closest(&scenery, &ray);
             assert_eq!(first.map(|first| first.s.to_bits()), found.first().map(|first| first.s.to_bits()));
             if let (Some(first), 0) = (first, idx % 2) {
-                let seen =
-                    SurfacePoint::new(&scenery.surfaces(), &PastRay::from_eye(direction), &first, || None);
+                let Scenery { scene, appearance, world, .. } = &scenery;
+                let (face_colors, textures) = (&appearance.all_face_colors(scene), &Textures::default());
+                let surfaces = Surfaces { scene, world, appearance, face_colors, textures };
+                let seen = SurfacePoint::new(&surfaces, &PastRay::from_eye(direction), &first, || None);
                 let light = line.emission(seen.place, origin).unwrap();
                 let beta = seen.frame(&scenery.world).velocity().beta();
                 assert!((first.own_time - light.own_time).abs() < 1e-8, "{text}\n{first:?} {light:?}");
@@ -197,42 +183,6 @@ fn hits_are_those_of_emission_events() {
     assert!(n_hits > 1000 && n_rays > 2000, "{n_hits} {n_rays}");
 }
 
-/// A closed ball of triangles around the origin.
-fn ball(motion: &str, n: u32) -> String {
-    use std::f64::consts::PI;
-    let mut text = String::new();
-    let name = |band: u32, sector: u32| match band {
-        0 => "n".to_string(),
-        band if band == n => "s".to_string(),
-        band => format!("p{band}_{}", sector % (2 * n)),
-    };
-    let mut place = |name: String, polar: f64, azimuth: f64| {
-        let (x, y) = (libm::sin(polar) * libm::cos(azimuth), libm::sin(polar) * libm::sin(azimuth));
-        text += &format!("v {name} {x} {y} {};\n", libm::cos(polar));
-    };
-    place("n".to_string(), 0.0, 0.0);
-    place("s".to_string(), PI, 0.0);
-    for band in 1..n {
-        for sector in 0..2 * n {
-            let [polar, azimuth] = [f64::from(band), f64::from(sector)].map(|at| PI * at / f64::from(n));
-            place(name(band, sector), polar, azimuth);
-        }
-    }
-    for band in 0..n {
-        for sector in 0..2 * n {
-            let [a, b] = [name(band, sector), name(band, sector + 1)];
-            let [c, d] = [name(band + 1, sector), name(band + 1, sector + 1)];
-            if a != b {
-                text += &format!("f ({a} {c} {b}) {motion};\n");
-            }
-            if c != d {
-                text += &format!("f ({b} {c} {d}) {motion};\n");
-            }
-        }
-    }
-    text
-}
-
 /// Rays cross the surface of a closed body an even number of times, from inside an odd number, and
 /// none gets through without a hit.
 #[test]
@@ -240,21 +190,18 @@ fn closed_bodies_do_not_leak() {
     let mut random = Random(42);
     let (mut n_met, mut n_inside) = (0, 0);
     for kind in 0..12 {
-        let text = format!(
-            "l 1; motion m {};\n{}cam -ep 0 0 0.01 -vc 1 0 0;",
-            motion(&mut random, kind),
-            ball("<m>", 8)
-        );
-        let scenery = scenery_at(&text, 0.0);
+        let motion = motion(&mut random, kind);
+        let text = format!("l 1; motion m {motion}; sphere 0 0 0 1 <m>; cam -ep 0 0 0.01 -vc 1 0 0;");
+        let scenery = Scenery::new(&text, 0.0, 0.038);
         let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
         let is_inside = |event: Event| {
             // Where no point of a turning body can be, there is none of the ball.
             let Ok((at, _)) = line.at_event(event) else { return Some(false) };
-            let point = at + scenery.view.eye;
+            let point = at + scenery.eye;
             // The faces of the ball are inside the sphere.
             if point.length() < 0.95 { Some(true) } else { (point.length() > 1.0).then_some(false) }
         };
-        for idx in 0..if cfg!(debug_assertions) { 2500 } else { 50_000 } {
+        for idx in 0..2500 {
             let origin = Event { t: random.between(-9.0, 9.0), x: random.in_ball(6.0) };
             let Some(starts_inside) = is_inside(origin) else { continue };
             let direction = match idx % 3 {
@@ -286,17 +233,15 @@ fn rays_to_the_eye_hit_what_curves_hit() {
     let (mut n_met, mut n_seen) = (0, 0);
     for kind in 0..24 {
         let DVec3 { x, y, z } = random.between(1.5, 6.0) * random.direction();
-        let text = format!(
-            "l 1; motion m {};\n{}cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;",
-            motion(&mut random, kind),
-            ball("<m>", *random.pick(&[6, 20, 60]))
-        );
-        let scenery = scenery_at(&text, random.between(-3.0, 3.0));
+        let motion = motion(&mut random, kind);
+        let camera = format!("cam -ep {x} {y} {z} -vc 0 0 0 -ud 0.123 0.4 1;");
+        let text = format!("l 1; motion m {motion}; sphere 0 0 0 1 <m>; {camera}");
+        let scenery = Scenery::new(&text, random.between(-3.0, 3.0), *random.pick(&[0.067, 6e-3, 7e-4]));
         let line = scenery.appearance.surface.frames().world_line(scenery.scene.faces[0].body).unwrap();
         n_seen +=
             u32::from(scenery.world.parts[0].motion.as_ref().is_some_and(|motion| motion.seen.is_some()));
         let eye = Event { t: 0.0, x: DVec3::ZERO };
-        for idx in 0..if cfg!(debug_assertions) { 400 } else { 10_000 } {
+        for idx in 0..400 {
             let face = random.pick(&scenery.scene.faces);
             let corners = scenery.scene.contours.corners(face.contours.clone());
             let [a, b, c] = [0, 1, 2].map(|at| scenery.scene.rest[corners[at].index()]);
@@ -319,7 +264,7 @@ fn rays_to_the_eye_hit_what_curves_hit() {
             let faces = |hits: &[Intersection]| hits.iter().map(|hit| hit.triangle.face).collect::<Vec<_>>();
             assert_eq!(faces(&seen), faces(&curved), "{kind}: {direction} {seen:?} {curved:?}");
             assert!(seen.iter().zip(&curved).all(|(a, b)| (a.s - b.s).abs() < 1e-9));
-            let first = scenery.closest(&ray(eye, step, Start::Eye), 0.0..f64::INFINITY);
+            let first = closest(&scenery, &ray(eye, step, Start::Eye));
             assert_eq!(first.map(|first| first.s.to_bits()), seen.first().map(|first| first.s.to_bits()));
         }
     }

@@ -1,9 +1,34 @@
-//! Frames to test writers with.
+//! Files of pictures, and text on them.
 
-use ugframe::{Frame, LinearFrame};
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, its helpers too")]
+
+mod figure;
+mod history;
+mod label;
+mod light;
+mod light_files;
+mod png_files;
+mod postscript;
+mod read;
+
+use ugimage::{Frame, LinearFrame, Pixels, ReadError};
+
+/// Size and pixels of a picture.
+fn read_picture(file: &[u8]) -> Result<([u32; 2], Pixels), ReadError> {
+    ugimage::read_picture(file, &Default::default()).map(|picture| (picture.size, picture.pixels))
+}
+
+/// Size and light of a picture that has more than 8 bits.
+fn read_light(file: &[u8]) -> Result<([u32; 2], Vec<[f32; 4]>), String> {
+    match read_picture(file) {
+        Ok((size, Pixels::Light(pixels))) => Ok((size, pixels)),
+        Ok(_) => panic!("8 bits"),
+        Err(error) => Err(error.to_string()),
+    }
+}
 
 /// Frames for testing writers: one pixel, odd sizes, long runs, noise, transparency.
-pub(crate) fn frames() -> Vec<Frame> {
+pub fn frames() -> Vec<Frame> {
     let mut noise = Frame::opaque(37, 19);
     let mut random = ugtesting::Random(1);
     for pixel in noise.pixels_mut() {
@@ -23,7 +48,7 @@ pub(crate) fn frames() -> Vec<Frame> {
 
 /// Frames for testing writers of linear light: bright, negative, tiny, transparent, one pixel,
 /// wide.
-pub(crate) fn linear_frames() -> Vec<LinearFrame> {
+pub fn linear_frames() -> Vec<LinearFrame> {
     let frame = |size: [u32; 2], is_opaque, pixel: &dyn Fn(usize) -> [f32; 4]| {
         LinearFrame::new(size, is_opaque, (0..(size[0] * size[1]) as usize).map(pixel).collect())
     };
