@@ -106,8 +106,8 @@ pub(crate) fn cull(
         if face.shape.is_round() {
             return true;
         }
-        let corners = scene.contours.corners(face.contours.clone());
-        let corners: Vec<&Point> = corners.iter().map(|corner| &points[corner.index()]).collect();
+        let corners = scene.face_corners(face).iter();
+        let corners: Vec<&Point> = corners.map(|corner| &points[corner.index()]).collect();
         let Some(body) = corners.first().map(|first| first.body.index()) else { return true };
         match &seen_bodies[body] {
             Some(seen) => !seen.is_outside(view_volume, &corners),
@@ -117,15 +117,9 @@ pub(crate) fn cull(
     let seen: Vec<bool> = scene.faces.par_iter().map(may_be_seen).collect();
     let mut touched = vec![false; scene.vertices.len()];
     for (face, _) in scene.faces.iter().zip(&seen).filter(|&(_, &seen)| seen) {
-        scene
-            .contours
-            .corners(face.contours.clone())
-            .iter()
-            .for_each(|corner| touched[corner.index()] = true);
+        scene.face_corners(face).iter().for_each(|corner| touched[corner.index()] = true);
     }
-    let is_touched = |face: &Face| {
-        scene.contours.corners(face.contours.clone()).iter().any(|corner| touched[corner.index()])
-    };
+    let is_touched = |face: &Face| scene.face_corners(face).iter().any(|corner| touched[corner.index()]);
     let mut kept: Vec<bool> = scene.faces.iter().map(is_touched).collect();
     if scene.wires.is_empty()
         && !kept.contains(&true)
