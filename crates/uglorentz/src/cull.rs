@@ -41,8 +41,6 @@ struct SeenBody<'m> {
     passages: Vec<SmoothStretch>,
 }
 
-const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
-
 impl<'m> SeenBody<'m> {
     /// How often faces are divided for closer bounds.
     const LEVELS: u32 = 2;
@@ -52,7 +50,7 @@ impl<'m> SeenBody<'m> {
         let line: &WorldLine = motion.world_line()?;
         let own = points.iter().filter(|point| point.body.index() == body).map(|point| point.rest);
         let tube = line.tube(own)?;
-        let passages = line.smooth_stretches(&tube, EYE).ok()?;
+        let passages = line.smooth_stretches(&tube, Event::ORIGIN).ok()?;
         Some(Self { line, tube, passages })
     }
 
@@ -77,7 +75,8 @@ impl<'m> SeenBody<'m> {
             let &Point { rest, seen, seen_distance, own_time, inverse_doppler, .. } = corner;
             (rest, SeenLight { own_time, event: Event { t: -seen_distance, x: seen }, inverse_doppler })
         });
-        let Some(bounds) = self.line.seen_triangle(&self.tube, &self.passages, &seen, EYE, Self::LEVELS)
+        let Some(bounds) =
+            self.line.seen_triangle(&self.tube, &self.passages, &seen, Event::ORIGIN, Self::LEVELS)
         else {
             return false;
         };
