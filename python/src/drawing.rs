@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{FilmSubject, Note, ParsedCommand, Pipe};
 use ugimage::{LinearFrame, Samples};
+use ugparse::Parsed;
 use ugpicture::Rendering;
 use ugpipe::Context;
 use ugscene::{BodyBoxes, TimesInView};
@@ -31,7 +32,7 @@ pub struct Drawing {
 
 /// The subject of a picture.
 enum Subject {
-    Scene(Arc<ugscene::Scene>),
+    Scene(Arc<Parsed>),
     Sky(Arc<ugwarp::Opened>, String),
 }
 
@@ -50,7 +51,7 @@ impl Drawing {
         let subject = match subject.cast::<PyScene>() {
             Ok(scene) => {
                 let chosen = scene.get().with_camera(camera);
-                Subject::Scene(chosen.map_err(|refused| refused.exception(py))?.0)
+                Subject::Scene(chosen.map_err(|refused| refused.exception(py))?)
             }
             Err(_) => {
                 let (opened, origin) = subject.cast::<PySky>()?.get().subject();
@@ -138,14 +139,14 @@ impl Drawing {
         let name = program.provenance().program;
         let mut pipe = Pipe::new(vec![program]);
         if let Some(sky) = pipe.sky() {
-            if let Subject::Scene(scene) = subject {
-                sky.or_stated(scene.sky.as_ref());
+            if let Subject::Scene(parsed) = subject {
+                sky.or_stated(parsed.scene.sky.as_ref());
             }
             sky.open(&common, &Context::hosted(&common, name, line.clone(), None, call.clone()))?;
         }
         pipe.lines = vec![line.clone()];
         let subject = match subject {
-            Subject::Scene(scene) => FilmSubject::Scene(scene),
+            Subject::Scene(parsed) => FilmSubject::Scene(&parsed.scene),
             Subject::Sky(opened, origin) => FilmSubject::Panorama(opened, origin),
         };
         let (rendering, notes) = pipe.draw_with(subject, &**call).map_err(Refused::of)?;

@@ -48,10 +48,7 @@ type Formula = (&'static [usize], usize, fn(&mut Row<'_>, &mut [f64]) -> Result<
 /// A formula whose result is a number.
 macro_rules! number {
     ($widths:expr, $row:ident => $value:expr) => {
-        (&$widths, 1, |$row, out| {
-            out[0] = $value;
-            Ok(())
-        })
+        numbers!($widths, 1, $row => [$value])
     };
 }
 

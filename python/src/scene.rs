@@ -10,7 +10,7 @@ use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArr
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use ugfilm::{Error, FilmItem, Note, ParsedCommand, Program, ProgramError};
-use ugparse::{Diagnostics, Origins, Parsed, PassedOn, Source, pipe};
+use ugparse::{Diagnostics, Origins, Parsed, Source, pipe};
 use ugpipe::{CommonArgs, Context, Failure, Input, ToolArgs, Words, parse_words};
 use ugscene::{BodyBoxes, CameraOptions, Provenance};
 
@@ -20,11 +20,9 @@ use crate::error::{Refused, wrong};
 /// A scene, and what its errors are about.
 #[pyclass(frozen, module = "uglorentz._core", name = "Scene")]
 pub struct PyScene {
-    scene: Arc<ugscene::Scene>,
-    passed_on: Arc<PassedOn>,
+    parsed: Arc<Parsed>,
     /// The text it was read from; of one that a program made, nothing.
     source: Arc<Source>,
-    origins: Arc<Origins>,
     /// The time of the picture, of a scene whose positions are as seen, even if nothing moves.
     time: Option<f64>,
     /// What was noticed when it was made.
@@ -99,41 +97,42 @@ impl PyScene {
 
     /// The scene as text.
     fn text<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let text = call::run(py, None, |_| ugparse::write_with(&self.scene, &self.passed_on))?;
+        let text = call::run(py, None, |_| ugparse::write_with(&self.parsed.scene, &self.parsed.passed_on))?;
         Ok(PyBytes::new(py, &text))
     }
 
     /// Numbers of vertices, faces and wires.
     fn counts(&self) -> [usize; 3] {
-        [self.scene.vertices.len(), self.scene.faces.len(), self.scene.wires.len()]
+        [self.parsed.scene.vertices.len(), self.parsed.scene.faces.len(), self.parsed.scene.wires.len()]
     }
 
     /// True for positions as seen, and for colours as seen.
     fn stage(&self) -> [bool; 2] {
-        let stage = &self.scene.stage;
+        let stage = &self.parsed.scene.stage;
         [self.time.is_some() || stage.seen_geometry().is_some(), stage.seen_colors().is_some()]
     }
 
     /// The names of the cameras.
     fn cameras(&self) -> Vec<Option<&str>> {
-        self.scene.cameras.iter().map(|camera| camera.name.map(|name| self.scene.names.get(name))).collect()
+        let scene = &self.parsed.scene;
+        scene.cameras.iter().map(|camera| camera.name.map(|name| scene.names.get(name))).collect()
     }
 
     /// The names of the vertices.
     fn names(&self) -> Vec<&str> {
-        self.scene.vertices.iter().map(|vertex| self.scene.names.get(vertex.name)).collect()
+        self.parsed.scene.vertices.iter().map(|vertex| self.parsed.scene.names.get(vertex.name)).collect()
     }
 
     /// The positions of the vertices, (n, 3).
     fn vertices<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let rows = self.scene.vertices.iter().flat_map(|vertex| vertex.position.to_array()).collect();
+        let rows = self.parsed.scene.vertices.iter().flat_map(|vertex| vertex.position.to_array()).collect();
         table(py, rows, 3)
     }
 
     /// The corners of all faces, one contour after the other, and the number of corners of each
     /// contour; the number of contours of each face.
     fn faces<'py>(&self, py: Python<'py>) -> [Bound<'py, PyArray1<u32>>; 3] {
-        let Self { scene, .. } = self;
+        let scene = &self.parsed.scene;
         let (mut corners, mut sizes, mut contours) = (Vec::new(), Vec::new(), Vec::new());
         for face in &scene.faces {
             contours.push(face.contours.len() as u32);
@@ -148,7 +147,7 @@ impl PyScene {
 
     /// Measurements at the vertices of a scene as seen.
     fn measurements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (scene, time) = (&self.scene, self.time.unwrap_or(0.0));
+        let (scene, time) = (&self.parsed.scene, self.time.unwrap_or(0.0));
         let rows = call::run(py, None, |_| ugscene::measure(scene, ugscene::eye(scene, None), time))?;
         let measured = PyDict::new(py);
         measured.set_item("position", self.vertices(py)?)?;
@@ -179,40 +178,26 @@ impl PyScene {
         let source = pipe::follow(input, &options, &context)?;
         let parsed = ugparse::read(&source, &options, None)?;
         let warning = ugparse::rest_shapes_warning(&parsed).map(|found| Diagnostics::one(&source, found));
-        let Parsed { scene, passed_on, origins, warnings, .. } = parsed;
+        let warning = warning.map(|found| found.worded().render(false));
         let mut notes = call.take_notes();
-        notes.extend(notes_on(warnings));
-        Ok(Self {
-            scene: Arc::new(scene),
-            passed_on: Arc::new(passed_on),
-            source: Arc::new(source),
-            origins: Arc::new(origins),
-            time: None,
-            notes,
-            warning: warning.map(|found| found.worded().render(false)),
-        })
+        notes.extend(notes_on(parsed.warnings.clone()));
+        Ok(Self { parsed: Arc::new(parsed), source: Arc::new(source), time: None, notes, warning })
     }
 
-    /// The scene whose camera is the one of this name, and what is passed on with it.
-    pub fn with_camera(&self, name: Option<&str>) -> Result<(Arc<ugscene::Scene>, Arc<PassedOn>), Refused> {
-        let Some(name) = name else { return Ok((self.scene.clone(), self.passed_on.clone())) };
-        let mut parsed = Parsed {
-            scene: (*self.scene).clone(),
-            passed_on: (*self.passed_on).clone(),
-            origins: (*self.origins).clone(),
-            bent: Vec::new(),
-            warnings: Diagnostics::new(&self.source, Vec::new()),
-        };
+    /// The scene whose camera is the one of this name.
+    pub fn with_camera(&self, name: Option<&str>) -> Result<Arc<Parsed>, Refused> {
+        let Some(name) = name else { return Ok(self.parsed.clone()) };
+        let mut parsed = (*self.parsed).clone();
         // Spans of the cameras of a scene that a program made are not known.
         parsed.origins.cameras.resize(parsed.scene.cameras.len(), ugparse::Span::default());
         parsed.choose_camera(&self.source, name)?;
-        Ok((Arc::new(parsed.scene), Arc::new(parsed.passed_on)))
+        Ok(Arc::new(parsed))
     }
 
     fn filter(&self, words: &[String], camera: Option<&str>, call: &Arc<Call>) -> Result<Self, Refused> {
         let ParsedCommand { program, line, .. } = ParsedCommand::from_words(words)?;
-        let (at_rest, passed_on) = self.with_camera(camera)?;
-        let item = FilmItem::Scene(Box::new((*at_rest).clone()));
+        let at_rest = self.with_camera(camera)?;
+        let item = FilmItem::Scene(Box::new(at_rest.scene.clone()));
         let made = program.run(item, &**call).map_err(|error| self.refused(error))?;
         let Some((FilmItem::Scene(mut scene), told)) = made else { return Err(Refused::of(Error::Subject)) };
         scene.head.record(Provenance { command: Some(&line), ..program.provenance() });
@@ -222,25 +207,26 @@ impl PyScene {
             time = Some(config.time);
             if ugscene::may_miss_motion(&scene, &config.camera, config.size) {
                 let camera = CameraOptions { eye: config.eye, ..config.camera.clone() };
-                let note = BodyBoxes::new(&at_rest).note(&scene, &config.motion(), &camera, config.size);
+                let note =
+                    BodyBoxes::new(&at_rest.scene).note(&scene, &config.motion(), &camera, config.size);
                 notes.extend(note.map(|note| note.words()));
             }
         }
-        Ok(Self {
-            scene: Arc::from(scene),
-            passed_on,
-            source: Arc::new(Source::new("<scene>", "")),
-            origins: Arc::default(),
-            time,
-            notes,
-            warning: None,
-        })
+        let source = Source::new("<scene>", "");
+        let parsed = Parsed {
+            scene: *scene,
+            passed_on: at_rest.passed_on.clone(),
+            origins: Origins::default(),
+            bent: Vec::new(),
+            warnings: Diagnostics::new(&source, Vec::new()),
+        };
+        Ok(Self { parsed: Arc::new(parsed), source: Arc::new(source), time, notes, warning: None })
     }
 
     /// The error of a filter, at its place in the text if there is one.
     fn refused(&self, error: ProgramError) -> Refused {
         match error {
-            ProgramError::Lorentz(error) => match error.diagnostics(&self.source, &self.origins) {
+            ProgramError::Lorentz(error) => match error.diagnostics(&self.source, &self.parsed.origins) {
                 Some(findings) => findings.into(),
                 None => Refused::of(error),
             },

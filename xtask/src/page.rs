@@ -109,25 +109,12 @@ fn bind(folder: &Path, module: &Path) -> io::Result<String> {
     let installed = Command::new(&tool).arg("--version").output();
     if !installed.is_ok_and(|output| String::from_utf8_lossy(&output.stdout).trim().ends_with(version)) {
         let mut install = Command::new(env!("CARGO"));
-        install.args([
-            "install",
-            "wasm-bindgen-cli",
-            "--no-default-features",
-            "--version",
-            version,
-            "--root",
-        ]);
-        run(install.arg(&tools))?;
+        install.args("install wasm-bindgen-cli --no-default-features --version".split(' '));
+        run(install.args([version, "--root"]).arg(&tools))?;
     }
     let mut bind = Command::new(&tool);
-    bind.args([
-        "--target",
-        "no-modules",
-        "--no-typescript",
-        "--remove-name-section",
-        "--remove-producers-section",
-    ]);
-    bind.args(["--out-name", "ugweb", "--out-dir"]);
+    bind.args("--target no-modules --no-typescript --remove-name-section".split(' '));
+    bind.args("--remove-producers-section --out-name ugweb --out-dir".split(' '));
     run(bind.arg(folder).arg(module))?;
     fs::read_to_string(folder.join("ugweb.js"))
 }

@@ -52,7 +52,7 @@ pub(crate) fn split(
     let mut of_vertex = vec![None; scene.vertices.len()];
     for (face, seen) in scene.faces.iter().zip(&normals) {
         let Some(seen) = *seen else { continue };
-        for corner in scene.contours.corners(face.contours.clone()) {
+        for corner in scene.face_corners(face) {
             let own = scene.vertices[corner.index()].normal;
             of_vertex[corner.index()].get_or_insert_with(|| shading_normal(own, seen));
         }

@@ -310,7 +310,7 @@ fn displays_in_mixtures(scene: &Scene, colors: &[VertexColor]) -> Vec<bool> {
         return is_mixed;
     }
     for face in &scene.faces {
-        let corners = scene.contours.corners(face.contours.clone());
+        let corners = scene.face_corners(face);
         let of = |corner: &ugscene::VertexId| colors[corner.index()];
         if corners.iter().any(|corner| of(corner) != of(&corners[0])) {
             let displays = corners.iter().filter(|corner| of(corner).mixing(scene) == Mixing::Display);

@@ -18,7 +18,7 @@ use ugscene::{CameraOptions, DefaultCamera, MotionOptions, Note, Scene};
 use ugsheet::film::{Caption, DEFAULT_RATE, FilmKind, FrameNames, MOST_GIF_RATE, rate};
 
 use crate::blur::MotionBlur;
-use crate::film::{Film, HeldLight, MeasuredExposure, Summary, Target};
+use crate::film::{Film, HeldLight, MeasuredExposure, Summary};
 use crate::frame_files::{keep_exposure, kept_exposure, remove_kept_exposure};
 use crate::levels::WrongBrightness;
 use crate::options::{PipeArgs, ProgramOptions};
@@ -275,8 +275,7 @@ pub fn run(args: &Args, context: &mut Context) -> Result<(), Failure> {
             };
             let captions = frames.iter().filter(|_| *kind == FilmKind::Html).map(caption);
             let captions = captions.collect::<Result<Vec<_>, _>>()?;
-            let target = Target { captions: &captions, kind: *kind, rate, keep: keep.as_ref() };
-            film.write_film(&frames, target, context)?
+            film.write_film(&frames, (*kind, rate), captions, keep.as_ref(), context)?
         }
         Output::Sheet => {
             let chosen = args.sheet.filter(|_| args.only.is_none());

@@ -8,7 +8,7 @@ use ugimage::{Format, Frame, LinearFrame, PictureLimits, auto_exposure, read_png
 use ugpicture::{Background, Exposure, Rendering, levels_note};
 use ugpipe::{Context, Failure, Progress, Steps, Words, sha256};
 use ugsheet::film::{Caption, FilmKind, FilmShape, FrameNames};
-use ugsheet::{Motion, Picture};
+use ugsheet::{Config, Motion, Picture, Sheet};
 
 use crate::blur::{MotionBlur, Shot, is_made_of_light};
 use crate::error::Error;
@@ -314,31 +314,6 @@ impl Film<'_> {
         Ok(Outcome::Drawn(notes))
     }
 
-    /// Draws all frames of a film and gives them to `consume` in order. Frames kept in files are
-    /// read if they are done, and written if they are not.
-    ///
-    /// # Errors
-    /// A frame cannot be drawn, or `consume` fails.
-    fn frames(
-        &self,
-        frames: &[u32],
-        keep: Option<&FrameNames>,
-        steps: &Steps<'_>,
-        mut consume: impl FnMut(&Frame) -> Result<(), Failure>,
-    ) -> Result<Summary, Failure> {
-        let mut summary = Summary::default();
-        self.each(
-            ("drawing", steps),
-            frames,
-            |frame| self.frame(frame, keep),
-            |number, (frame, outcome)| {
-                summary.add(number, outcome);
-                consume(&frame)
-            },
-        )?;
-        Ok(summary)
-    }
-
     /// The pixels of a frame, and what became of it.
     fn frame(&self, frame: u32, keep: Option<&FrameNames>) -> Result<(Frame, Outcome), Failure> {
         let shot = self.shot(frame)?;
@@ -357,7 +332,7 @@ impl Film<'_> {
         if let Some((path, _)) = &kept {
             Context::write_now(path, &picture.clone().into_file())?;
         }
-        Ok((pixels(picture).map_err(Failure::of)?, Outcome::Drawn(notes)))
+        Ok((picture.into_frame().ok_or(Error::NoPixels).map_err(Failure::of)?, Outcome::Drawn(notes)))
     }
 
     /// Draws frames on one sheet, labelled with their velocities or times, otherwise their numbers.
@@ -383,29 +358,39 @@ impl Film<'_> {
             let read = read_png(&files[idx], &PictureLimits::default()).map(|(frame, _)| frame);
             read.map_err(|error| ugsheet::Error::Picture(error.to_string()))
         };
-        let sheet = ugsheet::sheet(&ugsheet::Config::default(), &pictures, frame_of);
+        let sheet = Sheet::new(&Config::default(), &pictures).and_then(|sheet| sheet.draw(frame_of));
         Ok((sheet.map_err(|error| Failure::failed(error.words()))?, pictures))
     }
 
-    /// Writes a film to the output of the program.
+    /// Writes a film to the output of the program. `rate`: frames a second. `captions`: those of its
+    /// frames on a page. `keep`: files in which single frames are kept: read if they are done, and
+    /// written if they are not.
     ///
     /// # Errors
     /// A frame cannot be drawn, or the film cannot be written.
     pub fn write_film(
         &self,
         frames: &[u32],
-        target: Target<'_>,
+        (kind, rate): (FilmKind, f64),
+        captions: Vec<Caption>,
+        keep: Option<&FrameNames>,
         context: &mut Context,
     ) -> Result<Summary, Failure> {
-        let Target { captions, kind, rate, keep } = target;
         let n_rows = self.script.n_rows();
         let shape = FilmShape { size: self.size()?, n_frames: frames.len() as u32, n_rows, rate };
         self.check(frames)?;
         let mut summary = Summary::default();
         let is_opaque = self.pipe(1)?.picture.background != Background::Transparent;
-        ugsheet::film::write(context, (kind, shape, is_opaque), captions.to_vec(), |steps, push| {
-            summary = self.frames(frames, keep, steps, push)?;
-            Ok(())
+        ugsheet::film::write(context, (kind, shape, is_opaque), captions, |steps, push| {
+            self.each(
+                ("drawing", steps),
+                frames,
+                |frame| self.frame(frame, keep),
+                |number, (frame, outcome)| {
+                    summary.add(number, outcome);
+                    push(&frame)
+                },
+            )
         })?;
         Ok(summary)
     }
@@ -435,10 +420,6 @@ fn coarse(light: &LinearFrame) -> LinearFrame {
     LinearFrame::new(size, light.is_opaque(), sums.into_iter().map(mean).collect())
 }
 
-fn pixels(picture: Rendering) -> Result<Frame, Error> {
-    picture.into_frame().ok_or(Error::NoPixels)
-}
-
 /// An error with the frame in which it occurred.
 fn about<T>(frame: u32, outcome: Result<T, Failure>) -> Result<T, Failure> {
     outcome.map_err(|failure| match failure {
@@ -446,17 +427,4 @@ fn about<T>(frame: u32, outcome: Result<T, Failure>) -> Result<T, Failure> {
         Failure::Failed(text) => Failure::Failed(format!("frame {frame}: {text}")),
         other => other,
     })
-}
-
-/// A film as one file.
-#[derive(Clone, Copy)]
-pub struct Target<'t> {
-    /// The captions of its frames on a page.
-    pub captions: &'t [Caption],
-    /// Its kind.
-    pub kind: FilmKind,
-    /// Frames a second.
-    pub rate: f64,
-    /// Files in which single frames are kept.
-    pub keep: Option<&'t FrameNames>,
 }

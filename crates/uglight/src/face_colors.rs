@@ -23,7 +23,7 @@ impl Appearance {
     /// What the corners of a face have in common.
     #[inline]
     pub fn face_colors(&self, scene: &Scene, face: &Face) -> FaceColors {
-        let corners = scene.contours.corners(face.contours.clone());
+        let corners = scene.face_corners(face);
         let swatches = || corners.iter().map(|&vertex| self.surface.swatch(vertex));
         let mean_tint = || {
             let (sum, count) = swatches()
@@ -78,8 +78,8 @@ impl Appearance {
         }
         let keeps_light = |face: &Face| self.keeps_light() || self.surface.velocity(face.body).is_zero();
         let is_light = |face: &&Face| {
-            let corners = scene.contours.corners(face.contours.clone()).iter();
-            self.mixing(corners.map(|&at| self.surface.swatch(at))) != Mixing::Hue && keeps_light(face)
+            let swatches = scene.face_corners(face).iter().map(|&at| self.surface.swatch(at));
+            self.mixing(swatches) != Mixing::Hue && keeps_light(face)
         };
         let n_light = scene.faces.par_iter().filter(is_light).count();
         [n_light < scene.faces.len(), n_light > 0]
@@ -120,10 +120,7 @@ impl Appearance {
         }
         match face.color {
             Some(color) => self.palette.get(color).translucency > 0.0,
-            None => {
-                let corners = scene.contours.corners(face.contours.clone());
-                corners.iter().any(|&vertex| self.surface.swatch(vertex).translucency > 0.0)
-            }
+            None => scene.face_corners(face).iter().any(|&at| self.surface.swatch(at).translucency > 0.0),
         }
     }
 }

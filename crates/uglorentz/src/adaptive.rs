@@ -22,7 +22,7 @@
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 use ugpipe::{Progress, Stopped};
-use ugscene::Scene;
+use ugscene::{Scene, face_edges};
 
 use crate::criterion::{Bounds, Criterion, MAX_GENERATION, Marks, Verdict};
 use crate::evenness::Evenness;
@@ -67,10 +67,7 @@ pub(crate) fn cut(
     let mut outcome = Outcome::default();
     let mut fresh: Vec<Piece> = Vec::new();
     for (face, cut) in (Criterion { mesh, bounds }).first_cuts(scene, evenness) {
-        for contour in scene.face_contours(&scene.faces[face as usize]) {
-            let next = contour.iter().cycle().skip(1);
-            contour.iter().zip(next).for_each(|(a, b)| mesh.add_rim(a.0, b.0));
-        }
+        face_edges(scene, &scene.faces[face as usize]).for_each(|[a, b]| mesh.add_rim(a.0, b.0));
         match cut {
             Cut::Pieces(shapes) => fresh.extend(shapes.into_iter().map(|shape| Piece { face, shape })),
             Cut::EdgeOn(lines) => outcome.lines.extend(lines),

@@ -9,7 +9,7 @@ use std::cell::LazyCell;
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugscene::{Face, Scene, VertexId};
+use ugscene::{Face, Scene, VertexId, face_edges};
 
 use crate::clocks::Clocks;
 use crate::cull::ViewVolume;
@@ -162,13 +162,10 @@ impl Criterion<'_, '_> {
 
     /// `None` if the face can stay as it is.
     fn first_cut(&self, scene: &Scene, face: &Face, evenness: &Evenness) -> Option<Cut> {
-        let corners = scene.contours.corners(face.contours.clone());
+        let corners = scene.face_corners(face);
         let motion = self.mesh.motion(corners.first()?.0);
-        let has_junction = |contour: &[VertexId]| {
-            let next = contour.iter().cycle().skip(1);
-            contour.iter().zip(next).any(|(a, b)| self.mesh.has_junction(a.0, b.0))
-        };
-        let has_junctions = !self.mesh.junctions.is_empty() && scene.face_contours(face).any(has_junction);
+        let is_junction = |[a, b]: [VertexId; 2]| self.mesh.has_junction(a.0, b.0);
+        let has_junctions = !self.mesh.junctions.is_empty() && face_edges(scene, face).any(is_junction);
         if !has_junctions && self.is_right_for_sure(motion, corners.iter().map(|corner| corner.0)) {
             return None;
         }

@@ -41,8 +41,6 @@ struct SeenBody<'m> {
     passages: Vec<SmoothStretch>,
 }
 
-const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
-
 impl<'m> SeenBody<'m> {
     /// How often faces are divided for closer bounds.
     const LEVELS: u32 = 2;
@@ -52,7 +50,7 @@ impl<'m> SeenBody<'m> {
         let line: &WorldLine = motion.world_line()?;
         let own = points.iter().filter(|point| point.body.index() == body).map(|point| point.rest);
         let tube = line.tube(own)?;
-        let passages = line.smooth_stretches(&tube, EYE).ok()?;
+        let passages = line.smooth_stretches(&tube, Event::ORIGIN).ok()?;
         Some(Self { line, tube, passages })
     }
 
@@ -77,7 +75,8 @@ impl<'m> SeenBody<'m> {
             let &Point { rest, seen, seen_distance, own_time, inverse_doppler, .. } = corner;
             (rest, SeenLight { own_time, event: Event { t: -seen_distance, x: seen }, inverse_doppler })
         });
-        let Some(bounds) = self.line.seen_triangle(&self.tube, &self.passages, &seen, EYE, Self::LEVELS)
+        let Some(bounds) =
+            self.line.seen_triangle(&self.tube, &self.passages, &seen, Event::ORIGIN, Self::LEVELS)
         else {
             return false;
         };
@@ -106,8 +105,8 @@ pub(crate) fn cull(
         if face.shape.is_round() {
             return true;
         }
-        let corners = scene.contours.corners(face.contours.clone());
-        let corners: Vec<&Point> = corners.iter().map(|corner| &points[corner.index()]).collect();
+        let corners = scene.face_corners(face).iter();
+        let corners: Vec<&Point> = corners.map(|corner| &points[corner.index()]).collect();
         let Some(body) = corners.first().map(|first| first.body.index()) else { return true };
         match &seen_bodies[body] {
             Some(seen) => !seen.is_outside(view_volume, &corners),
@@ -117,15 +116,9 @@ pub(crate) fn cull(
     let seen: Vec<bool> = scene.faces.par_iter().map(may_be_seen).collect();
     let mut touched = vec![false; scene.vertices.len()];
     for (face, _) in scene.faces.iter().zip(&seen).filter(|&(_, &seen)| seen) {
-        scene
-            .contours
-            .corners(face.contours.clone())
-            .iter()
-            .for_each(|corner| touched[corner.index()] = true);
+        scene.face_corners(face).iter().for_each(|corner| touched[corner.index()] = true);
     }
-    let is_touched = |face: &Face| {
-        scene.contours.corners(face.contours.clone()).iter().any(|corner| touched[corner.index()])
-    };
+    let is_touched = |face: &Face| scene.face_corners(face).iter().any(|corner| touched[corner.index()]);
     let mut kept: Vec<bool> = scene.faces.iter().map(is_touched).collect();
     if scene.wires.is_empty()
         && !kept.contains(&true)

@@ -27,7 +27,7 @@ pub(crate) fn is_edge_on(
     motion: &RelativeMotion,
     rest: impl Fn(VertexId) -> DVec3,
 ) -> bool {
-    let corners = || scene.contours.corners(face.contours.clone()).iter().map(|&corner| rest(corner));
+    let corners = || scene.face_corners(face).iter().map(|&corner| rest(corner));
     let Some(outline) = scene.face_contours(face).next() else { return false };
     let normal = ugscene::unit_normal(outline.iter().map(|&corner| rest(corner)));
     if normal == DVec3::ZERO {

@@ -20,7 +20,7 @@ impl Evenness {
 
     /// Do all corners of a face have the same colour and normal?
     pub(crate) fn is_even(&self, scene: &Scene, face: &Face) -> bool {
-        let corners = scene.contours.corners(face.contours.clone());
+        let corners = scene.face_corners(face);
         let Some(first) = corners.first() else { return true };
         let first = &scene.vertices[first.index()];
         let is_mixing = self.is_mixing.get_or_init(|| ugscene::mixing_vertices(scene));

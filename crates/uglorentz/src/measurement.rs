@@ -122,7 +122,7 @@ fn polygons(scene: &Scene, face: &Face) -> Vec<Vec<VertexId>> {
         return vec![outline];
     }
     let at = |corner: VertexId| scene.vertices[corner.index()].position;
-    let corners = scene.contours.corners(face.contours.clone());
+    let corners = scene.face_corners(face);
     match ugpolygon::face_triangles(scene, face, at) {
         Some(triangles) => triangles.iter().map(|t| t.map(|row| corners[row as usize]).to_vec()).collect(),
         None => vec![outline],

@@ -1,7 +1,7 @@
 //! The pieces of faces and wires.
 
 use glam::DVec3;
-use ugscene::{Face, Scene, VertexId};
+use ugscene::{Face, Scene, VertexId, closed};
 
 /// A piece of a face that can be subdivided: corners by vertex row, in the orientation of the face.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +22,7 @@ impl Shape {
 
     /// From each corner to the next.
     pub(crate) fn edges(&self) -> impl Iterator<Item = (u32, u32)> {
-        closed_edges(self.corners())
+        closed(self.corners()).map(|[from, to]| (from, to))
     }
 }
 
@@ -58,7 +58,7 @@ impl Polyline {
     /// From each corner to the next.
     pub(crate) fn edges(&self) -> impl Iterator<Item = (u32, u32)> {
         let n_edges = self.corners.len() - usize::from(!self.is_closed);
-        closed_edges(&self.corners).take(n_edges)
+        closed(&self.corners).map(|[from, to]| (from, to)).take(n_edges)
     }
 }
 
@@ -68,10 +68,6 @@ fn vertex_ids(rows: &[u32]) -> impl Iterator<Item = VertexId> {
 
 fn rows(corners: &[VertexId]) -> Vec<u32> {
     corners.iter().map(|corner| corner.0).collect()
-}
-
-fn closed_edges(corners: &[u32]) -> impl Iterator<Item = (u32, u32)> {
-    corners.iter().copied().zip(corners.iter().copied().cycle().skip(1))
 }
 
 /// A face prepared for subdivision.
@@ -95,7 +91,7 @@ pub(crate) fn shape(
     is_even: bool,
     rest: impl Fn(VertexId) -> DVec3,
 ) -> Option<Cut> {
-    let corners = scene.contours.corners(face.contours.clone());
+    let corners = scene.face_corners(face);
     if corners.is_empty() {
         return None;
     }

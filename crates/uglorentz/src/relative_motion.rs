@@ -53,10 +53,9 @@ impl Point {
     /// The point of a body on a world line; NaN where it cannot move so. `guess`: about the own
     /// time at emission.
     fn on_world_line(line: &WorldLine, body: BodyId, rest: DVec3, guess: Option<f64>) -> Point {
-        const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
         let light = match guess {
-            Some(guess) => line.light_near(rest, EYE, guess),
-            None => line.light(rest, EYE),
+            Some(guess) => line.light_near(rest, Event::ORIGIN, guess),
+            None => line.light(rest, Event::ORIGIN),
         };
         let (seen, inverse_doppler, own_time) = match light {
             Ok(SeenLight { event, inverse_doppler, own_time }) => (event.x, inverse_doppler, own_time),

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use rayon::prelude::*;
-use ugscene::{Face, Scene, VertexId, Wire};
+use ugscene::{Face, Scene, VertexId, Wire, face_edges};
 
 use crate::criterion::Bounds;
 use crate::edge::{self, Shown};
@@ -48,14 +48,7 @@ impl Errors {
     /// The larger of each; ties go to the lower rows, so the result does not depend on threads.
     fn or(self, other: Errors) -> Errors {
         let larger = |a: ErrorAt, b: ErrorAt| {
-            let first = if b.1 < a.1 { b } else { a };
-            if a.0 == b.0 {
-                first
-            } else if b.0 > a.0 {
-                b
-            } else {
-                a
-            }
+            if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) { b } else { a }
         };
         Errors {
             angle: larger(self.angle, other.angle),
@@ -74,7 +67,7 @@ struct ErrorMeter<'a, 'b> {
 
 impl ErrorMeter<'_, '_> {
     fn face(&self, face: &Face) -> Errors {
-        let corners = self.scene.contours.corners(face.contours.clone());
+        let corners = self.scene.face_corners(face);
         let Some(first) = corners.first() else { return Errors::default() };
         let motion = self.mesh.motion(first.0);
         let points: Vec<&Point> = corners.iter().map(|corner| self.mesh.point(corner.0)).collect();
@@ -83,11 +76,8 @@ impl ErrorMeter<'_, '_> {
         }
         let shown = self.bounds.shown(motion, &points);
         let (inside, shown) = self.inside(face, motion, &points, shown);
-        let ends = self
-            .scene
-            .face_contours(face)
-            .flat_map(|corners| corners.iter().zip(corners.iter().cycle().skip(1)));
-        let edges = ends.map(|(a, b)| self.edge(a.0, b.0, shown)).fold(Errors::default(), Errors::or);
+        let edges = face_edges(self.scene, face).map(|[a, b]| self.edge(a.0, b.0, shown));
+        let edges = edges.fold(Errors::default(), Errors::or);
         edges.or(inside)
     }
 
@@ -130,7 +120,7 @@ impl ErrorMeter<'_, '_> {
             return (Errors::default(), Shown::All);
         }
         let Some(Cut::Pieces(shapes)) = shape(self.scene, face, true, rest) else {
-            let corners = self.scene.contours.corners(face.contours.clone());
+            let corners = self.scene.face_corners(face);
             let at = [0, 1, 2].map(|idx| corners.get(idx).map(|corner| corner.0));
             let depth = early_accept::offset(motion, points.iter().copied());
             return (Errors { depth: (depth, at), ..Errors::default() }, Shown::All);

@@ -25,7 +25,7 @@ pub(crate) fn scale_and_center(
     is_centered: bool,
     has_wires: bool,
 ) -> Result<(), Error> {
-    let corners = scene.faces.iter().flat_map(|face| scene.contours.corners(face.contours.clone()));
+    let corners = scene.faces.iter().flat_map(|face| scene.face_corners(face));
     let places = corners.map(|corner| scene.vertices[corner.index()].position);
     let faces = places
         .map(|place| (place, place))

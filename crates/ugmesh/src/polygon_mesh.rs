@@ -187,7 +187,7 @@ fn separate_colors(scene: &mut Scene) {
 fn vertex_colors(scene: &Scene, notes: &mut Vec<String>) -> Option<Vec<[f64; 4]>> {
     let mut ids: Vec<Option<ColorId>> = scene.vertices.iter().map(|vertex| vertex.color).collect();
     for face in &scene.faces {
-        for corner in scene.contours.corners(face.contours.clone()) {
+        for corner in scene.face_corners(face) {
             let id = &mut ids[corner.index()];
             *id = id.or(face.color.filter(|&color| scene.texture_of(color).is_none()));
         }
@@ -216,7 +216,7 @@ fn apply_factors(scene: &Scene, colors: &mut [[f64; 4]]) {
     let mut is_done = vec![false; colors.len()];
     for face in &scene.faces {
         let Some(texture) = face.color.and_then(|color| scene.texture_of(color)) else { continue };
-        for corner in scene.contours.corners(face.contours.clone()) {
+        for corner in scene.face_corners(face) {
             let row = corner.index();
             if scene.vertices[row].color.is_some() && !std::mem::replace(&mut is_done[row], true) {
                 let factors = texture.factor.map(|part| f64::from(part).max(1.0));

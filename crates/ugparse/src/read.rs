@@ -69,7 +69,7 @@ fn cut_faces(scene: &mut Scene, rows: &[usize]) {
 
 /// The triangles of a face, as contours; `None` if it intersects itself.
 fn triangles(scene: &mut Scene, face: &Face) -> Option<impl Iterator<Item = Range<u32>> + use<>> {
-    let corners: Vec<VertexId> = scene.contours.corners(face.contours.clone()).to_vec();
+    let corners: Vec<VertexId> = scene.face_corners(face).to_vec();
     let triangles = ugpolygon::face_triangles(scene, face, |vertex| scene.vertices[vertex.index()].position)?;
     let cut = triangles.iter().map(|triangle| triangle.map(|corner| corners[corner as usize]));
     let rows = scene.contours.push_all(cut);

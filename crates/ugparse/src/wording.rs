@@ -1,9 +1,7 @@
 //! The text of messages about single words and statements.
 
-use ugscene::SurfaceProperties;
-
 use crate::diagnostic::{Diagnostic, Setting};
-use crate::grammar::{KEYWORDS, NAME, is_keyword};
+use crate::grammar::{NAME, form, is_keyword, keywords};
 use crate::source::Span;
 use crate::suggest::nearest;
 use crate::token::{Input, NAME_LETTERS, word};
@@ -24,12 +22,15 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
         _ if is_keyword(&lower) => finding
             .label("unknown statement")
             .help(format!("keywords are lower case: `{}`", String::from_utf8_lossy(&lower))),
-        _ if let Some(keyword) = nearest(word, KEYWORDS.split(' ').map(str::as_bytes)) => {
+        _ if let Some(keyword) = nearest(word, keywords().map(str::as_bytes)) => {
             finding.label("unknown statement").help(format!("did you mean `{keyword}`?"))
         }
         _ => finding
             .label("unknown statement")
-            .help(format!("a statement begins with one of {KEYWORDS}, or `(` for an escape"))
+            .help(format!(
+                "a statement begins with one of {}, or `(` for an escape",
+                keywords().collect::<Vec<_>>().join(" ")
+            ))
             .setting(Setting::Lax),
     }
 }
@@ -71,7 +72,7 @@ pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
 
 /// Adds the syntax of the statement that begins at `input`.
 pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
-    match word(input).ok().and_then(|(_, keyword)| usage(keyword)) {
+    match word(input).ok().and_then(|(_, keyword)| form(keyword)) {
         Some(usage) => finding.help(format!("the form is `{usage}`")),
         None => finding,
     }
@@ -80,44 +81,4 @@ pub(crate) fn with_usage(finding: Diagnostic, input: Input<'_>) -> Diagnostic {
 /// A word for a message, without its end if it is long.
 pub(crate) fn shorten(word: &[u8]) -> String {
     ugscene::shorten(&String::from_utf8_lossy(word))
-}
-
-/// The syntax of a statement, for messages.
-fn usage(keyword: &[u8]) -> Option<&'static str> {
-    Some(match keyword {
-        b"v" => "v ID x y z [color] [nx ny nz] [(u v)] ;",
-        b"w" => "w [ID] (vertices) … [color] [< vx vy vz >] ;",
-        b"label" => "label [ID] \"text\" vertex [< vx vy vz >] ;",
-        b"f" => "f [ID] (vertices) … [color] [level or surface] [< vx vy vz >] ;",
-        b"sphere" => "sphere [ID] x y z radius [color] [level or surface] [< vx vy vz >] ;",
-        b"cylinder" => "cylinder [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",
-        b"tube" => "tube [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",
-        b"disc" => "disc [ID] x y z nx ny nz radius [color] [level or surface] [< vx vy vz >] ;",
-        b"c" => "c [ID] lightness [hue [saturation [translucency [factor]]]] ;",
-        b"c_rgb" => "c_rgb [ID] red green blue [translucency] ;",
-        b"c_xyz" => "c_xyz [ID] X Y Z [translucency] ;",
-        b"c_bb" => "c_bb [ID] kelvin [scale] ;",
-        b"c_spd" => "c_spd [ID] nm value [nm value] … ;  c_spd [ID] sun ;",
-        b"c_refl" => "c_refl [ID] nm reflectance [nm reflectance] … ;  c_refl [ID] SURFACE ;",
-        b"c_mix" => "c_mix ID color share [color share] … ;",
-        b"c_time" => "c_time ID [-step] [-period T] [-shift T] time color [time color] … ;",
-        b"c_tex" => {
-            "c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend] ;"
-        }
-        b"c_emit" => "c_emit ID color ;",
-        b"surf" => SurfaceProperties::FORM,
-        b"l" => "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
-        b"cam" => "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",
-        b"motion" => {
-            "motion ID [-at x y z] [-vel x y z] [-acc x y z [begin end]] [-spin x y z [begin end]] … ;"
-        }
-        b"sky" => "sky FILE [-ra x y z] ;",
-        b"def" => "def ID ; … end ;",
-        b"end" => "end ;",
-        b"include" => "include FILE ;",
-        b"execute" => "execute FILE ;",
-        b"i" => "i [ID] (def [color] [-tx …]) [< vx vy vz >] ;",
-        b"a" => "a [ID] (def [color] [-tx …]) size [-tx …] [< vx vy vz >] ;",
-        _ => return None,
-    })
 }

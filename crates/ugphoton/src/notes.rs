@@ -1,6 +1,5 @@
 //! Notes for the user about a picture, above all why it is empty.
 
-use glam::DVec3;
 use uglight::{DEFAULT_AMBIENT, DEFAULT_FROM_EYE, LampPlace, light_names};
 use ugphysics::Event;
 use ugpicture::Note;
@@ -92,7 +91,7 @@ fn enclosed_lamp(scenery: &Scenery<'_>) -> Option<String> {
     };
     let n_lights = scenery.scene.lights.len();
     let row = (0..n_lights).find(|&row| is_dark(row))?;
-    let is_around_the_eye = is_enclosed(Event { t: 0.0, x: DVec3::ZERO });
+    let is_around_the_eye = is_enclosed(Event::ORIGIN);
     (!is_around_the_eye).then(|| light_names(&scenery.scene).swap_remove(row))
 }
 

@@ -25,13 +25,11 @@ pub fn open_face(world: &World, faces: Faces<'_>) -> Option<u32> {
     of_solids.sort_unstable();
     of_solids.dedup();
     let sides = |face: u32| {
-        let contours = faces.scene.face_contours(&faces.scene.faces[face as usize]);
-        contours.flat_map(|contour| contour.iter().zip(contour.iter().cycle().skip(1)))
+        let edges = ugscene::face_edges(faces.scene, &faces.scene.faces[face as usize]);
+        edges.map(|edge| edge.map(|end| faces.rest[end.index()]))
     };
     let bits = |place: DVec3| (place + 0.0).to_array().map(f64::to_bits);
-    let ends = |(a, b): (&ugscene::VertexId, &ugscene::VertexId)| [a, b].map(|end| faces.rest[end.index()]);
-    let all: BTreeSet<_> =
-        of_solids.iter().flat_map(|it| sides(it.0)).map(|side| ends(side).map(bits)).collect();
+    let all: BTreeSet<_> = of_solids.iter().flat_map(|it| sides(it.0)).map(|side| side.map(bits)).collect();
     let is_open = |&(face, part): &(u32, usize)| {
         let solid = transparent_solid(faces.scene, part, face);
         let normal = faces.outside(face);
@@ -46,7 +44,7 @@ pub fn open_face(world: &World, faces: Faces<'_>) -> Option<u32> {
             };
             distance > 0.0 && way.windows(2).all(|way| !world.parts[part].crosses(way[0], way[1], blocks))
         };
-        sides(face).map(ends).filter(|[a, b]| !all.contains(&[bits(*b), bits(*a)])).any(is_free)
+        sides(face).filter(|[a, b]| !all.contains(&[bits(*b), bits(*a)])).any(is_free)
     };
     of_solids.iter().find(|it| is_open(it)).map(|it| it.0)
 }

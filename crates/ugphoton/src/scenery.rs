@@ -23,9 +23,6 @@ use ugpicture::textures::Textures;
 /// reflections by mirrors that approach each other.
 const REACH: f64 = 5.0;
 
-/// The event at which the light of a picture arrives at a single eye.
-const ORIGIN: Event = Event { t: 0.0, x: DVec3::ZERO };
-
 /// A scene prepared for rays, for one camera.
 pub struct Scenery<'a> {
     /// The scene as seen, whose vertices are part of one body each.
@@ -143,7 +140,7 @@ impl<'a> Scenery<'a> {
         let textures = Textures::new(&scene, |color| uglight::RestColor::new(&scene, Some(color)).linear())
             .map_err(|error| Error::Picture(error.into()))?;
         let immersion = Immersion::new(&world, faces);
-        let eye_media = immersion.media(&world, faces, ORIGIN);
+        let eye_media = immersion.media(&world, faces, Event::ORIGIN);
         let is_spectral = shift.is_spectral();
         let lamps = match sky_lamps {
             Some(_) => Lamps::new(&scene, view.eye, is_spectral),
@@ -295,7 +292,7 @@ impl<'a> Scenery<'a> {
 
     /// The transparent solids around an event at which rays start.
     pub fn media_at(&self, event: Event) -> Cow<'_, Media> {
-        if event == ORIGIN {
+        if event == Event::ORIGIN {
             return Cow::Borrowed(&self.eye_media);
         }
         Cow::Owned(self.immersion.media(&self.world, self.faces(), event))

@@ -19,6 +19,11 @@ pub struct Event {
     pub x: DVec3,
 }
 
+impl Event {
+    /// The event of the eye when it sees the picture.
+    pub const ORIGIN: Self = Self { t: 0.0, x: DVec3::ZERO };
+}
+
 impl core::ops::Add for Event {
     type Output = Self;
 

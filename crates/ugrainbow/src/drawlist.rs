@@ -240,7 +240,7 @@ impl<'a, const N: usize> Chunk<'a, N> {
 
     /// Adds a face, as its triangles if there is something to interpolate between its corners.
     fn add_face(&mut self, item: u32, face: &Face) {
-        let corners = self.painter.scene.contours.corners(face.contours.clone());
+        let corners = self.painter.scene.face_corners(face);
         if let &[VertexId(a), VertexId(b), VertexId(c)] = corners {
             self.add_triangle(item, [a, b, c]);
             return;

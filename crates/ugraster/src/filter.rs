@@ -11,10 +11,10 @@ use fearless_simd::{Level, Simd, dispatch};
 use ugframe::Filter;
 
 use crate::progress::BandProgress;
-use crate::rasterizer::{Rasterizer, TileBuffers, paint_parts};
+use crate::rasterizer::{Rasterizer, paint_parts};
 use crate::resolve::{Center, PixelSamples, Planes, Resolve, Resolver};
 use crate::shading::{SampleShading, SampleStats};
-use crate::transparency::Keep;
+use crate::transparency::{Keep, TileBuffers};
 
 /// Rows of pixels of a strip: many, beside those that are drawn twice.
 const STRIP_ROWS: u32 = 32;
@@ -208,10 +208,9 @@ impl<const N: usize> Strip<'_, N> {
         let StripBuffers { tile: buffers, pending: all_sums, .. } = &mut *self.buffers;
         let stats = self.rasterizer.draw_tile(buffers, band, columns, rows, Keep::Light);
         resolver.stats = resolver.stats.merge(stats);
-        let TileBuffers { tile, transparency, .. } = buffers;
         for sample in samples {
             let columns_of_samples = columns.map(|column| column * n);
-            let Some(lit) = resolver.light(tile, transparency, sample, columns_of_samples) else {
+            let Some(lit) = resolver.light(buffers, sample, columns_of_samples) else {
                 continue;
             };
             for (pixel, sums) in (pending..).zip(&mut *all_sums) {

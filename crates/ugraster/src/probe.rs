@@ -1,10 +1,10 @@
 //! One pixel alone, with all its samples.
 
-use crate::rasterizer::{Rasterizer, TileBuffers};
+use crate::rasterizer::Rasterizer;
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver};
 use crate::shading::{Encoding, SampleShading, ShadedRun, ShadedSample};
 use crate::tile::VisibleItem;
-use crate::transparency::{Fragment, Keep};
+use crate::transparency::{Fragment, Keep, TileBuffers};
 
 /// A sample of a pixel that shows something.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl<const N: usize> Rasterizer<'_, N> {
     ) -> (Vec<ProbedSample>, PixelSamples<'static>, P) {
         let (samples, all, mut resolver, buffers) = self.probe_samples(shading, pixel);
         let mut pixels = [resolve.pixel(&PixelSamples::EMPTY)];
-        resolver.paint(resolve, &buffers.tile, &buffers.transparency, pixel, &mut pixels);
+        resolver.paint(resolve, &buffers, pixel, &mut pixels);
         (samples, all, pixels[0])
     }
 
@@ -71,7 +71,7 @@ impl<const N: usize> Rasterizer<'_, N> {
             }
         }
         let mut resolver = Resolver::new(grid, shading);
-        let PixelSamples { sum, covered, center } = resolver.pixel_samples(tile, transparency, [column, row]);
+        let PixelSamples { sum, covered, center } = resolver.pixel_samples(&buffers, [column, row]);
         let all = PixelSamples { sum, covered, center: Center { fragments: &[], ..center } };
         (samples, all, resolver, buffers)
     }

@@ -4,14 +4,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
-use crate::edges::Scanner;
 use crate::grid::SampleGrid;
 use crate::layer::OpaqueLayer;
 use crate::progress::BandProgress;
 use crate::resolve::{Center, PixelSamples, Resolve, Resolver, center};
 use crate::shading::{SampleShading, SampleStats};
-use crate::tile::{Area, Tile};
-use crate::transparency::{Keep, TransparencyBuffer, TransparentLayer};
+use crate::tile::Area;
+use crate::transparency::{Keep, TileBuffers, TransparentLayer};
 
 /// The shapes to draw. The methods differ in what they make of the samples; their output does not
 /// depend on the number of threads.
@@ -41,7 +40,7 @@ impl<const N: usize> Rasterizer<'_, N> {
         paint_parts(grid, grid.band_rows(), empty, progress, |buffers, band, pixels| {
             let mut resolver = Resolver::new(grid, shading);
             let stats = self.for_each_row(buffers, band, keep, pixels, |buffers, place, pixels| {
-                resolver.paint(resolve, &buffers.tile, &buffers.transparency, place, pixels);
+                resolver.paint(resolve, buffers, place, pixels);
             });
             resolver.stats.merge(stats)
         })
@@ -59,7 +58,7 @@ impl<const N: usize> Rasterizer<'_, N> {
         let (pixels, _) = paint_parts(grid, grid.band_rows(), empty, progress, |buffers, band, pixels| {
             self.for_each_row(buffers, band, Keep::Centers, pixels, |buffers, [first, row], pixels| {
                 for (column, out) in (first..).zip(pixels) {
-                    let center = center(grid, &buffers.tile, &buffers.transparency, [column, row]);
+                    let center = center(grid, buffers, [column, row]);
                     if !center.is_empty() {
                         *out = pixel(&center);
                     }
@@ -118,14 +117,6 @@ impl<const N: usize> Rasterizer<'_, N> {
         let draw = |layer| transparency.draw(layer, grid, band, tile.opaque(), keep);
         transparent.map_or_else(SampleStats::default, draw)
     }
-}
-
-/// Buffers to draw a tile, which are reused.
-#[derive(Default)]
-pub(crate) struct TileBuffers<const N: usize> {
-    pub scanner: Scanner<N>,
-    pub tile: Tile<N>,
-    pub transparency: TransparencyBuffer,
 }
 
 /// The pixels of the grid, painted in parallel in parts of `n_rows` rows, over pixels that are

@@ -5,7 +5,7 @@ use fearless_simd::{Level, Simd, dispatch};
 use crate::grid::SampleGrid;
 use crate::shading::{Encoding, RUN, SampleShading, SampleStats, ShadedRun};
 use crate::tile::{EMPTY, Tile, VisibleItem};
-use crate::transparency::{Fragment, TransparencyBuffer};
+use crate::transparency::{Fragment, TileBuffers};
 
 /// The samples of a pixel together.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -111,17 +111,16 @@ impl<'a, const N: usize> Resolver<'a, N> {
     pub fn paint<P>(
         &mut self,
         resolve: &impl Resolve<P>,
-        tile: &Tile<N>,
-        transparency: &TransparencyBuffer,
+        buffers: &TileBuffers<N>,
         [first, row]: [u32; 2],
         pixels: &mut [P],
     ) {
-        if let Some(single) = resolve.single().filter(|_| self.is_single(transparency)) {
-            return self.paint_single(tile, single, [first, row], pixels);
+        if let Some(single) = resolve.single().filter(|_| self.is_single(buffers)) {
+            return self.paint_single(&buffers.tile, single, [first, row], pixels);
         }
-        self.add_up(tile, transparency, [first, row], pixels.len() as u32);
+        self.add_up(buffers, [first, row], pixels.len() as u32);
         for ((column, sums), pixel) in (first..).zip(&self.sums).zip(pixels) {
-            let samples = pixel_samples(self.grid, tile, transparency, [column, row], sums);
+            let samples = pixel_samples(self.grid, buffers, [column, row], sums);
             if !samples.is_empty() {
                 *pixel = resolve.pixel(&samples);
             }
@@ -129,8 +128,8 @@ impl<'a, const N: usize> Resolver<'a, N> {
     }
 
     /// True if each pixel is one opaque sample, without depth cueing.
-    fn is_single(&self, transparency: &TransparencyBuffer) -> bool {
-        self.grid.samples == 1 && self.grid.fade.is_none() && transparency.is_empty()
+    fn is_single(&self, buffers: &TileBuffers<N>) -> bool {
+        self.grid.samples == 1 && self.grid.fade.is_none() && buffers.transparency.is_empty()
     }
 
     fn paint_single<P>(
@@ -155,48 +154,31 @@ impl<'a, const N: usize> Resolver<'a, N> {
     }
 
     /// The samples of one pixel.
-    pub fn pixel_samples<'t>(
-        &mut self,
-        tile: &Tile<N>,
-        transparency: &'t TransparencyBuffer,
-        pixel: [u32; 2],
-    ) -> PixelSamples<'t> {
-        self.add_up(tile, transparency, pixel, 1);
-        pixel_samples(self.grid, tile, transparency, pixel, &self.sums[0])
+    pub fn pixel_samples<'t>(&mut self, buffers: &'t TileBuffers<N>, pixel: [u32; 2]) -> PixelSamples<'t> {
+        self.add_up(buffers, pixel, 1);
+        pixel_samples(self.grid, buffers, pixel, &self.sums[0])
     }
 
     /// Adds up the samples of `n_pixels` pixels of a row: down each column of samples, then from
     /// the left. As many pixels at once as fit in a run, so that their sums stay in the level 1
     /// cache.
-    fn add_up(
-        &mut self,
-        tile: &Tile<N>,
-        transparency: &TransparencyBuffer,
-        [first, row]: [u32; 2],
-        n_pixels: u32,
-    ) {
+    fn add_up(&mut self, buffers: &TileBuffers<N>, [first, row]: [u32; 2], n_pixels: u32) {
         let n = self.grid.samples;
         let end = first + n_pixels;
         let together = (RUN as u32 / n).max(1);
         self.sums.clear();
         for first in (first..end).step_by(together as usize) {
             let end = (first + together).min(end);
-            self.add_up_run(tile, transparency, row, [first, end]);
+            self.add_up_run(buffers, row, [first, end]);
         }
     }
 
     /// Adds up the samples of the pixels from column `first` to `end`.
-    fn add_up_run(
-        &mut self,
-        tile: &Tile<N>,
-        transparency: &TransparencyBuffer,
-        row: u32,
-        [first, end]: [u32; 2],
-    ) {
+    fn add_up_run(&mut self, buffers: &TileBuffers<N>, row: u32, [first, end]: [u32; 2]) {
         let n = self.grid.samples;
         let mut is_lit = false;
         for sample_row in row * n..(row + 1) * n {
-            if self.light(tile, transparency, sample_row, [first * n, end * n]).is_none() {
+            if self.light(buffers, sample_row, [first * n, end * n]).is_none() {
                 continue;
             }
             if !is_lit {
@@ -217,16 +199,10 @@ impl<'a, const N: usize> Resolver<'a, N> {
 
     /// Linear light and coverage of the samples from column `first` to `end` of a row; `None` if
     /// nothing is visible there.
-    pub fn light(
-        &mut self,
-        tile: &Tile<N>,
-        transparency: &TransparencyBuffer,
-        row: u32,
-        [first, end]: [u32; 2],
-    ) -> Option<&Planes> {
-        let mut is_lit = self.light_opaque(tile, row, [first, end]);
-        if !transparency.is_empty() || self.grid.fade.is_some() {
-            self.composite(tile, transparency, row, first);
+    pub fn light(&mut self, buffers: &TileBuffers<N>, row: u32, [first, end]: [u32; 2]) -> Option<&Planes> {
+        let mut is_lit = self.light_opaque(&buffers.tile, row, [first, end]);
+        if !buffers.transparency.is_empty() || self.grid.fade.is_some() {
+            self.composite(buffers, row, first);
             is_lit = true;
         }
         is_lit.then_some(&self.lit)
@@ -256,10 +232,10 @@ impl<'a, const N: usize> Resolver<'a, N> {
 
     /// Blends fragments in front of the row of samples in `lit`, and applies depth cueing.
     #[inline(never)]
-    fn composite(&mut self, tile: &Tile<N>, transparency: &TransparencyBuffer, row: u32, first: u32) {
-        let (keys, _) = tile.row_part(row, first, first + self.lit[0].len() as u32);
+    fn composite(&mut self, buffers: &TileBuffers<N>, row: u32, first: u32) {
+        let (keys, _) = buffers.tile.row_part(row, first, first + self.lit[0].len() as u32);
         for (idx, &key) in keys.iter().enumerate() {
-            let composite = transparency.composite(row, first + idx as u32);
+            let composite = buffers.transparency.composite(row, first + idx as u32);
             let part = if key > EMPTY { composite.transmittance * self.grid.light_left(key) } else { 0.0 };
             let [light @ .., coverage] = &mut self.lit;
             for (light, composite) in light.iter_mut().zip(composite.light) {
@@ -332,22 +308,21 @@ fn is_empty(keys: &[f32]) -> bool {
 #[inline]
 fn pixel_samples<'t, const N: usize>(
     grid: &SampleGrid,
-    tile: &Tile<N>,
-    transparency: &'t TransparencyBuffer,
+    buffers: &'t TileBuffers<N>,
     pixel: [u32; 2],
     &[red, green, blue, covered]: &[f32; 4],
 ) -> PixelSamples<'t> {
-    PixelSamples { sum: [red, green, blue], covered, center: center(grid, tile, transparency, pixel) }
+    PixelSamples { sum: [red, green, blue], covered, center: center(grid, buffers, pixel) }
 }
 
 /// The item visible at the centre of a pixel, if items are kept.
 #[inline]
 pub fn center<'t, const N: usize>(
     grid: &SampleGrid,
-    tile: &Tile<N>,
-    transparency: &'t TransparencyBuffer,
+    buffers: &'t TileBuffers<N>,
     pixel: [u32; 2],
 ) -> Center<'t> {
     let [column, row] = grid.center(pixel);
+    let TileBuffers { tile, transparency, .. } = buffers;
     Center { opaque: tile.hit(row, column), fragments: transparency.fragments(row, column) }
 }

@@ -19,7 +19,7 @@ use crate::grid::SampleGrid;
 use crate::layer::ShapeTarget;
 use crate::polygons::greater;
 use crate::shading::{Encoding, SampleShading, SampleStats, ShadedRun};
-use crate::tile::{Area, EMPTY, OpaqueSamples, shared_plane};
+use crate::tile::{Area, EMPTY, OpaqueSamples, Tile, shared_plane};
 use crate::triangles::{BlockSetup, LazyPlanes, Plane, RowTarget, TriangleRef, TriangleRow};
 
 /// Number of interpolated values of transparent shapes. The last is the transmittance, 0…1.
@@ -111,6 +111,14 @@ pub struct TransparencyBuffer {
     kept: Vec<Fragment>,
     run: ShadedRun,
     area: Area,
+}
+
+/// Buffers to draw a tile, which are reused.
+#[derive(Default)]
+pub(crate) struct TileBuffers<const N: usize> {
+    pub scanner: Scanner<N>,
+    pub tile: Tile<N>,
+    pub transparency: TransparencyBuffer,
 }
 
 impl TransparencyBuffer {

@@ -38,8 +38,10 @@ pub fn unit_normal(corners: impl Iterator<Item = DVec3> + Clone) -> DVec3 {
 
 /// The edges of a face, contour by contour, each from one corner to the next.
 pub fn face_edges<'a>(scene: &'a Scene, face: &'a Face) -> impl Iterator<Item = [VertexId; 2]> {
-    scene.face_contours(face).flat_map(|contour| {
-        let next = contour.iter().cycle().skip(1);
-        contour.iter().zip(next).map(|(&a, &b)| [a, b])
-    })
+    scene.face_contours(face).flat_map(closed)
+}
+
+/// The pairs of neighbours in a row of corners, with that from the last to the first.
+pub fn closed<T: Copy>(corners: &[T]) -> impl Iterator<Item = [T; 2]> {
+    corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&from, &to)| [from, to])
 }

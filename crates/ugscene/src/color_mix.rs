@@ -91,7 +91,7 @@ fn for_each_corner(scene: &Scene, mut visit: impl FnMut(&[VertexId], usize, Opti
 pub fn face_vertices(scene: &Scene, n_vertices: usize) -> Vec<bool> {
     let mut used = vec![false; n_vertices];
     for face in &scene.faces {
-        scene.contours.corners(face.contours.clone()).iter().for_each(|corner| used[corner.index()] = true);
+        scene.face_corners(face).iter().for_each(|corner| used[corner.index()] = true);
     }
     used
 }

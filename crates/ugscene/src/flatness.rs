@@ -27,7 +27,7 @@ pub struct BentFace {
 /// The plane contains the mean of all corners and is perpendicular to the outline's area vector;
 /// the size is the diagonal of the face's bounding box.
 pub fn thickness(scene: &Scene, face: &Face) -> f64 {
-    let corners = scene.contours.corners(face.contours.clone());
+    let corners = scene.face_corners(face);
     let positions = || corners.iter().map(|&corner| scene.vertices[corner.index()].position);
     let Some(first) = positions().next().filter(|_| !face.shape.is_round()) else { return 0.0 };
     let mean = positions().map(|corner| corner - first).sum::<DVec3>() / corners.len() as f64 + first;

@@ -55,7 +55,7 @@ mod split;
 mod times_in_view;
 mod words;
 
-pub use area::{face_edges, newell_normal, unit_normal};
+pub use area::{closed, face_edges, newell_normal, unit_normal};
 pub use body_boxes::{BodyBoxes, SeenBoxes};
 pub use builder::{AddedMesh, BuildError, Mesh, SceneBuilder};
 pub use camera::{CameraPoint, HalfSpace, Slab, View, view_distance};

@@ -63,7 +63,7 @@ pub fn mixing_vertices(scene: &Scene) -> Vec<bool> {
     let mut first_colors: Vec<Option<Option<ColorId>>> = vec![None; scene.vertices.len()];
     let mut are_mixing = vec![false; scene.vertices.len()];
     for face in &scene.faces {
-        for corner in scene.contours.corners(face.contours.clone()) {
+        for corner in scene.face_corners(face) {
             let row = corner.index();
             let first = *first_colors[row].get_or_insert(face.color);
             let is_mixed = || scene.vertices[row].color.is_none() && !looks_same(scene, first, face.color);

@@ -161,7 +161,7 @@ impl PlacedFace<'_> {
     }
 
     fn is_in(&self, plane: &Plane) -> bool {
-        self.scene.contours.corners(self.face.contours.clone()).iter().all(|corner| {
+        self.scene.face_corners(self.face).iter().all(|corner| {
             let place = self.rest[corner.index()];
             (place.dot(plane.normal) - plane.distance).abs() <= SAME_PLACE * place.abs().max_element()
         })
@@ -171,7 +171,7 @@ impl PlacedFace<'_> {
     /// faces of one look is visible. `None` if corners have colours of their own.
     fn look(&self, plane: &Plane) -> Option<(Option<ColorId>, Option<ShadingId>, BodyId, bool)> {
         let Face { color, shading, body, .. } = *self.face;
-        let corners = self.scene.contours.corners(self.face.contours.clone());
+        let corners = self.scene.face_corners(self.face);
         let is_own = corners.iter().any(|corner| self.scene.vertices[corner.index()].color.is_some());
         let is_front = self.plane()?.normal.dot(plane.normal) > 0.0;
         (!is_own).then_some((color, shading, body, is_front))

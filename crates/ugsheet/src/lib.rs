@@ -11,7 +11,7 @@
 //!
 //! ```
 //! use ugimage::{Frame, Metadata};
-//! use ugsheet::{Config, Labels, Motion, Picture};
+//! use ugsheet::{Config, Labels, Motion, Picture, Sheet};
 //!
 //! let picture = |line: &str| {
 //!     let history =
@@ -20,7 +20,7 @@
 //! };
 //! let pictures = [picture("uglorentz -vel 0 0 0"), picture("uglorentz -vel .9 0 0")];
 //! assert_eq!(Labels::Auto.texts(&pictures), ["at rest", "β = 0.9"]);
-//! let sheet = ugsheet::sheet(&Config::default(), &pictures, |_| Ok(Frame::opaque(80, 60)))?;
+//! let sheet = Sheet::new(&Config::default(), &pictures)?.draw(|_| Ok(Frame::opaque(80, 60)))?;
 //! assert!(sheet.width() > 160 && sheet.height() > 60);
 //! # Ok::<(), ugsheet::Error>(())
 //! ```
@@ -168,18 +168,6 @@ impl Sheet {
         self.layout.drawing().paint(&mut frame);
         Ok(frame)
     }
-}
-
-/// Makes a sheet, see [`Sheet`].
-///
-/// # Errors
-/// Those of [`Sheet::new`] and [`Sheet::draw`].
-pub fn sheet(
-    config: &Config,
-    pictures: &[Picture],
-    frame_of: impl FnMut(usize) -> Result<Frame, Error>,
-) -> Result<Frame, Error> {
-    Sheet::new(config, pictures)?.draw(frame_of)
 }
 
 /// The history of a sheet: those of all its pictures, and the command that made it, if one did.

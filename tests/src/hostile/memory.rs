@@ -244,9 +244,9 @@ pub fn picture(bytes: &[u8]) -> Result<(), String> {
     let size = [frame.width(), frame.height()];
     let picture =
         ugsheet::Picture { name: "a".to_owned(), size, motion: ugsheet::Motion::recorded(&history), history };
-    let other = ugsheet::Picture { history: Metadata::default(), ..picture.clone() };
-    let pictures = [picture, other];
-    let Ok(sheet) = ugsheet::sheet(&ugsheet::Config::default(), &pictures, |_| Ok(frame.clone())) else {
+    let pictures = [picture.clone(), ugsheet::Picture { history: Metadata::default(), ..picture }];
+    let sheet = ugsheet::Sheet::new(&ugsheet::Config::default(), &pictures);
+    let Ok(sheet) = sheet.and_then(|sheet| sheet.draw(|_| Ok(frame.clone()))) else {
         return Ok(());
     };
     let metadata = ugsheet::history(&pictures, Some("ugsheet"));

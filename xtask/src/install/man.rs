@@ -42,35 +42,9 @@ pub fn page(manual: &Manual) -> String {
 pub fn overview(manuals: &[Manual]) -> String {
     let version = manuals.first().map_or("", |manual| &manual.version);
     let mut page = Page::new("ugtools", 7, DATE, version);
-    page.section("NAME").paragraph("ugtools - draw what things look like near the speed of light");
-    page.section("DESCRIPTION").paragraph(
-        "These programs are filters that pass scenes on as text, in the UniGrafix language. uglorentz \
-         computes shapes as seen in relativistic motion, ugdoppler colours and brightness, and ugrainbow draws \
-         the picture. So a velocity is given once, to the first program. ugphoton traces rays: it reads a scene \
-         at rest and draws it with mirrors, glass and shadows, without the others. ugwarp shows a 360-degree panorama \
-         as a fast traveller sees it.",
-    );
-    page.paragraph(
-        "Without ugdoppler bodies keep the colours that they have at rest. ugdoppler -sp shifts whole spectra, \
-         and ugrainbow -ex auto sets the exposure.",
-    );
-    page.section("PROGRAMS");
-    for manual in manuals {
-        page.tagged(&format!("{}(1)", bold(&manual.name)), &format!("{}.", manual.about));
-    }
-    page.section("EXAMPLES").paragraph("Scenes to begin with:");
-    page.examples(&["ugparse example --all".to_owned()]);
-    page.paragraph("At rest; at 0.9c, shape only; approaching at 0.5c, with colours:");
-    page.examples(&[
-        "ugrainbow ship.ug > rest.png".to_owned(),
-        "uglorentz -vel .9 0 0 --keep-in-view ship.ug | ugrainbow > shape.png".to_owned(),
-        "uglorentz -vel 0 -.5 0 --keep-in-view ship.ug | ugdoppler -sp | ugrainbow -ex auto > blue.png"
-            .to_owned(),
-    ]);
-    page.paragraph("A mesh of your own (OBJ, PLY, STL, OFF or glTF):");
-    page.examples(&[
-        "ugmesh globe.obj | uglorentz -vel .9 0 0 --keep-in-view | ugrainbow > globe.png".to_owned()
-    ]);
+    let row = |manual: &Manual| format!("| **{}**(1) | {}. |", manual.name, manual.about);
+    let programs: Vec<String> = manuals.iter().map(row).collect();
+    markdown::add(&mut page, &include_str!("ugtools.md").replace("@PROGRAMS@", &programs.join("\n")));
     add_exit_status(&mut page);
     page.section("SEE ALSO");
     let names: Vec<String> = manuals.iter().map(|manual| format!("{}(1)", manual.name)).collect();
@@ -99,10 +73,7 @@ fn add_option(page: &mut Page, option: &Entry) {
         "" => String::new(),
         default => format!(" Default: {default}."),
     };
-    let is_told = option.words.iter().all(|(word, _)| option.about.contains(word.as_str()));
-    let words: Vec<&str> = option.words.iter().map(|(word, _)| word.as_str()).collect();
-    let words = if is_told { String::new() } else { format!(": {}", words.join(", ")) };
-    page.tagged(&format!("{}{values}", names.join(", ")), &format!("{}{words}.{default}", option.about));
+    page.tagged(&format!("{}{values}", names.join(", ")), &format!("{}.{default}", option.effect()));
     option.details.iter().for_each(|text| page.continued(text));
     for (word, meaning) in option.words.iter().filter(|(_, meaning)| !meaning.is_empty()) {
         page.continued(&format!("{word}: {meaning}."));

@@ -3,11 +3,11 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::Velocity;
-use ugscene::{Face, Scene, VertexId, thickness, unit_normal};
+use ugscene::{Face, Scene, VertexId, closed, thickness, unit_normal};
 
 /// Number of corners of all faces.
 pub(crate) fn corner_count(scene: &Scene) -> usize {
-    scene.faces.iter().map(|face| scene.contours.corners(face.contours.clone()).len()).sum()
+    scene.faces.iter().map(|face| scene.face_corners(face).len()).sum()
 }
 
 /// The least flat face, and its [`thickness`].
@@ -97,8 +97,7 @@ fn each_edge(scene: &Scene, face: &Face, mut edge: impl FnMut(VertexId, VertexId
     let outward = outline_normal(scene, face);
     for (idx, contour) in scene.face_contours(face).enumerate() {
         let is_reversed = idx > 0 && normal(scene, contour).dot(outward) > 0.0;
-        let next = contour.iter().cycle().skip(1);
-        for (&from, &to) in contour.iter().zip(next) {
+        for [from, to] in closed(contour) {
             if is_reversed { edge(to, from) } else { edge(from, to) }
         }
     }

@@ -35,13 +35,53 @@ use crate::token::{
     mark, number, number32, point, require, wanted, word,
 };
 
-/// The statement keywords, as messages list them.
-pub(crate) const KEYWORDS: &str = "v w label f sphere cylinder tube disc c c_rgb c_xyz c_bb c_spd c_refl c_mix c_time c_tex c_emit surf l cam \
-                                   motion sky def end i a include execute";
+/// The syntax of each statement, as messages show it, in the order in which they list keywords.
+const FORMS: [&str; 29] = [
+    "v ID x y z [color] [nx ny nz] [(u v)] ;",
+    "w [ID] (vertices) … [color] [< vx vy vz >] ;",
+    "label [ID] \"text\" vertex [< vx vy vz >] ;",
+    "f [ID] (vertices) … [color] [level or surface] [< vx vy vz >] ;",
+    "sphere [ID] x y z radius [color] [level or surface] [< vx vy vz >] ;",
+    "cylinder [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",
+    "tube [ID] x y z x y z radius [color] [level or surface] [< vx vy vz >] ;",
+    "disc [ID] x y z nx ny nz radius [color] [level or surface] [< vx vy vz >] ;",
+    "c [ID] lightness [hue [saturation [translucency [factor]]]] ;",
+    "c_rgb [ID] red green blue [translucency] ;",
+    "c_xyz [ID] X Y Z [translucency] ;",
+    "c_bb [ID] kelvin [scale] ;",
+    "c_spd [ID] nm value [nm value] … ;  c_spd [ID] sun ;",
+    "c_refl [ID] nm reflectance [nm reflectance] … ;  c_refl [ID] SURFACE ;",
+    "c_mix ID color share [color share] … ;",
+    "c_time ID [-step] [-period T] [-shift T] time color [time color] … ;",
+    "c_tex ID FILE [-image N] [-wrap MODE [MODE]] [-factor r g b [a]] [-mask [cutoff] | -blend] ;",
+    "c_emit ID color ;",
+    SurfaceProperties::FORM,
+    "l [ID] intensity [x y z [radius [reference]]] [color] [< vx vy vz >] ;",
+    "cam [ID] [-ep x y z] [-vc x y z] [-ud x y z] [-va a [b]] … ;",
+    "motion ID [-at x y z] [-vel x y z] [-acc x y z [begin end]] [-spin x y z [begin end]] … ;",
+    "sky FILE [-ra x y z] ;",
+    "def ID ; … end ;",
+    "end ;",
+    "i [ID] (def [color] [-tx …]) [< vx vy vz >] ;",
+    "a [ID] (def [color] [-tx …]) size [-tx …] [< vx vy vz >] ;",
+    "include FILE ;",
+    "execute FILE ;",
+];
+
+/// The keywords of statements.
+pub(crate) fn keywords() -> impl Iterator<Item = &'static str> {
+    FORMS.iter().filter_map(|form| form.split(' ').next())
+}
+
+/// The syntax of the statement with a keyword.
+pub(crate) fn form(keyword: &[u8]) -> Option<&'static str> {
+    let row = keywords().position(|other| other.as_bytes() == keyword)?;
+    Some(FORMS[row])
+}
 
 /// Is this word the keyword of a statement?
 pub(crate) fn is_keyword(word: &[u8]) -> bool {
-    KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word)
+    form(word).is_some()
 }
 
 /// A parser of statements of one scope. The text's length gives the position of any rest of it.

@@ -30,7 +30,7 @@ impl InertialFrame {
 
     /// A body with this velocity whose reference point is the origin.
     pub const fn new(velocity: Velocity) -> Self {
-        Self { velocity, at: DVec3::ZERO, turn: DVec3::ZERO, shift: Event { t: 0.0, x: DVec3::ZERO } }
+        Self { velocity, at: DVec3::ZERO, turn: DVec3::ZERO, shift: Event::ORIGIN }
     }
 
     /// The turn about A.

@@ -320,10 +320,9 @@ impl WorldLine {
     /// The displacement in space and time of [`WorldLine::anchored`]; none if it runs on a circle
     /// or passes given events, whose place is stated.
     pub fn anchor_shift(&self, anchor: DVec3) -> Event {
-        let none = Event { t: 0.0, x: DVec3::ZERO };
         let moving = self.moving();
         if !matches!(moving.path, Path::Accelerated(_)) {
-            return none;
+            return Event::ORIGIN;
         }
         let at = moving.at;
         let Pose { event, scene_from_axes, .. } = self.pose(0.0);

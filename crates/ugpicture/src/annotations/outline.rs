@@ -88,7 +88,7 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<[DVec
     let SeenScene { scene, view, frames, .. } = seen;
     let is_moving = |face: &Face| frames.is_moving(face.body);
     let moving = scene.faces.iter().filter(|face| is_moving(face));
-    let corners = moving.flat_map(|face| scene.contours.corners(face.contours.clone()));
+    let corners = moving.flat_map(|face| scene.face_corners(face));
     let nearest = corners.map(|corner| places[corner.index()].length()).fold(f64::INFINITY, f64::min);
     let [left, right] = [[0.0, 0.0], [1.0, 0.0]].map(|place| view.point(place, nearest));
     let spots = spots(places, SAME_PLACE * (right - left).length());

@@ -1,7 +1,7 @@
 //! Whether a ray passes through a face.
 
 use glam::DVec3;
-use ugscene::unit_normal;
+use ugscene::{closed, unit_normal};
 
 /// Direction of the half plane that begins at a ray. Arbitrary, but unlikely to be parallel to a
 /// ray or an edge.
@@ -54,10 +54,7 @@ impl Outline {
             return None;
         }
         let plane = normal / normal.dot(middle);
-        let edges = contours.iter().flat_map(|contour| {
-            let next = contour.iter().cycle().skip(1);
-            contour.iter().zip(next).map(|(&a, &b)| Edge::new(a, b))
-        });
+        let edges = contours.iter().flat_map(|contour| closed(contour)).map(|[a, b]| Edge::new(a, b));
         plane.is_finite().then(|| Self { edges: edges.collect(), plane })
     }
 

@@ -140,7 +140,7 @@ impl Rays {
             (low.min(unit), high.max(unit))
         });
         let is_finite = low.is_finite() && high.is_finite();
-        is_finite.then(|| Self::bounded([Event { t: 0.0, x: DVec3::ZERO }; 2], [low, high])).flatten()
+        is_finite.then(|| Self::bounded([Event::ORIGIN; 2], [low, high])).flatten()
     }
 
     /// Rays with the least and greatest coordinates and times of their origins, and steps for each

@@ -8,7 +8,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 use ugbvh::Bvh;
 use ugphysics::{RestFrame, WorldLine};
-use ugscene::{Face, Scene, VertexId, unit_normal};
+use ugscene::{Face, Scene, VertexId, face_edges, unit_normal};
 
 use super::moving_boxes::MovingBox;
 use super::path::{PastRay, Start};
@@ -110,7 +110,7 @@ impl Part {
         let round = |row: u32| {
             let face = &scene.faces[row as usize];
             let shape = scene.round_shape(face, |vertex| rest[vertex.index()])?;
-            let corners = *scene.contours.corners(face.contours.clone()).first_chunk()?;
+            let corners = *scene.face_corners(face).first_chunk()?;
             Some((FaceTriangle { face: row, corners, is_loose: false }, shape))
         };
         let (corners_of_rounds, shapes): (Vec<_>, _) = round_rows.into_iter().filter_map(round).unzip();
@@ -275,14 +275,11 @@ impl Part {
         };
         let [x, y] = flat(point);
         let mut is_inside = false;
-        for contour in scene.face_contours(face) {
-            let ends = contour.iter().zip(contour.iter().cycle().skip(1));
-            for (from, to) in ends.map(|(from, to)| (flat(rest[from.index()]), flat(rest[to.index()]))) {
-                if (from[1] > y) != (to[1] > y)
-                    && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
-                {
-                    is_inside = !is_inside;
-                }
+        for [from, to] in face_edges(scene, face).map(|edge| edge.map(|end| flat(rest[end.index()]))) {
+            if (from[1] > y) != (to[1] > y)
+                && x < from[0] + (y - from[1]) / (to[1] - from[1]) * (to[0] - from[0])
+            {
+                is_inside = !is_inside;
             }
         }
         is_inside
@@ -320,7 +317,7 @@ fn face_triangles(scene: &Scene, rest: &[DVec3], row: u32) -> Vec<FaceTriangle> 
         return vec![whole];
     }
     let face: &Face = &scene.faces[row as usize];
-    let corners = scene.contours.corners(face.contours.clone());
+    let corners = scene.face_corners(face);
     let triangle = |at: [u32; 3], is_loose| FaceTriangle {
         face: row,
         corners: at.map(|at| corners[at as usize]),

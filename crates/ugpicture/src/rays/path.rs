@@ -41,7 +41,7 @@ impl PastRay {
     pub fn from_eye(direction: DVec3) -> Self {
         let length = direction.length();
         Self {
-            origin: Event { t: 0.0, x: DVec3::ZERO },
+            origin: Event::ORIGIN,
             step: Event { t: -length, x: direction },
             wave: WaveVector::in_vacuum(1.0, direction / -length),
             start: Start::Eye,

@@ -35,8 +35,6 @@ pub struct SeenMesh {
     bend: f64,
 }
 
-const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
-
 impl SeenMesh {
     /// Triangles that are far from flat, besides an eighth of all. With more, rays are faster as
     /// curves.
@@ -53,11 +51,12 @@ impl SeenMesh {
         points: &[DVec3],
         corners: &[[u32; 3]],
     ) -> Option<Self> {
-        let seen = |point: &DVec3| line.light(*point, EYE).ok().map(|seen| (*point, seen));
+        let seen = |point: &DVec3| line.light(*point, Event::ORIGIN).ok().map(|seen| (*point, seen));
         let n_triangles = corners.len();
         let seen: Vec<_> = points.par_iter().map(seen).collect::<Option<_>>()?;
         let corners = |row: usize| corners[row].map(|row| seen[row as usize]);
-        let triangle = |row: usize, levels| line.seen_triangle(tube, passages, &corners(row), EYE, levels);
+        let triangle =
+            |row: usize, levels| line.seen_triangle(tube, passages, &corners(row), Event::ORIGIN, levels);
         let rows = 0..n_triangles;
         let mut triangles: Vec<SeenTriangle> =
             rows.into_par_iter().map(|row| triangle(row, 0)).collect::<Option<_>>()?;
@@ -94,7 +93,7 @@ impl WorldLineMotion {
     /// motion is inertial.
     pub fn new(line: &Arc<WorldLine>, bvh: &Bvh, points: &[DVec3], corners: &[[u32; 3]]) -> Option<Self> {
         let tube = line.tube(points.iter().copied())?;
-        let seen_by_eye = line.smooth_stretches(&tube, EYE).unwrap_or_default();
+        let seen_by_eye = line.smooth_stretches(&tube, Event::ORIGIN).unwrap_or_default();
         let seen = SeenMesh::new(line, &tube, &seen_by_eye, bvh, points, corners);
         Some(Self { line: line.clone(), tube, seen_by_eye, seen })
     }

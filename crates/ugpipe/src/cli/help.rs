@@ -54,23 +54,18 @@ fn with_texts(mut command: Command, essential: &[&str], program: &str) -> Comman
 /// One screenful: examples, and the options that most people need.
 pub(crate) fn short(manual: &Manual) -> String {
     let mut text = head(manual);
-    if !manual.examples.is_empty() {
-        text += &format!("\n{}\n", heading("Examples"));
-        manual.examples.iter().take(2).for_each(|example| text += &format!("  {example}\n"));
-    }
+    text += &examples(manual, 2);
+    let program = format!("{} ", manual.name);
+    let name = |sub: &Manual| sub.name.strip_prefix(&program).unwrap_or(&sub.name).to_owned();
+    let commands = manual.commands.iter().map(|sub| (name(sub), sub.about.clone()));
+    text += &section("Commands", &table(commands.collect()));
     let (mut rows, mut defaults) = (Vec::new(), Vec::new());
-    if !manual.commands.is_empty() {
-        let program = format!("{} ", manual.name);
-        let name = |sub: &Manual| sub.name.strip_prefix(&program).unwrap_or(&sub.name).to_owned();
-        text += &format!("\n{}\n", heading("Commands"));
-        text += &table(manual.commands.iter().map(|sub| (name(sub), sub.about.clone())).collect());
-    }
     let options = manual.essential_options();
     let own = manual.options().filter(|entry| !entry.is_common && manual.name.contains(' '));
     let own = own.filter(|entry| options.iter().all(|(_, other)| other.names != entry.names));
     let own = own.filter_map(|entry| Some((entry.names.first()?.as_str(), entry)));
     for (name, entry) in own.chain(options.iter().copied()) {
-        rows.push((format!("{name} {}", entry.syntax()).trim_end().to_owned(), about(entry)));
+        rows.push((format!("{name} {}", entry.syntax()).trim_end().to_owned(), entry.effect()));
         defaults.push(default(entry));
     }
     // Default values are shown where they fit on the line.
@@ -80,10 +75,7 @@ pub(crate) fn short(manual: &Manual) -> String {
             *about += &default;
         }
     }
-    if !rows.is_empty() {
-        text += &format!("\n{}\n", heading("Options that most people need"));
-        text += &table(rows);
-    }
+    text += &section("Options that most people need", &table(rows));
     text + &format!("\nAll options, and where the documentation is: {} --help\n", manual.name)
 }
 
@@ -93,30 +85,29 @@ pub(crate) fn long(manual: &Manual) -> String {
     for paragraph in &manual.description {
         text += &format!("\n{}", wrapped(paragraph, 0));
     }
-    if !manual.examples.is_empty() {
-        text += &format!("\n{}\n", heading("Examples"));
-        manual.examples.iter().for_each(|example| text += &format!("  {example}\n"));
-    }
-    if !manual.commands.is_empty() {
-        let rows = manual.commands.iter().map(|sub| (sub.name.clone(), sub.about.clone()));
-        text += &format!("\n{}\n{}", heading("Commands"), table(rows.collect()));
-    }
-    if !manual.arguments.is_empty() {
-        text += &format!("\n{}\n", heading("Arguments"));
-        manual.arguments.iter().for_each(|entry| text += &explained(entry));
-    }
+    text += &examples(manual, usize::MAX);
+    let commands = manual.commands.iter().map(|sub| (sub.name.clone(), sub.about.clone()));
+    text += &section("Commands", &table(commands.collect()));
+    let all_explained = |entries: &[Entry]| entries.iter().map(explained).collect::<String>();
+    text += &section("Arguments", &all_explained(&manual.arguments));
     for group in &manual.groups {
-        text += &format!("\n{}\n", heading(&group.heading));
-        if group.options.iter().any(|entry| !entry.is_common) {
-            group.options.iter().for_each(|entry| text += &explained(entry));
-        } else {
-            text += &format!("{}\n", wrapped(DASHES, 2));
-            group.options.iter().for_each(|entry| text += &explained(entry));
-        }
+        let is_common = group.options.iter().all(|entry| entry.is_common);
+        let dashes = if is_common { wrapped(DASHES, 2) + "\n" } else { String::new() };
+        text += &section(&group.heading, &(dashes + &all_explained(&group.options)));
     }
     let statuses = EXIT_STATUS.map(|(status, meaning)| (status.to_owned(), meaning.to_owned()));
-    text += &format!("\n{}\n{}", heading("Exit status"), table(statuses.into()));
-    text + &format!("\n{}\n{}", heading("Documentation"), wrapped(DOCUMENTATION, 2))
+    text += &section("Exit status", &table(statuses.into()));
+    text + &section("Documentation", &wrapped(DOCUMENTATION, 2))
+}
+
+/// A part of the text under a heading, if there is anything in it.
+fn section(title: &str, body: &str) -> String {
+    if body.is_empty() { String::new() } else { format!("\n{}\n{body}", heading(title)) }
+}
+
+fn examples(manual: &Manual, n_most: usize) -> String {
+    let lines = manual.examples.iter().take(n_most).map(|example| format!("  {example}\n"));
+    section("Examples", &lines.collect::<String>())
 }
 
 /// The purpose of the program, and its usage.
@@ -130,15 +121,7 @@ fn heading(text: &str) -> String {
     format!("{style}{text}:{style:#}")
 }
 
-/// The effect of an option, with its valid words.
-fn about(entry: &Entry) -> String {
-    let is_told = entry.words.iter().all(|(word, _)| entry.about.contains(word.as_str()));
-    let words: Vec<&str> = entry.words.iter().map(|(word, _)| word.as_str()).collect();
-    let words = if is_told { String::new() } else { format!(": {}", words.join(", ")) };
-    format!("{}{words}", entry.about)
-}
-
-/// The default value, to be added to [`about`].
+/// The default value, to be added to [`Entry::effect`].
 fn default(entry: &Entry) -> String {
     match entry.default.as_str() {
         "" => String::new(),
@@ -149,7 +132,7 @@ fn default(entry: &Entry) -> String {
 /// An option with everything about it.
 fn explained(entry: &Entry) -> String {
     let name = format!("{} {}", entry.names.join(", "), entry.syntax());
-    let mut text = format!("  {}\n{}", name.trim(), wrapped(&(about(entry) + &default(entry)), INDENT));
+    let mut text = format!("  {}\n{}", name.trim(), wrapped(&(entry.effect() + &default(entry)), INDENT));
     entry.details.iter().for_each(|paragraph| text += &format!("\n{}", wrapped(paragraph, INDENT)));
     let meanings = entry.words.iter().filter(|(_, meaning)| !meaning.is_empty());
     let meanings: Vec<String> =

@@ -86,6 +86,14 @@ impl Entry {
         let values: Vec<String> = self.values.iter().map(value).collect();
         values.join(" ") + if self.is_repeated { "..." } else { "" }
     }
+
+    /// What it does, with its valid words.
+    pub fn effect(&self) -> String {
+        let is_told = self.words.iter().all(|(word, _)| self.about.contains(word.as_str()));
+        let words: Vec<&str> = self.words.iter().map(|(word, _)| word.as_str()).collect();
+        let words = if is_told { String::new() } else { format!(": {}", words.join(", ")) };
+        format!("{}{words}", self.about)
+    }
 }
 
 impl Manual {

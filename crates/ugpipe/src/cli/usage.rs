@@ -44,6 +44,7 @@ pub(crate) fn message(
 ) -> String {
     let argument = context(error, ContextKind::InvalidArg).unwrap_or_default();
     let value = context(error, ContextKind::InvalidValue).unwrap_or_default();
+    let (option, values) = option_and_values(&argument);
     let number = |kind| match error.get(kind) {
         Some(ContextValue::Number(number)) => *number,
         _ => 0,
@@ -54,23 +55,19 @@ pub(crate) fn message(
             format!("`{argument}` is one argument too many: options come with a dash, and there is one file")
         }
         ErrorKind::InvalidValue if value.is_empty() => {
-            let (option, values) = option_and_values(&argument);
             format!("`{option}` needs a value: `{option} {values}`")
         }
         ErrorKind::InvalidValue => {
-            let (option, _) = option_and_values(&argument);
             let valid = context(error, ContextKind::ValidValue).unwrap_or_default();
             let similar = context(error, ContextKind::SuggestedValue);
             let similar = similar.map(|word| format!("; did you mean `{word}`?")).unwrap_or_default();
             format!("`{option}` takes {valid}, not `{value}`{similar}")
         }
         ErrorKind::ValueValidation => {
-            let (option, _) = option_and_values(&argument);
             let reason = error.source().map(ToString::to_string).unwrap_or_default();
             format!("`{value}` is not valid for `{option}`: {reason}")
         }
         ErrorKind::WrongNumberOfValues | ErrorKind::TooFewValues | ErrorKind::TooManyValues => {
-            let (option, values) = option_and_values(&argument);
             let n_given = number(ContextKind::ActualNumValues);
             let n_expected = number(ContextKind::ExpectedNumValues);
             format!(
@@ -80,7 +77,6 @@ pub(crate) fn message(
             )
         }
         ErrorKind::ArgumentConflict => {
-            let (option, _) = option_and_values(&argument);
             match context(error, ContextKind::PriorArg).map(|prior| option_and_values(&prior).0) {
                 Some(prior) if prior == option => format!("`{option}` is given twice"),
                 Some(prior) => format!("`{option}` and `{prior}` cannot be given together"),
@@ -88,7 +84,6 @@ pub(crate) fn message(
             }
         }
         ErrorKind::MissingRequiredArgument => {
-            let (option, values) = option_and_values(&argument);
             let required = format!("{option} {values}");
             let required = required.trim_end();
             let Some(in_need) = in_need.map(|option| as_typed(option, words)) else {

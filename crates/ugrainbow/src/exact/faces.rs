@@ -201,9 +201,8 @@ impl Faces<'_, TRANSPARENT_VALUES> {
 
 /// True if a corner is seen before the near clipping plane.
 fn is_in_front(painter: &Painter<'_>, face: &Face) -> bool {
-    let corners = painter.scene.contours.corners(face.contours.clone());
     let depth = |corner: &VertexId| painter.place(painter.scene.vertices[corner.index()].position).z;
-    corners.iter().any(|corner| depth(corner) >= painter.view.slab.near)
+    painter.scene.face_corners(face).iter().any(|corner| depth(corner) >= painter.view.slab.near)
 }
 
 /// Columns and rows of an area.

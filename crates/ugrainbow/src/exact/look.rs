@@ -113,7 +113,7 @@ impl Look {
         let emits = face.color.is_some_and(|color| painter.scene.emitted_by(color).is_some());
         let is_picture = has_texture || emits;
         let normal = painter.seen_normal(face);
-        let vertices = painter.scene.contours.corners(face.contours.clone());
+        let vertices = painter.scene.face_corners(face);
         let corner = |&vertex: &VertexId| {
             (
                 appearance.swatch(vertex, &colors),
@@ -321,7 +321,7 @@ fn triangles(
     face: &Face,
     corners: &[(Swatch, u32, DVec3)],
 ) -> Box<[Triangle]> {
-    let vertices = painter.scene.contours.corners(face.contours.clone());
+    let vertices = painter.scene.face_corners(face);
     let place = |id: VertexId| frame.aligned_from_scene(painter.appearance.surface.rest(id));
     let triangle = |at: [u32; 3]| {
         let places = at.map(|corner| place(vertices[corner as usize]));

@@ -68,13 +68,11 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
     let mut is_corner = vec![false; scene.vertices.len()];
     for (face, is_seen) in scene.faces.iter().zip(&is_seen) {
         if *is_seen {
-            let corners = scene.contours.corners(face.contours.clone());
-            corners.iter().for_each(|vertex| is_corner[vertex.index()] = true);
+            scene.face_corners(face).iter().for_each(|vertex| is_corner[vertex.index()] = true);
         }
     }
-    let has_seen_corner = |face: &ugscene::Face| {
-        scene.contours.corners(face.contours.clone()).iter().any(|vertex| is_corner[vertex.index()])
-    };
+    let has_seen_corner =
+        |face: &ugscene::Face| scene.face_corners(face).iter().any(|vertex| is_corner[vertex.index()]);
     let is_near = scene.faces.iter().map(has_seen_corner).collect();
     Faces { is_seen, is_near, stats }
 }

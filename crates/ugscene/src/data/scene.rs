@@ -427,6 +427,12 @@ impl Scene {
         all.map(|(contours, color, body)| FaceOrWire { contours: contours.clone(), color, body })
     }
 
+    /// All corners of a face, contour after contour.
+    #[inline]
+    pub fn face_corners(&self, face: &Face) -> &[VertexId] {
+        self.contours.corners(face.contours.clone())
+    }
+
     /// The contours of a face, outline first.
     pub fn face_contours(&self, face: &Face) -> impl ExactSizeIterator<Item = &[VertexId]> + Clone {
         self.contours.iter(face.contours.clone())
@@ -437,8 +443,7 @@ impl Scene {
         if !face.shape.is_round() {
             return None;
         }
-        let corners = self.contours.corners(face.contours.clone());
-        let corners: Vec<DVec3> = corners.iter().map(|&corner| position(corner)).collect();
+        let corners: Vec<DVec3> = self.face_corners(face).iter().map(|&corner| position(corner)).collect();
         RoundShape::from_corners(face.shape, &corners)
     }
 

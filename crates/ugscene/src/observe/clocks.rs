@@ -6,7 +6,6 @@
 //! eye, does not tell when that was. So tables of colours are changed to count from the event of
 //! the eye: light that is seen directly left |p'| before that.
 
-use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::{Event, InertialFrame, Lorentz};
 
@@ -37,8 +36,7 @@ pub(super) fn count_from_eye(
         }
         // With `-in`, a body is displaced in its rest frame in space alone, so its clock still
         // shows 0 at time 0 of the scene at the origin.
-        let origin = Event { t: 0.0, x: DVec3::ZERO };
-        let zero = if options.in_place { origin } else { frame.start() };
+        let zero = if options.in_place { Event::ORIGIN } else { frame.start() };
         Lorentz::boost(motion.in_scene()).inverse().apply(placement.eye_event() - zero).t
     };
     let times: Vec<f64> = motions.iter().zip(frames).map(time).collect();

@@ -10,9 +10,6 @@ use crate::{HalfSpace, RestPosition, SeenPosition, ShownEffects};
 /// Relative rounding error of the bound of (P27), which is computed with about ten operations.
 const ROUNDING: f64 = 1e-12;
 
-/// The event of the eye.
-const EYE: Event = Event { t: 0.0, x: DVec3::ZERO };
-
 /// How one body moves relative to the camera, and which effects are shown.
 #[derive(Clone, Debug)]
 pub struct RelativeMotion {
@@ -118,7 +115,7 @@ impl RelativeMotion {
         match &self.line {
             None if self.is_at_rest() => Ok((rest, -rest.length())),
             None => Ok((self.seen(RestPosition(rest)).0, -self.boosted_rest(rest).length())),
-            Some(line) => line.light(rest, EYE).map(|light| (light.event.x, light.own_time)),
+            Some(line) => line.light(rest, Event::ORIGIN).map(|light| (light.event.x, light.own_time)),
         }
     }
 

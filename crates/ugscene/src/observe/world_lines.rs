@@ -65,8 +65,7 @@ pub(super) fn place(
     }
     for body in scene.bodies.ids().filter(|&body| scene.bodies.is_on_world_line(body)) {
         let line = scene.bodies.motion(body).in_frame(frame, stated_eye).with_body_origin(eye);
-        let at_eye = Event { t: 0.0, x: DVec3::ZERO };
-        line.check_turn_seen(at_eye).map_err(|error| impossible(scene, body, error))?;
+        line.check_turn_seen(Event::ORIGIN).map_err(|error| impossible(scene, body, error))?;
         motions[body.index()] = RelativeMotion::on_world_line(line);
     }
     Ok(())

@@ -7,7 +7,7 @@ mod films;
 use std::fs;
 
 use ugimage::{Format, Frame, Metadata, PictureLimits, read_png};
-use ugsheet::{Config, Error, Labels};
+use ugsheet::{Config, Error, Labels, Sheet};
 use ugtesting::Random;
 use ugtesting::run::BuiltProgram;
 
@@ -27,7 +27,7 @@ fn sheet(config: &Config, pictures: &[Picture]) -> Result<Frame, Error> {
         motion: ugsheet::Motion::default(),
         history: Metadata::default(),
     });
-    ugsheet::sheet(config, &headers.collect::<Vec<_>>(), |idx| Ok(pictures[idx].frame.clone()))
+    Sheet::new(config, &headers.collect::<Vec<_>>())?.draw(|idx| Ok(pictures[idx].frame.clone()))
 }
 
 /// A picture of noise, so that it occurs only once on a sheet.
@@ -146,8 +146,8 @@ fn invalid_requests_are_errors() {
         motion: ugsheet::Motion::default(),
         history: Metadata::default(),
     };
-    let read = |_| unreachable!("no pixels are read");
-    assert_eq!(ugsheet::sheet(&Config::default(), &[huge.clone(), huge], read), Err(Error::Size));
+    let sheet = Sheet::new(&Config::default(), &[huge.clone(), huge]);
+    assert_eq!(sheet.and_then(|sheet| sheet.draw(|_| unreachable!("nothing is read"))), Err(Error::Size));
 }
 
 /// Sheets have the width asked for, and the height; pictures keep their shape and their light.

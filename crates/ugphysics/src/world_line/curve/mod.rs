@@ -66,7 +66,7 @@ pub(super) struct Framed {
 impl Framed {
     /// A curve in its own frame.
     pub fn new(curve: Curve) -> Self {
-        Self { curve, frame: Lorentz::IDENTITY, origin: Event { t: 0.0, x: DVec3::ZERO } }
+        Self { curve, frame: Lorentz::IDENTITY, origin: Event::ORIGIN }
     }
 
     pub fn change_frame(&mut self, target_from_source: Lorentz, origin: Event) {
