@@ -13,7 +13,7 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 
 # Static programs run on any distribution. Panics would name the folder of the crates.
-RUSTFLAGS="-C target-feature=+crt-static --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo" \
+RUSTFLAGS="-C target-feature=+crt-static --cfg disable_dispatch_sse4_2 --remap-path-prefix=${CARGO_HOME:-$HOME/.cargo}=cargo" \
     cargo build --quiet --release --target "$host" --target-dir "$out/build"
 
 tree=$out/tree
