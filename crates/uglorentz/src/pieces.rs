@@ -130,7 +130,7 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    /// Replaces the faces and wires that were subdivided by their pieces.
+    /// Puts pieces in the place of the faces and wires that were subdivided.
     pub(crate) fn put_into(&self, scene: &mut Scene) {
         if self.pieces.is_empty() && self.lines.is_empty() {
             return;

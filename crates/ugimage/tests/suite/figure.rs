@@ -45,7 +45,7 @@ fn the_area_painted_first_is_extended_under_the_other() {
     assert!(found.contains("M1 1L1 0L2 0L2 1z\"/>\n"), "{found}");
 }
 
-/// The font of PostScript: strings that are the file, each padded by a byte, and a box around the
+/// PostScript contains the file of the font as strings, each padded by a byte, and a box around the
 /// letters.
 #[test]
 fn the_font_is_embedded() {

@@ -232,7 +232,7 @@ fn parts_of_panoramas_are_read() {
     }
 }
 
-/// Linear light in a PNG file (gamma 1), and levels of a gamma that is that of sRGB.
+/// A PNG file of gamma 1 has linear light; one of gamma 1/2.2 has the levels of sRGB.
 #[test]
 fn gamma_of_png_is_applied() {
     let file = |gamma: f32| {

@@ -79,7 +79,7 @@ pub fn with_chunks(chunks: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
     whole
 }
 
-/// The checksum of PNG, bit by bit.
+/// The checksum of a PNG chunk (CRC-32), computed bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 0 { crc >> 1 } else { crc >> 1 ^ 0xedb8_8320 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
@@ -104,7 +104,7 @@ fn texts_of_every_kind_are_read() {
     assert_eq!(comment(&[(b"iTXt", itxt(0, "γ = 2".into()))]), "γ = 2");
     assert_eq!(comment(&[(b"iTXt", itxt(1, packed("γ = 2".as_bytes())))]), "γ = 2");
     assert_eq!(comment(&[(b"tEXt", b"Author\0me".to_vec()), (b"tEXt", b"Comment\0x".to_vec())]), "x");
-    // Invalid ones are omitted, and those after them read.
+    // Invalid chunks are skipped, and those after them are read.
     let valid = (b"tEXt", b"Comment\0valid".to_vec());
     for invalid in [b"".to_vec(), b"Comment".to_vec(), b"Comment\0".to_vec(), b"Comment\0\0broken".to_vec()] {
         assert_eq!(comment(&[(b"zTXt", invalid.clone()), valid.clone()]), "valid");

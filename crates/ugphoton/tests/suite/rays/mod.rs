@@ -71,7 +71,7 @@ impl Scenery {
     }
 }
 
-/// A scene, and the same without the hierarchy.
+/// A scene, and the same scene without its hierarchy of bounding volumes.
 fn scenery(text: &str) -> [Scenery; 2] {
     let [whole, mut plain] = [(); 2].map(|()| Scenery::new(text, 0.0, 0.1));
     plain.world.boxes = None;
