@@ -41,7 +41,7 @@ fn commands_in_documents_work() {
             let small = if has_text || command.contains("-crop") || small != *command {
                 small
             } else {
-                resized(&small, [640, 480], 0.25)
+                resized(&small, [640, 480], 0.125)
             };
             // An option is given once.
             let small = if small.contains(" -aa ") || small.contains(" -vec ") {

@@ -177,7 +177,7 @@ fn examples_in_help_work() {
         assert!(page.commands.len() >= 2, "{}", manual.name);
         for command in &page.commands {
             let has_text = command.contains("-lg") || command.contains("-cap");
-            let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.25) };
+            let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.125) };
             let messages = page
                 .run(&shortened(&small), folder.path(), programs)
                 .unwrap_or_else(|message| panic!("{message}"));

@@ -176,6 +176,10 @@ pub fn coarse(command: &str) -> String {
             [width, height, rest] if let (Some(width), Some(height)) = (pixels(width), pixels(height)) => {
                 format!("{before}-sz {width:.0} {height:.0} {rest}")
             }
+            // The width of a sheet.
+            [width, ..] if let Some(pixels) = pixels(width) => {
+                format!("{before}-sz {pixels:.0}{}", &part[width.len()..])
+            }
             _ => format!("{before}-sz {part}"),
         }
     })
