@@ -4,9 +4,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use rayon::prelude::*;
-use ugtests::documents::{
-    Page, coarse, prepare, resized, shortened, transcripts, with_options, written_files,
-};
+use ugtests::documents::{Page, prepare, shrunk, transcripts, with_options, written_files};
 use ugtests::{programs, tools};
 
 /// Pages with commands for a folder with scenes, and the least number of commands.
@@ -34,22 +32,13 @@ fn commands_in_documents_work() {
         assert!(page.commands.len() >= least, "{path}: {} commands", page.commands.len());
         let is_possible = |command: &&String| has_ffmpeg || !command.contains(".mp4");
         for command in page.commands.iter().filter(is_possible) {
-            // Smaller pictures and short films are sufficient, unless they need room for text. Lengths on
-            // paper, and so text, have fewer pixels. The parts of a picture are those of its size.
-            let small = coarse(command);
-            let has_text = command.contains("-lg") || command.contains("-cap");
-            let small = if has_text || command.contains("-crop") || small != *command {
-                small
-            } else {
-                resized(&small, [640, 480], 0.125)
-            };
+            let small = shrunk(command);
             // An option is given once.
             let small = if small.contains(" -aa ") || small.contains(" -vec ") {
                 small
             } else {
                 with_options(&small, "-aa 1")
             };
-            let small = shortened(&small);
             let messages =
                 page.run(&small, folder.path(), programs).unwrap_or_else(|message| panic!("{message}"));
             // Frames of a film may be empty, before a body comes; lines may be black.

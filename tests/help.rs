@@ -6,7 +6,7 @@ use std::process::Command;
 
 use ugpipe::remedies::program_with_option;
 use ugpipe::{Manual, manual};
-use ugtests::documents::{Page, prepare, resized, shortened, written_files};
+use ugtests::documents::{Page, prepare, shrunk, written_files};
 use ugtests::{programs, scenes};
 
 /// The manual of a program.
@@ -176,10 +176,8 @@ fn examples_in_help_work() {
         let page = Page::of_commands("--help", &manual.examples);
         assert!(page.commands.len() >= 2, "{}", manual.name);
         for command in &page.commands {
-            let has_text = command.contains("-lg") || command.contains("-cap");
-            let small = if has_text { command.clone() } else { resized(command, [640, 480], 0.125) };
             let messages = page
-                .run(&shortened(&small), folder.path(), programs)
+                .run(&shrunk(command), folder.path(), programs)
                 .unwrap_or_else(|message| panic!("{message}"));
             // The first frame of a film may be empty, before a body comes.
             let is_drawn = command.starts_with("ugfilm ")

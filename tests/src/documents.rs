@@ -164,9 +164,18 @@ fn copy_scenes(folder: &Path) {
 /// Programs that draw pictures.
 const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 
-/// The command with pictures of 40 pixels to the centimetre where it states a size in centimetres.
+/// The command with small pictures and short films, unless they need room for text. Lengths on paper,
+/// and so text, have fewer pixels. The parts of a picture are those of its size.
 #[must_use]
-pub fn coarse(command: &str) -> String {
+pub fn shrunk(command: &str) -> String {
+    let coarse = coarse(command);
+    let keeps_size =
+        coarse != command || ["-lg", "-cap", "-crop"].iter().any(|option| command.contains(option));
+    shortened(&if keeps_size { coarse } else { resized(&coarse, [640, 480], 0.125) })
+}
+
+/// The command with pictures of 40 pixels to the centimetre where it states a size in centimetres.
+fn coarse(command: &str) -> String {
     let mut parts = command.split("-sz ");
     let before = parts.next().unwrap_or_default().to_owned();
     parts.fold(before, |before, part| {
@@ -225,8 +234,7 @@ pub fn with_options(command: &str, options: &str) -> String {
 }
 
 /// The command with at most four frames in a film, unless it names frames.
-#[must_use]
-pub fn shortened(command: &str) -> String {
+fn shortened(command: &str) -> String {
     let names_frames = ["-only ", "-keys ", "--print "].iter().any(|option| command.contains(option));
     let Some((before, after)) = command.split_once("-frames ").filter(|_| !names_frames) else {
         return command.to_owned();

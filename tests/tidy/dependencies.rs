@@ -12,9 +12,6 @@ use serde_json::Value;
 const LICENSES: [&str; 8] =
     ["0BSD", "Apache-2.0", "BSD-2-Clause", "BSD-3-Clause", "MIT", "NCSA", "Unicode-3.0", "Zlib"];
 
-/// Crates in two versions, and who requires the older one.
-const DUPLICATES: [(&str, &str); 3] = [("hashbrown", "spade"), ("miniz_oxide", "exr"), ("syn", "gltf")];
-
 const REGISTRY: &str = "registry+https://github.com/rust-lang/crates.io-index";
 
 /// A package of a lock file.
@@ -45,8 +42,8 @@ pub fn locked(text: &str) -> Vec<Locked> {
     text.split("[[package]]").skip(1).map(package).collect()
 }
 
-/// Packages from elsewhere than crates.io, without a checksum, or in two versions without a reason;
-/// and reasons that apply no longer. `file`: the name of the lock file.
+/// Packages from elsewhere than crates.io, without a checksum, or in two versions. `file`: the name of
+/// the lock file.
 pub fn of_lock_file(file: &str, packages: &[Locked]) -> Vec<String> {
     let mut findings = Vec::new();
     let mut versions: BTreeMap<&str, usize> = BTreeMap::new();
@@ -60,15 +57,9 @@ pub fn of_lock_file(file: &str, packages: &[Locked]) -> Vec<String> {
         }
     }
     for (name, n) in versions {
-        let is_allowed = DUPLICATES.iter().any(|(known, _)| *known == name);
-        if n > 1 && !is_allowed {
+        if n > 1 {
             findings.push(format!(
-                "{file}: {name} is there {n} times: `cargo tree -d` shows who requires it; update them, or add it \
-                 with a reason to tests/tidy/dependencies.rs"
-            ));
-        } else if n == 1 && is_allowed {
-            findings.push(format!(
-                "{file}: {name} is there once: remove it from the duplicates in tests/tidy/dependencies.rs"
+                "{file}: {name} is there {n} times: `cargo tree -d` shows who requires it; take versions that agree"
             ));
         }
     }

@@ -491,7 +491,7 @@ mod tests {
         let completed = |line: &str| {
             let script = format!(
                 "zmodload zsh/zpty; zpty shell zsh -f -i; \
-                 zpty -w shell 'PS1=; unsetopt beep; fpath=({} $fpath); autoload -Uz compinit; compinit -u -D; \
+                 zpty -w shell 'PS1=; KEYTIMEOUT=1; unsetopt beep; fpath=({} $fpath); autoload -Uz compinit; compinit -u -d dump; \
                  show() {{ print -r -- \"<$BUFFER>\" > shown; exit }}; zle -N show; bindkey \"^X\" show; touch ready'; \
                  until [[ -e ready ]]; do zpty -r -t shell drained; sleep .05; done; \
                  zpty -w -n shell $'{line}\\t\\x18'; \

@@ -27,22 +27,23 @@ pub fn n_fragments(layers: &RenderLayers<'_>, size: [u32; 2]) -> f64 {
         return sum;
     }
     layers.for_each_polygon(|_, is_transparent, contours| {
-        if is_transparent {
-            let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
-            let area =
-                |contour: &Vec<_>| 0.5 * doubled_area(&contour.iter().map(place).collect::<Vec<_>>()).abs();
-            let extent = |axis: usize| {
-                let places = || contours.iter().flatten().map(|corner| place(corner)[axis]);
-                let end = f64::from(size[axis]);
-                let low = places().fold(f64::INFINITY, f64::min).clamp(0.0, end);
-                places().fold(f64::NEG_INFINITY, f64::max).clamp(0.0, end) - low
-            };
-            // Parts outside the picture are in the area of the polygon, but not in that of its box.
-            let of_box = extent(0) * extent(1);
-            sum += contours.first().map_or(0.0, area).min(of_box);
-        }
+        sum += if is_transparent { n_samples(&contours, size) } else { 0.0 };
     });
     sum
+}
+
+/// About the number of samples of a polygon in a picture of this size.
+fn n_samples(contours: &[Vec<Corner<TRANSPARENT_VALUES>>], size: [u32; 2]) -> f64 {
+    let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
+    let area = |contour: &Vec<_>| 0.5 * doubled_area(&contour.iter().map(place).collect::<Vec<_>>()).abs();
+    let extent = |axis: usize| {
+        let places = || contours.iter().flatten().map(|corner| place(corner)[axis]);
+        let end = f64::from(size[axis]);
+        let low = places().fold(f64::INFINITY, f64::min).clamp(0.0, end);
+        places().fold(f64::NEG_INFINITY, f64::max).clamp(0.0, end) - low
+    };
+    // Parts outside the picture are in the area of the polygon, but not in that of its box.
+    contours.first().map_or(0.0, area).min(extent(0) * extent(1))
 }
 
 /// Decides visibility from the samples of a picture.
@@ -75,4 +76,20 @@ pub fn faces(setup: &Setup<'_>, layers: &RenderLayers<'_>) -> Faces {
         |face: &ugscene::Face| scene.face_corners(face).iter().any(|vertex| is_corner[vertex.index()]);
     let is_near = scene.faces.iter().map(has_seen_corner).collect();
     Faces { is_seen, is_near, stats }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_outside_the_picture_are_not_counted() {
+        let square = |low: f64, high: f64| {
+            let corner = |[x, y]: [f64; 2]| Corner { x, y, key: 1.0, values: [0.0; TRANSPARENT_VALUES] };
+            vec![[[low, low], [high, low], [high, high], [low, high]].map(corner).to_vec()]
+        };
+        assert_eq!(n_samples(&square(10.0, 14.0), [64, 32]), 16.0);
+        assert_eq!(n_samples(&square(-900.0, 900.0), [64, 32]), 64.0 * 32.0);
+        assert_eq!(n_samples(&square(-900.0, -800.0), [64, 32]), 0.0);
+    }
 }

@@ -173,3 +173,14 @@ fn edges_of_faces_are_lines() {
     // The upper edge of the near face, with half the width at its ends.
     assert!(text.contains("M29 30L51 30") || text.contains("M51 30L29 30"), "{text}");
 }
+
+/// On a coarser grid, which has fewer samples.
+#[test]
+fn many_panes_in_front_of_each_other_are_drawn() {
+    let panes =
+        "c pane 1 0 1 .5; def panes; v p -9 -9 2; v q 9 -9 2; v r 9 9 2; v s -9 9 2; f (p q r s) pane;
+                 end; a (panes) 300 -tz -.001;";
+    let svg = svg(&format!("{COLORS} {FAR} {panes}"));
+    // The square, and each pane beside it and again over it.
+    assert_eq!(areas(&svg).len(), 601);
+}
