@@ -228,8 +228,8 @@ fn vector_figures_show_the_same_as_the_png() {
         let png = on_paper(decode(&draw(Output::Color(Format::Png))));
         assert!(png.pixels().any(|pixel| pixel != png.get_pixel(0, 0)), "{name} shows something");
         let is_clear = pipe.rainbow.picture.background == ugrainbow::Background::Transparent;
-        // A browser starts for seconds, EPS is the same page as PostScript, and Ghostscript reads that
-        // of each figure: figures with text, smooth areas and transparency are enough for the rest.
+        // All tools draw the figures with text, smooth areas and transparency. Of the others EPS would
+        // show the same page as PostScript, and a browser takes seconds to start.
         let is_for_all = ["text", "teapot", "transparent"].contains(name);
         let is_tried = |format: Format, tool: Tool| {
             (!is_clear || format.has_alpha())

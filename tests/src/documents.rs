@@ -164,8 +164,8 @@ fn copy_scenes(folder: &Path) {
 /// Programs that draw pictures.
 const RENDERERS: [&str; 4] = ["ugrainbow ", "ugphoton ", "ugwarp ", "ugfilm "];
 
-/// The command with small pictures and short films, unless they need room for text. Lengths on paper,
-/// and so text, have fewer pixels. The parts of a picture are those of its size.
+/// The command with smaller pictures and shorter films, for tests. Pictures with text keep their
+/// size in pixels, so that it fits, and so do those of `-crop`, which names pixels.
 #[must_use]
 pub fn shrunk(command: &str) -> String {
     let coarse = coarse(command);
@@ -174,7 +174,7 @@ pub fn shrunk(command: &str) -> String {
     shortened(&if keeps_size { coarse } else { resized(&coarse, [640, 480], 0.125) })
 }
 
-/// The command with pictures of 40 pixels to the centimetre where it states a size in centimetres.
+/// The command with sizes in centimetres replaced by pixels, 40 to the centimetre.
 fn coarse(command: &str) -> String {
     let mut parts = command.split("-sz ");
     let before = parts.next().unwrap_or_default().to_owned();

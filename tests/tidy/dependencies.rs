@@ -42,8 +42,8 @@ pub fn locked(text: &str) -> Vec<Locked> {
     text.split("[[package]]").skip(1).map(package).collect()
 }
 
-/// Packages from elsewhere than crates.io, without a checksum, or in two versions. `file`: the name of
-/// the lock file.
+/// Packages that are not of crates.io, have no checksum, or are there in two versions. `file`: the
+/// name of the lock file.
 pub fn of_lock_file(file: &str, packages: &[Locked]) -> Vec<String> {
     let mut findings = Vec::new();
     let mut versions: BTreeMap<&str, usize> = BTreeMap::new();

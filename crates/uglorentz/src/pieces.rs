@@ -130,7 +130,7 @@ pub(crate) struct Outcome {
 }
 
 impl Outcome {
-    /// Puts pieces in the place of the faces and wires that were subdivided.
+    /// Replaces each subdivided face and wire with its pieces.
     pub(crate) fn put_into(&self, scene: &mut Scene) {
         if self.pieces.is_empty() && self.lines.is_empty() {
             return;

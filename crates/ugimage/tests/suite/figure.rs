@@ -45,8 +45,8 @@ fn the_area_painted_first_is_extended_under_the_other() {
     assert!(found.contains("M1 1L1 0L2 0L2 1z\"/>\n"), "{found}");
 }
 
-/// PostScript contains the file of the font as strings, each padded by a byte, and a box around the
-/// letters.
+/// A PostScript file embeds the font file as strings, each padded by a byte, and states the bounding
+/// box of the font.
 #[test]
 fn the_font_is_embedded() {
     let mut elements = Vec::new();

@@ -347,7 +347,7 @@ fn shadows_end_as_smoothly_as_normals() {
 
 #[test]
 fn lamps_with_a_radius_make_soft_shadows() {
-    // A lamp at height 4, and a plate over x < 0, which shades the ground if it is above it.
+    // A lamp at height 4. A plate over x < 0 shades the ground, unless it lies below the ground.
     let lit_below = |height: f64, radius: f64, x: f64| {
         let text = format!(
             "c white 1; v a -9 -9 0; v b 9 -9 0; v c 9 9 0; v d -9 9 0; f (a b c d) white;

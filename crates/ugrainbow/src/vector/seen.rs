@@ -32,7 +32,7 @@ pub fn n_fragments(layers: &RenderLayers<'_>, size: [u32; 2]) -> f64 {
     sum
 }
 
-/// About the number of samples of a polygon in a picture of this size.
+/// About how many samples of a picture of this size a polygon covers.
 fn n_samples(contours: &[Vec<Corner<TRANSPARENT_VALUES>>], size: [u32; 2]) -> f64 {
     let place = |corner: &Corner<TRANSPARENT_VALUES>| [corner.x, corner.y, corner.key];
     let area = |contour: &Vec<_>| 0.5 * doubled_area(&contour.iter().map(place).collect::<Vec<_>>()).abs();
@@ -42,7 +42,7 @@ fn n_samples(contours: &[Vec<Corner<TRANSPARENT_VALUES>>], size: [u32; 2]) -> f6
         let low = places().fold(f64::INFINITY, f64::min).clamp(0.0, end);
         places().fold(f64::NEG_INFINITY, f64::max).clamp(0.0, end) - low
     };
-    // Parts outside the picture are in the area of the polygon, but not in that of its box.
+    // The area includes parts outside the picture; the box around the polygon is cut to the picture.
     contours.first().map_or(0.0, area).min(extent(0) * extent(1))
 }
 

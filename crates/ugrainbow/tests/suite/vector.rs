@@ -181,6 +181,6 @@ fn many_panes_in_front_of_each_other_are_drawn() {
         "c pane 1 0 1 .5; def panes; v p -9 -9 2; v q 9 -9 2; v r 9 9 2; v s -9 9 2; f (p q r s) pane;
                  end; a (panes) 300 -tz -.001;";
     let svg = svg(&format!("{COLORS} {FAR} {panes}"));
-    // The square, and each pane beside it and again over it.
+    // The square once, and each pane twice: whole, and blended where the square is behind it.
     assert_eq!(areas(&svg).len(), 601);
 }
