@@ -24,9 +24,27 @@ pub struct FaceEdge {
 pub fn shared_edges<T: Send>(
     scene: &Scene,
     places: &[usize],
-    is_counted: impl Fn(&Face) -> bool + Sync,
+    is_counted: &(dyn Fn(&Face) -> bool + Sync),
     take: impl Fn(&[&FaceEdge]) -> Option<T> + Sync,
 ) -> Vec<T> {
+    let edges = sorted_edges(scene, places, is_counted);
+    let is_one = |one: &FaceEdge, other: &FaceEdge| (one.places, one.body) == (other.places, other.body);
+    let shared: Vec<&[FaceEdge]> = edges.chunk_by(is_one).collect();
+    let taken = |shared: &&[FaceEdge]| {
+        // A sliver between vertices at one place runs there and back.
+        let of_faces = shared.chunk_by(|one, other| one.face == other.face);
+        let of_faces: Vec<&FaceEdge> = of_faces.filter(|same| same.len() == 1).flatten().collect();
+        if of_faces.is_empty() { None } else { take(&of_faces) }
+    };
+    shared.par_iter().filter_map(taken).collect()
+}
+
+/// The edges of all faces that count, those of one place and body together, in the order of faces.
+fn sorted_edges(
+    scene: &Scene,
+    places: &[usize],
+    is_counted: &(dyn Fn(&Face) -> bool + Sync),
+) -> Vec<FaceEdge> {
     let of_face = |(row, face): (usize, &Face)| {
         let edge = |ends: [VertexId; 2]| {
             let [a, b] = ends.map(|end| places[end.index()]);
@@ -41,15 +59,7 @@ pub fn shared_edges<T: Send>(
     let counted = scene.faces.par_iter().enumerate().filter(|(_, face)| is_counted(face));
     let mut edges: Vec<FaceEdge> = counted.flat_map_iter(of_face).collect();
     edges.par_sort_unstable_by_key(|edge| (edge.places, edge.body, edge.face, edge.is_forward));
-    let is_one = |one: &FaceEdge, other: &FaceEdge| (one.places, one.body) == (other.places, other.body);
-    let shared: Vec<&[FaceEdge]> = edges.chunk_by(is_one).collect();
-    let taken = |shared: &[FaceEdge]| {
-        // A sliver between vertices at one place runs there and back.
-        let of_faces = shared.chunk_by(|one, other| one.face == other.face);
-        let of_faces: Vec<&FaceEdge> = of_faces.filter(|same| same.len() == 1).flatten().collect();
-        if of_faces.is_empty() { None } else { take(&of_faces) }
-    };
-    shared.into_par_iter().filter_map(taken).collect()
+    edges
 }
 
 /// How two faces meet at an edge.

@@ -130,29 +130,39 @@ pub(crate) fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
 ) -> (Vec<P>, SampleStats) {
     let mut pixels = filled(empty, grid.width as usize * grid.height as usize);
     let part_pixels = n_rows as usize * grid.width as usize;
-    let mut parts: Vec<_> =
-        pixels.chunks_mut(part_pixels).map(|pixels| (pixels, SampleStats::default())).collect();
+    // No thread waits for one of these locks: each part is taken once.
+    let part = |pixels| Mutex::new((pixels, SampleStats::default()));
+    let parts: Vec<_> = pixels.chunks_mut(part_pixels).map(part).collect();
     progress.begin(parts.len() as u64);
     // Buffers go from part to part: there are as many as threads, and their memory is touched once.
     let buffers = BufferPool::default();
-    parts.par_iter_mut().with_max_len(1).enumerate().for_each(|(part, (pixels, stats))| {
+    in_parallel(parts.len(), &|part| {
         if progress.is_stopped() {
             return;
         }
         let mut own = buffers.take();
+        let (pixels, stats) = &mut *lock(&parts[part]);
         *stats = paint(&mut own, part, pixels);
         buffers.put_back(own);
         progress.done();
     });
-    let stats = parts.iter().fold(SampleStats::default(), |all, (_, stats)| all.merge(*stats));
+    let stats = parts.iter().fold(SampleStats::default(), |all, part| all.merge(lock(part).1));
+    drop(parts);
     (pixels, stats)
+}
+
+/// Calls a function with each number below `n`, on all threads. Not generic, because what rayon
+/// makes of a closure takes long to compile.
+fn in_parallel(n: usize, call: &(dyn Fn(usize) + Sync)) {
+    (0..n).into_par_iter().with_max_len(1).for_each(call);
 }
 
 /// A table of `len` copies of a value, written on all threads.
 fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     // In groups, because a parallel iterator produces elements one by one.
     const GROUP: usize = 64;
-    let groups: Vec<[P; GROUP]> = rayon::iter::repeat_n([value; GROUP], len.div_ceil(GROUP)).collect();
+    let mut groups = Vec::new();
+    rayon::iter::repeat_n([value; GROUP], len.div_ceil(GROUP)).collect_into_vec(&mut groups);
     let mut all = groups.into_flattened();
     all.truncate(len);
     all
@@ -169,15 +179,15 @@ impl<B> Default for BufferPool<B> {
 
 impl<B: Default> BufferPool<B> {
     fn take(&self) -> B {
-        self.lock().pop().unwrap_or_default()
+        lock(&self.0).pop().unwrap_or_default()
     }
 
     fn put_back(&self, buffer: B) {
-        self.lock().push(buffer);
+        lock(&self.0).push(buffer);
     }
+}
 
-    fn lock(&self) -> MutexGuard<'_, Vec<B>> {
-        // If a thread has panicked there are fewer buffers in the pool, which is harmless.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
-    }
+/// If a thread has panicked there are fewer buffers in the pool, which is harmless.
+fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
+    value.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -111,5 +111,5 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<[DVec
         let is_crease = fold.cosine < CREASE && !is_smooth;
         (!fold.is_in_hole && (is_silhouette || is_crease)).then_some(ends)
     };
-    shared_edges(scene, &spots, is_moving, shown)
+    shared_edges(scene, &spots, &is_moving, shown)
 }

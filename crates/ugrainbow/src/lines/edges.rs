@@ -31,7 +31,7 @@ pub fn edges(painter: &Painter<'_>, kind: EdgeKind) -> Vec<Edge> {
         let &FaceEdge { ends, face, places, .. } = edges[0];
         Some(Edge { ends, face, places, outward })
     };
-    shared_edges(painter.scene, &places, |_| true, drawn)
+    shared_edges(painter.scene, &places, &|_| true, drawn)
 }
 
 /// For each vertex the row of one at its place. Turned copies of a part meet only up to the digits
