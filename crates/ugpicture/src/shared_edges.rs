@@ -18,13 +18,15 @@ pub struct FaceEdge {
     body: BodyId,
 }
 
+type IsCounted<'a> = dyn Fn(&Face) -> bool + Sync + 'a;
+
 /// Calls `take` for each edge of a body with the edges of all faces that meet there, also of faces
 /// without common vertices, and returns what it makes of them. `places`: for each vertex the row of
 /// one vertex, the same for all at its place; `is_counted`: false for faces that are left out.
 pub fn shared_edges<T: Send>(
     scene: &Scene,
     places: &[usize],
-    is_counted: &(dyn Fn(&Face) -> bool + Sync),
+    is_counted: &IsCounted<'_>,
     take: impl Fn(&[&FaceEdge]) -> Option<T> + Sync,
 ) -> Vec<T> {
     let edges = sorted_edges(scene, places, is_counted);
@@ -40,11 +42,7 @@ pub fn shared_edges<T: Send>(
 }
 
 /// The edges of all faces that count, those of one place and body together, in the order of faces.
-fn sorted_edges(
-    scene: &Scene,
-    places: &[usize],
-    is_counted: &(dyn Fn(&Face) -> bool + Sync),
-) -> Vec<FaceEdge> {
+fn sorted_edges(scene: &Scene, places: &[usize], is_counted: &IsCounted<'_>) -> Vec<FaceEdge> {
     let of_face = |(row, face): (usize, &Face)| {
         let edge = |ends: [VertexId; 2]| {
             let [a, b] = ends.map(|end| places[end.index()]);

@@ -135,15 +135,15 @@ pub(crate) fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
     let parts: Vec<_> = pixels.chunks_mut(part_pixels).map(part).collect();
     progress.begin(parts.len() as u64);
     // Buffers go from part to part: there are as many as threads, and their memory is touched once.
-    let buffers = BufferPool::default();
+    let buffers: Mutex<Vec<B>> = Mutex::default();
     in_parallel(parts.len(), &|part| {
         if progress.is_stopped() {
             return;
         }
-        let mut own = buffers.take();
+        let mut own = lock(&buffers).pop().unwrap_or_default();
         let (pixels, stats) = &mut *lock(&parts[part]);
         *stats = paint(&mut own, part, pixels);
-        buffers.put_back(own);
+        lock(&buffers).push(own);
         progress.done();
     });
     let stats = parts.iter().fold(SampleStats::default(), |all, part| all.merge(lock(part).1));
@@ -166,25 +166,6 @@ fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     let mut all = groups.into_flattened();
     all.truncate(len);
     all
-}
-
-/// Buffers that no thread is using.
-struct BufferPool<B>(Mutex<Vec<B>>);
-
-impl<B> Default for BufferPool<B> {
-    fn default() -> Self {
-        Self(Mutex::new(Vec::new()))
-    }
-}
-
-impl<B: Default> BufferPool<B> {
-    fn take(&self) -> B {
-        lock(&self.0).pop().unwrap_or_default()
-    }
-
-    fn put_back(&self, buffer: B) {
-        lock(&self.0).push(buffer);
-    }
 }
 
 /// If a thread has panicked there are fewer buffers in the pool, which is harmless.

@@ -95,8 +95,7 @@ fn edges<E: From<Error>>(seen: &SeenScene<'_, E>, places: &[DVec3]) -> Vec<[DVec
     // The normal of a face, and whether the eye is on its side.
     let facing = |edge: &FaceEdge| {
         let outline = scene.contours.get(scene.faces[edge.face as usize].contours.start);
-        let corners = outline.iter().map(|vertex| places[vertex.index()]);
-        let normal = unit_normal(corners);
+        let normal = unit_normal(outline.iter().map(|vertex| places[vertex.index()]));
         let toward = if view.is_perspective { -places[outline[0].index()] } else { -view.forward };
         (normal, normal.dot(toward) > 0.0)
     };
