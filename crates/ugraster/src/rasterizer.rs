@@ -168,7 +168,7 @@ fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     all
 }
 
-/// If a thread has panicked there are fewer buffers in the pool, which is harmless.
+/// If a thread has panicked, rayon passes that on once the others are done; until then they go on.
 fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }
