@@ -151,8 +151,8 @@ pub(crate) fn paint_parts<P: Copy + Send + Sync, B: Default + Send>(
     (pixels, stats)
 }
 
-/// Calls a function with each number below `n`, on all threads. Not generic, because what rayon
-/// makes of a closure takes long to compile.
+/// Calls a function with each number below `n`, on all threads. The function is `dyn` because rayon
+/// compiles some 2,000 lines of LLVM for each type of closure.
 fn in_parallel(n: usize, call: &(dyn Fn(usize) + Sync)) {
     (0..n).into_par_iter().with_max_len(1).for_each(call);
 }
@@ -168,7 +168,8 @@ fn filled<P: Copy + Send + Sync>(value: P, len: usize) -> Vec<P> {
     all
 }
 
-/// If a thread has panicked, rayon passes that on once the others are done; until then they go on.
+/// The locked value, even if a thread panicked while it had the lock: rayon repeats that panic when
+/// the other threads are done.
 fn lock<T>(value: &Mutex<T>) -> MutexGuard<'_, T> {
     value.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -15,8 +15,8 @@ const SAME_PLACE: f64 = 1e-9;
 const WEIGHTS: [f64; 4] = [0.436_812_907_331, 0.617_203_411_907, 0.654_371_083_561, 0.324_717_957_245];
 
 /// Difference of these numbers up to which planes are compared, and the width of the cells of a
-/// first selection. A million faces seldom share cells of this width by chance, and few numbers are
-/// as close to the border of theirs as `CLOSE`.
+/// first selection: so narrow that of a million faces few share a cell by chance, so wide that few
+/// numbers lie within `CLOSE` of the border of a cell.
 const CLOSE: f64 = 1e-8;
 const CELL: f64 = 1.0 / (1 << 23) as f64;
 

@@ -54,7 +54,8 @@ mod tests {
             names
         };
         assert_eq!(names(), ["ours-folder", "ours-used", "yours"]);
-        // Not by `drop`: a process that another test starts may have the file open for a moment.
+        // `drop` may leave it locked: a process that another test starts has the file open, too,
+        // until it runs its program.
         used.unlock().unwrap();
         remove(folder.path(), |name| name.starts_with("ours"));
         assert_eq!(names(), ["ours-folder", "yours"]);
