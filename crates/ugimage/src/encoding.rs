@@ -199,6 +199,9 @@ pub(crate) fn levels(decode: impl Fn(f64) -> f64) -> Vec<f32> {
     (0..=u16::MAX).map(|level| decode(f64::from(level) / 65535.0) as f32).collect()
 }
 
+/// X, Y and Z as the primaries of a picture, with any white.
+pub(crate) const XYZ_CHROMATICITIES: [[f64; 2]; 4] = [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0], [1.0 / 3.0; 2]];
+
 /// The exponent that resembles the curve of sRGB.
 const SRGB_GAMMA: f64 = 2.2;
 

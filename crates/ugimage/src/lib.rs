@@ -37,6 +37,7 @@
 mod encoding;
 mod exr;
 pub mod figure;
+mod foreign;
 mod format;
 mod hdr;
 mod history;
@@ -59,6 +60,7 @@ mod spelled_color;
 mod svg;
 mod typeface;
 
+pub use foreign::{ForeignKind, foreign_kind};
 pub use format::Format;
 pub use history::read_history;
 pub use metadata::Metadata;

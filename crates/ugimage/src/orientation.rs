@@ -1,5 +1,7 @@
 //! The orientation that cameras note in pictures (Exif).
 
+use crate::pixels::Pixels;
+
 /// The orientation in Exif data, from 1 to 8; 1 if there is none.
 pub(crate) fn of_exif(exif: &[u8]) -> u8 {
     let exif = exif.strip_prefix(b"Exif\0\0").unwrap_or(exif);
@@ -23,10 +25,11 @@ pub(crate) fn upright<P: Copy>(
     orientation: u8,
     [width, height]: [u32; 2],
     pixels: Vec<P>,
-) -> ([u32; 2], Vec<P>) {
+    kind: impl Fn(Vec<P>) -> Pixels,
+) -> ([u32; 2], Pixels) {
     let size = if orientation >= 5 { [height, width] } else { [width, height] };
     if orientation <= 1 || pixels.is_empty() {
-        return (size, pixels);
+        return (size, kind(pixels));
     }
     let (last_column, last_row) = (width as usize - 1, height as usize - 1);
     let place = |column: usize, row: usize| match orientation {
@@ -43,5 +46,5 @@ pub(crate) fn upright<P: Copy>(
         let (column, row) = place(column, row);
         pixels[row * width as usize + column]
     };
-    (size, rows.map(pixel).collect())
+    (size, kind(rows.map(pixel).collect()))
 }

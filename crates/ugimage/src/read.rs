@@ -321,7 +321,9 @@ pub(crate) fn declared(file: &[u8], notes: &mut Vec<String>) -> Declared {
         let four = data.get(4 * idx..4 * idx + 4)?.try_into().ok()?;
         Some(f64::from(u32::from_be_bytes(four)) / 1e5)
     };
-    let encoding = if let Some((_, packed)) = find(b"iCCP").and_then(until_zero) {
+    let encoding = if let Some(&[primaries, transfer, ..]) = find(b"cICP") {
+        encoding_of_code_points([primaries, transfer], notes)
+    } else if let Some((_, packed)) = find(b"iCCP").and_then(until_zero) {
         packed.get(1..).and_then(unpacked).and_then(|profile| encoding_of_profile(&profile, notes))
     } else if find(b"sRGB").is_some() {
         None
@@ -352,6 +354,32 @@ pub(crate) struct Declared {
     /// From 1 to 8, as in Exif.
     pub orientation: u8,
     pub xmp: Option<String>,
+}
+
+/// The encoding of primaries and a transfer function by their numbers in ITU-T H.273, or a note
+/// that it is not read; `None` for sRGB.
+fn encoding_of_code_points(codes: [u8; 2], notes: &mut Vec<String>) -> Option<Encoding> {
+    const WHITE: [f64; 2] = SRGB_CHROMATICITIES[3];
+    let primaries = match codes[0] {
+        1 => Some(SRGB_CHROMATICITIES),
+        9 => Some([[0.708, 0.292], [0.17, 0.797], [0.131, 0.046], WHITE]),
+        12 => Some([[0.68, 0.32], [0.265, 0.69], [0.15, 0.06], WHITE]),
+        _ => None,
+    };
+    let gamma = match codes[1] {
+        4 | 13 => Some(2.2),
+        8 => Some(1.0),
+        _ => None,
+    };
+    let Some((primaries, gamma)) = primaries.zip(gamma) else {
+        let [primaries, transfer] = codes;
+        notes.push(format!(
+            "the colours of the picture are of kind {primaries}/{transfer} (cICP), which is not read: they count as \
+             sRGB"
+        ));
+        return None;
+    };
+    Encoding::from_chromaticities(primaries, Some(gamma))
 }
 
 /// The encoding of an ICC profile, or a note that says why it is not used.

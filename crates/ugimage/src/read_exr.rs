@@ -1,4 +1,5 @@
-//! Reads OpenEXR files: the first layer with colours, with its windows and chromaticities.
+//! Reads OpenEXR files: the first part with colours, or else with grey, with its windows and
+//! chromaticities.
 
 use std::io::Cursor;
 
@@ -33,8 +34,10 @@ pub(crate) fn read(
     for header in headers.iter().filter(|header| !header.deep) {
         check_layer(header, file.len(), limits)?;
     }
+    let flat = || headers.iter().filter(|header| !header.deep);
+    let colored = flat().find_map(|header| Some((header, Channels::colors_of(header)?)));
     let Some((header, channels)) =
-        headers.iter().filter(|header| !header.deep).find_map(|header| Some((header, Channels::of(header)?)))
+        colored.or_else(|| flat().find_map(|header| Some((header, Channels::grey_of(header)?))))
     else {
         return Err(broken(&"it has no channels of colours"));
     };
@@ -146,6 +149,10 @@ pub fn read_spectrum(file: &[u8], limits: &PictureLimits) -> Result<SpectralPict
     Ok(SpectralPicture { size, samples })
 }
 
+fn names(header: &Header) -> Vec<String> {
+    header.channels.list.iter().map(|channel| channel.name.to_string()).collect()
+}
+
 /// The channels of a layer that are read.
 struct Channels {
     /// Red, green and blue, or one for all.
@@ -155,11 +162,9 @@ struct Channels {
 }
 
 impl Channels {
-    /// `R`, `G` and `B`; or those of a layer in the names, as Blender writes them; or luminance; or
-    /// the only channel.
-    fn of(header: &Header) -> Option<Self> {
-        let names: Vec<String> =
-            header.channels.list.iter().map(|channel| channel.name.to_string()).collect();
+    /// `R`, `G` and `B`; or those of a layer in the names, as Blender writes them.
+    fn colors_of(header: &Header) -> Option<Self> {
+        let names = names(header);
         let has = |name: &str| names.iter().any(|known| known == name);
         let colors = |prefix: &str| ["R", "G", "B"].map(|letter| format!("{prefix}{letter}"));
         let prefixes = names.iter().filter_map(|name| name.strip_suffix('R'));
@@ -167,12 +172,17 @@ impl Channels {
             prefixes.filter(|prefix| colors(prefix).iter().all(|name| has(name))).collect();
         // The combined picture before its parts.
         prefixes.sort_by_key(|prefix| (!prefix.is_empty(), !prefix.contains("Combined"), prefix.len()));
-        if let Some(prefix) = prefixes.first() {
-            let note = (!prefix.is_empty()).then(|| {
-                format!("of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read")
-            });
-            return Some(Self { names: colors(prefix).to_vec(), alpha: format!("{prefix}A"), note });
-        }
+        let prefix = prefixes.first()?;
+        let note = (!prefix.is_empty()).then(|| {
+            format!("of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read")
+        });
+        Some(Self { names: colors(prefix).to_vec(), alpha: format!("{prefix}A"), note })
+    }
+
+    /// Luminance, or the only channel.
+    fn grey_of(header: &Header) -> Option<Self> {
+        let names = names(header);
+        let has = |name: &str| names.iter().any(|known| known == name);
         let alone = if names.len() == 1 { names.first().map(String::as_str) } else { None };
         let grey = if has("Y") { "Y" } else { alone? };
         let note = if has("RY") {

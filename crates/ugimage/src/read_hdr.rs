@@ -3,14 +3,21 @@
 //! Not with a crate, because those allocate the whole picture, twice, before they find that a short
 //! file has no pixels.
 
-use crate::read::{PictureLimits, ReadError, reserved, room_for};
+use crate::encoding::{Encoding, XYZ_CHROMATICITIES};
+use crate::read::{Declared, PictureLimits, ReadError, SRGB_CHROMATICITIES, reserved, room_for};
 
-/// The size and the light of a file.
+/// The size and the light of a file, divided by what its header says it was multiplied by. The
+/// rows are as stored.
 ///
 /// # Errors
 /// [`ReadError`] if the file is truncated or corrupt, or exceeds a limit.
-pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
-    let ([width, height], mut rest) = header(file)?;
+pub(crate) fn read(
+    file: &[u8],
+    limits: &PictureLimits,
+    declared: &mut Declared,
+) -> Result<([u32; 2], Vec<[f32; 4]>), ReadError> {
+    let mut rest = file;
+    let ([width, height], factors) = header(&mut rest, declared)?;
     let size = limits.check([width, height], 16)?;
     // A row is a pixel or more.
     if rest.len() as u64 / 4 < height as u64 {
@@ -25,6 +32,11 @@ pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec
             row(&mut rest, width, &mut pixels)?;
         }
     }
+    if factors != [1.0; 3] {
+        for pixel in &mut pixels {
+            pixel.iter_mut().zip(factors).for_each(|(part, factor)| *part /= factor);
+        }
+    }
     Ok((size, pixels))
 }
 
@@ -36,44 +48,69 @@ fn truncated() -> ReadError {
     broken("the file is truncated, or its header is wrong")
 }
 
-/// Width and height, and the bytes of the pixels.
-fn header(file: &[u8]) -> Result<([usize; 2], &[u8]), ReadError> {
-    let mut lines = Lines(file);
-    if !matches!(lines.next(), Some(b"#?RADIANCE" | b"#?RGBE")) {
+/// The axes of pixels, from row to row and within a row, in the order of the orientations that
+/// cameras note.
+const AXES: [&str; 8] = ["-Y +X", "-Y -X", "+Y -X", "+Y +X", "+X -Y", "-X -Y", "-X +Y", "+X +Y"];
+
+/// Width and height as stored, and by what red, green and blue were multiplied. The bytes of the
+/// pixels are left.
+fn header(rest: &mut &[u8], declared: &mut Declared) -> Result<([usize; 2], [f32; 3]), ReadError> {
+    let mut next_line = || {
+        let end = rest.iter().position(|&byte| byte == b'\n').ok_or_else(truncated)?;
+        let line = String::from_utf8_lossy(&rest[..end]);
+        *rest = &rest[end + 1..];
+        Ok(line.trim_end_matches('\r').to_owned())
+    };
+    if !matches!(&*next_line()?, "#?RADIANCE" | "#?RGBE") {
         return Err(broken("it begins with another word than #?RADIANCE"));
     }
+    let mut factors = [1.0; 3];
     loop {
-        let line = lines.next().ok_or_else(truncated)?;
+        let line = next_line()?;
         if line.is_empty() {
             break;
         }
-        if let Some(format) = line.strip_prefix(b"FORMAT=")
-            && format.trim_ascii() != b"32-bit_rle_rgbe"
-        {
-            return Err(broken("its FORMAT is not 32-bit_rle_rgbe"));
+        let (name, value) = line.split_once('=').unwrap_or_default();
+        let numbers: Vec<f64> = value.split_whitespace().map_while(|word| word.parse().ok()).collect();
+        let mut multiply =
+            |by: [f64; 3]| factors.iter_mut().zip(by).for_each(|(part, by)| *part *= by as f32);
+        match (name, &numbers[..]) {
+            ("FORMAT", _) if value.trim() == "32-bit_rle_xyze" => {
+                declared.encoding = Encoding::from_chromaticities(XYZ_CHROMATICITIES, None);
+            }
+            ("FORMAT", _) if value.trim() != "32-bit_rle_rgbe" => {
+                return Err(broken("its FORMAT is neither 32-bit_rle_rgbe nor 32-bit_rle_xyze"));
+            }
+            ("EXPOSURE", &[all]) => multiply([all; 3]),
+            ("COLORCORR", &[red, green, blue]) => multiply([red, green, blue]),
+            ("PRIMARIES", &[rx, ry, gx, gy, bx, by, wx, wy]) => {
+                let primaries = [[rx, ry], [gx, gy], [bx, by], [wx, wy]];
+                let srgb = SRGB_CHROMATICITIES.as_flattened();
+                // Radiance's own, with a white of equal energy, count as sRGB everywhere.
+                if numbers.iter().zip(srgb).any(|(stated, srgb)| (stated - srgb).abs() > 0.021) {
+                    declared.encoding = Encoding::from_chromaticities(primaries, None);
+                }
+            }
+            _ => {}
         }
     }
-    let line = String::from_utf8_lossy(lines.next().ok_or_else(truncated)?);
+    if !factors.iter().all(|factor| factor.is_normal() && *factor > 0.0) {
+        return Err(broken("its EXPOSURE or COLORCORR is not above 0"));
+    }
+    let line = next_line()?;
     let words: Vec<&str> = line.split_whitespace().collect();
     let size = match words[..] {
-        ["-Y", height, "+X", width] => width.parse().ok().zip(height.parse().ok()),
-        _ => return Err(broken("its rows do not run from left to right and from top to bottom (-Y, +X)")),
+        [first, rows, second, columns] => {
+            let orientation = AXES.iter().position(|axes| *axes == format!("{first} {second}"));
+            let sides = columns.parse::<u32>().ok().zip(rows.parse::<u32>().ok());
+            orientation.zip(sides)
+        }
+        _ => None,
     };
-    let (width, height): (u32, u32) = size.ok_or_else(|| broken("its size is not two numbers"))?;
-    Ok(([width, height].map(|side| side as usize), lines.0))
-}
-
-/// Lines, each without its line feed.
-struct Lines<'f>(&'f [u8]);
-
-impl<'f> Lines<'f> {
-    fn next(&mut self) -> Option<&'f [u8]> {
-        let end = self.0.iter().position(|&byte| byte == b'\n')?;
-        let line = &self.0[..end];
-        let line = line.strip_suffix(b"\r").unwrap_or(line);
-        self.0 = &self.0[end + 1..];
-        Some(line)
-    }
+    let (orientation, (width, height)) =
+        size.ok_or_else(|| broken("its size is not two numbers, as in -Y 512 +X 1024"))?;
+    declared.orientation = orientation as u8 + 1;
+    Ok(([width, height].map(|side| side as usize), factors))
 }
 
 /// Reads the first `N` bytes.

@@ -5,6 +5,7 @@ use zune_jpeg::zune_core::bytestream::ZCursor;
 use zune_jpeg::zune_core::colorspace::ColorSpace;
 use zune_jpeg::zune_core::options::DecoderOptions;
 
+use crate::foreign::foreign_kind;
 use crate::orientation::{self, upright};
 use crate::panorama::part_of_xmp;
 use crate::pixels::Pixels;
@@ -56,10 +57,10 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
             }
         }
         [0xff, 0xd8, 0xff, ..] => jpeg(file, limits, &mut declared, &mut notes)?,
-        [b'#', b'?', ..] => read_hdr::read(file, limits).map(light)?,
+        [b'#', b'?', ..] => read_hdr::read(file, limits, &mut declared).map(light)?,
         [0x76, 0x2f, 0x31, 0x01, ..] => read_exr::read(file, limits, &mut declared, &mut notes).map(light)?,
         [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => read_pfm::read(file, limits).map(light)?,
-        _ => return Err(ReadError::new(NOT_A_PICTURE)),
+        _ => return Err(not_a_picture(file)),
     };
     let pixels = match &declared.encoding {
         None => pixels,
@@ -69,14 +70,8 @@ pub fn read_picture(file: &[u8], limits: &PictureLimits) -> Result<ReadPicture, 
         }
     };
     let (size, pixels) = match pixels {
-        Pixels::Srgb(pixels) => {
-            let (size, pixels) = upright(declared.orientation, [width, height], pixels);
-            (size, Pixels::Srgb(pixels))
-        }
-        Pixels::Light(pixels) => {
-            let (size, pixels) = upright(declared.orientation, [width, height], pixels);
-            (size, Pixels::Light(pixels))
-        }
+        Pixels::Srgb(pixels) => upright(declared.orientation, [width, height], pixels, Pixels::Srgb),
+        Pixels::Light(pixels) => upright(declared.orientation, [width, height], pixels, Pixels::Light),
     };
     let part = declared.xmp.as_deref().and_then(|xmp| part_of_xmp(xmp, size));
     Ok(ReadPicture { size, pixels, part, notes })
@@ -99,11 +94,16 @@ pub fn check_picture(file: &[u8], limits: &PictureLimits) -> Result<(), ReadErro
         [b'#', b'?', ..] | [0x76, 0x2f, 0x31, 0x01, ..] | [b'P', b'F' | b'f', b' ' | b'\r' | b'\n', ..] => {
             Ok(())
         }
-        _ => Err(ReadError::new(NOT_A_PICTURE)),
+        _ => Err(not_a_picture(file)),
     }
 }
 
-const NOT_A_PICTURE: &str = "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM";
+fn not_a_picture(file: &[u8]) -> ReadError {
+    match foreign_kind(file) {
+        Some(kind) => ReadError::new(&format!("it is {}; {}", kind.what, kind.remedy)),
+        None => ReadError::new("not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM"),
+    }
+}
 
 fn jpeg(
     file: &[u8],

@@ -31,14 +31,20 @@ pub(crate) fn read(file: &[u8], limits: &PictureLimits) -> Result<([u32; 2], Vec
         if scale < 0.0 { f32::from_le_bytes(bytes) } else { f32::from_be_bytes(bytes) }
     };
     let n_bytes_of_row = N_BYTES_OF_SAMPLE * n_channels * width;
-    // A header with CR LF: the line feed is not data.
-    let is_crlf = file[..file.len() - rest.len()].ends_with(b"\r") && rest.starts_with(b"\n");
-    if is_crlf && rest.len() > n_bytes_of_row * height {
-        rest = &rest[1..];
+    // The line of the scale may end with CR LF, or with blanks before the line feed.
+    let n_bytes = n_bytes_of_row * height;
+    let n_more = rest.len().saturating_sub(n_bytes);
+    let has_ended = file[..file.len() - rest.len()].ends_with(b"\n");
+    let n_blank = rest.iter().take(n_more).take_while(|byte| byte.is_ascii_whitespace()).count();
+    if let Some(end) = rest[..n_blank].iter().position(|byte| *byte == b'\n').filter(|_| !has_ended) {
+        rest = &rest[end + 1..];
     }
-    let Some(data) = rest.get(..n_bytes_of_row * height) else {
-        return Err(broken("the file is truncated, or its header is wrong"));
-    };
+    let (data, after) = rest
+        .split_at_checked(n_bytes)
+        .ok_or_else(|| broken("the file is truncated, or its header is wrong"))?;
+    if !after.trim_ascii().is_empty() {
+        return Err(broken("it goes on after its pixels: its size or its number of channels is wrong"));
+    }
     let mut pixels = reserved(width * height)?;
     for row in data.chunks_exact(n_bytes_of_row.max(1)).rev() {
         pixels.extend(row.chunks_exact(N_BYTES_OF_SAMPLE * n_channels).map(|bytes| {

@@ -3,19 +3,14 @@
 use std::fmt;
 use std::path::Path;
 
+use ugimage::{ForeignKind, foreign_kind};
 use ugpipe::remedies;
 
 /// Data that are neither a scene nor a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
-    /// Text of two bytes per character.
-    Utf16,
-    /// An archive or a compressed file.
-    Compressed,
-    /// What Git LFS leaves in the place of a file that was not fetched.
-    GitLfs,
-    /// A web page, as servers send in the place of a file.
-    WebPage,
+    /// Another kind than the following ones.
+    Other(ForeignKind),
     /// A picture.
     Picture,
     /// A mesh or scene in a format that no program reads.
@@ -33,10 +28,7 @@ impl Foreign {
     /// What it is, and the remedy.
     fn words(self) -> [&'static str; 2] {
         match self {
-            Self::Utf16 => ["UTF-16 text", "save it as UTF-8 or ASCII"],
-            Self::Compressed => ["compressed data", "decompress it first"],
-            Self::GitLfs => ["a Git LFS pointer", "fetch the file itself with `git lfs pull`"],
-            Self::WebPage => ["a web page", "download the file itself"],
+            Self::Other(kind) => [kind.what, kind.remedy],
             Self::Picture => ["a picture", "name a mesh"],
             Self::Model => ["a model in a format that is not read", remedies::EXPORT_MESH],
             Self::Table => ["a table", "name a mesh"],
@@ -68,25 +60,13 @@ pub fn foreign_data(name: &str, bytes: &[u8]) -> Option<Foreign> {
 /// The kind of data by their first bytes.
 pub(crate) fn by_content(bytes: &[u8]) -> Option<Foreign> {
     let begins = |words: &[&[u8]]| words.iter().any(|word| bytes.starts_with(word));
-    let start = bytes.trim_ascii_start();
-    let is_page = [&b"<!doctype html"[..], b"<html"]
-        .iter()
-        .any(|word| start.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word)));
-    if begins(&[b"\xff\xfe", b"\xfe\xff"]) {
-        Some(Foreign::Utf16)
-    } else if begins(&[b"version https://git-lfs.github.com/spec/"]) {
-        Some(Foreign::GitLfs)
-    } else if is_page {
-        Some(Foreign::WebPage)
-    } else if begins(&[b"\x1f\x8b", b"PK\x03\x04", b"\xfd7zXZ", b"\x28\xb5\x2f\xfd", b"BZh"]) {
-        Some(Foreign::Compressed)
-    } else if begins(&[b"\x89PNG", b"\xff\xd8\xff", b"GIF8", b"P6", b"PF", b"%PDF", b"%!PS", b"<svg"])
+    if let Some(kind) = foreign_kind(bytes) {
+        Some(if kind.is_picture { Foreign::Picture } else { Foreign::Other(kind) })
+    } else if begins(&[b"\x89PNG", b"\xff\xd8\xff", b"P6", b"PF", b"%!PS", b"<svg"])
         || begins(&[b"\x76\x2f\x31\x01", b"#?RADIANCE"])
     {
         Some(Foreign::Picture)
-    } else if begins(&[b"Kaydara FBX", b"BLENDER", b"ISO-10303"]) {
-        Some(Foreign::Model)
     } else {
-        None
+        begins(&[b"Kaydara FBX", b"BLENDER", b"ISO-10303"]).then_some(Foreign::Model)
     }
 }

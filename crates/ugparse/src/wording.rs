@@ -1,5 +1,7 @@
 //! The text of messages about single words and statements.
 
+use ugscene::look_alike;
+
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::grammar::{NAME, form, is_keyword, keywords};
 use crate::source::Span;
@@ -35,26 +37,13 @@ pub(crate) fn no_statement(word: &[u8], span: Span) -> Diagnostic {
     }
 }
 
-/// A character that looks like one of numbers, as word processors write it, and its name.
-fn look_alike(word: &str) -> Option<(char, &'static str)> {
-    word.chars().find_map(|c| match c {
-        '\u{2212}' => Some((c, "a minus sign of Unicode")),
-        '\u{2010}'..='\u{2015}' => Some((c, "a dash")),
-        '\u{a0}' | '\u{2007}' | '\u{202f}' => Some((c, "a blank without break")),
-        '\u{ff10}'..='\u{ff19}' => Some((c, "a wide digit")),
-        _ => None,
-    })
-}
-
 /// A remedy for an invalid number or name.
 pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
     let shown = shorten(word);
     let looks_like_number = matches!(word, [b'0'..=b'9' | b'+' | b'-' | b'.', ..]);
     let unsigned = shown.trim_start_matches(['+', '-']).to_ascii_lowercase();
     match wanted {
-        "a number" if let Some((c, name)) = look_alike(&shown) => {
-            Some(format!("`{c}` (U+{:04X}) is {name}: write it as ASCII", u32::from(c)))
-        }
+        "a number" if let Some(remedy) = look_alike(&shown) => Some(remedy),
         "a number" if looks_like_number && shown.contains(',') => Some("write a decimal point".to_string()),
         "a number" if ["nan", "inf", "infinity"].contains(&unsigned.as_str()) => {
             Some("every number must be finite".to_string())

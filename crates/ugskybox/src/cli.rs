@@ -100,7 +100,7 @@ const MOST_BYTES: u64 = 1 << 30;
 
 fn opened(file: &Input, common: &CommonArgs) -> Result<Opened, Failure> {
     let Input { name, text } = file;
-    if is_star_list(text) {
+    if is_star_list(name, text) {
         let StarList { stars, notes } =
             read_stars(name, text).map_err(|found| Failure::Report(found.report()))?;
         return Ok(Opened { stars, notes, ..Opened::default() });

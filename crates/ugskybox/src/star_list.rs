@@ -5,7 +5,9 @@ use std::ops::Range;
 use csv::{ByteRecord, Reader, ReaderBuilder};
 use glam::DVec3;
 use thiserror::Error;
+use ugimage::foreign_kind;
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
+use ugscene::look_alike;
 use ugsky::Star;
 
 /// Most stars of a list.
@@ -47,16 +49,19 @@ const LATITUDES: ([f64; 2], &str) = ([-90.0, 90.0], "degrees from -90 to 90");
 const COORDINATES: ([f64; 2], &str) = ([-1e100, 1e100], "a coordinate of a direction");
 
 static COLUMNS: [StarColumn; 11] = [
-    StarColumn { names: &["ra", "ra_deg", "right ascension", "raj2000", "ra_icrs"], range: LONGITUDES },
+    StarColumn {
+        names: &["ra", "ra_deg", "right ascension", "raj2000", "ra_icrs", "radeg"],
+        range: LONGITUDES,
+    },
     StarColumn { names: &["ra_hours", "ra_h"], range: ([-24.0, 24.0], "hours from -24 to 24") },
-    StarColumn { names: &["dec", "dec_deg", "declination", "dej2000", "de_icrs"], range: LATITUDES },
+    StarColumn { names: &["dec", "dec_deg", "declination", "dej2000", "de_icrs", "dedeg"], range: LATITUDES },
     StarColumn { names: &["lon", "longitude"], range: LONGITUDES },
     StarColumn { names: &["lat", "latitude"], range: LATITUDES },
     StarColumn { names: &["x"], range: COORDINATES },
     StarColumn { names: &["y"], range: COORDINATES },
     StarColumn { names: &["z"], range: COORDINATES },
     StarColumn {
-        names: &["mag", "magnitude", "vmag", "phot_g_mean_mag"],
+        names: &["mag", "magnitude", "vmag", "v", "gmag", "phot_g_mean_mag"],
         range: ([-60.0, 60.0], "a magnitude from -60 to 60"),
     },
     StarColumn {
@@ -73,17 +78,21 @@ impl StarColumn {
     }
 }
 
-/// The row in [`COLUMNS`] of a name, which may have its unit in brackets: `ra [deg]`, `ra (h)`.
-fn column_of(name: &[u8]) -> Option<usize> {
+/// The row in [`COLUMNS`] of a name, and how far it is from the best of its names. A name may have
+/// its unit in brackets: `ra [deg]`, `ra (h)`. VizieR begins those of columns that it has computed
+/// with `_`.
+fn column_of(name: &[u8]) -> Option<(usize, usize)> {
     let name = str::from_utf8(name).ok()?.trim();
     let (name, unit) = match name.split_once(['[', '(']) {
         Some((name, unit)) => (name.trim_end(), unit.trim_end_matches([']', ')'])),
         None => (name, ""),
     };
-    let is_named = |column: &StarColumn| column.names.iter().any(|known| name.eq_ignore_ascii_case(known));
-    let column = COLUMNS.iter().position(is_named)?;
+    let bare = name.trim_start_matches('_');
+    let place = |column: &StarColumn| column.names.iter().position(|known| bare.eq_ignore_ascii_case(known));
+    let (column, place) = COLUMNS.iter().enumerate().find_map(|(row, column)| Some((row, place(column)?)))?;
     let is_hours = matches!(unit.to_ascii_lowercase().as_str(), "h" | "hr" | "hours" | "hourangle");
-    Some(if column == Column::Ra as usize && is_hours { Column::RaHours as usize } else { column })
+    let column = if column == Column::Ra as usize && is_hours { Column::RaHours as usize } else { column };
+    Some((column, 2 * place + usize::from(bare == name)))
 }
 
 /// A list of stars that was read.
@@ -152,7 +161,12 @@ impl StarListMistake {
                  them"
             }
             Self::Empty(column) | Self::NotANumber(column, _) | Self::OutOfRange(column, _) => {
-                return format!("`{}` takes {}", column.name(), column.range.1);
+                let takes = format!("`{}` takes {}", column.name(), column.range.1);
+                return match self {
+                    Self::NotANumber(_, word) if let Some(remedy) = look_alike(word) => remedy,
+                    Self::NotANumber(_, word) if word.contains(',') => format!("{takes}, with a decimal point"),
+                    _ => takes,
+                };
             }
             Self::NoDirection => "one of `x`, `y` and `z` must not be 0",
             Self::TooMany => "keep the brightest",
@@ -161,23 +175,27 @@ impl StarListMistake {
     }
 }
 
-/// True if bytes look like a list of stars rather than a picture: text whose first line, comments
-/// apart, has names of columns.
-pub fn is_star_list(file: &[u8]) -> bool {
+/// True if a file is a list of stars rather than a picture: text whose first line, comments apart,
+/// has names of columns, or whose name is that of a table.
+pub fn is_star_list(name: &str, file: &[u8]) -> bool {
     let head = &file[..file.len().min(4096)];
     let mut record = ByteRecord::new();
     let is_text = |byte: &u8| *byte >= b' ' || byte.is_ascii_whitespace();
+    let is_table = [".csv", ".tsv"].iter().any(|end| name.to_ascii_lowercase().ends_with(end))
+        && head.iter().all(is_text)
+        && foreign_kind(file).is_none();
     next(&mut reader(head, separator(head)), &mut record, separator(head))
         && record.as_slice().iter().all(is_text)
-        && record.iter().filter_map(column_of).count() >= 2
+        && (record.iter().filter_map(column_of).count() >= 2 || is_table)
 }
 
 /// Reads a list of stars. `name`: of the file, for messages.
 ///
-/// The first line has the names of columns, separated by commas, semicolons, tabs or blanks; other
-/// columns than the known ones are allowed and ignored. In a list with the columns `ra` and
-/// `rarad`, those of the HYG catalogue, `ra` is in hours. Lines that are empty or begin with `#`
-/// are skipped, and stars without a magnitude, a temperature or a direction are left out.
+/// The first line has the names of columns, separated by commas, semicolons, tabs, bars or blanks;
+/// other columns than the known ones are allowed and ignored. In a list with the columns `ra` and
+/// `rarad`, those of the HYG catalogue, `ra` is in hours. Lines that are empty or begin with `#` or
+/// `sep=` are skipped, and so are lines of units, without a digit, before the first star. Stars
+/// without a magnitude, a temperature or a direction are left out.
 ///
 /// # Errors
 /// All errors of up to 20 lines, with line and column.
@@ -195,6 +213,9 @@ fn read(file: &[u8]) -> Result<StarList, Vec<Diagnostic>> {
     let (mut stars, mut errors) = (Vec::new(), Vec::new());
     let (mut n_incomplete, mut largest) = (0, f64::NEG_INFINITY);
     while errors.len() < MOST_MISTAKES && next(&mut reader, &mut record, separator) {
+        if stars.is_empty() && !record.as_slice().iter().any(u8::is_ascii_digit) {
+            continue;
+        }
         match layout.star(&record) {
             Ok(_) if stars.len() == MAX_STARS => {
                 errors.push(Wrong(None, StarListMistake::TooMany).at(file, separator, &record));
@@ -231,15 +252,20 @@ fn read(file: &[u8]) -> Result<StarList, Vec<Diagnostic>> {
     Ok(StarList { stars, notes })
 }
 
-/// The character between the names of columns: a comma, a semicolon or a tab, whichever is there
-/// most often, or else a blank.
+/// The character between the names of columns: a comma, a semicolon, a tab or a bar, whichever is
+/// there most often, or else a blank.
 fn separator(file: &[u8]) -> u8 {
     let file = file.strip_prefix(b"\xef\xbb\xbf").unwrap_or(file);
     let mut lines = file.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
-    let names = lines.find(|line| !line.is_empty() && !line.starts_with(b"#")).unwrap_or_default();
+    let names = lines.find(|line| !line.is_empty() && !is_comment(line)).unwrap_or_default();
     let count = |separator: &u8| names.iter().filter(|byte| *byte == separator).count();
-    let most = [b'\t', b';', b','].into_iter().max_by_key(count).filter(|most| count(most) > 0);
+    let most = [b'\t', b'|', b';', b','].into_iter().max_by_key(count).filter(|most| count(most) > 0);
     most.unwrap_or(if names.contains(&b' ') { b' ' } else { b',' })
+}
+
+/// Comments, and what tells spreadsheets the separator.
+fn is_comment(line: &[u8]) -> bool {
+    line.starts_with(b"#") || line.starts_with(b"sep=")
 }
 
 fn reader(file: &[u8], separator: u8) -> Reader<&[u8]> {
@@ -252,7 +278,7 @@ fn next(reader: &mut Reader<&[u8]>, record: &mut ByteRecord, separator: u8) -> b
     // Bytes in memory are read without errors.
     while matches!(reader.read_byte_record(record), Ok(true)) {
         let first = record.get(0).unwrap_or_default().trim_ascii_start();
-        if first.starts_with(b"#") || record.iter().all(<[u8]>::is_empty) && record.len() <= 1 {
+        if is_comment(first) || record.iter().all(<[u8]>::is_empty) && record.len() <= 1 {
             continue;
         }
         if separator == b' ' {
@@ -279,7 +305,7 @@ impl Wrong {
         let trimmed = |text: &[u8]| text.iter().take_while(|byte| is_blank(byte)).count();
         let mut rest = &file[before.min(file.len())..];
         rest = &rest[trimmed(rest)..];
-        while rest.starts_with(b"#") {
+        while is_comment(rest) {
             rest = &rest[line_end(rest)..];
             rest = &rest[trimmed(rest)..];
         }
@@ -329,10 +355,14 @@ enum Direction {
 impl Layout {
     fn new(record: &ByteRecord) -> Result<Self, Wrong> {
         let mut indices = [None; COLUMNS.len()];
+        let mut ranks = [usize::MAX; COLUMNS.len()];
         for (idx, name) in record.iter().enumerate() {
-            let Some(column) = column_of(name) else { continue };
-            if indices[column].replace(idx).is_some() {
+            let Some((column, rank)) = column_of(name) else { continue };
+            if ranks[column] == rank {
                 return Err(Wrong(Some(idx), StarListMistake::Twice(&COLUMNS[column])));
+            }
+            if rank < ranks[column] {
+                (indices[column], ranks[column]) = (Some(idx), rank);
             }
         }
         let missing = |what: &'static str| Wrong(None, StarListMistake::Missing(what));
@@ -352,12 +382,16 @@ impl Layout {
             .or_else(|| vector().map(Direction::Vector))
             .ok_or_else(|| missing("directions"))?;
         let color = |column: Column| Some((column, at(column)?));
+        let temperatures = match place(b"bp_rp").or_else(|| place(b"bp-rp")) {
+            Some(_) => "temperatures: `bp_rp` is not `b-v`, and Gaia has `teff_gspphot`",
+            None => "temperatures",
+        };
         Ok(Self {
             direction,
             magnitude: at(Column::Magnitude).ok_or_else(|| missing("magnitudes"))?,
             color: color(Column::Kelvin)
                 .or_else(|| color(Column::ColorIndex))
-                .ok_or_else(|| missing("temperatures"))?,
+                .ok_or_else(|| missing(temperatures))?,
             n_columns: record.len(),
             is_hyg,
             distance: place(b"dist").filter(|_| is_hyg),
@@ -410,6 +444,9 @@ impl Layout {
     }
 }
 
+/// Fields of stars without a value.
+const NOTHING: [&[u8]; 5] = [b"", b"null", b"nan", b"--", b"~"];
+
 fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMistake> {
     let field = field.trim_ascii();
     let quoted = || {
@@ -418,7 +455,7 @@ fn number(column: &'static StarColumn, field: &[u8]) -> Result<f64, StarListMist
     };
     let ([least, most], _) = column.range;
     match std::str::from_utf8(field).unwrap_or_default().parse::<f64>() {
-        _ if field.is_empty() => Err(StarListMistake::Empty(column)),
+        _ if NOTHING.iter().any(|it| field.eq_ignore_ascii_case(it)) => Err(StarListMistake::Empty(column)),
         Err(_) => Err(StarListMistake::NotANumber(column, quoted())),
         Ok(number) if !(least..=most).contains(&number) => Err(StarListMistake::OutOfRange(column, quoted())),
         Ok(number) => Ok(number),

@@ -9,7 +9,7 @@ use clap::{ArgAction, Parser};
 use glam::DVec3;
 use ugimage::{Filter, Format, PictureLimits};
 use uglight::ColorShift;
-use ugmeshfile::{Foreign, foreign_data};
+use ugmeshfile::foreign_data;
 use ugparse::{Source, pipe};
 use ugphysics::Velocity;
 use ugpicture::cli::{
@@ -270,7 +270,7 @@ impl Args {
     /// A file that cannot be read, is no panorama or no list of stars, or options that do not suit
     /// it.
     pub fn open(&self, input: &Input, context: &Context) -> Result<Opened, Failure> {
-        let is_list = is_star_list(&input.text);
+        let is_list = is_star_list(&input.name, &input.text);
         if !is_list && self.stars.is_none() && (self.star_width.is_some() || self.white.is_some()) {
             return Err(Failure::usage(
                 "there are no stars: leave out --star-width and --white, or give --stars LIST",
@@ -352,8 +352,8 @@ impl Args {
                     OpenError::Read { idx, error } => {
                         let Input { name, text } = inputs[idx];
                         let remedy = match foreign_data(name, text) {
-                            Some(Foreign::Picture) => CommonArgs::memory_remedy(error.needed_memory()),
-                            _ => format!("; {}", remedies::DRAW_SCENE),
+                            None => format!("; {}", remedies::DRAW_SCENE),
+                            Some(_) => CommonArgs::memory_remedy(error.needed_memory()),
                         };
                         Failure::Failed(format!("`{name}`: {error}{remedy}"))
                     }

@@ -250,6 +250,70 @@ fn gamma_of_png_is_applied() {
     assert!(matches!(read(&file(0.45455)).unwrap().1, Pixels::Srgb(_)));
 }
 
+/// Numbers of colours in PNG files (cICP) come before gamma; those that are not read are told.
+#[test]
+fn code_points_of_png_are_applied() {
+    let file = |codes: [u8; 4]| {
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, 1, 1);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_source_gamma(png::ScaledFloat::new(0.3));
+        let mut writer = encoder.write_header().unwrap();
+        writer.write_chunk(png::chunk::ChunkType(*b"cICP"), &codes).unwrap();
+        writer.write_image_data(&[51, 51, 204]).unwrap();
+        drop(writer);
+        ugimage::read_picture(&file, &PictureLimits::default()).unwrap()
+    };
+    assert_eq!(file([1, 13, 0, 1]).pixels, Pixels::Srgb(vec![[51, 51, 204, 255]]));
+    // The sum of the three published rows of each matrix is 1, so that greys are kept.
+    for (primaries, expected) in
+        [(1, [0.2, 0.2, 0.8]), (9, [0.15625, 0.19490, 0.87118]), (12, [0.2, 0.2, 0.85874])]
+    {
+        let Pixels::Light(pixels) = file([primaries, 8, 0, 1]).pixels else { panic!("light") };
+        let difference = expected.iter().zip(pixels[0]).map(|(a, b): (&f32, f32)| (a - b).abs());
+        assert!(difference.fold(0.0, f32::max) < 1e-3, "{primaries} {pixels:?}");
+    }
+    let picture = file([9, 16, 0, 1]);
+    assert_eq!(picture.pixels, Pixels::Srgb(vec![[51, 51, 204, 255]]));
+    assert!(picture.notes[0].contains("of kind 9/16 (cICP), which is not read"), "{:?}", picture.notes);
+}
+
+/// What a file is instead of a picture, in the message.
+#[test]
+fn files_that_are_no_pictures_are_named() {
+    for (file, expected) in [
+        (&b"RIFF\x10\0\0\0WEBPVP8 "[..], "it is a WebP picture; convert it to PNG, JPEG, HDR, EXR or PFM"),
+        (b"II*\0\x08\0\0\0", "it is a TIFF picture; convert it"),
+        (b"\0\0\0\x1cftypheic", "it is a HEIC or AVIF picture; convert it"),
+        (b"version https://git-lfs.github.com/spec/v1\n", "it is a Git LFS pointer; fetch the file itself"),
+        (b"\r\n<!DOCTYPE HTML>", "it is a web page; download the file itself"),
+        (b"\x1f\x8b\x08", "it is compressed data; decompress it first"),
+        (b"v a 0 0 0 ;", "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM"),
+    ] {
+        let message = read(file).unwrap_err().to_string();
+        assert!(message.starts_with(expected), "{message}");
+    }
+}
+
+/// Of several parts, the first with colours is read, before those with one channel.
+#[test]
+fn the_part_with_colours_is_read() {
+    use exr::prelude::*;
+
+    let attributes = |name: &str| LayerAttributes { layer_name: Some(name.into()), ..Default::default() };
+    let depth = AnyChannel::new("Z", FlatSamples::F32(vec![7.0; 2]));
+    let colors = ["R", "G", "B"].map(|name| AnyChannel::new(name, FlatSamples::F32(vec![0.25, 0.5])));
+    let part = |name: &str, list: Vec<AnyChannel<FlatSamples>>| {
+        Layer::new((2, 1), attributes(name), Encoding::UNCOMPRESSED, AnyChannels::sort(list.into()))
+    };
+    let layers = vec![part("depth", vec![depth]), part("colours", colors.into())];
+    let image = Image::from_layers(ImageAttributes::new(IntegerBounds::from_dimensions((2, 1))), layers);
+    let mut file = std::io::Cursor::new(Vec::new());
+    image.write().to_buffered(&mut file).unwrap();
+    let (_, pixels) = read_light(file.get_ref()).unwrap();
+    assert_eq!(pixels, [[0.25, 0.25, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0]]);
+}
+
 /// A layer beside the middle of its display window, in X, Y and Z.
 #[test]
 fn windows_and_chromaticities_of_exr_are_applied() {

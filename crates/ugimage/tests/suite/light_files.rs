@@ -57,6 +57,50 @@ fn pixels_are_those_of_another_reader() {
     check([0, 0], &[]);
 }
 
+/// What the header says of the pixels is applied: factors, axes and primaries.
+#[test]
+fn headers_of_radiance_are_applied() {
+    // Two rows of three pixels as stored, told apart by their red.
+    let rows: Vec<u8> = (1..=6).flat_map(|n| [n * 16, 64, 64, 129]).collect();
+    let read = |header: &str, size: &str| {
+        let file = [format!("#?RADIANCE\r\n{header}\n\r\n{size}\n").as_bytes(), &rows].concat();
+        let (size, pixels) = read_light(&file)?;
+        let reds: Vec<f32> = pixels.iter().map(|pixel| pixel[0] * 8.0).collect();
+        Ok::<_, String>((size, reds, pixels[0]))
+    };
+    let wide = |reds: [u8; 6]| ([3, 2], reds.map(f32::from).to_vec());
+    let high = |reds: [u8; 6]| ([2, 3], reds.map(f32::from).to_vec());
+    for (axes, expected) in [
+        ("-Y 2 +X 3", wide([1, 2, 3, 4, 5, 6])),
+        ("-Y 2 -X 3", wide([3, 2, 1, 6, 5, 4])),
+        ("+Y 2 -X 3", wide([6, 5, 4, 3, 2, 1])),
+        ("+Y 2 +X 3", wide([4, 5, 6, 1, 2, 3])),
+        ("+X 2 -Y 3", high([1, 4, 2, 5, 3, 6])),
+        ("-X 2 -Y 3", high([4, 1, 5, 2, 6, 3])),
+        ("-X 2 +Y 3", high([6, 3, 5, 2, 4, 1])),
+        ("+X 2 +Y 3", high([3, 6, 2, 5, 1, 4])),
+    ] {
+        let (size, reds, _) = read("FORMAT=32-bit_rle_rgbe", axes).unwrap();
+        assert_eq!((size, reds), expected, "{axes}");
+    }
+    let first = |header: &str| read(header, "-Y 2 +X 3").map(|(.., pixel)| pixel);
+    assert_eq!(first("EXPOSURE=2\nEXPOSURE= .5\nEXPOSURE=4"), Ok([0.03125, 0.125, 0.125, 1.0]));
+    assert_eq!(first("COLORCORR=.5 2 4"), Ok([0.25, 0.25, 0.125, 1.0]));
+    // Radiance's own primaries count as sRGB.
+    let radiance = "PRIMARIES=0.640 0.330 0.290 0.600 0.150 0.060 0.333 0.333";
+    assert_eq!(first(radiance), Ok([0.125, 0.5, 0.5, 1.0]));
+    let xyz = ugphysics::xyz_to_linear_srgb([0.125, 0.5, 0.5]);
+    for header in ["FORMAT=32-bit_rle_xyze", "PRIMARIES=1 0 0 1 0 0 .3333 .3333"] {
+        let found = first(header).unwrap();
+        assert!((0..3).all(|part| (f64::from(found[part]) - xyz[part]).abs() < 1e-6), "{found:?} {xyz:?}");
+    }
+    assert!(first("EXPOSURE=0").unwrap_err().contains("not above 0"));
+    assert!(first("FORMAT=x").unwrap_err().contains("FORMAT"));
+    for size in ["-Y 2 -Y 3", "-Y 2 +X", "-Y 2 +X three", "2 3"] {
+        assert!(read("", size).unwrap_err().contains("its size is not two numbers"), "{size}");
+    }
+}
+
 /// Ten zeros of a run, whose number would need 80 bits.
 #[test]
 fn numbers_of_runs_do_not_overflow() {
@@ -172,6 +216,11 @@ fn grey_and_the_other_byte_order_are_read() {
     // Rows run from bottom to top.
     assert_eq!(read_light(&file), Ok(([1, 2], vec![[0.5, 0.5, 0.5, 1.0], [2.0, 2.0, 2.0, 1.0]])));
     assert_eq!(read_light(b"PF 0 0 -1\n"), Ok(([0, 0], Vec::new())));
+    // Blanks at the end of the header, or data that begin as blanks, and a line feed at the end.
+    for file in [&b"Pf 1 1\n-1.0 \n   A"[..], b"Pf 1 1\n-1.0\n   A", b"Pf 1 1 -1 \r\n   A\n"] {
+        let light = f32::from_le_bytes(*b"   A");
+        assert_eq!(read_light(file), Ok(([1, 1], vec![[light, light, light, 1.0]])), "{file:?}");
+    }
 }
 
 #[test]
@@ -181,6 +230,10 @@ fn invalid_files_are_refused() {
         (b"PF\n2 -1\n-1.0\n", "its size is not two numbers"),
         (b"PF\n2 1\nx\n", "its scale is not a number"),
         (b"PF\n2 1\n-1.0\n0123", "the file is truncated, or its header is wrong"),
+        (
+            b"Pf\n1 1\n-1.0\n01234567",
+            "it goes on after its pixels: its size or its number of channels is wrong",
+        ),
     ] {
         assert_eq!(read_light(file), Err(format!("not a readable PFM file: {problem}")));
     }

@@ -37,6 +37,7 @@ fn text_of_other_programs_is_read() {
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let obj = |rest: &str, warning: &str| check("a.obj", &format!("{points}{rest}"), TRIANGLE, warning);
     obj("f 1 2 3 # a comment", "");
+    obj("fo 1 2 3", "");
     obj("usemtl none\t# a comment\nf 1 2 3", "materials without colour: `none`");
     obj("f 1//0 2//0 3//0", "3 corners refer to normals that do not exist, and have none");
     obj("f 1//7 2 3", "1 corner refers to a normal that does not exist, and has none");
@@ -60,6 +61,9 @@ fn text_of_other_programs_is_read() {
         "",
     );
 
+    let more = "the file goes on after what its header declares: the rest is not read";
+    check("a.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n", TRIANGLE, more);
+
     let head =
         "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nproperty float quality\n";
     let faces = "element face 1\nproperty list uchar int vertex_indices\n";
@@ -70,6 +74,9 @@ fn text_of_other_programs_is_read() {
     ply(&format!(
         "\u{feff}ply\r\nformat ascii 1.0\r\n{head}{faces}end_header\r\n0 0 0 1 1 0 0 1 0 1 0 1 3 0 1 2"
     ));
+    let longer =
+        format!("ply\nformat ascii 1.0\n{head}{faces}end_header\n0 0 0 1 1 0 0 1 0 1 0 1 3 0 1 2 3 0 1 2");
+    check("a.ply", &longer, TRIANGLE, more);
     // Faces before vertices.
     ply(&format!("ply\nformat ascii 1.0\n{faces}{head}end_header\n3 0 1 2\n0 0 0 0\n1 0 0 0\n0 1 0 0\n"));
 }
@@ -82,6 +89,28 @@ fn headers_of_stl_may_lie() {
         file[80..84].copy_from_slice(&declared.to_le_bytes());
         let warning = format!("{declared} triangles are declared, and all 4 of the file are read");
         assert_eq!(shown(&run("a.stl", &file, &[])), (whole.clone(), warning));
+    }
+}
+
+/// A character that only looks like one of numbers is named.
+#[test]
+fn look_alikes_are_named() {
+    for (name, text) in [
+        ("a.obj", "v 0 0 \u{2212}1\n"),
+        ("a.off", "OFF 1 0 0 0 0 \u{2212}1"),
+        ("a.stl", "solid\nfacet outer loop vertex 0 0 \u{2212}1"),
+        (
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 \u{2212}1\n",
+        ),
+    ] {
+        let config = Config { up: Some(Axis::Z), ..Config::default() };
+        let found = ugmesh::run(&config, &MeshFile::new(name, text.as_bytes()));
+        let message = found.err().map(|error| error.to_string()).unwrap_or_default();
+        assert!(
+            message.contains("; `\u{2212}` (U+2212) is a minus sign of Unicode: write it as ASCII"),
+            "{message}"
+        );
     }
 }
 
@@ -109,8 +138,32 @@ fn materials_of_other_programs_are_read() {
         let mtl = format!("newmtl m\nKd 1 1 1\nmap_Kd {options}my tex.png");
         check(&mtl, "c_rgb m 1 0 0;", "");
     }
+    let textured = "c_rgb m 1 0 0; c_tex m \"my tex.png\"";
+    check("newmtl m # c\nkd 1 1 1 # c\nMAP_Kd my tex.png # c", textured, "");
+    check("newmtl m\nKd 1 1 1\nmap_Kd -clamp on \"my tex.png\"", &format!("{textured} -wrap clamp;"), "");
+    check("newmtl m\nKd 1 0 0\nmap_Kd", "c_rgb m 1 0 0; v v1", "");
+    let lfs = "colours are missing: `C:\\work\\a.mtl` is a Git LFS pointer";
+    check("version https://git-lfs.github.com/spec/v1\n", "v v1 ", lfs);
     check("newmtl m\nKd 1 1 1\nmap_Kd deep\\tex.png", "c_rgb m 1 0 0; c_tex m \"deep/tex.png\";", "");
     check("newmtl m\nKd 1 1 1\nmap_Kd D:\\x\\my tex.png", "c_rgb m 1 0 0; c_tex m \"my tex.png\";", "");
+}
+
+/// Coordinates of pictures are scaled and moved as `map_Kd` says, whose v is upwards.
+#[test]
+fn pictures_are_where_materials_place_them() {
+    let png = ugimage::Format::Png.encode(&ugimage::Frame::opaque(1, 1), &ugimage::Metadata::default());
+    let obj = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt .5 .25\nusemtl m\nf 1/1 2/2 3/2";
+    for (options, expected) in [
+        ("", ["(0 1)", "(0.5 0.75)"]),
+        ("-s 2 4 1 -o .5 1 0 ", ["(0.5 0)", "(1.5 -1)"]),
+        ("-o .5 ", ["(0.5 1)", "(1 0.75)"]),
+    ] {
+        let mtl = format!("newmtl m\nmap_Kd {options}a.png");
+        let (text, _) = shown(&run("a.obj", obj.as_bytes(), &[("a.mtl", mtl.as_bytes()), ("a.png", &png)]));
+        let [first, second] = expected;
+        let vertices = format!("v v1 0 0 0 {first}; v v2 1 0 0 {second}; v v3 0 1 0 {second};");
+        assert!(text.contains(&vertices), "{options}: {text}");
+    }
 }
 
 /// A triangle in a document with more keys: of its root, of its node and of its primitive.
@@ -170,6 +223,8 @@ fn gltf_needs_only_what_is_read() {
     let red = "c_rgb c1 1 0 0; v v1 0 0 0; v v2 1 0 0; v v3 0 1 0; f (v1 v2 v3) c1;";
     let glossy = r#","materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,0,0,1]}}}]"#;
     check(glossy, "", r#","material":0"#, red, "");
+    let hidden = r#","extensions":{"KHR_node_visibility":{"visible":false}}"#;
+    check("", hidden, "", "", "the mesh has no faces");
     let webp = r#","extensionsRequired":["EXT_texture_webp"],"textures":[{"extensions":{"EXT_texture_webp":{"source":0}}}],
         "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0,1],"baseColorTexture":{"index":0}}}]"#;
     let missing =
@@ -199,5 +254,13 @@ fn containers_of_gltf_may_have_more() {
         ),
         &[],
     );
+    let three = glb(r#"{"asset":{"version":"2.0","minVersion":"3.0"}}"#, b"");
+    let config = Config { up: Some(Axis::Z), ..Config::default() };
+    let message = ugmesh::run(&config, &MeshFile::new("a.glb", three)).err().map(|error| error.to_string());
+    assert!(message.unwrap_or_default().contains("glTF 3.0 is not read; convert the mesh to glTF 2.0"));
+    // A buffer by a path of another machine.
+    let far = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":3,"uri":".\\\\x\\\\a%20b.bin"}]}"#;
+    let read = run("a.gltf", far.as_bytes(), &[("a b.bin", b"abc")]);
+    assert_eq!(read.warnings, ["the mesh has no faces"]);
     assert!(empty.warnings[0].starts_with("1 set of triangles without positions"), "{:?}", empty.warnings);
 }

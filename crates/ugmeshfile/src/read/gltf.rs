@@ -14,7 +14,7 @@ use ugphysics::srgb_encode;
 use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
 use super::gltf_document::{Document, numbers, split, whole};
-use super::{Input, accessor, strip};
+use super::{Input, accessor, read_named, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures};
@@ -72,7 +72,7 @@ pub fn picture_within(bytes: &[u8], row: usize) -> Result<Vec<u8>, String> {
         let image = document.row("images", row)?;
         let input = Input { bytes, read_file: &no_files };
         if let Some(uri) = image["uri"].as_str() {
-            return load(uri, MAX_TEXTURE_BYTES, &input);
+            return load(uri, MAX_TEXTURE_BYTES, &input).map(|(bytes, _)| bytes);
         }
         let buffers = buffers(&document, blob, &input)?;
         let view = whole(&image["bufferView"]).and_then(|view| document.view(view, &buffers));
@@ -100,7 +100,7 @@ fn buffers<'a>(
             Problem::new(format!("{what} {MAX_BUFFER_BYTES} bytes together, the limit; split the mesh"))
         })?;
         let bytes: Cow<[u8]> = match buffer["uri"].as_str() {
-            Some(uri) => load(uri, length as u64, input)?.into(),
+            Some(uri) => load(uri, length as u64, input)?.0.into(),
             None => match blob.take() {
                 Some(blob) => blob.into(),
                 None => {
@@ -124,13 +124,14 @@ const BASE64: GeneralPurpose = GeneralPurpose::new(
     GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
 );
 
-/// The content of a buffer. Of a file, the first `length` bytes are read.
-fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<Vec<u8>, Problem> {
+/// The content of a buffer, and the name of its file. Of a file, the first `length` bytes are read.
+fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<(Vec<u8>, String), Problem> {
     if let Some(data) = uri.strip_prefix("data:") {
         let (_, code) = data
             .split_once(";base64,")
             .ok_or_else(|| Problem::new("a data URI is not base64; export the mesh as GLB"))?;
-        return BASE64.decode(code).map_err(|error| Problem::new(format!("a data URI is damaged: {error}")));
+        let damaged = |error| Problem::new(format!("a data URI is damaged: {error}"));
+        return BASE64.decode(code).map(|bytes| (bytes, String::new())).map_err(damaged);
     }
     let name = percent_decoded(uri);
     if name.contains("://") {
@@ -139,7 +140,7 @@ fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<Vec<u8>, Problem> {
             shorten(&name)
         )));
     }
-    (input.read_file)(&name, length).map_err(|error| {
+    read_named(input, &name, length).map_err(|error| {
         Problem::new(format!("cannot read `{}`: {error}; put it in the folder of the mesh", shorten(&name)))
     })
 }
@@ -209,6 +210,9 @@ impl Reader<'_, '_> {
             if std::mem::replace(&mut is_visited[index], true) {
                 let what = format!("node {index} has two parents; export the mesh again");
                 return Err(Problem::new(what));
+            }
+            if node["extensions"]["KHR_node_visibility"]["visible"] == false {
+                continue;
             }
             let scene_from_node = scene_from_parent * local_transform(node);
             if let Some(mesh) = whole(&node["mesh"]) {
@@ -410,11 +414,13 @@ impl Reader<'_, '_> {
         };
         let number = format!("image {source}");
         if let Some(uri) = image["uri"].as_str() {
-            let file = (!uri.starts_with("data:")).then(|| percent_decoded(uri));
-            let name = file.clone().unwrap_or(number);
+            let is_within = uri.starts_with("data:");
+            let name = if is_within { number } else { percent_decoded(uri) };
             let load = || {
-                let bytes = load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what)?;
-                Ok((bytes, file.map_or(TextureOrigin::Within(source), TextureOrigin::File)))
+                let (bytes, file) = load(uri, MAX_TEXTURE_BYTES, input).map_err(|problem| problem.what)?;
+                let origin =
+                    if is_within { TextureOrigin::Within(source) } else { TextureOrigin::File(file) };
+                Ok((bytes, origin))
             };
             return self.textures.load(&name, load);
         }

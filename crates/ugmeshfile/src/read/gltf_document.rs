@@ -12,11 +12,12 @@ use crate::error::Problem;
 pub(super) struct Document(pub Value);
 
 /// Beginnings of the names of extensions that a file may require: they do not affect the geometry.
-const HARMLESS: [&str; 7] = [
+const HARMLESS: [&str; 8] = [
     "EXT_mesh_gpu_instancing",
     "KHR_lights_punctual",
     "KHR_materials_",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_",
     "EXT_texture_",
     "MSFT_texture_",
@@ -27,12 +28,13 @@ impl Document {
     pub fn parse(json: &[u8]) -> Result<Self, Problem> {
         let document: Value =
             serde_json::from_slice(json).map_err(|error| Problem::new(error.to_string()))?;
-        match document["asset"]["version"].as_str() {
-            None => {
-                return Err(Problem::new("this is not a glTF document: it has no `asset` with a version"));
-            }
-            Some(version) if version == "1" || version.starts_with("1.") => return Err(old()),
-            Some(_) => {}
+        let asset = &document["asset"];
+        let stated = |name: &str| asset[name].as_str();
+        let version = stated("minVersion").or(stated("version"));
+        let version = version
+            .ok_or_else(|| Problem::new("this is not a glTF document: it has no `asset` with a version"))?;
+        if version.split('.').next() != Some("2") {
+            return Err(not_two(version));
         }
         let required =
             document["extensionsRequired"].as_array().into_iter().flatten().filter_map(Value::as_str);
@@ -81,8 +83,8 @@ pub(super) fn numbers<const N: usize>(value: &Value) -> Option<[f64; N]> {
     numbers?.try_into().ok()
 }
 
-fn old() -> Problem {
-    Problem::new("glTF 1.0 is not read; convert the mesh to glTF 2.0")
+fn not_two(version: &str) -> Problem {
+    Problem::new(format!("glTF {} is not read; convert the mesh to glTF 2.0", shorten(version)))
 }
 
 /// The JSON text of a file and, of GLB, its binary chunk.
@@ -97,7 +99,7 @@ pub(super) fn split(bytes: &[u8]) -> Result<(&[u8], Option<&[u8]>), Problem> {
     };
     match number(4) {
         Some(2) => {}
-        Some(1) => return Err(old()),
+        Some(1) => return Err(not_two("1.0")),
         _ => return Err(truncated()),
     }
     let mut rest = number(8).and_then(|len| bytes.get(12..len)).ok_or_else(truncated)?;

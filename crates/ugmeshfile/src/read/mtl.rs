@@ -12,9 +12,19 @@ use crate::decode::decode;
 #[derive(Debug, Default)]
 pub(super) struct Materials {
     pub colors: BTreeMap<String, Rgba>,
-    pub textures: BTreeMap<String, String>,
+    pub textures: BTreeMap<String, MapFile>,
     /// Emitted colours, and their pictures.
-    pub emissions: BTreeMap<String, ([f64; 3], Option<String>)>,
+    pub emissions: BTreeMap<String, ([f64; 3], Option<MapFile>)>,
+}
+
+/// A picture of a material, and where it is on a surface.
+#[derive(Clone, Debug, Default)]
+pub(super) struct MapFile {
+    pub file: String,
+    /// By which u and v are multiplied, and what is then added to them, if that is stated.
+    pub placement: Option<[[f32; 2]; 2]>,
+    /// Beyond its edges the picture has their colours, and is not repeated.
+    pub is_clamped: bool,
 }
 
 impl Materials {
@@ -25,9 +35,9 @@ impl Materials {
         let mut current: Option<&mut Rgba> = None;
         let mut name = "";
         for line in text.lines() {
-            let (keyword, rest) = split(line);
+            let (keyword, rest) = split(without_comment(line));
             let mut numbers = rest.split_whitespace().map_while(any_number);
-            match (keyword, &mut current) {
+            match (&*keyword.to_ascii_lowercase(), &mut current) {
                 ("newmtl", _) => {
                     let color = self.colors.entry(rest.to_string()).or_insert(UNNAMED);
                     *color = UNNAMED;
@@ -36,7 +46,7 @@ impl Materials {
                     self.textures.remove(name);
                     self.emissions.remove(name);
                 }
-                ("Kd", Some(color)) => {
+                ("kd", Some(color)) => {
                     if let Some(red) = numbers.next() {
                         // Missing components equal the first.
                         let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
@@ -47,16 +57,16 @@ impl Materials {
                     }
                 }
                 ("d", Some(color)) => numbers.take(1).for_each(|opacity| color.0[3] = opacity),
-                ("Tr", Some(color)) => numbers.take(1).for_each(|clear| color.0[3] = 1.0 - clear),
-                ("map_Kd", Some(_)) => {
+                ("tr", Some(color)) => numbers.take(1).for_each(|clear| color.0[3] = 1.0 - clear),
+                ("map_kd", Some(_)) if !rest.is_empty() => {
                     self.textures.insert(name.to_owned(), file_of_map(rest));
                 }
-                ("Ke", Some(_)) => {
+                ("ke", Some(_)) => {
                     let red = numbers.next().unwrap_or(0.0);
                     let [green, blue] = [(); 2].map(|()| numbers.next().unwrap_or(red));
                     self.emissions.entry(name.to_owned()).or_default().0 = [red, green, blue];
                 }
-                ("map_Ke", Some(_)) => {
+                ("map_ke", Some(_)) if !rest.is_empty() => {
                     self.emissions.entry(name.to_owned()).or_default().1 = Some(file_of_map(rest));
                 }
                 _ => {}
@@ -65,8 +75,16 @@ impl Materials {
     }
 }
 
-/// The file in a statement such as `map_Kd -s 1 1 1 tree bark.png`.
-fn file_of_map(mut rest: &str) -> String {
+/// The statement without a comment at its end. Names may have a `#`, but not after a blank.
+pub(super) fn without_comment(statement: &str) -> &str {
+    let end = statement.match_indices('#').map(|(at, _)| at);
+    let mut end = end.filter(|&at| statement[..at].ends_with(char::is_whitespace));
+    end.next().map_or(statement, |at| statement[..at].trim_end())
+}
+
+/// What follows the keyword of a statement such as `map_Kd -s 1 1 1 tree bark.png`.
+fn file_of_map(mut rest: &str) -> MapFile {
+    let mut map = MapFile::default();
     while rest.starts_with('-') {
         let (option, arguments) = split(rest);
         let most = match option {
@@ -77,6 +95,12 @@ fn file_of_map(mut rest: &str) -> String {
             _ => break,
         };
         rest = arguments;
+        map.is_clamped |= option == "-clamp" && split(rest).0 == "on";
+        if let "-s" | "-o" = option {
+            let parts = &mut map.placement.get_or_insert([[1.0; 2], [0.0; 2]])[usize::from(option == "-o")];
+            let numbers = rest.split_whitespace().map_while(any_number);
+            parts.iter_mut().zip(numbers).for_each(|(part, number)| *part = number as f32);
+        }
         for idx in 0..most {
             let (word, after) = split(rest);
             // The last two numbers of `-o`, `-s` and `-t` may be missing.
@@ -86,7 +110,8 @@ fn file_of_map(mut rest: &str) -> String {
             rest = after;
         }
     }
-    rest.to_owned()
+    rest.clone_into(&mut map.file);
+    map
 }
 
 /// The colour of a material without `Kd`, the same as in other readers.

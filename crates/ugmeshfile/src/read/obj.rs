@@ -5,19 +5,19 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
-use std::io;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::srgb_decode;
-use ugscene::{AlphaMode, ColorId, Texture, VertexId, shorten};
+use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
-use super::Input;
-use super::mtl::{self, Materials};
+use super::mtl::{self, MapFile, Materials, without_comment};
 use super::text::{any_number, numbers};
+use super::{Input, read_named};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
+use crate::foreign::by_content;
 use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures, tinted};
 
 pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Problem> {
@@ -38,13 +38,6 @@ pub(super) fn read(input: &Input<'_>, builder: &mut Builder) -> Result<(), Probl
         reader.statement(line, without_comment(statement)).map_err(at_line)?;
     }
     reader.finish()
-}
-
-/// The statement without a comment at its end. Names may have a `#`, but not after a blank.
-fn without_comment(statement: &str) -> &str {
-    let end = statement.match_indices('#').map(|(at, _)| at);
-    let mut end = end.filter(|&at| statement[..at].ends_with(char::is_whitespace));
-    end.next().map_or(statement, |at| statement[..at].trim_end())
 }
 
 /// The lines with their numbers. A backslash at the end of a line continues it on the next.
@@ -90,6 +83,8 @@ struct Reader<'a> {
     object: String,
     materials: Materials,
     textures: Textures,
+    /// Of colours with a texture, see [`MapFile::placement`].
+    placements: FxHashMap<ColorId, [[f32; 2]; 2]>,
     /// The arguments of `mtllib` so far.
     libraries: BTreeSet<String>,
     /// How many more bytes files of materials may have.
@@ -119,6 +114,7 @@ impl<'a> Reader<'a> {
             object: String::new(),
             materials: Materials::default(),
             textures: Textures::default(),
+            placements: FxHashMap::default(),
             libraries: BTreeSet::new(),
             material_room: MAX_MATERIAL_BYTES,
             color: None,
@@ -138,7 +134,7 @@ impl<'a> Reader<'a> {
             "v" => self.vertex(line, rest)?,
             "vn" => self.normal(rest)?,
             "vt" => self.uv(rest),
-            "f" => self.face(rest)?,
+            "f" | "fo" => self.face(rest)?,
             "l" | "p" | "curv" | "curv2" | "surf" => self.n_skipped += 1,
             "mtllib" => self.load_materials(rest)?,
             "usemtl" => self.use_material(rest),
@@ -225,12 +221,11 @@ impl<'a> Reader<'a> {
             return Ok(());
         }
         if let Ok((bytes, _)) = read_named(self.input, rest, self.material_room + 1) {
-            return self.add_materials(&bytes);
+            return self.add_materials(rest, &bytes);
         }
-        let names: Vec<&str> = rest.split_whitespace().collect();
-        for name in if names.is_empty() { vec![rest] } else { names } {
+        for name in rest.split_whitespace() {
             match read_named(self.input, name, self.material_room + 1) {
-                Ok((bytes, _)) => self.add_materials(&bytes)?,
+                Ok((bytes, _)) => self.add_materials(name, &bytes)?,
                 Err(error) => {
                     self.builder
                         .warn(format!("colours are missing: cannot read `{}`: {error}", shorten(name)));
@@ -240,7 +235,11 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    fn add_materials(&mut self, bytes: &[u8]) -> Result<(), Problem> {
+    fn add_materials(&mut self, name: &str, bytes: &[u8]) -> Result<(), Problem> {
+        if let Some(foreign) = by_content(bytes) {
+            let (name, remedy) = (shorten(name), foreign.remedy());
+            self.builder.warn(format!("colours are missing: `{name}` is {foreign}; {remedy}"));
+        }
         self.material_room = self.material_room.checked_sub(bytes.len() as u64).ok_or_else(|| {
             Problem::new(format!(
                 "the files of materials have more than {MAX_MATERIAL_BYTES} bytes together, the limit"
@@ -255,11 +254,11 @@ impl<'a> Reader<'a> {
         if known.is_none() {
             self.unknown_materials.insert(name.to_string());
         }
-        let file = self.materials.textures.get(name).cloned();
+        let map = self.materials.textures.get(name).cloned().unwrap_or_default();
         let emitted = self.emitted(name);
         self.color = known.map(|mut color| {
-            let loaded = file.and_then(|file| {
-                let loaded = self.texture(&file);
+            let loaded = Some(&map.file).filter(|file| !file.is_empty()).and_then(|file| {
+                let loaded = self.texture(file);
                 // Exporters write so where the texture alone has the colour.
                 if color.0[..3] == [0.0; 3] {
                     self.builder.warn(format!(
@@ -277,17 +276,20 @@ impl<'a> Reader<'a> {
                 let factor =
                     [red, green, blue, alpha].map(|part| if part.is_nan() { 0.0 } else { part as f32 });
                 let mode = if alpha < 1.0 { AlphaMode::Blend } else { AlphaMode::Opaque };
-                Texture { factor, alpha: mode, ..Texture::new(ColorId::from_index(0), image.clone()) }
+                let wrap = [if map.is_clamped { Wrap::Clamp } else { Wrap::Repeat }; 2];
+                Texture { factor, wrap, alpha: mode, ..Texture::new(ColorId::from_index(0), image.clone()) }
             });
             let tinted = loaded.map_or(color, |LoadedTexture { mean, .. }| tinted(color, mean));
-            self.builder.material(tinted, name, texture, emitted)
+            let id = self.builder.material(tinted, name, texture, emitted);
+            self.placements.extend(map.placement.map(|placement| (id, placement)));
+            id
         });
     }
 
     /// The colour that a material emits, whose factor is display-encoded up to 1.
     fn emitted(&mut self, name: &str) -> Option<ColorId> {
         let (factor, file) = self.materials.emissions.get(name)?.clone();
-        let picture = file.and_then(|file| self.texture(&file));
+        let picture = file.and_then(|MapFile { file, .. }| self.texture(&file));
         let picture = picture.map(|it| (Texture::new(ColorId::from_index(0), it.image), it.mean));
         // Exporters write black where the texture alone has the colour.
         let is_bare = picture.is_some() && factor == [0.0; 3];
@@ -323,6 +325,11 @@ impl<'a> Reader<'a> {
             let corners = self.corners[start..end].iter().map(|&Corner { vertex, uv, normal }| {
                 let normal = normal.map(|row| self.normals[row as usize]).filter(|n| n.is_finite());
                 let uv = uv.filter(|_| has_texture).map(|row| self.uvs[row as usize]);
+                let uv = uv.map(|[u, v]| match color.and_then(|color| self.placements.get(&color)) {
+                    // v downwards, the placement is for upwards.
+                    Some([s, o]) => [u * s[0] + o[0], 1.0 - ((1.0 - v) * s[1] + o[1])],
+                    None => [u, v],
+                });
                 splitter.vertex(self.builder, vertex, normal, uv)
             });
             let corners = corners.collect::<Result<Vec<_>, _>>()?;
@@ -355,19 +362,6 @@ impl<'a> Reader<'a> {
             "line, point or curve is left out",
             "lines, points or curves are left out",
         );
-    }
-}
-
-/// Reads a file that the mesh names, perhaps by a path of another machine: then it is searched for
-/// in the folder of the mesh. Returns the name by which it was found as well.
-fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<(Vec<u8>, String)> {
-    let name = name.replace('\\', "/");
-    match ((input.read_file)(&name, limit), name.rsplit_once('/')) {
-        (Ok(bytes), _) => Ok((bytes, name)),
-        (Err(error), Some((_, last))) => {
-            (input.read_file)(last, limit).map(|bytes| (bytes, last.to_owned())).map_err(|_| error)
-        }
-        (Err(error), None) => Err(error),
     }
 }
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use ugscene::shorten;
 
+use super::GOES_ON;
 use super::text::{Words, number, numbers};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
@@ -27,6 +28,9 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     for n_read in 0..n_faces {
         let word = words.next().ok_or_else(|| ends_early(n_faces, "faces", n_read))?;
         read_face(word, &mut words, layout, builder)?;
+    }
+    if words.next().is_some() {
+        builder.warn(GOES_ON.to_owned());
     }
     Ok(())
 }

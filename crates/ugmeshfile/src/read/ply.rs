@@ -7,8 +7,8 @@ use glam::DVec3;
 use ugscene::{VertexId, shorten};
 
 use super::kind::Kind;
-use super::strip;
-use super::text::any_number;
+use super::text::{any_number, not_a_number};
+use super::{GOES_ON, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 
@@ -32,6 +32,9 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     }
     for (element, mut body) in postponed {
         read_element(element, &mut body, false, builder)?;
+    }
+    if !body.bytes[body.at..].trim_ascii().is_empty() {
+        builder.warn(GOES_ON.to_owned());
     }
     Ok(())
 }
@@ -288,8 +291,7 @@ impl Body<'_> {
         }
         self.at += len;
         let word = std::str::from_utf8(&rest[..len]).unwrap_or("\u{fffd}");
-        let number = any_number(word)
-            .ok_or_else(|| Problem::at(*line, format!("`{}` is not a number", shorten(word))))?;
+        let number = any_number(word).ok_or_else(|| not_a_number(word, *line, "is not a number"))?;
         // As in a binary file.
         Ok(if kind == Kind::F32 { f64::from(number as f32) } else { number })
     }

@@ -3,7 +3,7 @@
 use std::iter::Enumerate;
 use std::str::{Lines, SplitWhitespace};
 
-use ugscene::shorten;
+use ugscene::{look_alike, shorten};
 
 use crate::error::Problem;
 
@@ -60,7 +60,13 @@ pub(super) fn any_number(word: &str) -> Option<f64> {
 pub(super) fn number(word: &str, line: usize, what: &str) -> Result<f64, Problem> {
     any_number(word)
         .filter(|number| number.is_finite())
-        .ok_or_else(|| Problem::at(line, format!("`{}` in a {what} is not a finite number", shorten(word))))
+        .ok_or_else(|| not_a_number(word, line, &format!("in a {what} is not a finite number")))
+}
+
+/// The problem with a word in the place of a number.
+pub(super) fn not_a_number(word: &str, line: usize, what: &str) -> Problem {
+    let remedy = look_alike(word).map(|remedy| format!("; {remedy}")).unwrap_or_default();
+    Problem::at(line, format!("`{}` {what}{remedy}", shorten(word)))
 }
 
 /// Parses the next `N` words as numbers.

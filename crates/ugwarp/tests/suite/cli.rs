@@ -76,7 +76,11 @@ fn mistakes_have_answers() {
 #[test]
 fn what_is_no_panorama_is_refused() {
     let check = |file: &[u8], expected: &str| UGWARP.refuses("", file, 1, expected);
-    check(b"GIF89a", "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM");
+    check(b"GIF89a", "it is a GIF picture; convert it to PNG, JPEG, HDR, EXR or PFM");
+    check(
+        b"v a 0 0 0 ;",
+        "not a picture of a kind that is read: PNG, JPEG, HDR, EXR or PFM; scenes are drawn by",
+    );
     check(b"\xff\xd8\xff\xe0", "not a readable JPEG file: the file is truncated");
     check(b"#?RADIANCE\n", "not a readable HDR file");
     check(b"\x76\x2f\x31\x01", "not a readable EXR file");

@@ -288,7 +288,11 @@ help: write as many fields in each line; put a field with a comma in double quot
         ("ra,dec,mag\n", "a list of stars without temperatures"),
         ("ra,dec,mag,mag,kelvin\n", "the column `mag` is there twice"),
         ("x,y,z,mag,kelvin\n0,0,0,1,5000\n", "a star without a direction"),
-        ("ra,dec,mag,kelvin\n1,2,nan,5000\n", "`nan` is out of range"),
+        ("ra,dec,mag,kelvin\n1,2,inf,5000\n", "`inf` is out of range"),
+        ("ra,dec,mag,kelvin\n1,\u{2212}2,3,5000\n", "`\u{2212}` (U+2212) is a minus sign of Unicode"),
+        ("ra;dec;mag;kelvin\n1,5;2;3;5000\n", "`ra` takes degrees from -360 to 360, with a decimal point"),
+        ("ra,dec,phot_g_mean_mag,bp_rp\n1,2,3,4\n", "`bp_rp` is not `b-v`, and Gaia has `teff_gspphot`"),
+        ("10,20,1,5000\n", "a list of stars without directions"),
         ("", "a list of stars without a line of column names"),
     ] {
         let found = message(text);
@@ -304,7 +308,15 @@ fn columns_of_catalogues_are_understood() {
     let below = "all right ascensions are below 24 degrees: if they are hours, name the column `ra_hours`";
     let incomplete = "1 stars of the list are left out, since they have not all of a direction, a magnitude and a \
                       temperature or colour index";
+    let header = "#\n_RAJ2000\t_DEJ2000\tRAJ2000\tDEJ2000\tVmag\tTeff\n";
+    let vizier = format!("{header}deg\tdeg\t\"h:m:s\"\t\"d:m:s\"\tmag\tK\n---\t---\t---\t---\t---\t---\n");
+    let vizier = format!("{vizier}105\t-16.5\t07 00 00\t-16 30 00\t-1.5\t9940\n");
+    let nothing = "ra,dec,Gmag,mag,kelvin\n105,-16.5,2,-1.5,9940\n1,2,3,4,null\n1,2,3,4,--\n1,2,3,NaN,5000";
+    let all_incomplete = incomplete.replace('1', "3");
     for (text, notes) in [
+        (&*vizier, &[][..]),
+        ("sep=|\nra|dec|mag|kelvin\n105|-16.5|-1.5|9940", &[]),
+        (nothing, &[&*all_incomplete]),
         ("ra [deg],dec (deg),mag,T [K]\n105,-16.5,-1.5,9940", &[][..]),
         ("RA (h);Dec;Vmag;Teff\n7;-16.5;-1.5;9940", &[]),
         ("ra   dec  mag kelvin name\n105 -16.5 -1.5  9940 Sirius\n", &[]),
@@ -315,13 +327,18 @@ fn columns_of_catalogues_are_understood() {
         ),
     ] {
         let found = read_stars("t.csv", text.as_bytes()).unwrap_or_else(|found| panic!("{found}"));
-        assert!(ugwarp::is_star_list(text.as_bytes()), "{text}");
+        assert!(ugwarp::is_star_list("t.txt", text.as_bytes()), "{text}");
         assert_eq!(
             (found.stars, found.notes.iter().map(String::as_str).collect::<Vec<_>>()),
             (expected.clone(), notes.to_vec()),
             "{text}"
         );
     }
+    // Tables by name, but not what is something else.
+    let is_table = |file: &[u8]| ugwarp::is_star_list("t.CSV", file);
+    assert!(
+        is_table(b"1,2\n") && is_table(b"a|b\n") && !is_table(b"<html>") && !is_table(b"\x89PNG\r\n\x1a\n")
+    );
     let hours = read_stars("t.csv", b"ra,dec,mag,b-v\n6,1,2,0\n7,1,2,0").unwrap();
     assert_eq!(hours.notes, [below]);
     let words = "ra dec mag kelvin\n1  2 3 hot";
