@@ -199,8 +199,18 @@ impl Builder {
         self.face_name = (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]));
     }
 
+    /// Counts corners, those of faces without area, too: a small file may have them again and again.
+    pub fn count_corners(&mut self, n: usize) -> Result<(), Problem> {
+        self.n_corners = self.n_corners.saturating_add(n);
+        if self.n_corners > MAX_CORNERS {
+            return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
+        }
+        Ok(())
+    }
+
     /// Adds a face, unless it has no area. Consecutive repeated corners count once.
     pub fn face(&mut self, corners: &[VertexId], color: Option<ColorId>) -> Result<(), Problem> {
+        self.count_corners(corners.len())?;
         let mut corners = corners.to_vec();
         corners.dedup();
         while corners.len() > 1 && corners.first() == corners.last() {
@@ -210,10 +220,6 @@ impl Builder {
         if corners.len() < 3 || unit_normal(places) == DVec3::ZERO {
             self.n_degenerate += 1;
             return Ok(());
-        }
-        self.n_corners += corners.len();
-        if self.n_corners > MAX_CORNERS {
-            return Err(Problem::new(format!("more than {MAX_CORNERS} corners of faces; split the mesh")));
         }
         let contours = self.scene.contours.push_all([corners]);
         let face = Face::polygon(contours, self.scene.bodies.unstated());

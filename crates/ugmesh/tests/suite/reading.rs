@@ -423,6 +423,7 @@ fn errors_name_the_problem_and_line() {
     stl(b"solid\nvertx 0 0 0", "line 2: `vertx` is not a keyword of STL");
     stl(b"solid\nvertex 0 0 0", "the file ends inside a facet; copy it again");
     stl(b"", "the file is too short for STL");
+    stl(b"facet normal 0 0 1", "it is text, and STL as text begins with `solid`");
     let cut = [b"x", &stl_binary()[1..200]].concat();
     stl(&cut, "4 triangles are declared, but the file ends after 2; copy it again");
     let off = |text: &str, problem: &str| of("a.off", "OFF", text.as_bytes(), problem);

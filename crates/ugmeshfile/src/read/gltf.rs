@@ -242,6 +242,7 @@ impl Reader<'_, '_> {
         let sizes = self.rows(&attributes["SCALE"], 3, "SCALE")?;
         let lengths = [(&places, 3), (&turns, 4), (&sizes, 3)];
         let count = lengths.iter().filter_map(|(rows, width)| Some(rows.as_ref()?.len() / width)).min();
+        self.builder.count_corners(count.unwrap_or(1))?;
         let instance = |idx: usize| {
             let triple = |rows: &Option<Rc<Vec<f64>>>| rows.as_ref().map(|rows| vector(rows, idx).to_array());
             let turn = turns.as_ref().and_then(|rows| rows[4 * idx..4 * idx + 4].try_into().ok());
@@ -262,13 +263,15 @@ impl Reader<'_, '_> {
             return Ok(());
         };
         let n_positions = positions.len() / 3;
+        // A long list that many primitives share is passed over again for each.
+        self.builder.count_corners(n_positions / 16)?;
         let normals = self.rows(&attributes["NORMAL"], 3, "NORMAL")?;
         let material = match whole(&primitive["material"]) {
             Some(index) => Some(self.document.row("materials", index)?),
             None => None,
         };
         let surface = self.surface(material);
-        let colors = self.colors(&attributes["COLOR_0"], &surface)?;
+        let colors = self.colors(&attributes["COLOR_0"])?;
         let emission = surface.emission.as_ref();
         let mapped = surface.texture.as_ref().or_else(|| emission?.1.as_ref());
         let uvs = match mapped {
@@ -291,7 +294,8 @@ impl Reader<'_, '_> {
             let position = scene_from_node.transform_point3(vector(&positions, row));
             let normal = normals.as_ref().filter(|normals| normals.len() >= 3 * row + 3);
             let normal = normal.map(|normals| (normal_matrix * vector(normals, row)).normalize_or_zero());
-            let color = colors.as_ref().and_then(|colors| colors.get(row)).copied();
+            let color = colors.as_ref().and_then(|(numbers, n)| numbers.chunks_exact(*n).nth(row));
+            let color = color.map(|part| surface.display_color(part));
             vertices[row] = self.builder.vertex(position, normal, color)?;
             let uv = uvs.as_ref().and_then(|uvs| uvs.get(2 * row..2 * row + 2));
             if let (Some(texture), Some(&[u, v])) = (mapped, uv) {
@@ -316,7 +320,7 @@ impl Reader<'_, '_> {
                     let picture = texture.as_ref().map(|it| (it.texture.clone(), it.mean));
                     self.builder.emitted(*factor, name, picture)
                 });
-                Some(self.builder.material(surface.display_color([1.0; 4]), name, texture, emitted))
+                Some(self.builder.material(surface.display_color(&[]), name, texture, emitted))
             }
             _ => None,
         };
@@ -447,19 +451,14 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// `COLOR_0` times the colour of the material (both linear), display-encoded.
-    fn colors(&mut self, colors: &Value, surface: &Surface) -> Result<Option<Vec<Rgba>>, Problem> {
+    /// The numbers of `COLOR_0`, and how many each vertex has.
+    fn colors(&mut self, colors: &Value) -> Result<Option<(Rc<Vec<f64>>, usize)>, Problem> {
         let Some(index) = whole(colors) else { return Ok(None) };
         let [n_components, _] = accessor::shape(self.document.row("accessors", index)?)?;
         if !(3..=4).contains(&n_components) {
             return Err(Problem::new("`COLOR_0` must have three or four components"));
         }
-        let numbers = self.numbers(index)?;
-        let colors = numbers.chunks_exact(n_components).map(|part| {
-            let alpha = part.get(3).copied().unwrap_or(1.0);
-            surface.display_color([part[0], part[1], part[2], alpha])
-        });
-        Ok(Some(colors.collect()))
+        Ok(Some((self.numbers(index)?, n_components)))
     }
 
     /// The numbers of an accessor with rows of `width` components; `None` without an index.
@@ -578,9 +577,11 @@ fn ignored_textures(material: &Value, roughness: &Value) -> impl Iterator<Item =
 }
 
 impl Surface {
-    /// The display-encoded product of the linear colour `part` and the colour of the material.
-    fn display_color(&self, part: [f64; 4]) -> Rgba {
-        let [red, green, blue, alpha] = [0, 1, 2, 3].map(|idx| part[idx] * self.factor[idx]);
+    /// The display-encoded product of the linear colour `part`, perhaps with alpha, and the colour
+    /// of the material.
+    fn display_color(&self, part: &[f64]) -> Rgba {
+        let [red, green, blue, alpha] =
+            [0, 1, 2, 3].map(|idx| part.get(idx).unwrap_or(&1.0) * self.factor[idx]);
         // Exactly 1 for white, where the transfer function has a rounding error.
         let encode = |linear: f64| if linear == 1.0 { 1.0 } else { srgb_encode(linear) };
         let alpha = if self.is_blended { alpha } else { 1.0 };

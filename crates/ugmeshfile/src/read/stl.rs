@@ -19,10 +19,10 @@ pub(super) fn read(bytes: &[u8], builder: &mut Builder) -> Result<(), Problem> {
     let is_text = bytes.trim_ascii_start().get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     // Headers of binary files may begin so, too.
     let has_zeros = bytes[..bytes.len().min(1024)].contains(&0);
-    if is_text && !has_zeros && !is_binary_stl(bytes) {
-        read_text(&decode(bytes), &mut merged)
-    } else {
-        read_binary(bytes, &mut merged)
+    match (is_text, bytes.is_empty() || has_zeros || is_binary_stl(bytes)) {
+        (true, false) => read_text(&decode(bytes), &mut merged),
+        (false, false) => Err(Problem::new("it is text, and STL as text begins with `solid`")),
+        (_, true) => read_binary(bytes, &mut merged),
     }
 }
 
