@@ -224,7 +224,7 @@ mod tests {
             refused(b"\xff\xd8\xff\xe0"),
             "mine: a JPEG cannot be scored: its compression changes the pixels; write the picture as PNG, EXR, HDR or PFM"
         );
-        assert!(refused(b"GIF89a").starts_with("mine: the picture cannot be read: not a picture"));
+        assert!(refused(b"GIF89a").starts_with("mine: the picture cannot be read: it is a GIF picture"));
         assert_eq!(
             refused(&pfm(&[[f32::NAN, 0.0, 0.0]])),
             "mine: the light at column 0, row 0 is infinite or NaN"

@@ -14,7 +14,7 @@ use ugphysics::srgb_encode;
 use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
 use super::gltf_document::{Document, numbers, split, whole};
-use super::{Input, accessor, read_named, strip};
+use super::{Input, accessor, strip};
 use crate::builder::{Builder, Rgba};
 use crate::error::Problem;
 use crate::textures::{LoadedTexture, MAX_TEXTURE_BYTES, TextureOrigin, Textures};
@@ -133,16 +133,21 @@ fn load(uri: &str, length: u64, input: &Input<'_>) -> Result<(Vec<u8>, String), 
         let damaged = |error| Problem::new(format!("a data URI is damaged: {error}"));
         return BASE64.decode(code).map(|bytes| (bytes, String::new())).map_err(damaged);
     }
-    let name = percent_decoded(uri);
+    // Some exporters write paths as Windows has them.
+    let name = percent_decoded(uri).replace('\\', "/");
     if name.contains("://") {
         return Err(Problem::new(format!(
             "`{}` is a network address; download it and refer to the file instead",
             shorten(&name)
         )));
     }
-    read_named(input, &name, length).map_err(|error| {
-        Problem::new(format!("cannot read `{}`: {error}; put it in the folder of the mesh", shorten(&name)))
-    })
+    match (input.read_file)(&name, length) {
+        Ok(bytes) => Ok((bytes, name)),
+        Err(error) => {
+            let name = shorten(&name);
+            Err(Problem::new(format!("cannot read `{name}`: {error}; put it in the folder of the mesh")))
+        }
+    }
 }
 
 fn percent_decoded(uri: &str) -> String {

@@ -13,8 +13,6 @@ mod text;
 
 pub use gltf::picture_within;
 
-use std::io;
-
 use crate::builder::Builder;
 use crate::error::Problem;
 use crate::foreign;
@@ -52,19 +50,6 @@ pub fn read(
         MeshFormat::Gltf => gltf::read(&input, &mut builder)?,
     }
     Ok(builder.finish())
-}
-
-/// Reads a file that the mesh names, perhaps by a path of another machine: then it is searched for
-/// in the folder of the mesh. Returns the name by which it was found as well.
-fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<(Vec<u8>, String)> {
-    let name = name.trim_matches('"').replace('\\', "/");
-    match ((input.read_file)(&name, limit), name.rsplit_once('/')) {
-        (Ok(bytes), _) => Ok((bytes, name)),
-        (Err(error), Some((_, last))) => {
-            (input.read_file)(last, limit).map(|bytes| (bytes, last.to_owned())).map_err(|_| error)
-        }
-        (Err(error), None) => Err(error),
-    }
 }
 
 /// The warning about a file with more than its header says.

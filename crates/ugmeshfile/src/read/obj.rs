@@ -5,15 +5,16 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
+use std::io;
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 use ugphysics::srgb_decode;
 use ugscene::{AlphaMode, ColorId, Texture, VertexId, Wrap, shorten};
 
+use super::Input;
 use super::mtl::{self, MapFile, Materials, without_comment};
 use super::text::{any_number, numbers};
-use super::{Input, read_named};
 use crate::builder::{Builder, Rgba};
 use crate::decode::decode;
 use crate::error::Problem;
@@ -362,6 +363,19 @@ impl<'a> Reader<'a> {
             "line, point or curve is left out",
             "lines, points or curves are left out",
         );
+    }
+}
+
+/// Reads a file that the mesh names, perhaps by a path of another machine: then it is searched for
+/// in the folder of the mesh. Returns the name by which it was found as well.
+fn read_named(input: &Input<'_>, name: &str, limit: u64) -> io::Result<(Vec<u8>, String)> {
+    let name = name.trim_matches('"').replace('\\', "/");
+    match ((input.read_file)(&name, limit), name.rsplit_once('/')) {
+        (Ok(bytes), _) => Ok((bytes, name)),
+        (Err(error), Some((_, last))) => {
+            (input.read_file)(last, limit).map(|bytes| (bytes, last.to_owned())).map_err(|_| error)
+        }
+        (Err(error), None) => Err(error),
     }
 }
 
