@@ -37,7 +37,6 @@
 mod encoding;
 mod exr;
 pub mod figure;
-mod foreign;
 mod format;
 mod hdr;
 mod history;
@@ -60,7 +59,6 @@ mod spelled_color;
 mod svg;
 mod typeface;
 
-pub use foreign::{ForeignKind, foreign_kind};
 pub use format::Format;
 pub use history::read_history;
 pub use metadata::Metadata;
@@ -69,7 +67,7 @@ pub use pixels::Pixels;
 pub use png::Compression;
 pub use read::{MAX_PIXELS, PictureLimits, ReadError, read_png, read_png_header};
 pub use read_exr::{SpectralPicture, read_spectrum};
-pub use read_light::{ReadPicture, check_picture, read_picture};
+pub use read_light::{ForeignKind, ReadPicture, check_picture, foreign_kind, read_picture};
 pub use spelled_color::spelled_color;
 pub use ugframe::{
     Development, DevelopmentSteps, Filter, Frame, LinearFrame, Plane, Quantizer, ROUNDING_OFFSET, Samples,
