@@ -172,6 +172,9 @@ fn percent_decoded(uri: &str) -> String {
 /// Largest number of numbers in all accessors: 2 GiB as `f64`.
 const MAX_NUMBERS: usize = 1 << 28;
 
+/// The numbers of an accessor, and how many each row has.
+type Rows = (Rc<Vec<f64>>, usize);
+
 struct Reader<'a, 'b> {
     builder: &'a mut Builder,
     document: &'a Document,
@@ -456,8 +459,8 @@ impl Reader<'_, '_> {
         }
     }
 
-    /// The numbers of `COLOR_0`, and how many each vertex has.
-    fn colors(&mut self, colors: &Value) -> Result<Option<(Rc<Vec<f64>>, usize)>, Problem> {
+    /// The numbers of `COLOR_0`.
+    fn colors(&mut self, colors: &Value) -> Result<Option<Rows>, Problem> {
         let Some(index) = whole(colors) else { return Ok(None) };
         let [n_components, _] = accessor::shape(self.document.row("accessors", index)?)?;
         if !(3..=4).contains(&n_components) {
