@@ -1,7 +1,5 @@
 //! The text of messages about single words and statements.
 
-use ugscene::look_alike;
-
 use crate::diagnostic::{Diagnostic, Setting};
 use crate::grammar::{NAME, form, is_keyword, keywords};
 use crate::source::Span;
@@ -43,7 +41,8 @@ pub(crate) fn word_help(wanted: &str, word: &[u8]) -> Option<String> {
     let looks_like_number = matches!(word, [b'0'..=b'9' | b'+' | b'-' | b'.', ..]);
     let unsigned = shown.trim_start_matches(['+', '-']).to_ascii_lowercase();
     match wanted {
-        "a number" if let Some(remedy) = look_alike(&shown) => Some(remedy),
+        #[cfg(feature = "report")]
+        "a number" if let Some(remedy) = ugpipe::remedies::look_alike(&shown) => Some(remedy),
         "a number" if looks_like_number && shown.contains(',') => Some("write a decimal point".to_string()),
         "a number" if ["nan", "inf", "infinity"].contains(&unsigned.as_str()) => {
             Some("every number must be finite".to_string())

@@ -102,6 +102,18 @@ pub const EXPORT_MESH: &str = "export it as glTF, OBJ or PLY, which are read";
 /// Where another eye point has to be given instead.
 pub const EYE_POINT: &str = "give it to uglorentz";
 
+/// What to do about a character that looks like one of numbers, as word processors write it.
+pub fn look_alike(word: &str) -> Option<String> {
+    let (c, name) = word.chars().find_map(|c| match c {
+        '\u{2212}' => Some((c, "a minus sign of Unicode")),
+        '\u{2010}'..='\u{2015}' => Some((c, "a dash")),
+        '\u{a0}' | '\u{2007}' | '\u{202f}' => Some((c, "a blank without break")),
+        '\u{ff10}'..='\u{ff19}' => Some((c, "a wide digit")),
+        _ => None,
+    })?;
+    Some(format!("`{c}` (U+{:04X}) is {name}: write it as ASCII", u32::from(c)))
+}
+
 /// The names of options, each once, behind a program that has it. `tests/help.rs` makes it of the
 /// definitions of all programs.
 const OPTIONS: &str = include_str!("options_of_programs.txt");

@@ -81,4 +81,4 @@ pub use rounds::{
 pub use shared_planes::shared_planes;
 pub use split::{split_corners, split_vertices};
 pub use times_in_view::TimesInView;
-pub use words::{look_alike, shorten};
+pub use words::shorten;

@@ -7,7 +7,7 @@ use glam::DVec3;
 use thiserror::Error;
 use ugimage::foreign_kind;
 use ugparse::{Diagnostic, Diagnostics, Source, Span};
-use ugscene::look_alike;
+use ugpipe::remedies::look_alike;
 use ugsky::Star;
 
 /// Most stars of a list.

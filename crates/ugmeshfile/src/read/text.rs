@@ -3,7 +3,8 @@
 use std::iter::Enumerate;
 use std::str::{Lines, SplitWhitespace};
 
-use ugscene::{look_alike, shorten};
+use ugpipe::remedies::look_alike;
+use ugscene::shorten;
 
 use crate::error::Problem;
 

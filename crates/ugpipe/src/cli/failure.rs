@@ -5,6 +5,8 @@ use std::fmt;
 use std::io;
 use std::path::Path;
 
+use crate::remedies::look_alike;
+
 /// The error that ended a run. [`crate::main`] prints it and sets the exit status.
 ///
 /// The operator `?` converts any library error to [`Failure::Failed`]. For errors in the command
@@ -97,8 +99,8 @@ impl fmt::Display for Failure {
             Self::Read { name, error } => {
                 write!(f, "cannot read `{name}`: {}", reason(error))?;
                 // As word processors write the hyphen of an option.
-                match name.chars().next().filter(|c| matches!(c, '\u{2010}'..='\u{2015}' | '\u{2212}')) {
-                    Some(c) => write!(f, "; options begin with `-`, not with `{c}` (U+{:04X})", u32::from(c)),
+                match look_alike(name.get(..3).unwrap_or_default()) {
+                    Some(remedy) => write!(f, "; {remedy}"),
                     None => Ok(()),
                 }
             }

@@ -11,7 +11,7 @@ use clap::{Arg, Command};
 
 use crate::cli::argv::StrayNumber;
 use crate::cli::values::finite;
-use crate::remedies;
+use crate::remedies::{self, look_alike};
 
 /// The option without which an argument would not be missing. `words`: the command line for clap.
 pub(crate) fn option_in_need<'w>(
@@ -52,7 +52,13 @@ pub(crate) fn message(
     match error.kind() {
         ErrorKind::UnknownArgument if argument.starts_with('-') => unknown_option(command, &argument, words),
         ErrorKind::UnknownArgument => {
-            format!("`{argument}` is one argument too many: options come with a dash, and there is one file")
+            // As word processors write the hyphen of an option.
+            let first = |word: &OsString| word.to_str()?.get(..3).and_then(look_alike);
+            words.iter().find_map(first).unwrap_or_else(|| {
+                format!(
+                    "`{argument}` is one argument too many: options come with a dash, and there is one file"
+                )
+            })
         }
         ErrorKind::InvalidValue if value.is_empty() => {
             format!("`{option}` needs a value: `{option} {values}`")

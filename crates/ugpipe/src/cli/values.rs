@@ -20,7 +20,7 @@ pub fn finite(word: &str) -> Result<f64, String> {
     parsed(word).ok_or_else(|| match in_other_notation(word) {
         Some((what, number)) => format!("{what}: write `{number}`"),
         None if word.contains("..") => remedies::CHANGING_NUMBERS.to_owned(),
-        None => "not a finite number".to_owned(),
+        None => remedies::look_alike(word).unwrap_or_else(|| "not a finite number".to_owned()),
     })
 }
 
@@ -189,6 +189,7 @@ mod tests {
         check("149896.229km/s", &format!("{speed} `0.5`"));
         check("40°", "numbers are written without units: write `40`");
         check("0..5", remedies::CHANGING_NUMBERS);
+        check("\u{2212}.9", "`\u{2212}` (U+2212) is a minus sign of Unicode: write it as ASCII");
         for word in ["", "red", "nan", "1e999", "1/0", "1,5,7", "1e999km/s", ",", "/", "%", "ship.ug"] {
             check(word, "not a finite number");
         }

@@ -160,6 +160,8 @@ fn errors_in_the_command_line() {
         assert_eq!(output.status.code(), Some(2));
     }
     check(&["-fi", "ship.ug", "ship.ug"], "ugcat: error: `-fi` and `[FILE]` cannot be given together");
+    let dash = "ugcat: error: `\u{2013}` (U+2013) is a dash: write it as ASCII";
+    check(&["\u{2013}vel", ".9", "0", "0", "ship.ug"], dash);
     check(&["ship.ug", "ship.ug"], "ugcat: error: `ship.ug` is one argument too many: options come with a dash, and there is one file");
     check(&["-fi"], "ugcat: error: `-fi` needs a value: `-fi FILE`");
     check(&["-vel", ".9", "0"], "ugcat: error: `-vel` takes three values, not two: write `-vel X Y Z`");
