@@ -155,8 +155,9 @@ fn names(header: &Header) -> Vec<String> {
 
 /// The channels of a layer that are read.
 struct Channels {
-    /// Red, green and blue, or one for all.
-    names: Vec<String>,
+    /// Red, green and blue; of a grey one that channel, and two names that are not its own.
+    names: [String; 3],
+    is_grey: bool,
     alpha: String,
     note: Option<String>,
 }
@@ -176,7 +177,7 @@ impl Channels {
         let note = (!prefix.is_empty()).then(|| {
             format!("of the channels of the picture `{prefix}R`, `{prefix}G` and `{prefix}B` are read")
         });
-        Some(Self { names: colors(prefix).to_vec(), alpha: format!("{prefix}A"), note })
+        Some(Self { names: colors(prefix), is_grey: false, alpha: format!("{prefix}A"), note })
     }
 
     /// Luminance, or the only channel.
@@ -190,16 +191,15 @@ impl Channels {
         } else {
             format!("the picture has no colours: its channel `{grey}` is read as grey")
         };
-        Some(Self { names: vec![grey.to_owned()], alpha: "A".to_owned(), note: Some(note) })
+        // The decoder refuses to look for one name twice.
+        let names = ["", "+1", "+2"].map(|end| format!("{grey}{end}"));
+        let alpha = if grey == "A" { "no alpha" } else { "A" };
+        Some(Self { names, is_grey: true, alpha: alpha.to_owned(), note: Some(note) })
     }
 
     fn read(&self, file: &[u8]) -> exr::error::Result<([u32; 2], Vec<[f32; 4]>)> {
-        // A name that no channel has, so the only one is repeated.
-        let [red, green, blue] = match &self.names[..] {
-            [red, green, blue] => [red.as_str(), green, blue],
-            names => [names[0].as_str(), "\u{1}", "\u{2}"],
-        };
-        let is_grey = self.names.len() == 1;
+        let [red, green, blue] = [0, 1, 2].map(|idx| self.names[idx].as_str());
+        let is_grey = self.is_grey;
         let image = exr_reader()
             .no_deep_data()
             .largest_resolution_level()

@@ -312,6 +312,14 @@ fn the_part_with_colours_is_read() {
     image.write().to_buffered(&mut file).unwrap();
     let (_, pixels) = read_light(file.get_ref()).unwrap();
     assert_eq!(pixels, [[0.25, 0.25, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0]]);
+    // One channel is grey, whatever it is called.
+    for name in ["Z", "A", "+1", "\u{1}", "A+1"] {
+        let list = AnyChannels::sort(vec![AnyChannel::new(name, FlatSamples::F32(vec![0.25, 0.5]))].into());
+        let mut file = std::io::Cursor::new(Vec::new());
+        Image::from_channels((2, 1), list).write().to_buffered(&mut file).unwrap();
+        let (_, pixels) = read_light(file.get_ref()).unwrap();
+        assert_eq!(pixels, [[0.25, 0.25, 0.25, 1.0], [0.5, 0.5, 0.5, 1.0]], "{name}");
+    }
 }
 
 /// A layer beside the middle of its display window, in X, Y and Z.
