@@ -334,8 +334,14 @@ impl<'t> Reader<'t, '_> {
     fn note_inner_comments(&mut self, input: Input<'t>, rest: Input<'t>) {
         let text = &input[..input.len() - rest.len()];
         let mut idx = 0;
-        while let Some(step) = memchr::memchr(b'{', &text[idx..]) {
+        while let Some(step) = text.get(idx..).and_then(|text| memchr::memchr2(b'{', b'"', text)) {
             let at = &input[idx + step..];
+            if let Some(quoted) = at.strip_prefix(b"\"") {
+                // Braces within quotes begin no comment.
+                let end = memchr::memchr2(b'"', b'\n', quoted).filter(|&end| quoted[end] == b'"');
+                idx += step + 1 + end.map_or(0, |end| end + 1);
+                continue;
+            }
             let Ok((behind, inner)) = comment(at) else { return };
             self.push_comment(inner, behind, false);
             idx = input.len() - behind.len();

@@ -1,5 +1,7 @@
 //! Comments stay with their statements.
 
+use ugparse::{Options, Source};
+
 use crate::language::check;
 
 #[test]
@@ -20,6 +22,16 @@ fn comments_keep_their_places() {
     check("{}{ {nested} {{}} }v a 0 0 0;", &["{}", "{ {nested} {{}} }", "v a 0 0 0;"]);
     check("{ ; ( < \" }v a 0 0 0;", &["{ ; ( < \" }", "v a 0 0 0;"]);
     check("(escape) {its}\n{mine}\nv a 0 0 0;", &["(escape) {its}", "{mine}", "v a 0 0 0;"]);
+}
+
+/// Braces in the names of files begin no comment, wherever they would end.
+#[test]
+fn braces_in_quotes_are_text() {
+    for text in
+        ["motion ship -path \"a{b\" ;\nq } ;\n", "c_rgb a 1 1 1 ; c_tex a \"x{y\" ; } {", "c_tex a \"{\n"]
+    {
+        assert!(ugparse::parse(&Source::new("t.ug", text), &Options::default()).is_err(), "{text}");
+    }
 }
 
 #[test]
