@@ -155,7 +155,7 @@ fn names(header: &Header) -> Vec<String> {
 
 /// The channels of a layer that are read.
 struct Channels {
-    /// Red, green and blue; of a grey one that channel, and two names that are not its own.
+    /// Red, green and blue; of a grey picture its channel and two names that differ from it.
     names: [String; 3],
     is_grey: bool,
     alpha: String,

@@ -52,8 +52,8 @@ fn truncated() -> ReadError {
 /// cameras note.
 const AXES: [&str; 8] = ["-Y +X", "-Y -X", "+Y -X", "+Y +X", "+X -Y", "-X -Y", "-X +Y", "+X +Y"];
 
-/// Width and height as stored, and by what red, green and blue were multiplied. The bytes of the
-/// pixels are left.
+/// Reads the header: width and height as stored, and the factors by which red, green and blue were
+/// multiplied. What is left of `rest` are the pixels.
 fn header(rest: &mut &[u8], declared: &mut Declared) -> Result<([usize; 2], [f32; 3]), ReadError> {
     let mut next_line = || {
         let end = rest.iter().position(|&byte| byte == b'\n').ok_or_else(truncated)?;

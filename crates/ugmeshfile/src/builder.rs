@@ -199,7 +199,8 @@ impl Builder {
         self.face_name = (!name.is_empty()).then(|| self.scene.names.add_parts(&[&self.prefix, &name]));
     }
 
-    /// Counts corners, those of faces without area, too: a small file may have them again and again.
+    /// Counts corners toward the limit, also those of faces without area, which a small glTF file
+    /// can use any number of times.
     pub fn count_corners(&mut self, n: usize) -> Result<(), Problem> {
         self.n_corners = self.n_corners.saturating_add(n);
         if self.n_corners > MAX_CORNERS {

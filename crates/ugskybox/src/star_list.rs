@@ -78,9 +78,9 @@ impl StarColumn {
     }
 }
 
-/// The row in [`COLUMNS`] of a name, and how far it is from the best of its names. A name may have
-/// its unit in brackets: `ra [deg]`, `ra (h)`. VizieR begins those of columns that it has computed
-/// with `_`.
+/// The row in [`COLUMNS`] of a name, and its rank among the names of that row, the lowest of which
+/// is read if a list has several. A name may have its unit in brackets: `ra [deg]`, `ra (h)`.
+/// VizieR begins the names of columns that it has computed with `_`.
 fn column_of(name: &[u8]) -> Option<(usize, usize)> {
     let name = str::from_utf8(name).ok()?.trim();
     let (name, unit) = match name.split_once(['[', '(']) {
@@ -176,7 +176,7 @@ impl StarListMistake {
 }
 
 /// True if a file is a list of stars rather than a picture: text whose first line, comments apart,
-/// has names of columns, or whose name is that of a table.
+/// has names of columns, or any text in a file called `.csv` or `.tsv`.
 pub fn is_star_list(name: &str, file: &[u8]) -> bool {
     let head = &file[..file.len().min(4096)];
     let mut record = ByteRecord::new();

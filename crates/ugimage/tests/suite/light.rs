@@ -250,7 +250,8 @@ fn gamma_of_png_is_applied() {
     assert!(matches!(read(&file(0.45455)).unwrap().1, Pixels::Srgb(_)));
 }
 
-/// Numbers of colours in PNG files (cICP) come before gamma; those that are not read are told.
+/// Colour spaces by number in PNG files (cICP) come before gamma; others than those read have a
+/// note.
 #[test]
 fn code_points_of_png_are_applied() {
     let file = |codes: [u8; 4]| {

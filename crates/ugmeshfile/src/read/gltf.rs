@@ -271,7 +271,7 @@ impl Reader<'_, '_> {
             return Ok(());
         };
         let n_positions = positions.len() / 3;
-        // A long list that many primitives share is passed over again for each.
+        // Each primitive goes through all rows of its positions, which others may use, too.
         self.builder.count_corners(n_positions / 16)?;
         let normals = self.rows(&attributes["NORMAL"], 3, "NORMAL")?;
         let material = match whole(&primitive["material"]) {
